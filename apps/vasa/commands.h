@@ -1,0 +1,38 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "core/result.h"
+
+// The command line: one file a subcommand. add...() declares a subcommand's options on the app and stores
+// in `run` what is to be done once parsing has succeeded.
+namespace vasa::cli {
+
+/// Options every subcommand takes.
+struct Globals {
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  unsigned threads = 0;  ///< 0: one a core
+  std::string device;    ///< name or index; empty: the best
+  std::uint64_t seed = 1;
+};
+
+struct Command {
+  Globals globals;
+  std::function<Result<void>()> run;
+};
+
+void addConvert(CLI::App& app, Command& command);
+void addDevices(CLI::App& app, Command& command);
+void addInfo(CLI::App& app, Command& command);
+void addProfile(CLI::App& app, Command& command);
+void addRender(CLI::App& app, Command& command);
+
+/// Set by SIGINT and SIGTERM. Long loops ask, stop, and return stopError().
+bool stopRequested();
+Error stopError();
+
+}  // namespace vasa::cli

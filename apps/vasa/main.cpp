@@ -1,0 +1,101 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "commands.h"
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "core/parallel.h"
+
+namespace vasa::cli {
+namespace {
+
+volatile std::sig_atomic_t stopSignal = 0;
+
+// The first signal asks loops to stop in good order; a second one ends the process at once, without leaving
+// half-written files behind.
+extern "C" void onStopSignal(int signal) {
+  if (stopSignal) {
+    removeUnfinishedFiles();
+    std::_Exit(128 + signal);
+  }
+  stopSignal = signal;
+}
+
+void addGlobals(CLI::App& app, Globals& globals) {
+  app.add_flag("--json", globals.json, "Print a machine-readable report on standard output, nothing else");
+  app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
+  app.add_flag("--verbose", globals.verbose, "Say more");
+  app.add_option("--threads", globals.threads, "Threads to use (default: one a core)");
+  app.add_option("--device", globals.device, "Vulkan device: its index or part of its name (see vasa devices)");
+  app.add_option("--seed", globals.seed, "Seed of everything random")->capture_default_str();
+}
+
+int runCommand(Command& command) {
+  setLogLevel(command.globals.quiet     ? LogLevel::quiet
+              : command.globals.verbose ? LogLevel::verbose
+                                        : LogLevel::normal);
+  setThreadCount(command.globals.threads);
+  const Result<void> result = command.run();
+  if (result.ok() && std::fflush(stdout) != 0) {
+    logError("cannot write to standard output");
+    return int(Fault::io);
+  }
+  if (result.ok()) return 0;
+  logError(result.error().message);
+  return int(result.error().fault);
+}
+
+}  // namespace
+
+bool stopRequested() {
+  return stopSignal != 0;
+}
+
+Error stopError() {
+  return {stopSignal == SIGTERM ? Fault::terminated : Fault::interrupted, "stopped by a signal"};
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Moves a body's blood vessels with its skeleton.\n"
+               "  vasa convert arteries.glb veins.glb -o body.vasa\n"
+               "  vasa render --body body.glb --network body.vasa --clip walk -o 'out/{frame:04}.png'\n",
+               "vasa"};
+  app.set_version_flag("--version", "vasa " VASA_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  Command command;
+  addGlobals(app, command.globals);
+  addConvert(app, command);
+  addRender(app, command);
+  addInfo(app, command);
+  addProfile(app, command);
+  addDevices(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : int(Fault::usage);
+  }
+  return runCommand(command);
+}
+
+}  // namespace vasa::cli
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  struct sigaction action{};
+  action.sa_handler = vasa::cli::onStopSignal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  try {
+    return vasa::cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    vasa::logError("out of memory; use smaller inputs or fewer threads");
+  } catch (const std::exception& error) {
+    vasa::logError(error.what());
+  }
+  vasa::removeUnfinishedFiles();
+  return int(vasa::Fault::failed);
+}

@@ -1,0 +1,25 @@
+# vasa_library(NAME SOURCES ... [LINK ...]): the static library of engine/NAME. What it may see of the
+# other engine folders comes from the layer table; LINK names third-party targets.
+function(vasa_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  add_library(vasa_${name} STATIC ${ARG_SOURCES})
+  add_library(vasa::${name} ALIAS vasa_${name})
+  target_include_directories(vasa_${name} PUBLIC "${PROJECT_SOURCE_DIR}/engine" "${PROJECT_SOURCE_DIR}/shaders")
+  target_link_libraries(vasa_${name} PUBLIC vasa_compiler ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  foreach(layer IN LISTS VASA_MAY_INCLUDE_${name})
+    if(EXISTS "${PROJECT_SOURCE_DIR}/engine/${layer}/CMakeLists.txt")
+      target_link_libraries(vasa_${name} PUBLIC vasa_${layer})
+    endif()
+  endforeach()
+endfunction()
+
+# vasa_test(NAME SOURCES ... LINK ...): one doctest program, one ctest entry.
+function(vasa_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_link_libraries(test_${name} PRIVATE vasa_test_support ${ARG_LINK})
+  add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  if(ARG_LABELS)
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
+  endif()
+endfunction()

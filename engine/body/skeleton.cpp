@@ -1,0 +1,41 @@
+#include "body/skeleton.h"
+
+#include <cassert>
+
+namespace vasa {
+
+mat4 JointTransform::matrix() const {
+  mat4 m = glm::mat4_cast(rotation);
+  m[0] *= scale.x;
+  m[1] *= scale.y;
+  m[2] *= scale.z;
+  m[3] = vec4(translation, 1);
+  return m;
+}
+
+JointId Skeleton::find(std::string_view name) const {
+  for (std::uint32_t i = 0; i < joints.size(); ++i)
+    if (joints[i].name == name) return {i};
+  return {};
+}
+
+Pose restPose(const Skeleton& skeleton) {
+  Pose pose;
+  pose.world.reserve(skeleton.joints.size());
+  for (const auto& joint : skeleton.joints) pose.world.push_back(joint.restWorld);
+  return pose;
+}
+
+Pose poseFromLocal(const Skeleton& skeleton, const std::vector<JointTransform>& local) {
+  assert(local.size() == skeleton.joints.size());
+  Pose pose;
+  pose.world.resize(local.size());
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    const JointId parent = skeleton.joints[i].parent;
+    const mat4& above = parent.valid() ? pose.world[parent.value] : skeleton.rootTransform;
+    pose.world[i] = above * local[i].matrix();
+  }
+  return pose;
+}
+
+}  // namespace vasa

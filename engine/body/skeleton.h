@@ -1,0 +1,45 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/ids.h"
+#include "math/types.h"
+
+namespace vasa {
+
+/// Position, rotation and scale of a joint relative to its parent, as in glTF: T · R · S.
+struct JointTransform {
+  vec3 translation{0};
+  quat rotation{1, 0, 0, 0};  // glm's constructor takes w first
+  vec3 scale{1};
+
+  mat4 matrix() const;
+};
+
+/// A tree (or forest) of joints. Parents come before their children.
+struct Skeleton {
+  struct Joint {
+    std::string name;
+    JointId parent;          ///< invalid at a root
+    JointTransform rest;     ///< local transform in the rest pose
+    mat4 restWorld{1};       ///< model space, rest pose
+    mat4 inverseBind{1};     ///< model space of the skinned meshes -> joint space at binding
+  };
+  std::vector<Joint> joints;
+  mat4 rootTransform{1};  ///< of nodes above the root joints
+
+  /// The joint with this name; invalid if there is none.
+  JointId find(std::string_view name) const;
+};
+
+/// A pose: each joint's transform in model space.
+struct Pose {
+  std::vector<mat4> world;
+};
+
+Pose restPose(const Skeleton& skeleton);
+
+/// Chains local transforms down the tree. @param local  one a joint
+Pose poseFromLocal(const Skeleton& skeleton, const std::vector<JointTransform>& local);
+
+}  // namespace vasa

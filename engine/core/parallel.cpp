@@ -1,0 +1,33 @@
+#include "core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <memory>
+#include <thread>
+
+namespace vasa {
+namespace {
+
+std::unique_ptr<tbb::global_control> limit;
+
+}  // namespace
+
+void setThreadCount(unsigned count) {
+  const unsigned threads = count ? count : std::max(1u, std::thread::hardware_concurrency());
+  limit.reset();
+  limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+unsigned threadCount() {
+  return unsigned(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain ? grain : 1), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+  });
+}
+
+}  // namespace vasa

@@ -1,0 +1,16 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+
+namespace vasa {
+
+/// How many threads parallel loops may use; 0 means one per core. Results never depend on it.
+void setThreadCount(unsigned count);
+unsigned threadCount();
+
+/// Calls body(i) for every i in [0, count), in any order and on any thread; the calling thread works
+/// too. Exceptions leave through here. body must write only to places that belong to i.
+/// @param grain  iterations that are worth handing to another thread
+void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
+
+}  // namespace vasa

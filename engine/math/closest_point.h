@@ -1,0 +1,18 @@
+#pragma once
+#include "math/types.h"
+
+namespace vasa {
+
+/// Parameter in [0, 1] of the point on segment ab that is nearest to p; 0 where a == b.
+float closestOnSegment(vec3 p, vec3 a, vec3 b);
+
+struct TrianglePoint {
+  vec3 point;
+  vec3 barycentric;  ///< weights of a, b, c; non-negative, sum 1
+};
+
+/// The point of triangle abc nearest to p (Ericson 2005, Real-Time Collision Detection, 5.1.5).
+/// Degenerate triangles are treated as their longest edge.
+TrianglePoint closestOnTriangle(vec3 p, vec3 a, vec3 b, vec3 c);
+
+}  // namespace vasa

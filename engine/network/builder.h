@@ -1,0 +1,56 @@
+#pragma once
+#include "core/result.h"
+#include "network/network.h"
+
+namespace vasa {
+
+/// Collects vessels and the nodes they share, then builds the immutable network.
+///
+///   NetworkBuilder builder;
+///   VesselId aorta = builder.addVessel({"aorta", "FMA3734", VesselKind::artery}, aortaPoints);
+///   VesselId renal = builder.addVessel({"left renal artery", "", VesselKind::artery}, renalPoints);
+///   builder.joinToSide({renal, false}, {aorta, 7.4f});
+///   Result<Network> network = builder.build(1.75f);
+class NetworkBuilder {
+ public:
+  struct Label {
+    std::string name;
+    std::string ontologyId;
+    VesselKind kind = VesselKind::other;
+  };
+
+  /// @param points  de Boor points (x, y, z, r) [m], at least 4
+  VesselId addVessel(Label label, std::vector<vec4> points);
+
+  /// A node that these ends share (a Y; a crossing; two ends joined into one line). The place is the first end's.
+  NodeId joinEnds(std::vector<VesselEnd> ends);
+
+  /// A node on the side of `host`, with one end on it. Returns the existing node if that place has one already
+  /// (equal parameter). An end may belong to one node only.
+  NodeId joinToSide(VesselEnd end, Host host);
+
+  /// Adds one more end to a node.
+  void addEnd(NodeId node, VesselEnd end);
+
+  std::size_t vesselCount() const { return labels_.size(); }
+  const std::vector<vec4>& pointsOf(VesselId vessel) const { return points_[vessel.value]; }
+
+  /// Checks everything (see validate below) and moves the ends exactly onto their nodes.
+  /// Fails with badInput that names the vessel: fewer than 4 points, a value that is not finite, a radius that
+  /// is not positive, a length of zero, an end in two nodes, a host parameter outside the vessel, an end that
+  /// hangs on its own vessel, hosts that depend on one another in a circle, an end more than 5 % of the body
+  /// height from its node.
+  /// @param bodyHeight  [m] > 0
+  Result<Network> build(float bodyHeight) const;
+
+ private:
+  struct PendingNode {
+    std::optional<Host> host;
+    std::vector<VesselEnd> ends;
+  };
+  std::vector<Label> labels_;
+  std::vector<std::vector<vec4>> points_;
+  std::vector<PendingNode> nodes_;
+};
+
+}  // namespace vasa
