@@ -1,5 +1,7 @@
 # Run by ctest: every #include "folder/file.h" below engine/ must follow the arrows of layers.cmake.
+
 # usage: cmake -DROOT=<project root> -P check_layers.cmake
+cmake_minimum_required(VERSION 3.25)
 include("${ROOT}/cmake/layers.cmake")
 function(closure layer out)
   set(seen ${layer})
