@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "mesh/triangle_mesh.h"
+
+namespace vasa {
+
+/// One named piece of a mesh file: a vessel, a bone, an organ.
+struct MeshElement {
+  std::string name;        ///< as the file has it, e.g. "FJ1654 right anterior cerebral artery"
+  std::string category;    ///< what the file says it is, e.g. "artery"; empty where it says nothing
+  std::string ontologyId;  ///< e.g. "FMA50029"; empty where unknown
+  TriangleMesh mesh;       ///< house units: metres, +Y up
+};
+
+}  // namespace vasa
