@@ -81,9 +81,13 @@ VesselId NetworkBuilder::addVessel(Label label, std::vector<vec4> points) {
   return {std::uint32_t(labels_.size() - 1)};
 }
 
-NodeId NetworkBuilder::joinEnds(std::vector<VesselEnd> ends) {
-  nodes_.push_back({std::nullopt, std::move(ends)});
+NodeId NetworkBuilder::addNode(std::optional<Host> host, std::vector<VesselEnd> ends) {
+  nodes_.push_back({host, std::move(ends)});
   return {std::uint32_t(nodes_.size() - 1)};
+}
+
+NodeId NetworkBuilder::joinEnds(std::vector<VesselEnd> ends) {
+  return addNode(std::nullopt, std::move(ends));
 }
 
 NodeId NetworkBuilder::joinToSide(VesselEnd end, Host host) {
@@ -92,8 +96,7 @@ NodeId NetworkBuilder::joinToSide(VesselEnd end, Host host) {
     nodes_[i].ends.push_back(end);
     return {i};
   }
-  nodes_.push_back({host, {end}});
-  return {std::uint32_t(nodes_.size() - 1)};
+  return addNode(host, {end});
 }
 
 void NetworkBuilder::addEnd(NodeId node, VesselEnd end) {

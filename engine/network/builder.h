@@ -29,13 +29,16 @@ class NetworkBuilder {
   /// (equal parameter). An end may belong to one node only.
   NodeId joinToSide(VesselEnd end, Host host);
 
+  /// A node with a host, or without one, and all its ends at once: what a reader of files has.
+  NodeId addNode(std::optional<Host> host, std::vector<VesselEnd> ends);
+
   /// Adds one more end to a node.
   void addEnd(NodeId node, VesselEnd end);
 
   std::size_t vesselCount() const { return labels_.size(); }
   const std::vector<vec4>& pointsOf(VesselId vessel) const { return points_[vessel.value]; }
 
-  /// Checks everything (see validate below) and moves the ends exactly onto their nodes.
+  /// Checks everything and moves the ends exactly onto their nodes.
   /// Fails with badInput that names the vessel: fewer than 4 points, a value that is not finite, a radius that
   /// is not positive, a length of zero, an end in two nodes, a host parameter outside the vessel, an end that
   /// hangs on its own vessel, hosts that depend on one another in a circle, an end more than 5 % of the body
