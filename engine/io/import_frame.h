@@ -1,0 +1,22 @@
+#pragma once
+#include "math/types.h"
+
+namespace vasa {
+
+/// How a file without units of its own (OBJ, STL) lies in the world: house units are metres, +Y up.
+struct ImportFrame {
+  enum class Up { y, z };
+  float metresPerUnit = 1;  ///< > 0; 0.001 for millimetres
+  Up up = Up::y;
+
+  /// Z up, facing -Y, becomes Y up, facing +Z.
+  vec3 toHouse(dvec3 p) const {
+    const dvec3 turned = up == Up::z ? dvec3(p.x, p.z, -p.y) : p;
+    return vec3(turned * double(metresPerUnit));
+  }
+};
+
+/// Coordinates beyond this many metres are taken for a wrong unit or a damaged file.
+constexpr double kLargestCoordinate = 1e6;
+
+}  // namespace vasa

@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/result.h"
+#include "io/import_frame.h"
+#include "mesh/mesh_element.h"
+
+namespace vasa {
+
+/// The objects and groups of a Wavefront OBJ file that have faces, in the file's order; polygons are cut into
+/// triangles. Each element holds the vertices its faces use, in the file's order; nothing is welded.
+/// An element without a name takes the file's. Normals, texture coordinates, lines, curves and materials are
+/// passed over; nothing but the file itself is opened.
+/// Fails with badInput, naming file and line: a vertex that is not three finite numbers or lies too far away,
+/// a face with fewer than three corners or an index outside the vertices, a file without faces.
+Result<std::vector<MeshElement>> readObj(const std::filesystem::path& path, const ImportFrame& frame = {});
+
+}  // namespace vasa

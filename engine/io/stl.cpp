@@ -1,0 +1,186 @@
+#include "io/stl.h"
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/atomic_file.h"
+#include "core/hash.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
+
+struct SamePlace {
+  std::size_t operator()(const vec3& p) const { return std::size_t(hashOf(std::span(&p.x, 3))); }
+};
+
+// Facets with their own corners -> shared vertices, corners at the same place only.
+class Welder {
+ public:
+  std::uint32_t add(vec3 p) {
+    p += vec3(0);  // -0 and +0 are one place
+    const auto [found, fresh] = numbers_.try_emplace(p, std::uint32_t(mesh.positions.size()));
+    if (fresh) mesh.positions.push_back(p);
+    return found->second;
+  }
+  void addTriangle(uvec3 t) {
+    if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
+  }
+  TriangleMesh mesh;
+
+ private:
+  std::unordered_map<vec3, std::uint32_t, SamePlace> numbers_;
+};
+
+std::string coordinateFault(dvec3 p, const ImportFrame& frame) {
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return "a coordinate is not finite";
+  if (glm::length(p) * frame.metresPerUnit > kLargestCoordinate)
+    return "a coordinate is farther than 1000 km away; give the file's unit with --scale";
+  return {};
+}
+
+std::uint32_t littleEndian(const std::byte* bytes) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < 4; ++i) value |= std::uint32_t(bytes[i]) << (8 * i);
+  return value;
+}
+
+Result<std::vector<MeshElement>> readBinary(const std::string& file, const std::string& name,
+                                            std::span<const std::byte> bytes, const ImportFrame& frame) {
+  const std::uint64_t count = littleEndian(bytes.data() + 80);
+  if (bytes.size() < kHeaderBytes + count * kFacetBytes)
+    return badInput(file + ": the file is cut short: it promises " + std::to_string(count) + " triangles and holds " +
+                    std::to_string((bytes.size() - kHeaderBytes) / kFacetBytes) + "; copy or export it again");
+  Welder welder;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    uvec3 triangle;
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::byte* at = bytes.data() + kHeaderBytes + i * kFacetBytes + 12 + 12 * corner;
+      const dvec3 p(std::bit_cast<float>(littleEndian(at)), std::bit_cast<float>(littleEndian(at + 4)),
+                    std::bit_cast<float>(littleEndian(at + 8)));
+      if (const std::string fault = coordinateFault(p, frame); !fault.empty())
+        return badInput(file + ": triangle " + std::to_string(i) + ": " + fault);
+      triangle[corner] = welder.add(frame.toHouse(p));
+    }
+    welder.addTriangle(triangle);
+  }
+  return std::vector<MeshElement>{{name, {}, {}, std::move(welder.mesh)}};
+}
+
+// Words of an ASCII file with their line numbers.
+class Words {
+ public:
+  explicit Words(std::string_view text) : rest_(text) {}
+  std::string_view next() {
+    while (!rest_.empty() && std::strchr(" \t\r\n", rest_[0])) drop(1);
+    std::size_t size = 0;
+    while (size < rest_.size() && !std::strchr(" \t\r\n", rest_[size])) ++size;
+    const std::string_view word = rest_.substr(0, size);
+    drop(size);
+    return word;
+  }
+  std::string restOfLine() {
+    const std::size_t stop = std::min(rest_.find('\n'), rest_.size());
+    std::string_view text = rest_.substr(0, stop);
+    drop(stop);
+    while (!text.empty() && std::strchr(" \t\r", text.front())) text.remove_prefix(1);
+    while (!text.empty() && std::strchr(" \t\r", text.back())) text.remove_suffix(1);
+    return std::string(text);
+  }
+  std::size_t line = 1;
+
+ private:
+  void drop(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) line += rest_[i] == '\n';
+    rest_.remove_prefix(count);
+  }
+  std::string_view rest_;
+};
+
+class AsciiReader {
+ public:
+  AsciiReader(std::string file, std::string name, std::string_view text, const ImportFrame& frame)
+      : file_(std::move(file)), name_(std::move(name)), words_(text), frame_(frame) {}
+
+  Result<std::vector<MeshElement>> run() {
+    std::vector<MeshElement> elements;
+    Welder welder;
+    std::string title;
+    for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+      if (word == "solid") {
+        welder = {};
+        title = words_.restOfLine();
+      } else if (word == "endsolid") {
+        words_.restOfLine();
+        if (!welder.mesh.empty())
+          elements.push_back({title.empty() ? name_ : title, {}, {}, std::move(welder.mesh)});
+        welder = {};
+      } else if (word == "facet") {
+        if (auto read = facet(welder); !read) return read.error();
+      } else {
+        return fail("expected 'facet' or 'endsolid', found '" + std::string(word.substr(0, 40)) + "'");
+      }
+    }
+    if (!welder.mesh.empty()) return fail("the file ends before 'endsolid'; copy or export it again");
+    return elements;
+  }
+
+ private:
+  Error fail(const std::string& what) const {
+    return badInput(file_ + ":" + std::to_string(words_.line) + ": " + what);
+  }
+  // normal x y z outer loop (vertex x y z) x 3 endloop endfacet
+  Result<void> facet(Welder& welder) {
+    for (std::string_view word = words_.next(); word != "loop"; word = words_.next())
+      if (word.empty() || word == "endfacet") return fail("a facet without 'outer loop'");
+    uvec3 triangle;
+    for (int corner = 0; corner < 3; ++corner) {
+      if (const std::string_view word = words_.next(); word != "vertex")
+        return fail("a facet needs three corners, found '" + std::string(word.substr(0, 40)) + "'");
+      dvec3 p;
+      for (int axis = 0; axis < 3; ++axis)
+        if (!number(p[axis])) return fail("a corner needs three finite numbers");
+      if (const std::string fault = coordinateFault(p, frame_); !fault.empty()) return fail(fault);
+      triangle[corner] = welder.add(frame_.toHouse(p));
+    }
+    if (words_.next() != "endloop" || words_.next() != "endfacet") return fail("a facet with more than three corners");
+    welder.addTriangle(triangle);
+    return {};
+  }
+  bool number(double& value) {
+    std::string_view word = words_.next();
+    if (word.starts_with('+')) word.remove_prefix(1);
+    const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return fault == std::errc{} && stop == word.data() + word.size();
+  }
+
+  std::string file_, name_;
+  Words words_;
+  ImportFrame frame_;
+};
+
+}  // namespace
+
+Result<std::vector<MeshElement>> readStl(const std::filesystem::path& path, const ImportFrame& frame) {
+  const auto bytes = readFile(path);
+  if (!bytes) return bytes.error();
+  const std::string file = path.string(), name = path.stem().string();
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const bool fitsBinary = bytes->size() >= kHeaderBytes &&
+                          bytes->size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes->data() + 80));
+  const bool ascii = !fitsBinary && text.substr(0, text.find('\n')).find("solid") != text.npos;
+  if (!ascii && bytes->size() < kHeaderBytes)
+    return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes->size()) + " bytes");
+  auto elements = ascii ? AsciiReader(file, name, text, frame).run() : readBinary(file, name, *bytes, frame);
+  if (!elements) return elements;
+  if (elements->empty() || elements->front().mesh.empty())
+    return badInput(file + ": the file has no triangles with an area; export the surface again");
+  return elements;
+}
+
+}  // namespace vasa

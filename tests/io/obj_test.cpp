@@ -1,0 +1,80 @@
+#include "io/obj.h"
+
+#include <doctest/doctest.h>
+
+#include "core/atomic_file.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+
+namespace {
+
+struct ObjFile {
+  test::TemporaryFolder folder;
+  Result<std::vector<MeshElement>> read(const std::string& text, const ImportFrame& frame = {}) {
+    REQUIRE(writeFileAtomically(folder.path() / "vessel.obj", text).ok());
+    return readObj(folder.path() / "vessel.obj", frame);
+  }
+  std::string fault(const std::string& text) {
+    const auto read = this->read(text);
+    REQUIRE(!read.ok());
+    CHECK(read.error().fault == Fault::badInput);
+    return read.error().message;
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\n";
+
+}  // namespace
+
+TEST_CASE("an OBJ gives one element an object, polygons cut into triangles, other vertices left out") {
+  ObjFile file;
+  const auto elements = file.read(std::string("# a comment\nmtllib ../../etc/passwd\n") + kSquare +
+                                  "v 9 9 9\nvn 0 0 1\no left vein\nf 1//1 2//1 3//1 4//1\no right\nf -5 -4 -3\n");
+  REQUIRE(elements.ok());
+  REQUIRE(elements->size() == 2);
+  CHECK((*elements)[0].name == "left vein");
+  CHECK((*elements)[0].mesh.triangles.size() == 2);
+  CHECK((*elements)[0].mesh.positions.size() == 4);
+  CHECK((*elements)[0].mesh.area() == doctest::Approx(2));
+  CHECK((*elements)[1].name == "right");
+  CHECK((*elements)[1].mesh.triangles.size() == 1);
+}
+
+TEST_CASE("an OBJ in millimetres with Z up comes out in metres with Y up") {
+  ObjFile file;
+  const auto elements = file.read("v 0 0 0\nv 1000 0 0\nv 0 2000 3000\nf 1 2 3\n", {0.001f, ImportFrame::Up::z});
+  REQUIRE(elements.ok());
+  CHECK((*elements)[0].name == "vessel");
+  CHECK(glm::distance((*elements)[0].mesh.positions[2], vec3(0, 3, -2)) < 1e-6f);
+}
+
+TEST_CASE("faults of an OBJ are named with file and line") {
+  ObjFile file;
+  CHECK(contains(file.fault("v 0 0 nan\n"), "vessel.obj:1: a vertex needs three finite numbers, found 'nan'"));
+  CHECK(contains(file.fault("v 0 0\n"), "needs three finite numbers"));
+  CHECK(contains(file.fault("v 0 0 1e9\n"), "--scale"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2\n"), "vessel.obj:5: a face needs at least three corners"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 7\n"), ":5: face index 7 lies outside the 4 vertices"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 -9\n"), "face index -9"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 0\n"), "needs a vertex index"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f a b c\n"), "needs a vertex index, found 'a'"));
+  CHECK(contains(file.fault(kSquare), "has no faces"));
+  CHECK(contains(file.fault(""), "has no faces"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 1 1\n"), "lost its area"));
+  const auto absent = readObj(file.folder.path() / "absent.obj");
+  REQUIRE(!absent.ok());
+  CHECK(absent.error().fault == Fault::io);
+}
+
+TEST_CASE("a published vessel lands in the house frame") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  const auto elements = readObj(data / "bp3d/raw_obj/FJ1853.obj", {0.213f, ImportFrame::Up::z});
+  REQUIRE(elements.ok());
+  REQUIRE(elements->size() == 1);
+  const Aabb box = (*elements)[0].mesh.bounds();  // the same vessel in bp3d_veins.glb
+  CHECK(glm::distance(box.low, vec3(-0.021459f, 1.062281f, 0.123590f)) < 1e-3f);
+  CHECK(glm::distance(box.high, vec3(-0.007088f, 1.111062f, 0.144200f)) < 1e-3f);
+}

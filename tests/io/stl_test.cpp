@@ -1,0 +1,107 @@
+#include "io/stl.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "core/atomic_file.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+
+namespace {
+
+struct StlFile {
+  test::TemporaryFolder folder;
+  Result<std::vector<MeshElement>> read(const std::string& text, const ImportFrame& frame = {}) {
+    REQUIRE(writeFileAtomically(folder.path() / "vessel.stl", text).ok());
+    return readStl(folder.path() / "vessel.stl", frame);
+  }
+  std::string fault(const std::string& text) {
+    const auto read = this->read(text);
+    REQUIRE(!read.ok());
+    CHECK(read.error().fault == Fault::badInput);
+    return read.error().message;
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+std::string facet(const std::string& a, const std::string& b, const std::string& c) {
+  return "facet normal 0 0 1\n outer loop\n  vertex " + a + "\n  vertex " + b + "\n  vertex " + c +
+         "\n endloop\nendfacet\n";
+}
+
+std::string binary(const std::vector<std::array<vec3, 3>>& triangles, std::uint32_t promised) {
+  std::string bytes(80, 's');
+  bytes.replace(0, 5, "solid");
+  const auto put = [&bytes](const void* at, std::size_t size) { bytes.append(static_cast<const char*>(at), size); };
+  put(&promised, 4);
+  for (const auto& triangle : triangles) {
+    const vec3 normal(0);
+    put(&normal, 12);
+    for (const vec3& corner : triangle) put(&corner, 12);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+const std::vector<std::array<vec3, 3>> kTwo{{vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0)},
+                                            {vec3(1, 0, 0), vec3(1, 1, 0), vec3(0, 1, -0.0f)}};
+
+}  // namespace
+
+TEST_CASE("ASCII STL: one element a solid, equal corners shared") {
+  StlFile file;
+  const auto elements = file.read("solid left vein\n" + facet("0 0 0", "1 0 0", "0 1 0") +
+                                  facet("1 0 0", "1 1 0", "0 1 -0") + "endsolid left vein\nsolid\n" +
+                                  facet("0 0 0", "+1e0 0 0", "0 1 0") + facet("0 0 0", "0 0 0", "1 1 1") + "endsolid\n");
+  REQUIRE(elements.ok());
+  REQUIRE(elements->size() == 2);
+  CHECK((*elements)[0].name == "left vein");
+  CHECK((*elements)[0].mesh.positions.size() == 4);
+  CHECK((*elements)[0].mesh.triangles.size() == 2);
+  CHECK((*elements)[1].name == "vessel");
+  CHECK((*elements)[1].mesh.triangles.size() == 1);
+}
+
+TEST_CASE("a binary STL that begins with the word solid is read as binary") {
+  StlFile file;
+  const auto elements = file.read(binary(kTwo, 2), {0.001f, ImportFrame::Up::z});
+  REQUIRE(elements.ok());
+  REQUIRE(elements->size() == 1);
+  CHECK((*elements)[0].mesh.positions.size() == 4);
+  CHECK((*elements)[0].mesh.positions[2] == vec3(0, 0, -0.001f));
+}
+
+TEST_CASE("faults of an STL are named with file and place") {
+  StlFile file;
+  std::string cut = binary(kTwo, 3);
+  cut[0] = 'x';
+  CHECK(contains(file.fault(cut), "cut short: it promises 3 triangles and holds 2"));
+  auto bad = kTwo;
+  bad[1][2].y = std::numeric_limits<float>::quiet_NaN();
+  CHECK(contains(file.fault(binary(bad, 2)), "triangle 1: a coordinate is not finite"));
+  bad[1][2].y = 1e9f;
+  CHECK(contains(file.fault(binary(bad, 2)), "--scale"));
+  CHECK(contains(file.fault("not an STL"), "neither ASCII nor binary STL"));
+  CHECK(contains(file.fault(binary({}, 0)), "no triangles with an area"));
+  CHECK(contains(file.fault("solid a\nendsolid a\n"), "no triangles with an area"));
+  CHECK(contains(file.fault("solid a\nfacet normal 0 0 1\nendfacet\n"), "a facet without 'outer loop'"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 x")), ":6: a corner needs three finite numbers"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 nan 0")), ":6: a coordinate is not finite"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0\n vertex 1 1 1")), "more than three corners"));
+  CHECK(contains(file.fault("solid a\nfacet\nouter loop\nvertex 0 0 0\nendloop\n"), "needs three corners, found 'endloop'"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0")), "ends before 'endsolid'"));
+  CHECK(contains(file.fault("solid a\nrubbish\n"), "expected 'facet' or 'endsolid', found 'rubbish'"));
+}
+
+TEST_CASE("the VMTK aorta is read and closed") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  const auto elements = readStl(data / "centerlines/vmtk/aorta-surface.stl", {0.001f, ImportFrame::Up::z});
+  REQUIRE(elements.ok());
+  const TriangleMesh& mesh = (*elements)[0].mesh;
+  CHECK(mesh.triangles.size() > 10000);
+  CHECK(mesh.positions.size() * 2 == mesh.triangles.size() + 4);  // a closed surface of genus 0
+}
