@@ -15,7 +15,7 @@ class NetworkBuilder {
  public:
   struct Label {
     std::string name;
-    std::string ontologyId;
+    std::string ontologyId = {};
     VesselKind kind = VesselKind::other;
   };
 
