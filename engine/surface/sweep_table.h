@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "network/network.h"
+#include "shared/sweep.h"
+
+namespace vasa {
+
+/// One end of a vessel that gets a cap.
+struct CapEnd {
+  std::uint32_t sweep = 0;  ///< the vessel's first or last sweep
+  bool last = false;        ///< which of the two ends
+};
+
+/// A network's sweeps as flat records, for the CPU and the shaders alike; constant over time.
+struct SweepTable {
+  std::vector<shared::SweepRecord> sweeps;   ///< vessel after vessel, span after span
+  std::vector<std::uint32_t> vesselOfSweep;  ///< one a sweep
+  std::vector<CapEnd> caps;                  ///< every end, save those inside the vessel they leave (a T)
+  std::uint32_t pointCount = 0;              ///< de Boor points of the network
+  std::uint32_t knotCount = 0;               ///< knot quaternions: spans + 1 of each vessel, vessel after vessel
+};
+SweepTable makeSweepTable(const Network& network);
+
+/// Index of a vessel's first knot quaternion (it has one for each span and one more).
+std::uint32_t firstKnot(const Network& network, VesselId vessel);
+
+/// The matrices of the span classes, b = M · d (curve/bspline.h); SweepRecord::spanClass points here.
+const std::array<mat4, shared::kSpanClasses>& spanClassMatrices();
+
+/// Knot quaternions of a whole network (curve/frame.h), in parallel over vessels.
+/// @param points      de Boor points as Network::points()
+/// @param references  one direction a vessel, from the bone or the parent that carries its first section
+/// @param frames      caller-owned, SweepTable::knotCount of them
+void networkFrames(const Network& network, std::span<const vec4> points, std::span<const vec3> references,
+                   std::span<quat> frames);
+
+/// Some reference direction a vessel for the rest shape, at right angles to its first tangent.
+std::vector<vec3> restReferences(const Network& network);
+
+}  // namespace vasa

@@ -1,0 +1,42 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "surface/section.h"
+#include "surface/sweep_table.h"
+#include "surface/sweep_template.h"
+
+namespace vasa {
+
+/// A network in one shape: what tessellation reads.
+struct PosedNetwork {
+  const SweepTable& table;
+  std::span<const vec4> points;     ///< de Boor points, table.pointCount
+  std::span<const quat> knotFrames; ///< table.knotCount
+};
+
+/// The section of ring `ring` of n + 1 of a sweep. The last ring is the first ring of the span behind it,
+/// bit for bit.
+Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring, std::uint32_t along);
+
+/// The vertices of one sweep's template: the CPU reference of shaders/tessellate.comp.
+/// @param vertices  shape.sweepVertices(), ring after ring
+void tessellateSweep(const PosedNetwork& network, std::uint32_t sweep, const SweepShape& shape,
+                     std::span<SurfacePoint> vertices);
+
+/// The vertices of one cap's template: the CPU reference of shaders/cap.comp.
+/// @param vertices  shape.capVertices()
+void tessellateCap(const PosedNetwork& network, std::uint32_t cap, const SweepShape& shape,
+                   std::span<SurfacePoint> vertices);
+
+/// A network's surface as one indexed mesh, vessel after vessel; rings between spans are shared, so each vessel
+/// is closed but for its ends inside a host.
+struct Surface {
+  std::vector<vec3> positions, normals;       ///< one a vertex
+  std::vector<uvec3> triangles;               ///< counter-clockwise seen from outside
+  std::vector<std::uint32_t> firstTriangle;   ///< one a vessel, and the total
+};
+Surface tessellate(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
+                   const SweepShape& shape);
+
+}  // namespace vasa

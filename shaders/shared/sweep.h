@@ -1,0 +1,44 @@
+// Read by C++ and GLSL (scalar layout): how a network's sweeps lie in memory for tessellation.
+#ifndef VASA_SHARED_SWEEP_H
+#define VASA_SHARED_SWEEP_H
+#ifdef __cplusplus
+#include <cstdint>
+
+#include "math/types.h"
+namespace vasa::shared {
+using uint = std::uint32_t;
+#define VASA_CONSTANT constexpr
+#else
+#define VASA_CONSTANT const
+#endif
+
+/// Fewest and most quads around (m) and along (n) a sweep.
+VASA_CONSTANT uint kMinAround = 3, kMaxAround = 16, kMinAlong = 2, kMaxAlong = 20;
+/// Spans differ by how near they are to a vessel's two ends: min(2, distance) each way.
+VASA_CONSTANT uint kSpanClasses = 9;
+/// SweepRecord::nextClass of a vessel's last span.
+VASA_CONSTANT uint kNoSpan = 0xffffffffu;
+/// Rings of a cap between its rim and its pole, the rim included.
+VASA_CONSTANT uint kCapRings = 3;
+
+/// One span of a vessel; constant over time.
+struct SweepRecord {
+  uint point;      // first of its four de Boor points
+  uint knot;       // knot quaternion at its start; the next one is at its end
+  uint spanClass;  // matrix from de Boor to Bézier points
+  uint nextClass;  // of the span behind it, or kNoSpan
+  uint firstPoint, lastPoint;  // of its vessel
+};
+
+/// A tessellated vertex: 16 bytes.
+struct TubeVertex {
+  float x, y, z;  // [m]
+  uint normal;    // octahedral, two signed 16-bit numbers
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(SweepRecord) == 24 && sizeof(TubeVertex) == 16);
+}  // namespace vasa::shared
+#endif
+#undef VASA_CONSTANT
+#endif

@@ -1,0 +1,86 @@
+#include "support/networks.h"
+
+#include <random>
+#include <stdexcept>
+
+#include "network/builder.h"
+
+namespace vasa::test {
+namespace {
+
+Network built(const NetworkBuilder& builder) {
+  Result<Network> network = builder.build(1.0f);
+  if (!network) throw std::logic_error(network.error().message);
+  return std::move(*network);
+}
+
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  float in(float low, float high) { return low + (high - low) * float(engine_() >> 8) / float(1 << 24); }
+  std::uint32_t below(std::uint32_t count) { return engine_() % count; }
+  vec3 direction() {
+    for (;;) {
+      const vec3 v(in(-1, 1), in(-1, 1), in(-1, 1));
+      const float length = glm::length(v);
+      if (length > 0.1f && length < 1) return v / length;
+    }
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+std::vector<vec4> windingPoints(Random& random, vec3 start, std::uint32_t count) {
+  std::vector<vec4> points;
+  vec3 heading = random.direction();
+  const float step = random.in(0.01f, 0.03f);
+  float radius = random.in(0.002f, 0.008f);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    points.emplace_back(start, radius);
+    heading = glm::normalize(heading + 0.6f * random.direction());
+    start += step * heading;
+    radius *= random.in(0.85f, 1.1f);
+  }
+  return points;
+}
+
+constexpr VesselKind kKinds[] = {VesselKind::artery, VesselKind::vein, VesselKind::portalVein, VesselKind::other};
+
+}  // namespace
+
+Network windingNetwork(std::uint32_t vessels, std::uint32_t seed) {
+  Random random(seed);
+  NetworkBuilder builder;
+  for (std::uint32_t i = 0; i < vessels; ++i) {
+    const std::uint32_t count = 4 + random.below(12);
+    vec3 start(random.in(-0.3f, 0.3f), random.in(0, 1), random.in(-0.2f, 0.2f));
+    const bool branch = i % 3 == 2;
+    const VesselId host{branch ? random.below(i) : 0};
+    float parameter = 0;
+    if (branch) {
+      const auto& points = builder.pointsOf(host);
+      parameter = random.in(0.1f, 0.9f) * float(spanCount(points));
+      start = vec3(evaluate(points, parameter));
+    }
+    const VesselId vessel =
+        builder.addVessel({"vessel " + std::to_string(i), "", kKinds[i % 4]}, windingPoints(random, start, count));
+    if (branch) builder.joinToSide({vessel, false}, {host, parameter});
+  }
+  return built(builder);
+}
+
+Network straightVessel(float length, float r0, float r1, std::uint32_t spans) {
+  std::vector<vec4> points;
+  // Greville abscissae of the clamped knots make C(u) and r(u) linear in u.
+  for (std::uint32_t i = 0; i < spans + 3; ++i) {
+    const auto knot = [&](int k) { return float(std::min(std::max(k, 0), int(spans))); };
+    const float f = (knot(int(i) - 2) + knot(int(i) - 1) + knot(int(i))) / float(3 * spans);
+    points.emplace_back(0, 0, f * length, r0 + f * (r1 - r0));
+  }
+  NetworkBuilder builder;
+  builder.addVessel({"straight", "", VesselKind::artery}, std::move(points));
+  return built(builder);
+}
+
+}  // namespace vasa::test

@@ -1,0 +1,14 @@
+#pragma once
+#include "network/network.h"
+
+namespace vasa::test {
+
+/// Seeded vessels that wind about in a box one metre high: spans from 1 upwards, radii that change, a third
+/// of them hung on the side of an earlier one, some joined in threes.
+/// @param vessels  at least 1
+Network windingNetwork(std::uint32_t vessels, std::uint32_t seed);
+
+/// One straight vessel from (0, 0, 0) to (0, 0, length) whose radius runs from r0 to r1.
+Network straightVessel(float length, float r0, float r1, std::uint32_t spans);
+
+}  // namespace vasa::test

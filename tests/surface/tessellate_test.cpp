@@ -1,0 +1,106 @@
+#include "surface/tessellate.h"
+
+#include <doctest/doctest.h>
+
+#include <map>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "mesh/triangle_mesh.h"
+#include "support/networks.h"
+
+using namespace vasa;
+
+namespace {
+
+std::vector<quat> framesOf(const Network& network) {
+  std::vector<quat> frames(network.sectionCount());
+  networkFrames(network, network.points(), restReferences(network), frames);
+  return frames;
+}
+
+Surface surfaceOf(const Network& network, const SweepShape& shape) {
+  return tessellate(network, network.points(), framesOf(network), shape);
+}
+
+// Edges that do not appear exactly once in each direction.
+std::size_t openEdges(const Surface& surface) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const uvec3& t : surface.triangles)
+    for (int i = 0; i < 3; ++i) ++uses[{t[i], t[(i + 1) % 3]}];
+  std::size_t open = 0;
+  for (const auto& [edge, count] : uses) {
+    const auto back = uses.find({edge.second, edge.first});
+    if (count != 1 || back == uses.end() || back->second != 1) ++open;
+  }
+  return open;
+}
+
+}  // namespace
+
+TEST_CASE("a straight tube is closed, turned outwards and holds its volume") {
+  const Network network = test::straightVessel(1, 0.1f, 0.1f, 4);
+  const Surface surface = surfaceOf(network, {16, 2});
+  CHECK(openEdges(surface) == 0);
+  CHECK(surface.triangles.size() == 4 * 2 * 2 * 16 + 2 * 5 * 16);
+  const TriangleMesh mesh{surface.positions, surface.triangles};
+  const double ring = 16 * 0.5 * 0.01 * std::sin(2 * kPi / 16);  // area of the 16-gon
+  CHECK(mesh.volume() > ring);
+  CHECK(mesh.volume() < kPi * (0.01 + 4.0 / 3 * 0.001));
+  const std::vector<vec3> normals = vertexNormals(mesh);
+  for (std::size_t i = 0; i < normals.size(); ++i) CHECK(glm::dot(normals[i], surface.normals[i]) > 0.85f);
+}
+
+TEST_CASE("neighbouring spans share their ring, bit for bit") {
+  const Network network = test::windingNetwork(20, 11);
+  const SweepTable table = makeSweepTable(network);
+  const std::vector<quat> frames = framesOf(network);
+  const PosedNetwork posed{table, network.points(), frames};
+  for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{7, 5}, SweepShape{16, 20}}) {
+    std::vector<SurfacePoint> one(shape.sweepVertices()), next(one);
+    for (std::uint32_t i = 0; i + 1 < table.sweeps.size(); ++i) {
+      if (table.sweeps[i].nextClass == shared::kNoSpan) continue;
+      tessellateSweep(posed, i, shape, one);
+      tessellateSweep(posed, i + 1, shape, next);
+      for (std::uint32_t k = 0; k < shape.around; ++k) {
+        const SurfacePoint& last = one[shape.along * shape.around + k];
+        CHECK(last.position == next[k].position);
+        CHECK(last.normal == next[k].normal);
+      }
+    }
+  }
+}
+
+TEST_CASE("every ring lies on its circle") {
+  const Network network = test::windingNetwork(12, 2);
+  const SweepTable table = makeSweepTable(network);
+  const std::vector<quat> frames = framesOf(network);
+  const PosedNetwork posed{table, network.points(), frames};
+  const SweepShape shape{5, 4};
+  std::vector<SurfacePoint> points(shape.sweepVertices());
+  for (std::uint32_t i = 0; i < table.sweeps.size(); ++i) {
+    tessellateSweep(posed, i, shape, points);
+    const Vessel& vessel = network.vessels()[table.vesselOfSweep[i]];
+    for (std::uint32_t ring = 0; ring <= shape.along; ++ring) {
+      const float u = float(table.sweeps[i].point - vessel.firstPoint) + float(ring) / 4;
+      const vec4 truth = evaluate(network.pointsOf(vessel), u);
+      for (std::uint32_t k = 0; k < 5; ++k)
+        CHECK(glm::distance(points[ring * 5 + k].position, vec3(truth)) == doctest::Approx(truth.w).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("vessels of a whole network are closed but for ends inside a host, whatever the threads") {
+  const Network network = test::windingNetwork(31, 8);
+  const SweepShape shape{6, 3};
+  setThreadCount(1);
+  const Surface one = surfaceOf(network, shape);
+  setThreadCount(3);
+  const Surface three = surfaceOf(network, shape);
+  setThreadCount(0);
+  CHECK(hashOf(std::span(one.positions)) == hashOf(std::span(three.positions)));
+  CHECK(hashOf(std::span(one.triangles)) == hashOf(std::span(three.triangles)));
+  CHECK(openEdges(one) == 10 * 6);  // ten branches, six edges at each open rim
+  CHECK(one.firstTriangle.size() == 32);
+  CHECK(one.firstTriangle.back() == one.triangles.size());
+}
