@@ -22,6 +22,10 @@ class AtomicFile {
   Result<void> write(std::span<const std::byte> bytes);
   Result<void> commit();
 
+  const std::filesystem::path& path() const { return path_; }
+  /// Where the bytes go until commit(): for another program that writes the file in our stead.
+  const std::filesystem::path& pathInProgress() const { return temporary_.empty() ? path_ : temporary_; }
+
  private:
   AtomicFile(int descriptor, std::filesystem::path path, std::filesystem::path temporary)
       : descriptor_(descriptor), path_(std::move(path)), temporary_(std::move(temporary)) {}

@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/result.h"
+
+namespace vasa {
+
+struct PngOptions {
+  bool alpha = false;   ///< keep the alpha channel; otherwise it is dropped
+  int compression = 1;  ///< zlib level 0..9; 1 is fast
+};
+
+/// A PNG file's bytes. The same image gives the same bytes.
+Result<std::vector<std::byte>> encodePng(const Image& image, PngOptions options = {});
+
+/// Written atomically.
+Result<void> writePng(const std::filesystem::path& path, const Image& image, PngOptions options = {});
+
+/// Reads any PNG as 8-bit RGBA. Refuses pictures over 256 Mpixel.
+Result<Image> decodePng(std::span<const std::byte> bytes, const std::string& name);
+Result<Image> readPng(const std::filesystem::path& path);
+
+}  // namespace vasa

@@ -1,0 +1,53 @@
+#include "io/png.h"
+
+#include <doctest/doctest.h>
+
+#include "support/shared_data.h"
+
+using namespace vasa;
+
+namespace {
+
+Image gradient(std::uint32_t width, std::uint32_t height) {
+  Image image{width, height, {}};
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x)
+      for (const unsigned value : {x * 7, y * 11, x + y, 128 + x}) image.rgba.push_back(std::uint8_t(value));
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("a picture survives, with and without its alpha") {
+  test::TemporaryFolder folder;
+  const Image image = gradient(13, 7);
+  REQUIRE(writePng(folder.path() / "a.png", image, {.alpha = true}).ok());
+  const auto read = readPng(folder.path() / "a.png");
+  REQUIRE(read.ok());
+  CHECK(read->width == 13);
+  CHECK(read->rgba == image.rgba);
+  const auto opaque = decodePng(*encodePng(image), "b.png");
+  REQUIRE(opaque.ok());
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    CHECK(opaque->rgba[i] == (i % 4 == 3 ? 255 : image.rgba[i]));
+}
+
+TEST_CASE("the same picture gives the same bytes") {
+  CHECK(*encodePng(gradient(64, 64)) == *encodePng(gradient(64, 64)));
+}
+
+TEST_CASE("no picture, no crash") {
+  const auto garbage = decodePng(std::as_bytes(std::span("not a png at all")), "x.png");
+  REQUIRE(!garbage.ok());
+  CHECK(garbage.error().fault == Fault::badInput);
+  auto bytes = *encodePng(gradient(20, 20));
+  bytes.resize(bytes.size() / 2);
+  CHECK(!decodePng(bytes, "x.png").ok());
+  CHECK(!encodePng(Image{}).ok());
+}
+
+TEST_CASE("a full disk is told") {
+  const auto written = writePng("/dev/full", gradient(64, 64));
+  REQUIRE(!written.ok());
+  CHECK(written.error().fault == Fault::io);
+}
