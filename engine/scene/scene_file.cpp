@@ -1,0 +1,153 @@
+#include "scene/scene_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+
+namespace vasa {
+namespace {
+
+using Json = nlohmann::json;
+constexpr std::size_t kMaximumBytes = 1 << 20;
+constexpr int kMaximumDepth = 16;
+
+// The first fault that reading meets; what follows it is not looked at.
+struct BrokenRule {
+  std::string place, rule;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& folder) : folder_(folder) {}
+
+  using Field = std::function<void(const Json&, const std::string& place)>;
+
+  void object(const Json& value, const std::string& place, const std::map<std::string, Field>& fields) {
+    if (!value.is_object()) return fail(place, "must be an object");
+    for (const auto& [key, item] : value.items()) {
+      const auto field = fields.find(key);
+      const std::string where = place + "/" + key;
+      if (field == fields.end()) {
+        std::string known;
+        for (const auto& entry : fields) known += (known.empty() ? "" : ", ") + entry.first;
+        return fail(where, "is not a known key; use one of " + known);
+      }
+      field->second(item, where);
+    }
+  }
+  Field text(std::string& out) {
+    return [this, &out](const Json& value, const std::string& place) {
+      if (!value.is_string()) return fail(place, "must be a string");
+      out = value.get<std::string>();
+    };
+  }
+  Field flag(bool& out) {
+    return [this, &out](const Json& value, const std::string& place) {
+      if (!value.is_boolean()) return fail(place, "must be true or false");
+      out = value.get<bool>();
+    };
+  }
+  Field number(float& out, float low, float high) {
+    return [this, &out, low, high](const Json& value, const std::string& place) {
+      const double x = value.is_number() ? value.get<double>() : NAN;
+      if (!(x >= low && x <= high))
+        return fail(place, "must be a number from " + Json(low).dump() + " to " + Json(high).dump());
+      out = float(x);
+    };
+  }
+  template <class Vector>
+  Field vector(std::optional<Vector>& out, float low, float high) {
+    return [this, &out, low, high](const Json& value, const std::string& place) {
+      Vector read;
+      if (!value.is_array() || value.size() != std::size_t(read.length()))
+        return fail(place, "must be a list of " + std::to_string(read.length()) + " numbers");
+      for (int i = 0; i < read.length(); ++i) number(read[i], low, high)(value[std::size_t(i)], place + "/" + std::to_string(i));
+      out = read;
+    };
+  }
+  Field path(std::filesystem::path& out) {
+    return [this, &out](const Json& value, const std::string& place) {
+      std::string name;
+      text(name)(value, place);
+      if (!name.empty()) out = folder_ / name;
+    };
+  }
+  Field paths(std::vector<std::filesystem::path>& out) {
+    return [this, &out](const Json& value, const std::string& place) {
+      if (!value.is_array()) return fail(place, "must be a list of file names");
+      for (std::size_t i = 0; i < value.size(); ++i) path(out.emplace_back())(value[i], place + "/" + std::to_string(i));
+    };
+  }
+  void fail(const std::string& place, const std::string& rule) {
+    if (!fault) fault = BrokenRule{place, rule};
+  }
+
+  std::optional<BrokenRule> fault;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+constexpr float kFar = 1000;  // [m] no camera stands further off
+
+void readCamera(Reader& reader, const Json& value, const std::string& place, CameraChoice& camera) {
+  reader.object(value, place,
+                {{"view", reader.text(camera.view)},
+                 {"position", reader.vector(camera.position, -kFar, kFar)},
+                 {"target", reader.vector(camera.target, -kFar, kFar)},
+                 {"angle", reader.number(camera.angleDegrees, 1, 150)},
+                 {"distance", reader.number(camera.distanceFactor, 0.01f, 100)},
+                 {"focus", reader.text(camera.focus)}});
+  constexpr std::array kViews{"front", "back", "left", "right", "top"};
+  if (std::find(kViews.begin(), kViews.end(), camera.view) == kViews.end())
+    reader.fail(place + "/view", "must be front, back, left, right or top");
+}
+
+void readLook(Reader& reader, const Json& value, const std::string& place, LookChoice& look) {
+  reader.object(value, place,
+                {{"background", reader.vector(look.background, 0, 1)},
+                 {"skin", reader.flag(look.skin)},
+                 {"bones", reader.flag(look.bones)},
+                 {"organs", reader.flag(look.organs)},
+                 {"arteries", reader.flag(look.arteries)},
+                 {"veins", reader.flag(look.veins)},
+                 {"skin_opacity", reader.number(look.skinOpacity, 0, 1)}});
+}
+
+}  // namespace
+
+Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name) {
+  Json json;
+  try {
+    json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+      if (depth > kMaximumDepth) throw std::runtime_error("is nested too deeply");
+      return true;
+    });
+  } catch (const std::exception& error) {
+    return badInput(name + ": is not valid JSON: " + error.what());
+  }
+  SceneFile scene;
+  Reader reader(folder);
+  reader.object(json, "",
+                {{"body", reader.path(scene.body)},
+                 {"networks", reader.paths(scene.networks)},
+                 {"clip", reader.text(scene.clip)},
+                 {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
+                 {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }}});
+  if (reader.fault)
+    return badInput(name + ": " + (reader.fault->place.empty() ? "/" : reader.fault->place) + " " + reader.fault->rule);
+  return scene;
+}
+
+Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
+  const auto bytes = readFile(path, kMaximumBytes);
+  if (!bytes) return bytes.error();
+  return parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(), path.string());
+}
+
+}  // namespace vasa

@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "math/types.h"
+
+namespace vasa {
+
+/// Where to look from: one of the named views, or a place and a target.
+struct CameraChoice {
+  std::string view = "front";   ///< front, back, left, right, top; ignored when position is given
+  std::optional<vec3> position; ///< [m]
+  std::optional<vec3> target;   ///< [m]; default: the middle of the scene
+  float angleDegrees = 30;      ///< vertical opening
+  std::string focus;            ///< name of a vessel to fill the picture with; empty: the whole scene
+  float distanceFactor = 1;     ///< 1: the subject just fits
+};
+
+/// What is shown and how.
+struct LookChoice {
+  std::optional<vec4> background;  ///< sRGB 0..1 and opacity
+  bool skin = true, bones = true, organs = true, arteries = true, veins = true;
+  float skinOpacity = 0.25f;
+};
+
+/// What a scene is made of. JSON, all keys optional, paths relative to the file:
+///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk",
+///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
+///     "look": { "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true,
+///               "veins": true, "skin_opacity": 0.25 } }
+struct SceneFile {
+  std::filesystem::path body;
+  std::vector<std::filesystem::path> networks;
+  std::string clip;
+  CameraChoice camera;
+  LookChoice look;
+};
+
+/// Reads a scene file. badInput names the JSON place and the rule: malformed JSON, an unknown key, a wrong type, a
+/// number that is not finite or out of range.
+Result<SceneFile> readSceneFile(const std::filesystem::path& path);
+
+/// The same from text. @param folder  that relative paths start from; @param name  for messages
+Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name);
+
+}  // namespace vasa

@@ -1,0 +1,60 @@
+#include "scene/scene_file.h"
+
+#include <doctest/doctest.h>
+
+#include "core/atomic_file.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+
+namespace {
+
+std::string messageOf(const std::string& text) {
+  const auto scene = parseScene(text, "/scenes", "x.json");
+  REQUIRE(!scene.ok());
+  CHECK(scene.error().fault == Fault::badInput);
+  return scene.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("a full scene is read, paths relative to the file") {
+  test::TemporaryFolder folder;
+  const auto path = folder.path() / "scene.json";
+  REQUIRE(writeFileAtomically(path, std::string(R"({"body": "b.glb", "networks": ["a.vasa", "/abs/v.vasa"], "clip": "walk",
+    "camera": {"position": [1, 2, 3], "target": [0, 1, 0], "angle": 20, "focus": "aorta"},
+    "look": {"background": [1, 1, 1, 0], "skin": false, "skin_opacity": 0.5}})")).ok());
+  const auto scene = readSceneFile(path);
+  REQUIRE(scene.ok());
+  CHECK(scene->body == folder.path() / "b.glb");
+  CHECK(scene->networks[0] == folder.path() / "a.vasa");
+  CHECK(scene->networks[1] == "/abs/v.vasa");
+  CHECK(scene->clip == "walk");
+  CHECK(scene->camera.position == vec3(1, 2, 3));
+  CHECK(scene->camera.focus == "aorta");
+  CHECK(!scene->look.skin);
+  CHECK(scene->look.bones);
+  CHECK(scene->look.background->w == 0);
+}
+
+TEST_CASE("an empty scene is the default one") {
+  const auto scene = parseScene("{}", "", "x.json");
+  REQUIRE(scene.ok());
+  CHECK(scene->body.empty());
+  CHECK(scene->camera.view == "front");
+}
+
+TEST_CASE("each fault is told with its place") {
+  CHECK(messageOf("{").find("x.json: is not valid JSON") == 0);
+  CHECK(messageOf("[1]") == "x.json: / must be an object");
+  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, clip, look, networks");
+  CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
+  CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
+  CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");
+  CHECK(messageOf(R"({"camera": {"angle": 0}})").find("/camera/angle must be a number from 1.0 to 150.0") != std::string::npos);
+  CHECK(messageOf(R"({"camera": {"position": [1, 2]}})") == "x.json: /camera/position must be a list of 3 numbers");
+  CHECK(messageOf(R"({"camera": {"position": [1, 2, 1e99]}})").find("/camera/position/2") != std::string::npos);
+  CHECK(messageOf(R"({"camera": {"view": "below"}})") == "x.json: /camera/view must be front, back, left, right or top");
+  CHECK(messageOf(R"({"look": {"skin": 1}})") == "x.json: /look/skin must be true or false");
+  CHECK(messageOf(std::string(100000, '[')).find("nested too deeply") != std::string::npos);
+}
