@@ -12,6 +12,8 @@
 namespace vasa {
 namespace {
 
+constexpr const char* kCommentKey = "Comment";
+
 void append(png_structp png, png_bytep data, png_size_t size) {
   auto& bytes = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
   const std::size_t at = bytes.size();
@@ -33,6 +35,13 @@ bool encodeRows(png_structp png, png_infop info, const Image& image, const PngOp
   png_set_IHDR(png, info, image.width, image.height, 8, options.alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (!options.comment.empty()) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = const_cast<char*>(kCommentKey);
+    text.text = const_cast<char*>(options.comment.c_str());
+    png_set_text(png, info, &text, 1);
+  }
   png_write_info(png, info);
   if (!options.alpha) png_set_filler(png, 0, PNG_FILLER_AFTER);
   for (std::uint32_t y = 0; y < image.height; ++y)
@@ -86,6 +95,29 @@ Result<Image> readPng(const std::filesystem::path& path) {
   const auto bytes = readFile(path);
   if (!bytes) return bytes.error();
   return decodePng(*bytes, path.string());
+}
+
+Result<std::string> readPngComment(const std::filesystem::path& path) {
+  const auto bytes = readFile(path);
+  if (!bytes) return bytes.error();
+  constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and checksum around a chunk's data
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | std::uint32_t((*bytes)[at + i]);
+    return std::size_t(value);
+  };
+  if (bytes->size() < kSignature || png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes->data()), 0, kSignature) != 0)
+    return badInput(path.string() + ": is not a PNG");
+  for (std::size_t at = kSignature; at + kFrame <= bytes->size();) {
+    const std::size_t length = number(at);
+    if (length > bytes->size() - at - kFrame) break;
+    const std::string_view data(reinterpret_cast<const char*>(bytes->data()) + at + 8, length);
+    if (std::memcmp(bytes->data() + at + 4, "tEXt", 4) == 0 && data.starts_with(kCommentKey) &&
+        data.size() > std::strlen(kCommentKey))
+      return std::string(data.substr(std::strlen(kCommentKey) + 1));
+    at += kFrame + length;
+  }
+  return std::string();
 }
 
 }  // namespace vasa

@@ -13,6 +13,7 @@ namespace vasa {
 struct PngOptions {
   bool alpha = false;   ///< keep the alpha channel; otherwise it is dropped
   int compression = 1;  ///< zlib level 0..9; 1 is fast
+  std::string comment;  ///< kept in the file (a tEXt chunk "Comment"); empty: none
 };
 
 /// A PNG file's bytes. The same image gives the same bytes.
@@ -24,5 +25,8 @@ Result<void> writePng(const std::filesystem::path& path, const Image& image, Png
 /// Reads any PNG as 8-bit RGBA. Refuses pictures over 256 Mpixel.
 Result<Image> decodePng(std::span<const std::byte> bytes, const std::string& name);
 Result<Image> readPng(const std::filesystem::path& path);
+
+/// The comment that a PNG file carries; empty if it has none. Looks at the head of the file only.
+Result<std::string> readPngComment(const std::filesystem::path& path);
 
 }  // namespace vasa

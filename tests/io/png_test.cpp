@@ -21,7 +21,7 @@ Image gradient(std::uint32_t width, std::uint32_t height) {
 TEST_CASE("a picture survives, with and without its alpha") {
   test::TemporaryFolder folder;
   const Image image = gradient(13, 7);
-  REQUIRE(writePng(folder.path() / "a.png", image, {.alpha = true}).ok());
+  REQUIRE(writePng(folder.path() / "a.png", image, PngOptions{.alpha = true}).ok());
   const auto read = readPng(folder.path() / "a.png");
   REQUIRE(read.ok());
   CHECK(read->width == 13);
@@ -34,6 +34,16 @@ TEST_CASE("a picture survives, with and without its alpha") {
 
 TEST_CASE("the same picture gives the same bytes") {
   CHECK(*encodePng(gradient(64, 64)) == *encodePng(gradient(64, 64)));
+}
+
+TEST_CASE("a comment is kept and read back; none is none") {
+  test::TemporaryFolder folder;
+  REQUIRE(writePng(folder.path() / "a.png", gradient(9, 9), PngOptions{.comment = "run 42"}).ok());
+  CHECK(*readPngComment(folder.path() / "a.png") == "run 42");
+  CHECK(readPng(folder.path() / "a.png").ok());
+  REQUIRE(writePng(folder.path() / "b.png", gradient(9, 9)).ok());
+  CHECK(readPngComment(folder.path() / "b.png")->empty());
+  CHECK(!readPngComment(folder.path() / "none.png").ok());
 }
 
 TEST_CASE("no picture, no crash") {

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace vasa::cli {
+
+/// "A:B", "A:" or ":B" or "A": the first and last frame, both included, within a clip of `count` frames.
+struct FrameRange {
+  std::uint32_t first = 0, last = 0;
+};
+Result<FrameRange> parseFrameRange(const std::string& text, std::uint32_t count);
+
+/// "i/n" with 0 <= i < n: every n-th frame from the i-th on is this process's share.
+struct Shard {
+  std::uint32_t index = 0, count = 1;
+};
+Result<Shard> parseShard(const std::string& text);
+
+/// "1280x720"; both 1 to 16384.
+struct PictureSize {
+  std::uint32_t width = 1280, height = 720;
+};
+Result<PictureSize> parseSize(const std::string& text);
+
+/// "8x5": m in 3..16 around, n in 2..20 along.
+struct Quads {
+  std::uint32_t around = 8, along = 5;
+};
+Result<Quads> parseQuads(const std::string& text);
+
+/// A file name with the place of the frame's number: "{frame}" or, with leading zeros, "{frame:04}".
+class FramePattern {
+ public:
+  /// @param several  more than one frame will be written, so the number must be in the name
+  static Result<FramePattern> parse(const std::string& text, bool several);
+  std::filesystem::path of(std::uint32_t frame) const;
+
+ private:
+  std::string before_, after_;
+  int digits_ = 0;
+  bool numbered_ = false;
+};
+
+}  // namespace vasa::cli

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "body/body.h"
+#include "commands.h"
+#include "io/gltf.h"
+#include "network/file.h"
+#include "network/measure.h"
+#include "report.h"
+#include "scene_options.h"
+
+// vasa info: counts, sizes, lengths and volumes of a network, a body or a scene.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  bool vessels = false;
+};
+
+Report networkReport(const Network& network, std::size_t fileBytes) {
+  const NetworkMeasures sum = measure(network, network.points());
+  return {{"kind", "network"},
+          {"vessels", network.vessels().size()},
+          {"arteries", sum.arteries},
+          {"veins", sum.veins},
+          {"sections", network.sectionCount()},
+          {"sweeps", network.sweepCount()},
+          {"junctions", network.junctionCount()},
+          {"components", network.componentCount()},
+          {"length_m", sum.length},
+          {"volume_m3", sum.volume},
+          {"body_height_m", network.bodyHeight()},
+          {"file_bytes", fileBytes},
+          {"bytes_per_sweep", network.sweepCount() ? double(fileBytes) / network.sweepCount() : 0.0}};
+}
+
+Report vesselReport(const Network& network) {
+  Report vessels = Report::array();
+  for (const Vessel& vessel : network.vessels()) {
+    const auto points = network.pointsOf(vessel);
+    vessels.push_back({{"name", vessel.name},
+                       {"kind", kindName(vessel.kind)},
+                       {"id", vessel.ontologyId},
+                       {"sweeps", vessel.spanCount()},
+                       {"length_m", lengthOf(points)},
+                       {"volume_m3", volumeOf(points)},
+                       {"radius_start_m", points.front().w},
+                       {"radius_end_m", points.back().w}});
+  }
+  return vessels;
+}
+
+Report bodyReport(const Body& body, std::size_t fileBytes) {
+  Report report{{"kind", "body"},
+                {"joints", body.skeleton.joints.size()},
+                {"body_height_m", body.height()},
+                {"file_bytes", fileBytes}};
+  report["meshes"] = Report::array();
+  for (const SkinnedMesh& mesh : body.meshes)
+    report["meshes"].push_back({{"name", mesh.name},
+                                {"vertices", mesh.mesh.positions.size()},
+                                {"triangles", mesh.mesh.triangles.size()}});
+  report["clips"] = Report::array();
+  for (const Clip& clip : body.clips)
+    report["clips"].push_back({{"name", clip.name},
+                               {"frames", clip.frameCount()},
+                               {"seconds", clip.end - clip.start},
+                               {"frames_per_second", clip.framesPerSecond}});
+  return report;
+}
+
+// The same facts for a person: a line a fact, a table for lists.
+std::string asText(const Report& report, const std::string& indent = "") {
+  std::string text;
+  for (const auto& [key, value] : report.items()) {
+    if (value.is_array()) {
+      text += fmt::format("{}{}:\n", indent, key);
+      for (const Report& item : value) {
+        std::string line;
+        for (const auto& [name, field] : item.items())
+          line += name == "name" ? fmt::format("{:<28}", field.get<std::string>())
+                                 : fmt::format("  {} {}", name, field.is_string() ? field.get<std::string>() : field.dump());
+        text += indent + "  " + line + "\n";
+      }
+    } else if (value.is_object()) {
+      text += fmt::format("{}{}:\n", indent, key) + asText(value, indent + "  ");
+    } else {
+      text += fmt::format("{}{:<18} {}\n", indent, key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+  return text;
+}
+
+Result<Report> reportOf(const std::filesystem::path& file, bool vessels) {
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(file, ignored);
+  if (file.extension() == ".vasa") {
+    const auto network = readNetwork(file);
+    if (!network) return network.error();
+    Report report = networkReport(*network, bytes);
+    if (vessels) report["vessel"] = vesselReport(*network);
+    return report;
+  }
+  if (file.extension() == ".glb" || file.extension() == ".gltf") {
+    const auto body = readBody(file);
+    if (!body) return body.error();
+    return bodyReport(*body, bytes);
+  }
+  return Error{Fault::usage, file.string() + ": unknown kind of file; info reads .vasa, .glb, .gltf and scene .json files"};
+}
+
+Result<Report> sceneReport(const SceneFile& scene, bool vessels) {
+  Report report{{"kind", "scene"}};
+  auto body = reportOf(scene.body, vessels);
+  if (!body) return body;
+  report["body"] = std::move(*body);
+  report["networks"] = Report::array();
+  for (const auto& path : scene.networks) {
+    auto network = reportOf(path, vessels);
+    if (!network) return network;
+    Report named{{"name", path.filename().string()}};
+    named.update(*network);
+    report["networks"].push_back(std::move(named));
+  }
+  return report;
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const std::filesystem::path file = options.file;
+  const bool scene = options.file.empty() || file.extension() == ".json";
+  auto report = [&]() -> Result<Report> {
+    if (!scene) return reportOf(file, options.vessels);
+    const auto sources = chooseScene({.scene = options.file});
+    if (!sources) return sources.error();
+    return sceneReport(*sources, options.vessels);
+  }();
+  if (!report) return report.error();
+  return globals.json ? printJson(*report) : printText(asText(*report));
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body or scene");
+  sub->footer("Examples:\n  vasa info body.vasa --json\n  vasa info body.glb\n  vasa info            (the built-in human)");
+  sub->add_option("FILE", options->file, "A .vasa network, a glTF body or a scene; nothing: the built-in human");
+  sub->add_flag("--vessels", options->vessels, "List each vessel with its length, volume and radii");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli

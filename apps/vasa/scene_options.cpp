@@ -1,0 +1,55 @@
+#include "scene_options.h"
+
+#include <cstdlib>
+
+// The built-in human is looked for in $VASA_DATA_DIR, beside the installed program (../share/vasa), and where the
+// build put it.
+namespace vasa::cli {
+namespace {
+
+Result<std::filesystem::path> dataFolder() {
+  std::vector<std::filesystem::path> places;
+  if (const char* set = std::getenv("VASA_DATA_DIR")) places.emplace_back(set);
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if (!program.empty()) places.push_back(program.parent_path().parent_path() / "share" / "vasa");
+  places.emplace_back(VASA_BUILD_DATA_DIR);
+  for (const auto& place : places)
+    if (std::filesystem::exists(place / "human.glb", ignored)) return place;
+  return ioError("the built-in human (human.glb) is in none of its places; build the project or set VASA_DATA_DIR");
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& sub, SceneOptions& options) {
+  sub.add_option("SCENE", options.scene, "Scene file (.json); nothing: the built-in human");
+  sub.add_option("--body", options.body, "Body with skeleton (glTF)");
+  sub.add_option("--network", options.networks, "Vessels (.vasa); may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it");
+}
+
+Result<SceneFile> chooseScene(const SceneOptions& options) {
+  SceneFile scene;
+  if (!options.scene.empty()) {
+    auto read = readSceneFile(options.scene);
+    if (!read) return read;
+    scene = std::move(*read);
+  }
+  if (!options.body.empty()) scene.body = options.body;
+  if (!options.networks.empty()) scene.networks.assign(options.networks.begin(), options.networks.end());
+  if (!options.clip.empty()) scene.clip = options.clip;
+  if (scene.body.empty() != scene.networks.empty())
+    return Error{Fault::usage, scene.body.empty() ? "vessels are given but no body; add --body FILE.glb"
+                                                  : "a body is given but no vessels; add --network FILE.vasa"};
+  if (scene.body.empty()) {
+    const auto folder = dataFolder();
+    if (!folder) return folder.error();
+    scene.body = *folder / "human.glb";
+    scene.networks = {*folder / "human.vasa"};
+  }
+  return scene;
+}
+
+}  // namespace vasa::cli

@@ -1,0 +1,26 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/scene_file.h"
+
+namespace vasa::cli {
+
+/// What a person may say about the scene on the command line: SCENE and its overrides.
+struct SceneOptions {
+  std::string scene;  ///< a scene file; empty: the built-in human
+  std::string body;
+  std::vector<std::string> networks;
+  std::string clip;
+};
+
+/// Declares SCENE, --body, --network and --clip.
+void addSceneOptions(CLI::App& sub, SceneOptions& options);
+
+/// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes from the
+/// built-in human: a body given without a network, or the other way round, is refused as usage.
+Result<SceneFile> chooseScene(const SceneOptions& options);
+
+}  // namespace vasa::cli
