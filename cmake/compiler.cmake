@@ -15,7 +15,7 @@ endif()
 add_library(vasa_compiler INTERFACE)
 # No contraction into fused multiply-adds: the CPU reference and the shaders must round alike,
 # and a frame must be the same bits whatever machine compiled it.
-target_compile_options(vasa_compiler INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+target_compile_options(vasa_compiler INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-missing-field-initializers -ffp-contract=off)
 if(VASA_WERROR)
   target_compile_options(vasa_compiler INTERFACE -Werror)
 endif()
