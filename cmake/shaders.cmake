@@ -1,1 +1,53 @@
-# Filled by the gpu layer: compiles shaders/*.comp|vert|frag to SPIR-V and embeds them.
+# vasa_shaders(NAME SHADERS a.comp b.vert ...): compiles GLSL to SPIR-V 1.6, validates it and embeds it.
+# Paths count from shaders/ unless they are absolute. Linking vasa_NAME gives, for a.comp,
+#   #include "spirv/a_comp.h"        ->  vasa::spirv::a_comp, a constexpr vasa::gpu::ShaderCode
+# A shader includes "shared/x.h" and "lib/y.glsl" from shaders/; a changed include rebuilds what uses it.
+option(VASA_OPTIMISE_SHADERS "Run spirv-opt -O over the shaders" OFF)
+
+find_program(VASA_GLSLANG glslangValidator)
+find_program(VASA_SPIRV_VAL spirv-val)
+find_program(VASA_SPIRV_OPT spirv-opt)
+
+function(vasa_shaders name)
+  cmake_parse_arguments(ARG "" "" "SHADERS" ${ARGN})
+  if(NOT VASA_GLSLANG OR NOT VASA_SPIRV_VAL)
+    message(FATAL_ERROR "glslangValidator or spirv-val is missing; install glslang-tools and spirv-tools")
+  endif()
+  if(VASA_OPTIMISE_SHADERS AND NOT VASA_SPIRV_OPT)
+    message(FATAL_ERROR "spirv-opt is missing; install spirv-tools or set VASA_OPTIMISE_SHADERS=OFF")
+  endif()
+  set(root "${PROJECT_BINARY_DIR}/shaders/${name}")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake")
+  set(headers "")
+  foreach(shader IN LISTS ARG_SHADERS)
+    cmake_path(ABSOLUTE_PATH shader BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" OUTPUT_VARIABLE source)
+    cmake_path(GET source FILENAME file)
+    string(MAKE_C_IDENTIFIER "${file}" symbol)
+    set(spirv "${root}/${file}.spv")
+    set(header "${root}/spirv/${symbol}.h")
+    set(optimise "")
+    if(VASA_OPTIMISE_SHADERS)
+      set(optimise COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 "${spirv}" -o "${spirv}")
+    endif()
+    add_custom_command(
+      OUTPUT "${header}"
+      COMMAND "${CMAKE_COMMAND}" -E make_directory "${root}/spirv"
+      COMMAND "${VASA_GLSLANG}" --quiet -V --target-env vulkan1.3 $<IF:$<CONFIG:Debug>,-g,-g0>
+              "-I${PROJECT_SOURCE_DIR}/shaders" --depfile "${spirv}.d.in" -o "${spirv}" "${source}"
+      ${optimise}
+      COMMAND "${VASA_SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}"
+      COMMAND "${CMAKE_COMMAND}" "-DSPIRV=${spirv}" "-DHEADER=${header}" "-DSYMBOL=${symbol}" "-DFILE=${file}"
+              -P "${script}"
+      DEPENDS "${source}" "${script}"
+      DEPFILE "${spirv}.d"
+      COMMENT "Compiling shader ${file}"
+      VERBATIM)
+    list(APPEND headers "${header}")
+  endforeach()
+  add_custom_target(vasa_${name}_spirv DEPENDS ${headers})
+  add_library(vasa_${name} INTERFACE)
+  add_library(vasa::${name} ALIAS vasa_${name})
+  add_dependencies(vasa_${name} vasa_${name}_spirv)
+  target_include_directories(vasa_${name} INTERFACE "${root}" "${PROJECT_SOURCE_DIR}/shaders"
+                             "${PROJECT_SOURCE_DIR}/engine")
+endfunction()

@@ -1,0 +1,98 @@
+#include "gpu/device.h"
+
+#include "gpu/error.h"
+
+namespace vasa::gpu {
+
+Device::Device(const DeviceOptions& options) : instance_({options.validation, options.instanceExtensions}) {
+  choose(options.choice);
+  create(options);
+  if (options.validation.any()) loadLabels();
+  VkPipelineCacheCreateInfo cacheInfo{};
+  cacheInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  check(vkCreatePipelineCache(handle(), &cacheInfo, nullptr, &cache), "vkCreatePipelineCache");
+  pipelineCache_ = {handle(), cache};
+  setName(cache, "pipeline cache");
+  queue_ = std::make_unique<Queue>(*this);
+}
+
+Device::~Device() {
+  // A lost device answers with an error, and may be destroyed all the same.
+  vkDeviceWaitIdle(handle());
+}
+
+Device::Owner::~Owner() {
+  vkDestroyDevice(device, nullptr);
+}
+
+void Device::choose(const std::string& choice) {
+  const std::vector<VkPhysicalDevice> devices = physicalDevices(instance_.handle());
+  std::vector<Adapter> adapters;
+  for (VkPhysicalDevice device : devices) adapters.push_back(describe(device, std::uint32_t(adapters.size())));
+  const std::size_t chosen = chooseAdapter(adapters, choice);
+  physical_ = devices[chosen];
+  adapter_ = adapters[chosen];
+
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  limits_ = properties.limits;
+  vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+  timestampBits_ = families[adapter_.queueFamily].timestampValidBits;
+}
+
+void Device::create(const DeviceOptions& options) {
+  Features offered;
+  vkGetPhysicalDeviceFeatures2(physical_, offered.chain());
+  features_ = featuresToEnable(offered);
+
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queueInfo{};
+  queueInfo.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queueInfo.queueFamilyIndex = adapter_.queueFamily;
+  queueInfo.queueCount = 1;
+  queueInfo.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = features_.chain();
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queueInfo;
+  info.enabledExtensionCount = std::uint32_t(options.deviceExtensions.size());
+  info.ppEnabledExtensionNames = options.deviceExtensions.data();
+  check(vkCreateDevice(physical_, &info, nullptr, &owner_.device), "vkCreateDevice");
+}
+
+void Device::loadLabels() {
+  const auto find = [&](const char* name) { return vkGetInstanceProcAddr(instance_.handle(), name); };
+  labels_.setName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(find("vkSetDebugUtilsObjectNameEXT"));
+  labels_.begin = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(find("vkCmdBeginDebugUtilsLabelEXT"));
+  labels_.end = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(find("vkCmdEndDebugUtilsLabelEXT"));
+}
+
+void Device::setObjectName(VkObjectType type, std::uint64_t handle, std::string_view name) const {
+  const std::string terminated(name);
+  VkDebugUtilsObjectNameInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+  info.objectType = type;
+  info.objectHandle = handle;
+  info.pObjectName = terminated.c_str();
+  labels_.setName(this->handle(), &info);
+}
+
+void Device::beginLabel(VkCommandBuffer commands, const char* name) const {
+  if (!labels_.begin) return;
+  VkDebugUtilsLabelEXT label{};
+  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  label.pLabelName = name;
+  labels_.begin(commands, &label);
+}
+
+void Device::endLabel(VkCommandBuffer commands) const {
+  if (labels_.end) labels_.end(commands);
+}
+
+}  // namespace vasa::gpu

@@ -1,0 +1,92 @@
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/adapter.h"
+#include "gpu/features.h"
+#include "gpu/instance.h"
+#include "gpu/queue.h"
+#include "gpu/unique.h"
+
+namespace vasa::gpu {
+
+struct DeviceOptions {
+  std::string choice;  ///< index or part of a name; empty: the best (see chooseAdapter)
+  Validation validation;
+  std::vector<const char*> instanceExtensions;  ///< of a window system, for presenting
+  std::vector<const char*> deviceExtensions;
+};
+
+/// A Vulkan 1.3 device with one queue that draws, computes and copies. Everything else of the layer is made
+/// from it and must go before it. One thread uses a device and its objects.
+///
+/// Shaders reach buffers by address (push constants), never by descriptor. On lavapipe all loops of one
+/// shader invocation share a budget of 65,535 iterations and stop silently past it: spread such work over
+/// invocations.
+class Device {
+ public:
+  /// Throws Error: Fault::noDevice if nothing usable is there, Fault::failed if validation is not installed.
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();  ///< waits until the device is idle
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  VkInstance instance() const { return instance_.handle(); }
+  VkPhysicalDevice physical() const { return physical_; }
+  VkDevice handle() const { return owner_.device; }
+  VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
+  const Adapter& adapter() const { return adapter_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+  /// What is enabled: the required features, and the welcome ones on offer (wideLines, shaderInt64, ...).
+  const Features& features() const { return features_; }
+  std::uint32_t timestampBits() const { return timestampBits_; }  ///< 0: no timestamps
+
+  Queue& queue() { return *queue_; }
+
+  /// Shown in validation messages and by debuggers; does nothing without validation.
+  template <class Handle>
+  void setName(Handle handle, std::string_view name) const {
+    if (labels_.setName) setObjectName(objectType(handle), std::uint64_t(handle), name);
+  }
+  /// A named stretch of a command buffer; does nothing without validation.
+  void beginLabel(VkCommandBuffer commands, const char* name) const;
+  void endLabel(VkCommandBuffer commands) const;
+
+  /// Warnings and errors of the validation layer so far.
+  std::vector<std::string> validationMessages() const { return validationLog()->messages(); }
+  std::shared_ptr<const ValidationLog> validationLog() const { return instance_.validationLog(); }
+
+ private:
+  struct Owner {
+    VkDevice device = VK_NULL_HANDLE;
+    ~Owner();
+  };
+  struct Labels {
+    PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end = nullptr;
+  };
+  void choose(const std::string& choice);
+  void create(const DeviceOptions& options);
+  void loadLabels();
+  void setObjectName(VkObjectType type, std::uint64_t handle, std::string_view name) const;
+
+  Instance instance_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  Adapter adapter_;
+  VkPhysicalDeviceLimits limits_{};
+  VkPhysicalDeviceMemoryProperties memory_{};
+  Features features_;
+  std::uint32_t timestampBits_ = 0;
+  Labels labels_;
+  Owner owner_;
+  Unique<VkPipelineCache> pipelineCache_;
+  std::unique_ptr<Queue> queue_;
+};
+
+}  // namespace vasa::gpu

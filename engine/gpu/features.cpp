@@ -1,0 +1,71 @@
+#include "gpu/features.h"
+
+namespace vasa::gpu {
+namespace {
+
+struct Feature {
+  const char* name;
+  VkBool32& (*at)(Features&);
+};
+
+#define VASA_FEATURE(group, name) \
+  Feature { #name, [](Features& f) -> VkBool32& { return f.group.name; } }
+
+const Feature kRequired[] = {
+    VASA_FEATURE(core.features, multiDrawIndirect),
+    VASA_FEATURE(core.features, drawIndirectFirstInstance),
+    VASA_FEATURE(v11, shaderDrawParameters),
+    VASA_FEATURE(v12, bufferDeviceAddress),
+    VASA_FEATURE(v12, scalarBlockLayout),
+    VASA_FEATURE(v12, timelineSemaphore),
+    VASA_FEATURE(v12, drawIndirectCount),
+    VASA_FEATURE(v13, dynamicRendering),
+    VASA_FEATURE(v13, synchronization2),
+    VASA_FEATURE(v13, maintenance4),
+};
+
+// shaderInt64 and the stores and atomics are what GPU-assisted validation writes its findings with.
+const Feature kWelcome[] = {
+    VASA_FEATURE(core.features, shaderInt64),
+    VASA_FEATURE(core.features, fragmentStoresAndAtomics),
+    VASA_FEATURE(core.features, vertexPipelineStoresAndAtomics),
+    VASA_FEATURE(core.features, fillModeNonSolid),
+    VASA_FEATURE(core.features, wideLines),
+    VASA_FEATURE(v12, vulkanMemoryModel),
+    VASA_FEATURE(v12, vulkanMemoryModelDeviceScope),
+    VASA_FEATURE(v13, shaderDemoteToHelperInvocation),
+};
+
+#undef VASA_FEATURE
+
+}  // namespace
+
+Features::Features() {
+  v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
+  v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+}
+
+VkPhysicalDeviceFeatures2* Features::chain() {
+  core.pNext = &v11;
+  v11.pNext = &v12;
+  v12.pNext = &v13;
+  v13.pNext = nullptr;
+  return &core;
+}
+
+std::vector<std::string> missingFeatures(Features& offered) {
+  std::vector<std::string> missing;
+  for (const Feature& feature : kRequired)
+    if (!feature.at(offered)) missing.emplace_back(feature.name);
+  return missing;
+}
+
+Features featuresToEnable(Features& offered) {
+  Features enabled;
+  for (const Feature& feature : kRequired) feature.at(enabled) = VK_TRUE;
+  for (const Feature& feature : kWelcome) feature.at(enabled) = feature.at(offered);
+  return enabled;
+}
+
+}  // namespace vasa::gpu

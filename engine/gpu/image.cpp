@@ -1,0 +1,55 @@
+#include "gpu/image.h"
+
+#include <algorithm>
+#include <string>
+
+#include "gpu/device.h"
+#include "gpu/error.h"
+
+namespace vasa::gpu {
+
+Image::Image(Device& device, const ImageSpec& spec) : size_(spec.size), format_(spec.format) {
+  const std::uint32_t most = device.limits().maxImageDimension2D;
+  if (!size_.width || !size_.height || std::max(size_.width, size_.height) > most)
+    throw Error({Fault::failed, std::string(spec.name) + ": " + std::to_string(size_.width) + "x" +
+                                    std::to_string(size_.height) + " pixels; each side must be 1 to " +
+                                    std::to_string(most)});
+  VkImageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = format_;
+  info.extent = {size_.width, size_.height, 1};
+  info.mipLevels = 1;
+  info.arrayLayers = 1;
+  info.samples = spec.samples;
+  info.tiling = VK_IMAGE_TILING_OPTIMAL;
+  info.usage = spec.usage;
+  info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  VkImage image = VK_NULL_HANDLE;
+  check(vkCreateImage(device.handle(), &info, nullptr, &image), "vkCreateImage");
+  image_ = {device.handle(), image};
+  device.setName(image, spec.name);
+  memory_ = allocate(device, image, spec.name);
+  makeView(device, spec.name);
+}
+
+void Image::makeView(Device& device, const char* name) {
+  VkImageViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  info.image = handle();
+  info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  info.format = format_;
+  info.subresourceRange = {aspect(), 0, 1, 0, 1};
+  VkImageView view = VK_NULL_HANDLE;
+  check(vkCreateImageView(device.handle(), &info, nullptr, &view), "vkCreateImageView");
+  view_ = {device.handle(), view};
+  device.setName(view, name);
+}
+
+VkImageAspectFlags Image::aspect() const {
+  const bool depth = format_ == VK_FORMAT_D32_SFLOAT || format_ == VK_FORMAT_D16_UNORM;
+  return depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+}  // namespace vasa::gpu

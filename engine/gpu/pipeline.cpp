@@ -1,0 +1,63 @@
+#include "gpu/pipeline.h"
+
+#include <string>
+
+#include "gpu/device.h"
+#include "gpu/error.h"
+
+namespace vasa::gpu {
+
+Specialization& Specialization::set(std::uint32_t id, std::uint32_t value) {
+  entries_.push_back({id, std::uint32_t(values_.size() * sizeof value), sizeof value});
+  values_.push_back(value);
+  return *this;
+}
+
+VkSpecializationInfo Specialization::info() const {
+  return {std::uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(std::uint32_t), values_.data()};
+}
+
+Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code) {
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = code.words.size_bytes();
+  info.pCode = code.words.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  const std::string call = "vkCreateShaderModule of " + std::string(code.name);
+  check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), call.c_str());
+  device.setName(module, code.name);
+  return {device.handle(), module};
+}
+
+VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,
+                                            const VkSpecializationInfo* constants) {
+  VkPipelineShaderStageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage = stage;
+  info.module = module;
+  info.pName = "main";
+  info.pSpecializationInfo = constants;
+  return info;
+}
+
+Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view name, VkShaderStageFlags stages,
+                                            std::uint32_t pushBytes, std::span<const VkDescriptorSetLayout> sets) {
+  const std::uint32_t most = device.limits().maxPushConstantsSize;
+  if (pushBytes > most)
+    throw Error({Fault::failed, std::string(name) + ": " + std::to_string(pushBytes) +
+                                    " bytes of push constants, more than the " + std::to_string(most) +
+                                    " of the device; put them into a buffer and push its address"});
+  const VkPushConstantRange range{stages, 0, pushBytes};
+  VkPipelineLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  info.setLayoutCount = std::uint32_t(sets.size());
+  info.pSetLayouts = sets.data();
+  info.pushConstantRangeCount = pushBytes ? 1 : 0;
+  info.pPushConstantRanges = &range;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+  device.setName(layout, name);
+  return {device.handle(), layout};
+}
+
+}  // namespace vasa::gpu

@@ -1,0 +1,88 @@
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gpu/unique.h"
+
+namespace vasa::gpu {
+
+class Device;
+
+/// A point in the queue's work: what was submitted with it and everything before. Ticket{} is always done.
+struct Ticket {
+  std::uint64_t value = 0;
+  auto operator<=>(const Ticket&) const = default;
+};
+
+/// A command buffer that is being recorded. Converts to the handle, so a pass records into it; dropped
+/// without submit(), its commands never run.
+class Commands {
+ public:
+  Commands(Commands&& other) noexcept : slot_(std::exchange(other.slot_, nullptr)) {}
+  Commands& operator=(Commands&&) = delete;
+  ~Commands();
+  operator VkCommandBuffer() const;
+
+ private:
+  friend class Queue;
+  struct Slot;
+  explicit Commands(Slot* slot) : slot_(slot) {}
+  Slot* slot_;
+};
+
+/// The device's one queue: command buffers from a growing ring, a timeline of tickets, late destruction.
+///
+/// Submits run one after the other: begin() records a barrier against everything submitted before, so barriers
+/// are needed inside a command buffer only (gpu/barrier.h). What the host wrote and flushed before submit() is
+/// seen by the device, and what the device wrote is seen by the host after wait(): submit() ends each command
+/// buffer with a barrier for that.
+class Queue {
+ public:
+  explicit Queue(Device& device);
+  ~Queue();  ///< waits until everything submitted is done
+  Queue(const Queue&) = delete;
+  Queue& operator=(const Queue&) = delete;
+
+  VkQueue handle() const { return queue_; }
+
+  /// A command buffer in the recording state, of a finished earlier submit where there is one.
+  Commands begin(const char* name);
+  /// Hands the commands to the device. The semaphores are those of a window system.
+  Ticket submit(Commands commands, std::span<const VkSemaphoreSubmitInfo> waits = {},
+                std::span<const VkSemaphoreSubmitInfo> signals = {});
+
+  Ticket last() const { return {submitted_}; }  ///< of the latest submit
+  bool done(Ticket ticket) const;
+  /// Blocks until the ticket's work is finished; throws Error (Fault::deviceLost) if it never will be.
+  void wait(Ticket ticket);
+
+  /// Destroys `owner` once everything submitted so far is done. Commands still being recorded do not count.
+  template <class Owner>
+  void retire(Owner owner) {
+    retired_.push_back({last(), std::make_shared<Owner>(std::move(owner))});
+  }
+
+ private:
+  struct Retired {
+    Ticket ticket;
+    std::shared_ptr<void> owner;
+  };
+  std::uint64_t reached() const;
+  void dropRetired();
+  Commands::Slot* freeSlot();
+
+  Device& device_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  Unique<VkSemaphore> timeline_;
+  std::uint64_t submitted_ = 0;
+  std::vector<std::unique_ptr<Commands::Slot>> slots_;
+  std::deque<Retired> retired_;
+};
+
+}  // namespace vasa::gpu

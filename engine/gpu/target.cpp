@@ -1,0 +1,96 @@
+#include "gpu/target.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "gpu/barrier.h"
+#include "gpu/device.h"
+
+namespace vasa::gpu {
+namespace {
+
+constexpr VkPipelineStageFlags2 kDepthStages =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+
+// The old content goes, but whoever still reads or writes it has to be finished.
+void makeAttachment(VkCommandBuffer commands, const Image& image) {
+  const bool depth = image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
+  changeLayout(commands, {image.handle(), image.aspect(), VK_IMAGE_LAYOUT_UNDEFINED,
+                          depth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                                : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                          depth ? kDepthStages : VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT});
+}
+
+}  // namespace
+
+Target::Target(Device& device, const TargetSpec& spec) : spec_(spec) {
+  const bool multisampled = spec.samples != VK_SAMPLE_COUNT_1_BIT;
+  picture_ = Image(device, {spec.name, spec.size, spec.colour,
+                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                VK_IMAGE_USAGE_SAMPLED_BIT});
+  if (multisampled)
+    samples_ = Image(device, {spec.name, spec.size, spec.colour, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, spec.samples});
+  if (spec.depth != VK_FORMAT_UNDEFINED)
+    depth_ = Image(device, {spec.name, spec.size, spec.depth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                            spec.samples});
+}
+
+void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth) const {
+  makeAttachment(commands, picture_);
+  if (samples_) makeAttachment(commands, samples_);
+  if (depth_) makeAttachment(commands, depth_);
+
+  VkRenderingAttachmentInfo colours{};
+  colours.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  colours.imageView = samples_ ? samples_.view() : picture_.view();
+  colours.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  colours.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  colours.storeOp = samples_ ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
+  std::copy(colour.begin(), colour.end(), colours.clearValue.color.float32);
+  if (samples_) {
+    colours.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+    colours.resolveImageView = picture_.view();
+    colours.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  }
+  VkRenderingAttachmentInfo depths{};
+  depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  depths.imageView = depth_.view();
+  depths.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  depths.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  depths.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  depths.clearValue.depthStencil.depth = depth;
+  VkRenderingInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea.extent = spec_.size;
+  info.layerCount = 1;
+  info.colorAttachmentCount = 1;
+  info.pColorAttachments = &colours;
+  info.pDepthAttachment = depth_ ? &depths : nullptr;
+  vkCmdBeginRendering(commands, &info);
+  setViewport(commands);
+}
+
+void Target::setViewport(VkCommandBuffer commands) const {
+  const VkViewport viewport{0, 0, float(spec_.size.width), float(spec_.size.height), 0, 1};
+  const VkRect2D scissor{{0, 0}, spec_.size};
+  vkCmdSetViewport(commands, 0, 1, &viewport);
+  vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+void Target::end(VkCommandBuffer commands, VkImageLayout after) const {
+  vkCmdEndRendering(commands);
+  changeLayout(commands, {picture_.handle(), VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                          after, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT});
+}
+
+void Target::copyPicture(VkCommandBuffer commands, const Buffer& to) const {
+  assert(to.bytes() >= pictureBytes());
+  VkBufferImageCopy region{};
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = {spec_.size.width, spec_.size.height, 1};
+  vkCmdCopyImageToBuffer(commands, picture_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1, &region);
+}
+
+}  // namespace vasa::gpu

@@ -1,0 +1,49 @@
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <array>
+
+#include "gpu/buffer.h"
+#include "gpu/image.h"
+
+namespace vasa::gpu {
+
+struct TargetSpec {
+  const char* name = "target";
+  VkExtent2D size{};
+  VkFormat colour = VK_FORMAT_R8G8B8A8_SRGB;  ///< four bytes a pixel, linear values encoded on writing
+  VkFormat depth = VK_FORMAT_D32_SFLOAT;      ///< VK_FORMAT_UNDEFINED: none
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
+};
+
+/// What a picture is drawn into: colour and depth, and with several samples a pixel the picture they are
+/// averaged to. Not for presenting: a swapchain's images are copied to from picture().
+class Target {
+ public:
+  Target() = default;
+  Target(Device& device, const TargetSpec& spec);
+
+  const TargetSpec& spec() const { return spec_; }
+  /// One sample a pixel, in the layout given to end().
+  const Image& picture() const { return picture_; }
+
+  /// Starts rendering into the cleared images, viewport and scissor set to all of them.
+  /// @param colour  linear, alpha last
+  void begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth = 1.0f) const;
+  /// Ends rendering; whatever comes after sees the picture in layout `after`.
+  void end(VkCommandBuffer commands, VkImageLayout after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) const;
+
+  /// After end(): copies the picture, rows from the top, without gaps, 4 bytes a pixel.
+  void copyPicture(VkCommandBuffer commands, const Buffer& to) const;
+  VkDeviceSize pictureBytes() const { return VkDeviceSize(spec_.size.width) * spec_.size.height * 4; }
+
+ private:
+  void setViewport(VkCommandBuffer commands) const;
+
+  TargetSpec spec_;
+  Image samples_;  // empty with one sample a pixel
+  Image picture_;
+  Image depth_;
+};
+
+}  // namespace vasa::gpu

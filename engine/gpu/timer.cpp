@@ -1,0 +1,59 @@
+#include "gpu/timer.h"
+
+#include "gpu/device.h"
+#include "gpu/error.h"
+
+namespace vasa::gpu {
+
+GpuTimer::GpuTimer(Device& device, std::uint32_t mostScopes) : device_(device), mostScopes_(mostScopes) {
+  names_.reserve(mostScopes);
+  if (device.timestampBits() == 0) return;
+  VkQueryPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  info.queryCount = 2 * mostScopes;
+  VkQueryPool pool = VK_NULL_HANDLE;
+  check(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
+  queries_ = {device.handle(), pool};
+  device.setName(pool, "timer");
+}
+
+void GpuTimer::begin(VkCommandBuffer commands) {
+  names_.clear();
+  if (queries_) vkCmdResetQueryPool(commands, queries_.get(), 0, 2 * mostScopes_);
+}
+
+GpuTimer::Scope::Scope(GpuTimer& timer, VkCommandBuffer commands, const char* name)
+    : timer_(timer), commands_(commands), index_(std::uint32_t(timer.names_.size())) {
+  timer_.device_.beginLabel(commands, name);
+  // Stretches beyond the pool are labelled, but not timed.
+  if (index_ >= timer_.mostScopes_) return;
+  timer_.names_.push_back(name);
+  if (timer_.queries_)
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timer_.queries_.get(), 2 * index_);
+}
+
+GpuTimer::Scope::~Scope() {
+  if (index_ < timer_.mostScopes_ && timer_.queries_)
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timer_.queries_.get(), 2 * index_ + 1);
+  timer_.device_.endLabel(commands_);
+}
+
+std::vector<GpuTimer::Time> GpuTimer::results() const {
+  if (!queries_ || names_.empty()) return {};
+  std::vector<std::uint64_t> stamps(2 * names_.size());
+  check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, std::uint32_t(stamps.size()),
+                              stamps.size() * sizeof(std::uint64_t), stamps.data(), sizeof(std::uint64_t),
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "vkGetQueryPoolResults");
+  // Counters narrower than 64 bits wrap; the difference does not mind.
+  const std::uint32_t bits = device_.timestampBits();
+  const std::uint64_t mask = bits >= 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << bits) - 1;
+  const double tickMs = double(device_.limits().timestampPeriod) * 1e-6;
+  std::vector<Time> times;
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    times.push_back({names_[i], double((stamps[2 * i + 1] - stamps[2 * i]) & mask) * tickMs});
+  return times;
+}
+
+}  // namespace vasa::gpu

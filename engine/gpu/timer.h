@@ -1,0 +1,54 @@
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/unique.h"
+
+namespace vasa::gpu {
+
+class Device;
+
+/// Times named stretches of one command buffer on the device. One timer for each frame in flight.
+/// A stretch begins when all earlier commands have finished, so stretches in a row add up.
+class GpuTimer {
+ public:
+  struct Time {
+    const char* name;
+    double ms;
+  };
+  /// Ends the stretch when it goes.
+  class Scope {
+   public:
+    Scope(GpuTimer& timer, VkCommandBuffer commands, const char* name);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    GpuTimer& timer_;
+    VkCommandBuffer commands_;
+    std::uint32_t index_;
+  };
+
+  explicit GpuTimer(Device& device, std::uint32_t mostScopes = 32);
+
+  /// First in the command buffer, outside rendering: forgets the stretches of the frame before.
+  void begin(VkCommandBuffer commands);
+  /// Also a label in debuggers and validation messages. `name` must outlive results(). Scopes may nest.
+  [[nodiscard]] Scope scope(VkCommandBuffer commands, const char* name) { return {*this, commands, name}; }
+
+  /// After the ticket is done: a time for each scope, in the order they began; empty where the device has no
+  /// timestamps.
+  std::vector<Time> results() const;
+
+ private:
+  Device& device_;
+  std::uint32_t mostScopes_;
+  Unique<VkQueryPool> queries_;  // empty where the device has no timestamps
+  std::vector<const char*> names_;
+};
+
+}  // namespace vasa::gpu
