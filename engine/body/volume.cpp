@@ -1,0 +1,68 @@
+#include "body/volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/quadrature.h"
+
+// With δ(u) the spline of the coefficients w_l r_l and g = |C'(u)|,
+//   V(λ) = π ∫ (r + λδ)² g = aλ² + bλ + V,   a = π ∫ δ² g,   b = 2π ∫ r δ g,
+// so V(λ) = V0 at λ = -2 (V - V0) / (b + √(b² - 4a (V - V0))), the root that is 0 when V = V0.
+namespace vasa {
+namespace {
+
+struct Quadratic {
+  double a = 0, b = 0, volume = 0;
+  double at(double lambda) const { return (a * lambda + b) * lambda + volume; }
+};
+
+bool pinned(const Vessel& vessel, std::uint32_t point) {
+  return (point == 0 && vessel.start.valid()) || (point + 1 == vessel.pointCount && vessel.end.valid());
+}
+
+Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points) {
+  Quadratic q;
+  for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
+    const mat4 matrix = spanToBezier(span, vessel.spanCount());
+    Bezier segment = bezierOfSpan(points, span);
+    vec4 weighted;
+    for (std::uint32_t l = 0; l < 4; ++l) weighted[int(l)] = pinned(vessel, span + l) ? 0 : points[span + l].w;
+    const vec4 delta = matrix * weighted;
+    for (const auto& [t, weight] : kGauss4) {
+      const double r = segment.at(t).w, d = glm::dot(delta, bernstein(t));
+      const double share = double(weight) * double(kPi) * glm::length(vec3(segment.derivative(t)));
+      q.a += share * d * d;
+      q.b += share * 2 * r * d;
+      q.volume += share * r * r;
+    }
+  }
+  return q;
+}
+
+}  // namespace
+
+VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
+  for (const Vessel& vessel : network.vessels()) restVolumes_.push_back(quadraticOf(vessel, network.pointsOf(vessel)).volume);
+}
+
+VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points) const {
+  Outcome outcome;
+  for (std::size_t v = 0; v < restVolumes_.size(); ++v) {
+    const Vessel& vessel = network_->vessels()[v];
+    const auto own = Network::pointsOf(vessel, points);
+    const Quadratic q = quadraticOf(vessel, own);
+    const double excess = q.volume - restVolumes_[v];
+    const double discriminant = q.b * q.b - 4 * q.a * excess;
+    double lambda = -1;  // no root: as thin as it gets
+    if (discriminant >= 0 && q.b > 0) lambda = -2 * excess / (q.b + std::sqrt(discriminant));
+    const double kept = std::clamp(lambda, double(kLowestFactor) - 1, double(kHighestFactor) - 1);
+    outcome.clampedCount += kept != lambda;
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
+      if (!pinned(vessel, l)) own[l].w *= float(1 + kept);
+    const double error = restVolumes_[v] > 0 ? std::abs(q.at(kept) - restVolumes_[v]) / restVolumes_[v] : 0;
+    outcome.largestError = std::max(outcome.largestError, float(error));
+  }
+  return outcome;
+}
+
+}  // namespace vasa

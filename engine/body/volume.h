@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "network/network.h"
+
+namespace vasa {
+
+/// Keeps each vessel's volume as its centre line is stretched, squeezed and bent: radii inside the vessel change,
+/// r_l <- r_l + λ w_l r_l, while the rings at its nodes stay as they are (w = 0), so that vessels still fit where
+/// they meet. One λ a vessel, from a quadratic in closed form: exact to the quadrature (4 Gauss points a span).
+/// After Hyun, Yoon, Chang, Seong, Kim, Jüttler 2005, "Sweep-based human deformation" (the paper's §3.2).
+class VolumeKeeper {
+ public:
+  /// The volumes of the network at rest are the ones to keep.
+  explicit VolumeKeeper(const Network& network);
+
+  struct Outcome {
+    float largestError = 0;        ///< |V - V0| / V0 of the worst vessel afterwards
+    std::uint32_t clampedCount = 0;  ///< vessels whose radii would have left the sane range
+  };
+
+  /// @param points  a posed network's points; radii must be those at rest. O(spans), no allocation.
+  Outcome run(std::span<vec4> points) const;
+
+  /// How far radii may go: between half and twice those at rest.
+  static constexpr float kLowestFactor = 0.5f, kHighestFactor = 2.0f;
+
+ private:
+  const Network* network_;
+  std::vector<double> restVolumes_;  // one a vessel
+};
+
+}  // namespace vasa

@@ -1,0 +1,60 @@
+#include "body/volume.h"
+
+#include <doctest/doctest.h>
+
+#include "network/sample_network.h"
+
+using namespace vasa;
+
+namespace {
+
+Network sample() {
+  auto network = test::sampleBuilder().build(1.75f);
+  REQUIRE(network.ok());
+  return std::move(network).value();
+}
+
+std::vector<vec4> stretched(const Network& network, float factor) {
+  std::vector<vec4> points(network.points().begin(), network.points().end());
+  for (vec4& p : points) p.y *= factor;
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("at rest nothing changes") {
+  const Network network = sample();
+  auto points = stretched(network, 1);
+  const auto outcome = VolumeKeeper(network).run(points);
+  CHECK(outcome.largestError < 1e-7f);
+  for (std::size_t i = 0; i < points.size(); ++i) CHECK(points[i].w == doctest::Approx(network.points()[i].w).epsilon(1e-6));
+}
+
+TEST_CASE("stretched and squeezed vessels keep their volume to 1e-5, rings at forks unmoved") {
+  const Network network = sample();
+  const VolumeKeeper keeper(network);
+  for (const float factor : {0.7f, 0.9f, 1.05f, 1.3f}) {
+    auto points = stretched(network, factor);
+    const auto outcome = keeper.run(points);
+    CHECK(outcome.largestError < 1e-5f);
+    CHECK(outcome.clampedCount == 0);
+    for (const Vessel& vessel : network.vessels()) {
+      const auto before = network.pointsOf(vessel), after = Network::pointsOf(vessel, points);
+      CHECK(volumeOf(after) == doctest::Approx(volumeOf(before)).epsilon(2e-5));
+      if (vessel.start.valid()) CHECK(after.front().w == before.front().w);
+      if (vessel.end.valid()) CHECK(after.back().w == before.back().w);
+      if (!vessel.end.valid() && vessel.kind == VesselKind::vein)
+        CHECK(after.back().w == doctest::Approx(before.back().w / std::sqrt(factor)).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("beyond sane radii the rest is reported") {
+  const Network network = sample();
+  auto points = stretched(network, 30);
+  const auto outcome = VolumeKeeper(network).run(points);
+  CHECK(outcome.clampedCount > 0);
+  CHECK(outcome.largestError > 0.1f);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    CHECK(points[i].w >= VolumeKeeper::kLowestFactor * network.points()[i].w * 0.9999f);
+}
