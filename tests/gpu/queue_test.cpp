@@ -1,0 +1,88 @@
+#include "gpu/queue.h"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "gpu/gpu_rig.h"
+
+using namespace vasa;
+
+namespace {
+
+struct Mark {
+  std::shared_ptr<int> gone;
+  Mark(std::shared_ptr<int> counter) : gone(std::move(counter)) {}
+  Mark(Mark&&) = default;
+  ~Mark() {
+    if (gone) ++*gone;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("tickets follow each other and are done in order") {
+  VASA_REQUIRE_GPU(rig);
+  gpu::Queue& queue = rig.device().queue();
+  CHECK(queue.done(gpu::Ticket{}));
+  const gpu::Ticket first = queue.submit(queue.begin("first"));
+  const gpu::Ticket second = queue.submit(queue.begin("second"));
+  CHECK(first < second);
+  CHECK(queue.last() == second);
+  queue.wait(second);
+  CHECK(queue.done(first));
+  CHECK(queue.done(second));
+  queue.wait(first);
+}
+
+TEST_CASE("what one submit writes, the next one sees without a barrier of its own") {
+  VASA_REQUIRE_GPU(rig);
+  gpu::Queue& queue = rig.device().queue();
+  const gpu::Buffer a(rig.device(), {"a", 64}), b(rig.device(), {"b", 64});
+  gpu::Commands fill = queue.begin("fill");
+  vkCmdFillBuffer(fill, a.handle(), 0, 64, 42);
+  queue.submit(std::move(fill));
+  gpu::Commands copy = queue.begin("copy");
+  const VkBufferCopy region{0, 0, 64};
+  vkCmdCopyBuffer(copy, a.handle(), b.handle(), 1, &region);
+  queue.submit(std::move(copy));
+  CHECK(rig.download<std::uint32_t>(b) == std::vector<std::uint32_t>(16, 42));
+}
+
+TEST_CASE("abandoned commands never run, and their buffer is used again") {
+  VASA_REQUIRE_GPU(rig);
+  gpu::Queue& queue = rig.device().queue();
+  const gpu::Buffer buffer = rig.upload(std::vector<std::uint32_t>{1, 2, 3, 4});
+  VkCommandBuffer abandoned;
+  {
+    gpu::Commands commands = queue.begin("abandoned");
+    abandoned = commands;
+    vkCmdFillBuffer(commands, buffer.handle(), 0, 16, 0);
+  }
+  gpu::Commands again = queue.begin("again");
+  CHECK(static_cast<VkCommandBuffer>(again) == abandoned);
+  gpu::Commands other = queue.begin("other");
+  CHECK(static_cast<VkCommandBuffer>(other) != abandoned);
+  queue.wait(queue.submit(std::move(again)));
+  CHECK(rig.download<std::uint32_t>(buffer) == std::vector<std::uint32_t>{1, 2, 3, 4});
+}
+
+TEST_CASE("what is retired goes when everything submitted before is done") {
+  VASA_REQUIRE_GPU(rig);
+  gpu::Queue& queue = rig.device().queue();
+  const auto gone = std::make_shared<int>(0);
+  const gpu::Ticket ticket = queue.submit(queue.begin("work"));
+  queue.retire(Mark(gone));
+  queue.wait(ticket);
+  CHECK(*gone == 1);
+
+  // A buffer that a submit still uses may be retired at once.
+  gpu::Buffer source = rig.upload(std::vector<std::uint32_t>{5, 6});
+  const gpu::Buffer target(rig.device(), {"target", 8});
+  gpu::Commands copy = queue.begin("copy");
+  const VkBufferCopy region{0, 0, 8};
+  vkCmdCopyBuffer(copy, source.handle(), target.handle(), 1, &region);
+  queue.submit(std::move(copy));
+  queue.retire(std::move(source));
+  CHECK(rig.download<std::uint32_t>(target) == std::vector<std::uint32_t>{5, 6});
+}

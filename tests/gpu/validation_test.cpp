@@ -1,0 +1,3 @@
+#include <doctest/doctest.h>
+
+#include "gpu/gpu_rig.h"
