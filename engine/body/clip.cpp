@@ -1,0 +1,75 @@
+#include "body/clip.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+// Interpolation as in glTF 2.0, appendix C. Cubic: with u in [0, 1] between keys k and k + 1, d seconds apart,
+// p = (2u³-3u²+1) v_k + d (u³-2u²+u) b_k + (-2u³+3u²) v_{k+1} + d (u³-u²) a_{k+1}, a and b the in- and out-tangents.
+namespace vasa {
+namespace {
+
+vec3 between(vec3 a, vec3 b, float u) {
+  return a + u * (b - a);
+}
+quat between(quat a, quat b, float u) {
+  return glm::slerp(a, b, u);  // along the shorter arc
+}
+vec3 finished(vec3 v) {
+  return v;
+}
+quat finished(quat q) {
+  const float length = glm::length(q);
+  return length > 0 ? q / length : quat(1, 0, 0, 0);
+}
+
+template <class T>
+T cubic(const Track<T>& track, std::size_t key, float u, float seconds) {
+  const T &leave = track.values[3 * key + 2], &arrive = track.values[3 * key + 3];
+  const T &from = track.values[3 * key + 1], &to = track.values[3 * key + 4];
+  const float u2 = u * u, u3 = u2 * u;
+  return from * (2 * u3 - 3 * u2 + 1) + leave * (seconds * (u3 - 2 * u2 + u)) + to * (-2 * u3 + 3 * u2) +
+         arrive * (seconds * (u3 - u2));
+}
+
+template <class T>
+T valueAt(const Track<T>& track, std::size_t key) {
+  return track.values[track.interpolation == Interpolation::cubic ? 3 * key + 1 : key];
+}
+
+template <class T>
+T sample(const Track<T>& track, float time, T rest) {
+  if (track.times.empty()) return rest;
+  assert(track.values.size() == track.times.size() * (track.interpolation == Interpolation::cubic ? 3 : 1));
+  const auto after = std::upper_bound(track.times.begin(), track.times.end(), time);
+  if (after == track.times.begin()) return finished(valueAt(track, 0));
+  const auto key = std::size_t(after - track.times.begin()) - 1;
+  if (after == track.times.end() || track.interpolation == Interpolation::step) return finished(valueAt(track, key));
+  const float seconds = track.times[key + 1] - track.times[key];
+  const float u = (time - track.times[key]) / seconds;
+  if (track.interpolation == Interpolation::cubic) return finished(cubic(track, key, u, seconds));
+  return finished(between(track.values[key], track.values[key + 1], u));
+}
+
+}  // namespace
+
+std::uint32_t Clip::frameCount() const {
+  const float frames = (end - start) * framesPerSecond;
+  // The last key falls on the last frame although both times are rounded.
+  return frames > 0 ? std::uint32_t(std::floor(frames + 0.01f)) + 1 : 1;
+}
+
+Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time) {
+  std::vector<JointTransform> local;
+  local.reserve(skeleton.joints.size());
+  for (const auto& joint : skeleton.joints) local.push_back(joint.rest);
+  for (const JointTracks& tracks : clip.tracks) {
+    JointTransform& transform = local[tracks.joint.value];
+    transform.translation = sample(tracks.translation, time, transform.translation);
+    transform.rotation = sample(tracks.rotation, time, transform.rotation);
+    transform.scale = sample(tracks.scale, time, transform.scale);
+  }
+  return poseFromLocal(skeleton, local);
+}
+
+}  // namespace vasa

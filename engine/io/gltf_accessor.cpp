@@ -1,0 +1,162 @@
+#include "io/gltf_accessor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "io/gltf_rule.h"
+
+namespace vasa::gltf {
+namespace {
+
+template <class T>
+T load(const unsigned char* from) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+// c / 255, max(c / 127, -1) and so on, as glTF 2.0, 3.11 defines.
+template <class Stored>
+float toFloat(const unsigned char* from, bool normalised) {
+  const auto value = float(load<Stored>(from));
+  if (!normalised) return value;
+  return std::max(value / float(std::numeric_limits<Stored>::max()), -1.0f);
+}
+
+float component(const unsigned char* from, int type, bool normalised, float) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return toFloat<std::int8_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return toFloat<std::uint8_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return toFloat<std::int16_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return toFloat<std::uint16_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return float(load<std::uint32_t>(from));
+    default: return load<float>(from);
+  }
+}
+
+std::uint32_t component(const unsigned char* from, int type, bool, std::uint32_t) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return *from;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return load<std::uint16_t>(from);
+    default: return load<std::uint32_t>(from);
+  }
+}
+
+const unsigned char* bytesOf(const Asset& asset, int view, std::size_t offset) {
+  const auto& bufferView = asset.model.bufferViews[std::size_t(view)];
+  const std::string buffer = "/buffers/" + std::to_string(bufferView.buffer);
+  if (!asset.bufferPresent[std::size_t(bufferView.buffer)])
+    breaks(buffer, "its data is needed, but it is not in the file or beside it", "export with embedded data");
+  return asset.model.buffers[std::size_t(bufferView.buffer)].data.data() + bufferView.byteOffset + offset;
+}
+
+template <class T>
+void readElement(const unsigned char* from, const ElementLayout& layout, int type, bool normalised, T* to) {
+  for (std::uint32_t column = 0; column < layout.columns; ++column)
+    for (std::uint32_t row = 0; row < layout.rows; ++row)
+      *to++ = component(from + column * layout.columnBytes() + row * layout.componentBytes, type, normalised, T{});
+}
+
+template <class T>
+void readSparse(const Asset& asset, int index, const ElementLayout& layout, std::vector<T>& out) {
+  const auto& accessor = asset.model.accessors[std::size_t(index)];
+  const auto places = readSparseIndices(asset, index);
+  if (places.empty()) return;
+  const auto& values = accessor.sparse.values;
+  const unsigned char* from = bytesOf(asset, values.bufferView, std::size_t(values.byteOffset));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    assert(places[i] < accessor.count);
+    readElement(from + i * layout.packedBytes(), layout, accessor.componentType, accessor.normalized,
+                out.data() + std::size_t(places[i]) * layout.components());
+  }
+}
+
+template <class T>
+std::vector<T> readAll(const Asset& asset, int index) {
+  const auto& accessor = asset.model.accessors[std::size_t(index)];
+  const ElementLayout layout = elementLayout(accessor);
+  std::vector<T> out(accessor.count * layout.components());
+  if (accessor.bufferView >= 0) {
+    const std::size_t given = asset.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
+    const std::size_t stride = given ? given : layout.packedBytes();
+    const unsigned char* from = bytesOf(asset, accessor.bufferView, accessor.byteOffset);
+    for (std::size_t i = 0; i < accessor.count; ++i)
+      readElement(from + i * stride, layout, accessor.componentType, accessor.normalized,
+                  out.data() + i * layout.components());
+  }
+  readSparse(asset, index, layout, out);
+  return out;
+}
+
+}  // namespace
+
+std::uint32_t componentBytes(std::int64_t componentType) {
+  switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
+    default: return 0;
+  }
+}
+
+bool isFloatComponent(std::int64_t componentType) {
+  return componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+}
+
+ElementLayout elementLayout(std::int64_t componentType, const std::string& type) {
+  ElementLayout layout{componentBytes(componentType), 0, 1};
+  if (type == "SCALAR") layout.rows = 1;
+  else if (type == "VEC2") layout.rows = 2;
+  else if (type == "VEC3") layout.rows = 3;
+  else if (type == "VEC4") layout.rows = 4;
+  else if (type == "MAT2") layout.rows = layout.columns = 2;
+  else if (type == "MAT3") layout.rows = layout.columns = 3;
+  else if (type == "MAT4") layout.rows = layout.columns = 4;
+  return layout;
+}
+
+ElementLayout elementLayout(const tinygltf::Accessor& accessor) {
+  switch (accessor.type) {
+    case TINYGLTF_TYPE_MAT2: return elementLayout(accessor.componentType, "MAT2");
+    case TINYGLTF_TYPE_MAT3: return elementLayout(accessor.componentType, "MAT3");
+    case TINYGLTF_TYPE_MAT4: return elementLayout(accessor.componentType, "MAT4");
+    default:
+      return {componentBytes(accessor.componentType),
+              std::uint32_t(tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type))), 1};
+  }
+}
+
+bool hasData(const Asset& asset, int index) {
+  const auto& accessor = asset.model.accessors[std::size_t(index)];
+  const auto present = [&](int view) {
+    return asset.bufferPresent[std::size_t(asset.model.bufferViews[std::size_t(view)].buffer)];
+  };
+  if (accessor.bufferView >= 0 && !present(accessor.bufferView)) return false;
+  return !accessor.sparse.isSparse ||
+         (present(accessor.sparse.indices.bufferView) && present(accessor.sparse.values.bufferView));
+}
+
+std::vector<float> readFloats(const Asset& asset, int accessor) {
+  return readAll<float>(asset, accessor);
+}
+
+std::vector<std::uint32_t> readIntegers(const Asset& asset, int accessor) {
+  return readAll<std::uint32_t>(asset, accessor);
+}
+
+std::vector<std::uint32_t> readSparseIndices(const Asset& asset, int index) {
+  const auto& sparse = asset.model.accessors[std::size_t(index)].sparse;
+  if (!sparse.isSparse) return {};
+  const unsigned char* from = bytesOf(asset, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset));
+  const std::uint32_t bytes = componentBytes(sparse.indices.componentType);
+  std::vector<std::uint32_t> places(std::size_t(sparse.count));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = component(from + i * bytes, sparse.indices.componentType, false, std::uint32_t{});
+  return places;
+}
+
+}  // namespace vasa::gltf

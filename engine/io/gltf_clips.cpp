@@ -1,0 +1,101 @@
+#include "io/gltf_clips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "io/gltf_accessor.h"
+
+namespace vasa::gltf {
+namespace {
+
+Interpolation interpolationOf(const tinygltf::AnimationSampler& sampler) {
+  if (sampler.interpolation == "STEP") return Interpolation::step;
+  if (sampler.interpolation == "CUBICSPLINE") return Interpolation::cubic;
+  return Interpolation::linear;
+}
+
+Track<vec3> vectorTrack(const Asset& asset, const tinygltf::AnimationSampler& sampler) {
+  Track<vec3> track{interpolationOf(sampler), readFloats(asset, sampler.input), {}};
+  const auto values = readFloats(asset, sampler.output);
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+    track.values.emplace_back(values[i], values[i + 1], values[i + 2]);
+  return track;
+}
+
+Track<quat> rotationTrack(const Asset& asset, const tinygltf::AnimationSampler& sampler) {
+  Track<quat> track{interpolationOf(sampler), readFloats(asset, sampler.input), {}};
+  const auto values = readFloats(asset, sampler.output);
+  for (std::size_t i = 0; i + 3 < values.size(); i += 4) {
+    const quat q(values[i + 3], values[i], values[i + 1], values[i + 2]);
+    const bool tangent = track.interpolation == Interpolation::cubic && (i / 4) % 3 != 1;
+    track.values.push_back(tangent ? q : glm::normalize(q));
+  }
+  return track;
+}
+
+template <class T>
+void extend(Clip& clip, const Track<T>& track, std::vector<float>& longest) {
+  if (track.times.empty()) return;
+  clip.start = std::min(clip.start, track.times.front());
+  clip.end = std::max(clip.end, track.times.back());
+  if (track.times.size() > longest.size()) longest = track.times;
+}
+
+Clip readClip(const Asset& asset, const tinygltf::Animation& animation, const std::vector<JointId>& jointOfNode) {
+  std::map<std::uint32_t, JointTracks> byJoint;
+  for (const auto& channel : animation.channels) {
+    if (channel.target_node < 0) continue;
+    const JointId joint = jointOfNode[std::size_t(channel.target_node)];
+    if (!joint.valid()) continue;
+    const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
+    JointTracks& tracks = byJoint[joint.value];
+    tracks.joint = joint;
+    if (channel.target_path == "translation") tracks.translation = vectorTrack(asset, sampler);
+    else if (channel.target_path == "rotation") tracks.rotation = rotationTrack(asset, sampler);
+    else if (channel.target_path == "scale") tracks.scale = vectorTrack(asset, sampler);
+  }
+  Clip clip;
+  clip.name = animation.name;
+  clip.start = std::numeric_limits<float>::max();
+  std::vector<float> longest;
+  for (auto& [joint, tracks] : byJoint) {
+    extend(clip, tracks.translation, longest);
+    extend(clip, tracks.rotation, longest);
+    extend(clip, tracks.scale, longest);
+    clip.tracks.push_back(std::move(tracks));
+  }
+  clip.framesPerSecond = framesPerSecondOf(longest);
+  return clip;
+}
+
+}  // namespace
+
+float framesPerSecondOf(const std::vector<float>& times) {
+  constexpr float kDefault = 30;
+  if (times.size() < 3) return kDefault;
+  std::vector<float> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
+  const float median = steps[steps.size() / 2];
+  // A key may be missing now and then, but not a tenth of them; times late in a clip are rounded coarsely.
+  const float tolerance = 0.02f * median + 1e-6f * times.back();
+  const auto regular =
+      std::count_if(steps.begin(), steps.end(), [&](float step) { return std::abs(step - median) <= tolerance; });
+  if (std::size_t(regular) * 10 < steps.size() * 9) return kDefault;
+  const float rate = 1 / median;
+  if (!(rate >= 10 && rate <= 240)) return kDefault;
+  return std::abs(rate - std::round(rate)) <= 0.005f * rate ? std::round(rate) : rate;
+}
+
+std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode) {
+  std::vector<Clip> clips;
+  for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
+    Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);
+    if (clip.name.empty()) clip.name = "animation " + std::to_string(i);
+    if (clip.end >= clip.start) clips.push_back(std::move(clip));
+  }
+  return clips;
+}
+
+}  // namespace vasa::gltf

@@ -1,0 +1,17 @@
+#pragma once
+#include <vector>
+
+#include "body/clip.h"
+#include "io/gltf_asset.h"
+
+namespace vasa::gltf {
+
+/// The file's animations as far as they move joints; those that move none are left out.
+/// @param jointOfNode  one a node; channels of nodes without a joint are ignored
+std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode);
+
+/// The rate of regular keys, rounded to a whole number where that is within 0.5 %; 30 where keys are irregular, fewer
+/// than three, or outside 10 to 240 a second. @param times  increasing [s]
+float framesPerSecondOf(const std::vector<float>& times);
+
+}  // namespace vasa::gltf

@@ -1,0 +1,67 @@
+#include "io/gltf_nodes.h"
+
+#include "body/skeleton.h"
+
+namespace vasa::gltf {
+namespace {
+
+mat4 localMatrix(const tinygltf::Node& node) {
+  if (!node.matrix.empty()) {
+    mat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = float(node.matrix[std::size_t(i)]);
+    return matrix;
+  }
+  JointTransform transform;
+  const auto vector = [](const std::vector<double>& v) { return vec3(float(v[0]), float(v[1]), float(v[2])); };
+  if (!node.translation.empty()) transform.translation = vector(node.translation);
+  if (!node.scale.empty()) transform.scale = vector(node.scale);
+  if (const auto& q = node.rotation; !q.empty())
+    transform.rotation = glm::normalize(quat(float(q[3]), float(q[0]), float(q[1]), float(q[2])));
+  return transform.matrix();
+}
+
+std::vector<int> depthFirst(const tinygltf::Model& model, const std::vector<int>& parent) {
+  std::vector<int> order, waiting;
+  for (int i = int(parent.size()) - 1; i >= 0; --i)
+    if (parent[std::size_t(i)] < 0) waiting.push_back(i);
+  while (!waiting.empty()) {
+    const int node = waiting.back();
+    waiting.pop_back();
+    order.push_back(node);
+    const auto& children = model.nodes[std::size_t(node)].children;
+    waiting.insert(waiting.end(), children.rbegin(), children.rend());
+  }
+  return order;
+}
+
+std::vector<bool> sceneRoots(const tinygltf::Model& model) {
+  if (model.scenes.empty()) return std::vector<bool>(model.nodes.size(), true);
+  std::vector<bool> root(model.nodes.size(), false);
+  const int scene = model.defaultScene >= 0 ? model.defaultScene : 0;
+  for (const int node : model.scenes[std::size_t(scene)].nodes) root[std::size_t(node)] = true;
+  return root;
+}
+
+}  // namespace
+
+NodeTree resolveNodes(const tinygltf::Model& model) {
+  NodeTree tree;
+  const std::size_t count = model.nodes.size();
+  tree.parent.assign(count, -1);
+  for (std::size_t i = 0; i < count; ++i)
+    for (const int child : model.nodes[i].children) tree.parent[std::size_t(child)] = int(i);
+  tree.order = depthFirst(model, tree.parent);
+  tree.local.resize(count);
+  tree.world.resize(count);
+  tree.inScene = sceneRoots(model);
+  for (const int node : tree.order) {
+    const auto i = std::size_t(node);
+    const int parent = tree.parent[i];
+    tree.local[i] = localMatrix(model.nodes[i]);
+    tree.world[i] = parent < 0 ? tree.local[i] : tree.world[std::size_t(parent)] * tree.local[i];
+    if (parent >= 0 && tree.inScene[std::size_t(parent)]) tree.inScene[i] = true;
+  }
+  return tree;
+}
+
+}  // namespace vasa::gltf

@@ -1,0 +1,231 @@
+#include "io/gltf_skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf_accessor.h"
+#include "io/gltf_rule.h"
+
+namespace vasa::gltf {
+namespace {
+
+float difference(const mat4& a, const mat4& b) {
+  float largest = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(a[i][k] - b[i][k]));
+  return largest;
+}
+
+float size(const mat4& m) {
+  return difference(m, mat4(0));
+}
+
+bool invertible(const mat4& m) {
+  const float determinant = std::abs(glm::determinant(mat3(m)));
+  return std::isfinite(determinant) && determinant > 1e-12f;
+}
+
+std::vector<bool> animatedNodes(const tinygltf::Model& model) {
+  std::vector<bool> animated(model.nodes.size());
+  for (const auto& animation : model.animations)
+    for (const auto& channel : animation.channels)
+      if (channel.target_node >= 0 && channel.target_path != "weights")
+        animated[std::size_t(channel.target_node)] = true;
+  return animated;
+}
+
+class Members {
+ public:
+  Members(const tinygltf::Model& model, const NodeTree& tree) : tree_(tree), is_(model.nodes.size()) {
+    for (const auto& skin : model.skins)
+      for (const int joint : skin.joints) is_[std::size_t(joint)] = true;
+    const auto animated = animatedNodes(model);
+    // Children before parents: whether something that counts lies below.
+    std::vector<bool> carries(is_.size());
+    for (auto it = tree.order.rbegin(); it != tree.order.rend(); ++it) {
+      const auto i = std::size_t(*it);
+      const auto& node = model.nodes[i];
+      if (is_[i] || (node.mesh >= 0 && node.skin < 0)) carries[i] = true;
+      if (carries[i] && animated[i]) is_[i] = true;
+      if (carries[i] && tree.parent[i] >= 0) carries[std::size_t(tree.parent[i])] = true;
+    }
+    fillGaps();
+    if (!rootsAgree()) addAllAncestors();
+  }
+  bool has(int node) const { return is_[std::size_t(node)]; }
+  /// Of the nodes above all root joints.
+  mat4 above() const {
+    for (const int node : tree_.order)
+      if (has(node)) return worldAbove(node);
+    return mat4(1);
+  }
+
+ private:
+  bool isRoot(int node) const {
+    return has(node) && (tree_.parent[std::size_t(node)] < 0 || !has(tree_.parent[std::size_t(node)]));
+  }
+  mat4 worldAbove(int node) const {
+    const int parent = tree_.parent[std::size_t(node)];
+    return parent < 0 ? mat4(1) : tree_.world[std::size_t(parent)];
+  }
+  void fillGaps() {
+    // For each node, whether a joint lies above it and below it.
+    std::vector<bool> above(is_.size()), below(is_.size());
+    for (const int node : tree_.order) {
+      const int parent = tree_.parent[std::size_t(node)];
+      if (parent >= 0) above[std::size_t(node)] = above[std::size_t(parent)] || has(parent);
+    }
+    for (auto it = tree_.order.rbegin(); it != tree_.order.rend(); ++it) {
+      const int parent = tree_.parent[std::size_t(*it)];
+      if (parent >= 0 && (has(*it) || below[std::size_t(*it)])) below[std::size_t(parent)] = true;
+    }
+    for (std::size_t i = 0; i < is_.size(); ++i)
+      if (above[i] && below[i]) is_[i] = true;
+  }
+  bool rootsAgree() const {
+    const mat4 first = above();
+    for (const int node : tree_.order)
+      if (isRoot(node) && difference(worldAbove(node), first) > 1e-6f * std::max(1.0f, size(first))) return false;
+    return true;
+  }
+  void addAllAncestors() {
+    for (auto it = tree_.order.rbegin(); it != tree_.order.rend(); ++it)
+      if (has(*it) && tree_.parent[std::size_t(*it)] >= 0) is_[std::size_t(tree_.parent[std::size_t(*it)])] = true;
+  }
+  const NodeTree& tree_;
+  std::vector<bool> is_;
+};
+
+// T R S of a matrix without shear; columns of the linear part are the scaled axes.
+JointTransform decompose(const mat4& m, const std::string& place) {
+  JointTransform out;
+  out.translation = vec3(m[3]);
+  mat3 axes(m);
+  for (int i = 0; i < 3; ++i) out.scale[i] = glm::length(axes[i]);
+  if (glm::determinant(axes) < 0) out.scale.x = -out.scale.x;
+  for (int i = 0; i < 3; ++i) axes[i] = out.scale[i] != 0 ? axes[i] / out.scale[i] : vec3(0);
+  out.rotation = glm::normalize(glm::quat_cast(axes));
+  if (!(difference(out.matrix(), m) <= 1e-4f * std::max(1.0f, size(m))))
+    breaks(place, "the matrix of a joint must be a translation, a rotation and a scale, without shear",
+           "export joints with translation, rotation and scale");
+  return out;
+}
+
+JointTransform restOf(const tinygltf::Node& node, const mat4& local, int index) {
+  if (!node.matrix.empty()) return decompose(local, "/nodes/" + std::to_string(index) + "/matrix");
+  JointTransform out;
+  const auto vector = [](const std::vector<double>& v) { return vec3(float(v[0]), float(v[1]), float(v[2])); };
+  if (!node.translation.empty()) out.translation = vector(node.translation);
+  if (!node.scale.empty()) out.scale = vector(node.scale);
+  if (const auto& q = node.rotation; !q.empty())
+    out.rotation = glm::normalize(quat(float(q[3]), float(q[0]), float(q[1]), float(q[2])));
+  return out;
+}
+
+std::vector<mat4> inverseBinds(const Asset& asset, const tinygltf::Skin& skin) {
+  std::vector<mat4> out(skin.joints.size(), mat4(1));
+  if (skin.inverseBindMatrices < 0) return out;
+  const auto values = readFloats(asset, skin.inverseBindMatrices);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (int k = 0; k < 16; ++k) out[i][k / 4][k % 4] = values[16 * i + std::size_t(k)];
+  return out;
+}
+
+constexpr float kSameBinding = 1e-4f;  // of the skeleton's size: exporters write matrices with rounding
+
+class Binder {
+ public:
+  explicit Binder(Skeleton& skeleton) : skeleton_(skeleton), bound_(skeleton.joints.size()) {}
+
+  BodySkeleton::Skin bind(std::vector<JointId> joints, const std::vector<mat4>& matrices) {
+    BodySkeleton::Skin skin{std::move(joints), mat4(1)};
+    if (const auto shared = restIsBinding(skin.joints, matrices)) {
+      skin.bake = *shared;
+      for (const JointId joint : skin.joints) claim(joint, glm::inverse(at(joint).restWorld), joint);
+      return skin;
+    }
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) claim(skin.joints[i], matrices[i], skin.joints[i]);
+    return skin;
+  }
+
+  /// Joints that no skin binds carry meshes rigidly.
+  void bindTheRest() {
+    for (std::size_t i = 0; i < bound_.size(); ++i)
+      if (!bound_[i] && invertible(skeleton_.joints[i].restWorld))
+        skeleton_.joints[i].inverseBind = glm::inverse(skeleton_.joints[i].restWorld);
+  }
+
+ private:
+  Skeleton::Joint& at(JointId id) { return skeleton_.joints[id.value]; }
+
+  std::optional<mat4> restIsBinding(const std::vector<JointId>& joints, const std::vector<mat4>& matrices) {
+    float extent = 0;
+    for (const JointId joint : joints) {
+      if (!invertible(at(joint).restWorld)) return std::nullopt;
+      extent = std::max(extent, size(at(joint).restWorld));
+    }
+    const mat4 first = at(joints[0]).restWorld * matrices[0];
+    if (!invertible(first)) return std::nullopt;
+    for (std::size_t i = 1; i < joints.size(); ++i)
+      if (!(difference(at(joints[i]).restWorld * matrices[i], first) <= kSameBinding * extent)) return std::nullopt;
+    // A transform that is only rounding must not disturb the file's own coordinates.
+    return difference(first, mat4(1)) <= kSameBinding * extent ? mat4(1) : first;
+  }
+
+  void claim(JointId joint, const mat4& matrix, JointId& used) {
+    if (bound_[joint.value] && difference(at(joint).inverseBind, matrix) > kSameBinding * size(matrix)) {
+      used = doubled(joint, matrix);
+      return;
+    }
+    if (!bound_[joint.value]) at(joint).inverseBind = matrix;
+    bound_[joint.value] = true;
+  }
+
+  JointId doubled(JointId joint, const mat4& matrix) {
+    Skeleton::Joint twin = at(joint);
+    twin.name += " (second binding)";
+    twin.parent = joint;
+    twin.rest = {};
+    twin.inverseBind = matrix;
+    skeleton_.joints.push_back(twin);  // after its parent, as the order demands
+    bound_.push_back(true);
+    return {std::uint32_t(skeleton_.joints.size() - 1)};
+  }
+
+  Skeleton& skeleton_;
+  std::vector<bool> bound_;
+};
+
+}  // namespace
+
+BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
+  const auto& model = asset.model;
+  const Members members(model, tree);
+  BodySkeleton out;
+  Skeleton& skeleton = out.skeleton;
+  skeleton.rootTransform = members.above();
+  out.jointOfNode.resize(model.nodes.size());
+  for (const int node : tree.order) {
+    if (!members.has(node)) continue;
+    const auto i = std::size_t(node);
+    Skeleton::Joint joint;
+    joint.name = model.nodes[i].name.empty() ? "node " + std::to_string(node) : model.nodes[i].name;
+    if (tree.parent[i] >= 0) joint.parent = out.jointOfNode[std::size_t(tree.parent[i])];
+    joint.rest = restOf(model.nodes[i], tree.local[i], node);
+    joint.restWorld = (joint.parent.valid() ? skeleton.joints[joint.parent.value].restWorld : skeleton.rootTransform) *
+                      joint.rest.matrix();
+    out.jointOfNode[i] = {std::uint32_t(skeleton.joints.size())};
+    skeleton.joints.push_back(std::move(joint));
+  }
+  Binder binder(skeleton);
+  for (const auto& skin : model.skins) {
+    std::vector<JointId> joints;
+    for (const int node : skin.joints) joints.push_back(out.jointOfNode[std::size_t(node)]);
+    out.skins.push_back(binder.bind(std::move(joints), inverseBinds(asset, skin)));
+  }
+  binder.bindTheRest();
+  if (skeleton.joints.size() > 65535) breaks("/skins", "need more than 65535 joints", "use fewer joints");
+  return out;
+}
+
+}  // namespace vasa::gltf

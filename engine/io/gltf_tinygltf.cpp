@@ -1,0 +1,2 @@
+#define TINYGLTF_IMPLEMENTATION
+#include "io/gltf_tinygltf.h"
