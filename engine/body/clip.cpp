@@ -4,8 +4,9 @@
 #include <cassert>
 #include <cmath>
 
-// Interpolation as in glTF 2.0, appendix C. Cubic: with u in [0, 1] between keys k and k + 1, d seconds apart,
-// p = (2u³-3u²+1) v_k + d (u³-2u²+u) b_k + (-2u³+3u²) v_{k+1} + d (u³-u²) a_{k+1}, a and b the in- and out-tangents.
+// Interpolation as in glTF 2.0, appendix C. Cubic: with u in [0, 1] between keys k and k + 1, d seconds
+// apart, p = (2u³-3u²+1) v_k + d (u³-2u²+u) b_k + (-2u³+3u²) v_{k+1} + d (u³-u²) a_{k+1}, a and b the in- and
+// out-tangents.
 namespace vasa {
 namespace {
 
@@ -44,7 +45,8 @@ T sample(const Track<T>& track, float time, T rest) {
   const auto after = std::upper_bound(track.times.begin(), track.times.end(), time);
   if (after == track.times.begin()) return finished(valueAt(track, 0));
   const auto key = std::size_t(after - track.times.begin()) - 1;
-  if (after == track.times.end() || track.interpolation == Interpolation::step) return finished(valueAt(track, key));
+  if (after == track.times.end() || track.interpolation == Interpolation::step)
+    return finished(valueAt(track, key));
   const float seconds = track.times[key + 1] - track.times[key];
   const float u = (time - track.times[key]) / seconds;
   if (track.interpolation == Interpolation::cubic) return finished(cubic(track, key, u, seconds));
@@ -54,7 +56,7 @@ T sample(const Track<T>& track, float time, T rest) {
 }  // namespace
 
 std::uint32_t Clip::frameCount() const {
-  const float frames = (end - start) * framesPerSecond;
+  const float frames = std::min((end - start) * framesPerSecond, 1e9f);
   // The last key falls on the last frame although both times are rounded.
   return frames > 0 ? std::uint32_t(std::floor(frames + 0.01f)) + 1 : 1;
 }

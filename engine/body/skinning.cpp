@@ -17,7 +17,8 @@ mat4 blended(const SkinInfluence& influence, const std::vector<mat4>& matrices) 
 std::vector<mat4> skinMatrices(const Skeleton& skeleton, const Pose& pose) {
   assert(pose.world.size() == skeleton.joints.size());
   std::vector<mat4> matrices(pose.world.size());
-  for (std::size_t i = 0; i < matrices.size(); ++i) matrices[i] = pose.world[i] * skeleton.joints[i].inverseBind;
+  for (std::size_t i = 0; i < matrices.size(); ++i)
+    matrices[i] = pose.world[i] * skeleton.joints[i].inverseBind;
   return matrices;
 }
 

@@ -5,12 +5,13 @@
 
 namespace vasa {
 
-/// One matrix a joint: from the space that meshes are bound in to the posed model space (pose · inverse bind).
+/// One matrix a joint: from the space that meshes are bound in to the posed model space (pose · inverse
+/// bind).
 std::vector<mat4> skinMatrices(const Skeleton& skeleton, const Pose& pose);
 
-/// Linear blend skinning, the specification of what the GPU does: p' = Σ w (M p), and n' the unit vector along
-/// Σ w (M_linear n). Using M itself for normals is exact for rotation and uniform scale, which is what skeletons
-/// do; under other scales normals tilt a little.
+/// Linear blend skinning, the specification of what the GPU does: p' = Σ w (M p), and n' the unit vector
+/// along Σ w (M_linear n). Using M itself for normals is exact for rotation and uniform scale, which is what
+/// skeletons do; under other scales normals tilt a little.
 /// @param matrices   from skinMatrices
 /// @param positions  [m] resized to the mesh's; so is normals
 void skinVertices(const SkinnedMesh& mesh, const std::vector<mat4>& matrices, std::vector<vec3>& positions,

@@ -61,7 +61,8 @@ class BodyMeshes {
   std::vector<SkinnedMesh> read() {
     std::vector<SkinnedMesh> meshes;
     for (int node = 0; node < int(asset_.model.nodes.size()); ++node)
-      if (asset_.model.nodes[std::size_t(node)].mesh >= 0 && tree_.inScene[std::size_t(node)]) add(node, meshes);
+      if (asset_.model.nodes[std::size_t(node)].mesh >= 0 && tree_.inScene[std::size_t(node)])
+        add(node, meshes);
     return meshes;
   }
 
@@ -97,14 +98,15 @@ class BodyMeshes {
 
   SkinnedMesh skinned(Geometry geometry, int skin, const std::string& name) const {
     if (geometry.mendedWeights > 0)
-      logWarning(asset_.name + ": mesh \"" + name + "\": the weights of " + std::to_string(geometry.mendedWeights) +
-                 " vertices did not sum to 1; mended");
+      logWarning(asset_.name + ": mesh \"" + name + "\": the weights of " +
+                 std::to_string(geometry.mendedWeights) + " vertices did not sum to 1; mended");
     const auto& binding = joints_.skins[std::size_t(skin)];
     transform(geometry, binding.bake);
     SkinnedMesh out;
     for (const auto& influence : geometry.influences) {
       SkinInfluence to{{}, influence.weights};
-      for (std::size_t i = 0; i < 4; ++i) to.joints[i] = std::uint16_t(binding.joints[influence.joints[i]].value);
+      for (std::size_t i = 0; i < 4; ++i)
+        to.joints[i] = std::uint16_t(binding.joints[influence.joints[i]].value);
       out.influences.push_back(to);
     }
     out.mesh = std::move(geometry.mesh);
@@ -137,7 +139,8 @@ class BodyMeshes {
 
 Body bodyOf(const Asset& asset) {
   if (asset.model.skins.empty())
-    breaks("/skins", "a body needs a skeleton, and the file has no skin", "export the body with its armature");
+    breaks("/skins", "a body needs a skeleton, and the file has no skin",
+           "export the body with its armature");
   const NodeTree tree = resolveNodes(asset.model);
   BodySkeleton joints = buildSkeleton(asset, tree);
   Body body;

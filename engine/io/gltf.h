@@ -6,24 +6,25 @@
 #include "core/result.h"
 #include "mesh/mesh_element.h"
 
-// glTF 2.0, .gltf and .glb. Every file is checked completely before anything in it is used: container, JSON, every
-// index, range and alignment, the forest of nodes, key times, finite values. A broken rule is Fault::badInput with
-// "file: JSON place: rule; remedy"; a file that cannot be read is Fault::io. Pictures are never opened, and other
-// files only where they lie in the asset's folder or below it. Morph targets, cameras and lights are ignored.
-// Extensions: KHR_mesh_quantization is understood; a file that requires any other that changes geometry is refused.
+// glTF 2.0, .gltf and .glb. Every file is checked completely before anything in it is used: container, JSON,
+// every index, range and alignment, the forest of nodes, key times, finite values. A broken rule is
+// Fault::badInput with "file: JSON place: rule; remedy"; a file that cannot be read is Fault::io. Pictures
+// are never opened, and other files only where they lie in the asset's folder or below it. Morph targets,
+// cameras and lights are ignored. Extensions: KHR_mesh_quantization is understood; a file that requires any
+// other that changes geometry is refused.
 namespace vasa {
 
 /// A body: skeleton, skinned meshes (one for each node and material), clips. The file must have a skin.
-/// Skins are merged into one skeleton, meshes that hang on a joint without a skin follow it rigidly, and meshes that
-/// nothing moves are left out with a warning. Weights that do not sum to 1 are mended with a warning; more than four
-/// influences are cut to the strongest four.
-/// Where the rest pose is the binding pose, which is so for nearly every file, positions and normals are those of
-/// the rest pose in model space; otherwise they are those of the binding pose (skinVertices gives the rest pose).
+/// Skins are merged into one skeleton, meshes that hang on a joint without a skin follow it rigidly, and
+/// meshes that nothing moves are left out with a warning. Weights that do not sum to 1 are mended with a
+/// warning; more than four influences are cut to the strongest four. Where the rest pose is the binding pose,
+/// which is so for nearly every file, positions and normals are those of the rest pose in model space;
+/// otherwise they are those of the binding pose (skinVertices gives the rest pose).
 Result<Body> readBody(const std::filesystem::path& path);
 
-/// One element for each node of the default scene that has a mesh, in the file's order: primitives merged, in world
-/// coordinates, skinned ones in the rest pose. The name is the node's; category and ontology id are the node's (or
-/// the mesh's) extras "category" and "fma".
+/// One element for each node of the default scene that has a mesh, in the file's order: primitives merged, in
+/// world coordinates, skinned ones in the rest pose. The name is the node's; category and ontology id are the
+/// node's (or the mesh's) extras "category" and "fma".
 Result<std::vector<MeshElement>> readGltfElements(const std::filesystem::path& path);
 
 struct GltfSummary {

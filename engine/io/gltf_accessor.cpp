@@ -26,20 +26,29 @@ float toFloat(const unsigned char* from, bool normalised) {
 
 float component(const unsigned char* from, int type, bool normalised, float) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return toFloat<std::int8_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return toFloat<std::uint8_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return toFloat<std::int16_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return toFloat<std::uint16_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return float(load<std::uint32_t>(from));
-    default: return load<float>(from);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return toFloat<std::int8_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return toFloat<std::uint8_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return toFloat<std::int16_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return toFloat<std::uint16_t>(from, normalised);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return float(load<std::uint32_t>(from));
+    default:
+      return load<float>(from);
   }
 }
 
 std::uint32_t component(const unsigned char* from, int type, bool, std::uint32_t) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return *from;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return load<std::uint16_t>(from);
-    default: return load<std::uint32_t>(from);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return *from;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return load<std::uint16_t>(from);
+    default:
+      return load<std::uint32_t>(from);
   }
 }
 
@@ -55,7 +64,8 @@ template <class T>
 void readElement(const unsigned char* from, const ElementLayout& layout, int type, bool normalised, T* to) {
   for (std::uint32_t column = 0; column < layout.columns; ++column)
     for (std::uint32_t row = 0; row < layout.rows; ++row)
-      *to++ = component(from + column * layout.columnBytes() + row * layout.componentBytes, type, normalised, T{});
+      *to++ = component(from + column * layout.columnBytes() + row * layout.componentBytes, type, normalised,
+                        T{});
 }
 
 template <class T>
@@ -94,12 +104,16 @@ std::vector<T> readAll(const Asset& asset, int index) {
 std::uint32_t componentBytes(std::int64_t componentType) {
   switch (componentType) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-    default: return 0;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      return 0;
   }
 }
 
@@ -109,21 +123,31 @@ bool isFloatComponent(std::int64_t componentType) {
 
 ElementLayout elementLayout(std::int64_t componentType, const std::string& type) {
   ElementLayout layout{componentBytes(componentType), 0, 1};
-  if (type == "SCALAR") layout.rows = 1;
-  else if (type == "VEC2") layout.rows = 2;
-  else if (type == "VEC3") layout.rows = 3;
-  else if (type == "VEC4") layout.rows = 4;
-  else if (type == "MAT2") layout.rows = layout.columns = 2;
-  else if (type == "MAT3") layout.rows = layout.columns = 3;
-  else if (type == "MAT4") layout.rows = layout.columns = 4;
+  if (type == "SCALAR")
+    layout.rows = 1;
+  else if (type == "VEC2")
+    layout.rows = 2;
+  else if (type == "VEC3")
+    layout.rows = 3;
+  else if (type == "VEC4")
+    layout.rows = 4;
+  else if (type == "MAT2")
+    layout.rows = layout.columns = 2;
+  else if (type == "MAT3")
+    layout.rows = layout.columns = 3;
+  else if (type == "MAT4")
+    layout.rows = layout.columns = 4;
   return layout;
 }
 
 ElementLayout elementLayout(const tinygltf::Accessor& accessor) {
   switch (accessor.type) {
-    case TINYGLTF_TYPE_MAT2: return elementLayout(accessor.componentType, "MAT2");
-    case TINYGLTF_TYPE_MAT3: return elementLayout(accessor.componentType, "MAT3");
-    case TINYGLTF_TYPE_MAT4: return elementLayout(accessor.componentType, "MAT4");
+    case TINYGLTF_TYPE_MAT2:
+      return elementLayout(accessor.componentType, "MAT2");
+    case TINYGLTF_TYPE_MAT3:
+      return elementLayout(accessor.componentType, "MAT3");
+    case TINYGLTF_TYPE_MAT4:
+      return elementLayout(accessor.componentType, "MAT4");
     default:
       return {componentBytes(accessor.componentType),
               std::uint32_t(tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type))), 1};
@@ -151,7 +175,8 @@ std::vector<std::uint32_t> readIntegers(const Asset& asset, int accessor) {
 std::vector<std::uint32_t> readSparseIndices(const Asset& asset, int index) {
   const auto& sparse = asset.model.accessors[std::size_t(index)].sparse;
   if (!sparse.isSparse) return {};
-  const unsigned char* from = bytesOf(asset, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset));
+  const unsigned char* from =
+      bytesOf(asset, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset));
   const std::uint32_t bytes = componentBytes(sparse.indices.componentType);
   std::vector<std::uint32_t> places(std::size_t(sparse.count));
   for (std::size_t i = 0; i < places.size(); ++i)

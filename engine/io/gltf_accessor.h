@@ -34,8 +34,8 @@ ElementLayout elementLayout(const tinygltf::Accessor& accessor);
 /// Whether the accessor's bytes are in the file. One without a buffer view is all zeros and counts as there.
 bool hasData(const Asset& asset, int accessor);
 
-/// All components of all elements in order, sparse values put in, normalised integers mapped to [0, 1] or [-1, 1]
-/// (glTF 2.0, 3.11). Throws BrokenRule where the data is not in the file.
+/// All components of all elements in order, sparse values put in, normalised integers mapped to [0, 1] or
+/// [-1, 1] (glTF 2.0, 3.11). Throws BrokenRule where the data is not in the file.
 std::vector<float> readFloats(const Asset& asset, int accessor);
 
 /// The same for integers (indices, joints).

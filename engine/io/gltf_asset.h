@@ -7,7 +7,8 @@
 
 namespace vasa::gltf {
 
-/// A glTF file that has passed every check of gltf_check.h: all indices, ranges and references of the model hold.
+/// A glTF file that has passed every check of gltf_check.h: all indices, ranges and references of the model
+/// hold.
 struct Asset {
   std::string name;  ///< file name, for messages
   tinygltf::Model model;
@@ -16,9 +17,10 @@ struct Asset {
   std::vector<bool> bufferPresent;
 };
 
-/// Reads and checks a .gltf or .glb: file size and kind, container, JSON nesting, structure, then tinygltf, then
-/// the data in the buffers. tinygltf sees only a document whose structure has been checked, and no file: buffers
-/// come from memory, and outside files only from the asset's own folder. Throws BrokenRule, or Error for I/O.
+/// Reads and checks a .gltf or .glb: file size and kind, container, JSON nesting, structure, then tinygltf,
+/// then the data in the buffers. tinygltf sees only a document whose structure has been checked, and no file:
+/// buffers come from memory, and outside files only from the asset's own folder. Throws BrokenRule, or Error
+/// for I/O.
 Asset loadAsset(const std::filesystem::path& path);
 
 }  // namespace vasa::gltf

@@ -50,8 +50,10 @@ bool hasScheme(const std::string& uri) {
 
 bool isBase64(std::string_view text) {
   if (text.size() % 4 != 0) return false;
-  if (text.ends_with("==")) text.remove_suffix(2);
-  else if (text.ends_with("=")) text.remove_suffix(1);
+  if (text.ends_with("=="))
+    text.remove_suffix(2);
+  else if (text.ends_with("="))
+    text.remove_suffix(1);
   for (const char c : text)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+' && c != '/') return false;
   return true;
@@ -95,19 +97,22 @@ Bytes loadBuffer(const JsonView& buffer, bool isFirst, std::optional<std::span<c
   if (uri) {
     const UriTarget target = classifyUri(*uri);
     if (target.kind == UriTarget::Kind::elsewhere) return {};
-    bytes = target.kind == UriTarget::Kind::data ? decodeDataUri(*uri) : readBeside(*uri, target.path, folder);
+    bytes =
+        target.kind == UriTarget::Kind::data ? decodeDataUri(*uri) : readBeside(*uri, target.path, folder);
   } else if (isFirst && binary) {
     const auto* first = reinterpret_cast<const unsigned char*>(binary->data());
     bytes.assign(first, first + binary->size());
     if (length + kGlbPadding < bytes.size())
-      buffer.at("byteLength").fail("is " + std::to_string(length) + ", but the BIN chunk has " +
-                                   std::to_string(bytes.size()) + " bytes");
+      buffer.at("byteLength")
+          .fail("is " + std::to_string(length) + ", but the BIN chunk has " + std::to_string(bytes.size()) +
+                " bytes");
   } else {
     return {};
   }
   if (bytes.size() < length)
-    buffer.at("byteLength").fail("is " + std::to_string(length) + ", but there are only " +
-                                 std::to_string(bytes.size()) + " bytes");
+    buffer.at("byteLength")
+        .fail("is " + std::to_string(length) + ", but there are only " + std::to_string(bytes.size()) +
+              " bytes");
   bytes.resize(length);
   return bytes;
 }

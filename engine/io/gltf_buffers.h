@@ -10,8 +10,9 @@
 namespace vasa::gltf {
 
 /// The bytes of every buffer, exactly byteLength each; empty where the file names none (no URI, or one with a
-/// scheme such as http:, which is never fetched). Sources: the GLB's BIN chunk, base64 data URIs, and files in the
-/// asset's folder or below it, symbolic links resolved. Throws BrokenRule, or Error where a file cannot be read.
+/// scheme such as http:, which is never fetched). Sources: the GLB's BIN chunk, base64 data URIs, and files
+/// in the asset's folder or below it, symbolic links resolved. Throws BrokenRule, or Error where a file
+/// cannot be read.
 std::vector<std::vector<unsigned char>> loadBuffers(const JsonView& root,
                                                     std::optional<std::span<const std::byte>> binary,
                                                     const std::filesystem::path& folder);

@@ -20,7 +20,8 @@ bool isHarmless(const std::string& extension) {
 void checkVersion(const JsonView& asset) {
   const JsonView version = asset.at("version");
   const std::string& text = version.text();
-  if (!text.starts_with("2.") || text.size() < 3 || text.find_first_not_of("0123456789", 2) != std::string::npos)
+  if (!text.starts_with("2.") || text.size() < 3 ||
+      text.find_first_not_of("0123456789", 2) != std::string::npos)
     version.fail("\"" + text + "\" must be 2.x", "export as glTF 2.0");
   if (const auto least = asset.find("minVersion"); least && least->text() != "2.0")
     least->fail("\"" + least->text() + "\" is newer than the 2.0 that is understood", "export as glTF 2.0");
@@ -40,7 +41,8 @@ void checkExtensions(const JsonView& root) {
     if (!isHarmless(item.text()))
       item.fail("the file needs the extension " + item.text() + ", which is not supported",
                 "export without it (for compressed meshes: without compression)");
-    if (!used.contains(item.text())) item.fail("\"" + item.text() + "\" must also be listed in extensionsUsed");
+    if (!used.contains(item.text()))
+      item.fail("\"" + item.text() + "\" must also be listed in extensionsUsed");
   }
   if (const auto extensions = root.find("extensions"))
     for (const auto& [name, value] : extensions->members()) value.mustBeObject();
@@ -52,9 +54,9 @@ void checkHead(const JsonView& root) {
   root.mustBeObject();
   const JsonView asset = root.at("asset");
   checkVersion(asset);
-  constexpr std::array kArrays = {"accessors", "animations", "buffers", "bufferViews", "cameras",  "images",
-                                  "materials", "meshes",     "nodes",   "samplers",    "scenes",   "skins",
-                                  "textures"};
+  constexpr std::array kArrays = {"accessors", "animations", "buffers", "bufferViews", "cameras",
+                                  "images",    "materials",  "meshes",  "nodes",       "samplers",
+                                  "scenes",    "skins",      "textures"};
   for (const char* array : kArrays)
     for (const JsonView& item : root.items(array)) {
       item.mustBeObject();

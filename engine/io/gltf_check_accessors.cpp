@@ -5,8 +5,8 @@
 #include "io/gltf_check.h"
 #include "io/gltf_container.h"
 
-// Bounds are computed in 64 bits from values that are limited first: offsets and lengths by kMaximumFileBytes,
-// counts by 2^32, strides by 252. So nothing here can wrap.
+// Bounds are computed in 64 bits from values that are limited first: offsets and lengths by
+// kMaximumFileBytes, counts by 2^32, strides by 252. So nothing here can wrap.
 namespace vasa::gltf {
 namespace {
 
@@ -38,21 +38,25 @@ class Views {
   std::vector<JsonView> all_;
 };
 
-void checkAlignment(const JsonView& place, std::uint64_t offset, std::uint64_t inBuffer, std::uint32_t bytes) {
+void checkAlignment(const JsonView& place, std::uint64_t offset, std::uint64_t inBuffer,
+                    std::uint32_t bytes) {
   if (offset % bytes != 0)
     place.fail("byteOffset " + std::to_string(offset) + " must be a multiple of " + std::to_string(bytes) +
                ", the size of a component");
   if ((offset + inBuffer) % bytes != 0)
-    place.fail("begins at byte " + std::to_string(offset + inBuffer) + " of the buffer, which is no multiple of " +
-               std::to_string(bytes) + ", the size of a component");
+    place.fail("begins at byte " + std::to_string(offset + inBuffer) +
+               " of the buffer, which is no multiple of " + std::to_string(bytes) +
+               ", the size of a component");
 }
 
 void checkEnd(const JsonView& place, std::uint64_t end, const View& view) {
   if (end > view.length)
-    place.fail("needs " + std::to_string(end) + " bytes of a buffer view that has " + std::to_string(view.length));
+    place.fail("needs " + std::to_string(end) + " bytes of a buffer view that has " +
+               std::to_string(view.length));
 }
 
-void checkSparse(const JsonView& sparse, const Views& views, const ElementLayout& layout, std::int64_t count) {
+void checkSparse(const JsonView& sparse, const Views& views, const ElementLayout& layout,
+                 std::int64_t count) {
   const auto overrides = std::uint64_t(sparse.at("count").integer(1, count));
   const JsonView indices = sparse.at("indices");
   const std::int64_t type = indices.at("componentType").integer(0, 65535);
@@ -103,11 +107,12 @@ void checkAccessor(const JsonView& accessor, const Views& views) {
   checkAlignment(accessor, offset, view.offset, layout.componentBytes);
   checkMatrixAlignment(accessor, layout, offset + view.offset);
   if (view.stride && view.stride < layout.bytes())
-    accessor.fail("an element of " + std::to_string(layout.bytes()) + " bytes is longer than the byteStride " +
-                  std::to_string(view.stride) + " of its buffer view");
+    accessor.fail("an element of " + std::to_string(layout.bytes()) +
+                  " bytes is longer than the byteStride " + std::to_string(view.stride) +
+                  " of its buffer view");
   if (view.stride % layout.componentBytes != 0)
-    accessor.fail("the byteStride " + std::to_string(view.stride) + " of its buffer view must be a multiple of " +
-                  std::to_string(layout.componentBytes));
+    accessor.fail("the byteStride " + std::to_string(view.stride) +
+                  " of its buffer view must be a multiple of " + std::to_string(layout.componentBytes));
   const std::uint64_t stride = view.stride ? view.stride : layout.packedBytes();
   checkEnd(accessor, offset + stride * std::uint64_t(count - 1) + layout.bytes(), view);
 }
@@ -123,7 +128,8 @@ void checkBufferView(const JsonView& view, const std::vector<std::uint64_t>& buf
     const std::int64_t bytes = stride->integer(4, 252);
     if (bytes % 4 != 0) stride->fail("must be a multiple of 4, is " + std::to_string(bytes));
     if (std::uint64_t(bytes) > length)
-      stride->fail(std::to_string(bytes) + " is more than the buffer view's " + std::to_string(length) + " bytes");
+      stride->fail(std::to_string(bytes) + " is more than the buffer view's " + std::to_string(length) +
+                   " bytes");
   }
   if (const auto target = view.find("target")) target->integer(34962, 34963);
 }

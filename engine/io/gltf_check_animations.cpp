@@ -48,14 +48,15 @@ void checkOutput(const Sampler& sampler, const std::string& path) {
   if (path == "weights") return;  // not used here; their number depends on the mesh
   const std::int64_t expected = sampler.keys * (sampler.cubic ? 3 : 1);
   if (sampler.values != expected)
-    sampler.output.fail("must have " + std::to_string(expected) + " values for " + std::to_string(sampler.keys) +
-                        " keys, has " + std::to_string(sampler.values));
+    sampler.output.fail("must have " + std::to_string(expected) + " values for " +
+                        std::to_string(sampler.keys) + " keys, has " + std::to_string(sampler.values));
 }
 
 void checkAnimation(const JsonView& animation, const std::vector<JsonView>& nodes,
                     const std::vector<JsonView>& accessors) {
   std::vector<Sampler> samplers;
-  for (const JsonView& sampler : animation.at("samplers").items()) samplers.push_back(checkSampler(sampler, accessors));
+  for (const JsonView& sampler : animation.at("samplers").items())
+    samplers.push_back(checkSampler(sampler, accessors));
   std::set<std::pair<std::uint32_t, std::string>> driven;
   for (const JsonView& channel : animation.at("channels").items()) {
     const JsonView target = channel.at("target");

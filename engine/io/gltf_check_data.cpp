@@ -26,13 +26,14 @@ void checkSparseOrder(const Asset& asset, int index) {
       breaks(accessorPlace(index) + "/sparse/indices",
              "refers to element " + std::to_string(places[i]) + " of " + std::to_string(count), kExportAgain);
     if (i > 0 && places[i] <= places[i - 1])
-      breaks(accessorPlace(index) + "/sparse/indices", "must increase strictly, do not at " + std::to_string(i),
-             kExportAgain);
+      breaks(accessorPlace(index) + "/sparse/indices",
+             "must increase strictly, do not at " + std::to_string(i), kExportAgain);
   }
 }
 
 // Exporters round the bounds they write; only what is clearly outside tells of damage.
-void checkBound(const tinygltf::Accessor& accessor, int index, const std::vector<float>& values, bool isMinimum) {
+void checkBound(const tinygltf::Accessor& accessor, int index, const std::vector<float>& values,
+                bool isMinimum) {
   const auto& bounds = isMinimum ? accessor.minValues : accessor.maxValues;
   if (bounds.empty()) return;
   const ElementLayout layout = elementLayout(accessor);
@@ -44,7 +45,8 @@ void checkBound(const tinygltf::Accessor& accessor, int index, const std::vector
     const double outside = isMinimum ? bound - double(values[i]) : double(values[i]) - bound;
     if (outside > tolerance)
       breaks(accessorPlace(index) + (isMinimum ? "/min" : "/max"),
-             element(i, layout) + " is " + std::to_string(values[i]) + ", outside the bound " + std::to_string(bound),
+             element(i, layout) + " is " + std::to_string(values[i]) + ", outside the bound " +
+                 std::to_string(bound),
              kExportAgain);
   }
 }
@@ -93,8 +95,8 @@ void checkIndices(const Asset& asset, const tinygltf::Primitive& primitive, cons
   const auto& [value, component] = largest.of(primitive.indices);
   if (value >= vertices)
     breaks(accessorPlace(primitive.indices),
-           "index " + std::to_string(component) + " is " + std::to_string(value) + ", but " + place + " has " +
-               std::to_string(vertices) + " vertices",
+           "index " + std::to_string(component) + " is " + std::to_string(value) + ", but " + place +
+               " has " + std::to_string(vertices) + " vertices",
            kExportAgain);
 }
 
@@ -103,7 +105,8 @@ void checkWeights(const Asset& asset, int accessor) {
   const auto weights = readFloats(asset, accessor);
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (weights[i] < 0)
-      breaks(accessorPlace(accessor), "a weight of vertex " + std::to_string(i / 4) + " is negative", kExportAgain);
+      breaks(accessorPlace(accessor), "a weight of vertex " + std::to_string(i / 4) + " is negative",
+             kExportAgain);
 }
 
 void checkJoints(const Asset& asset, const tinygltf::Primitive& primitive, std::size_t joints,
@@ -113,8 +116,8 @@ void checkJoints(const Asset& asset, const tinygltf::Primitive& primitive, std::
     const auto& [value, component] = largest.of(accessor);
     if (value >= joints)
       breaks(accessorPlace(accessor),
-             "vertex " + std::to_string(component / 4) + " is bound to joint " + std::to_string(value) + ", but " +
-                 skin + " has " + std::to_string(joints),
+             "vertex " + std::to_string(component / 4) + " is bound to joint " + std::to_string(value) +
+                 ", but " + skin + " has " + std::to_string(joints),
              kExportAgain);
   }
 }
@@ -125,7 +128,8 @@ void checkMeshData(const Asset& asset) {
   for (std::size_t mesh = 0; mesh < asset.model.meshes.size(); ++mesh)
     for (std::size_t i = 0; i < asset.model.meshes[mesh].primitives.size(); ++i) {
       const auto& primitive = asset.model.meshes[mesh].primitives[i];
-      checkIndices(asset, primitive, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i), largest);
+      checkIndices(asset, primitive, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i),
+                   largest);
       for (const auto& [name, accessor] : primitive.attributes)
         if (name.starts_with("WEIGHTS_")) weights.insert(accessor);
     }
@@ -149,7 +153,8 @@ void checkInverseBinds(const Asset& asset) {
       const auto off = [](float value, float wanted) { return std::abs(value - wanted) > 1e-5f; };
       if (off(m[3], 0) || off(m[7], 0) || off(m[11], 0) || off(m[15], 1))
         breaks(accessorPlace(skin.inverseBindMatrices),
-               "matrix " + std::to_string(joint) + " must be affine: the last row must be 0 0 0 1", kExportAgain);
+               "matrix " + std::to_string(joint) + " must be affine: the last row must be 0 0 0 1",
+               kExportAgain);
     }
   }
 }
@@ -158,7 +163,8 @@ void checkTimes(const Asset& asset, int accessor) {
   if (!hasData(asset, accessor)) return;
   const auto times = readFloats(asset, accessor);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < 0) breaks(accessorPlace(accessor), "key time " + std::to_string(i) + " is negative", kExportAgain);
+    if (times[i] < 0)
+      breaks(accessorPlace(accessor), "key time " + std::to_string(i) + " is negative", kExportAgain);
     if (i > 0 && times[i] <= times[i - 1])
       breaks(accessorPlace(accessor), "key times must increase strictly, do not at key " + std::to_string(i),
              kExportAgain);
@@ -175,9 +181,10 @@ void checkQuaternions(const Asset& asset, int accessor, bool cubic) {
     const float* q = &values[4 * i];
     const float length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(std::abs(length - 1) <= tolerance))
-      breaks(accessorPlace(accessor),
-             "element " + std::to_string(i) + " must be a unit quaternion, has length " + std::to_string(length),
-             "normalise the rotations");
+      breaks(
+          accessorPlace(accessor),
+          "element " + std::to_string(i) + " must be a unit quaternion, has length " + std::to_string(length),
+          "normalise the rotations");
   }
 }
 

@@ -14,7 +14,8 @@ void checkMaterial(const JsonView& material, std::size_t textures) {
     checkTextureInfo(material, key, textures);
   const auto pbr = material.find("pbrMetallicRoughness");
   if (!pbr) return;
-  for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"}) checkTextureInfo(*pbr, key, textures);
+  for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"})
+    checkTextureInfo(*pbr, key, textures);
   if (const auto colour = pbr->find("baseColorFactor"))
     for (const double part : colour->numbers(4))
       if (part < 0 || part > 1) colour->fail("must be between 0 and 1, holds " + std::to_string(part));

@@ -47,7 +47,8 @@ class Shapes {
       const JsonView& bufferView = views_[view->index(views_.size(), "bufferViews")];
       shape.stored = true;
       shape.begin = offset(accessor) + offset(bufferView);
-      if (const auto stride = bufferView.find("byteStride")) shape.stride = std::uint64_t(stride->integer(4, 252));
+      if (const auto stride = bufferView.find("byteStride"))
+        shape.stride = std::uint64_t(stride->integer(4, 252));
     }
     return shape;
   }
@@ -77,8 +78,8 @@ void checkAttribute(const std::string& name, const JsonView& place, const Shape&
   if (shape.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     place.fail("a vertex attribute must not be of 32-bit integers");
   if (shape.stored && (shape.begin % 4 != 0 || shape.stride % 4 != 0))
-    place.fail("vertex attributes must lie at multiples of 4 bytes: begins at " + std::to_string(shape.begin) +
-               ", stride " + std::to_string(shape.stride));
+    place.fail("vertex attributes must lie at multiples of 4 bytes: begins at " +
+               std::to_string(shape.begin) + ", stride " + std::to_string(shape.stride));
   const std::string set = setName(name);
   if (name == "POSITION" || name == "NORMAL") checkVector(place, shape, "VEC3", quantised);
   if (set == "JOINTS") {
@@ -148,7 +149,8 @@ void checkPrimitive(const JsonView& primitive, const JsonView& root, const Shape
   checkAttributes(primitive.at("attributes"), shapes, vertexCount);
   if (const auto indices = primitive.find("indices")) checkIndices(*indices, shapes);
   if (const auto mode = primitive.find("mode")) mode->integer(0, 6);
-  if (const auto material = primitive.find("material")) material->index(countOf(root, "materials"), "materials");
+  if (const auto material = primitive.find("material"))
+    material->index(countOf(root, "materials"), "materials");
   checkTargets(primitive, shapes, vertexCount);
 }
 

@@ -9,7 +9,8 @@ namespace {
 constexpr double kUnitTolerance = 0.01;  // exporters round; further off is an error and not rounding
 
 void checkTransform(const JsonView& node) {
-  const auto translation = node.find("translation"), rotation = node.find("rotation"), scale = node.find("scale");
+  const auto translation = node.find("translation"), rotation = node.find("rotation"),
+             scale = node.find("scale");
   if (translation) translation->numbers(3);
   if (scale) scale->numbers(3);
   if (rotation) {
@@ -20,7 +21,8 @@ void checkTransform(const JsonView& node) {
   }
   if (const auto matrix = node.find("matrix")) {
     const auto m = matrix->numbers(16);
-    if (translation || rotation || scale) matrix->fail("must not be given beside translation, rotation or scale");
+    if (translation || rotation || scale)
+      matrix->fail("must not be given beside translation, rotation or scale");
     if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
       matrix->fail("must be affine: the last row must be 0 0 0 1");
   }
@@ -52,7 +54,8 @@ std::vector<std::int64_t> checkForest(const std::vector<JsonView>& nodes) {
       const std::uint32_t child = item.index(nodes.size(), "nodes");
       if (child == i) item.fail("node " + std::to_string(i) + " is its own child");
       if (parent[child] >= 0)
-        item.fail("node " + std::to_string(child) + " is already a child of node " + std::to_string(parent[child]));
+        item.fail("node " + std::to_string(child) + " is already a child of node " +
+                  std::to_string(parent[child]));
       parent[child] = std::int64_t(i);
       children[i].push_back(child);
     }

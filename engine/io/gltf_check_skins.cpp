@@ -21,11 +21,13 @@ void checkSkin(const JsonView& skin, const JsonView& root, const std::vector<Jso
   const auto matrices = skin.find("inverseBindMatrices");
   if (!matrices) return;
   const JsonView& accessor = accessors[matrices->index(accessors.size(), "accessors")];
-  if (accessor.at("type").text() != "MAT4" || !isFloatComponent(accessor.at("componentType").integer(0, 65535)))
+  if (accessor.at("type").text() != "MAT4" ||
+      !isFloatComponent(accessor.at("componentType").integer(0, 65535)))
     matrices->fail("inverse bind matrices must be MAT4 of floats");
   const auto count = std::size_t(accessor.at("count").integer(1, std::int64_t(1) << 40));
   if (count < joints.size())
-    matrices->fail(std::to_string(count) + " matrices are too few for " + std::to_string(joints.size()) + " joints");
+    matrices->fail(std::to_string(count) + " matrices are too few for " + std::to_string(joints.size()) +
+                   " joints");
 }
 
 void checkSkinnedNode(const JsonView& node, const std::vector<JsonView>& meshes) {

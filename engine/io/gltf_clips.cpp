@@ -42,7 +42,8 @@ void extend(Clip& clip, const Track<T>& track, std::vector<float>& longest) {
   if (track.times.size() > longest.size()) longest = track.times;
 }
 
-Clip readClip(const Asset& asset, const tinygltf::Animation& animation, const std::vector<JointId>& jointOfNode) {
+Clip readClip(const Asset& asset, const tinygltf::Animation& animation,
+              const std::vector<JointId>& jointOfNode) {
   std::map<std::uint32_t, JointTracks> byJoint;
   for (const auto& channel : animation.channels) {
     if (channel.target_node < 0) continue;
@@ -51,9 +52,12 @@ Clip readClip(const Asset& asset, const tinygltf::Animation& animation, const st
     const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
     JointTracks& tracks = byJoint[joint.value];
     tracks.joint = joint;
-    if (channel.target_path == "translation") tracks.translation = vectorTrack(asset, sampler);
-    else if (channel.target_path == "rotation") tracks.rotation = rotationTrack(asset, sampler);
-    else if (channel.target_path == "scale") tracks.scale = vectorTrack(asset, sampler);
+    if (channel.target_path == "translation")
+      tracks.translation = vectorTrack(asset, sampler);
+    else if (channel.target_path == "rotation")
+      tracks.rotation = rotationTrack(asset, sampler);
+    else if (channel.target_path == "scale")
+      tracks.scale = vectorTrack(asset, sampler);
   }
   Clip clip;
   clip.name = animation.name;
@@ -80,8 +84,8 @@ float framesPerSecondOf(const std::vector<float>& times) {
   const float median = steps[steps.size() / 2];
   // A key may be missing now and then, but not a tenth of them; times late in a clip are rounded coarsely.
   const float tolerance = 0.02f * median + 1e-6f * times.back();
-  const auto regular =
-      std::count_if(steps.begin(), steps.end(), [&](float step) { return std::abs(step - median) <= tolerance; });
+  const auto regular = std::count_if(steps.begin(), steps.end(),
+                                     [&](float step) { return std::abs(step - median) <= tolerance; });
   if (std::size_t(regular) * 10 < steps.size() * 9) return kDefault;
   const float rate = 1 / median;
   if (!(rate >= 10 && rate <= 240)) return kDefault;

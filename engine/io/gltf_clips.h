@@ -10,8 +10,8 @@ namespace vasa::gltf {
 /// @param jointOfNode  one a node; channels of nodes without a joint are ignored
 std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode);
 
-/// The rate of regular keys, rounded to a whole number where that is within 0.5 %; 30 where keys are irregular, fewer
-/// than three, or outside 10 to 240 a second. @param times  increasing [s]
+/// The rate of regular keys, rounded to a whole number where that is within 0.5 %; 30 where keys are
+/// irregular, fewer than three, or outside 10 to 240 a second. @param times  increasing [s]
 float framesPerSecondOf(const std::vector<float>& times);
 
 }  // namespace vasa::gltf

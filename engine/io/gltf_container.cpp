@@ -7,8 +7,8 @@
 #include "core/log.h"
 #include "io/gltf_rule.h"
 
-// GLB (glTF 2.0, section 4.4): magic, version, total length; then chunks of length, type, payload. The first is
-// JSON, the second may be BIN, further types are to be skipped. All numbers are little-endian 32-bit.
+// GLB (glTF 2.0, section 4.4): magic, version, total length; then chunks of length, type, payload. The first
+// is JSON, the second may be BIN, further types are to be skipped. All numbers are little-endian 32-bit.
 namespace vasa::gltf {
 namespace {
 
@@ -45,7 +45,8 @@ std::uint64_t checkHeader(std::span<const std::byte> bytes) {
     breaks(atByte(8), "length " + std::to_string(length) + " has no room for a chunk", kExportAgain);
   if (length > bytes.size())
     breaks(atByte(8),
-           "length " + std::to_string(length) + " is more than the file's " + std::to_string(bytes.size()) + " bytes",
+           "length " + std::to_string(length) + " is more than the file's " + std::to_string(bytes.size()) +
+               " bytes",
            kIncomplete);
   if (length < bytes.size()) logWarning("the GLB is followed by bytes that do not belong to it; ignored");
   return length;
@@ -61,7 +62,8 @@ Chunk chunkAt(std::span<const std::byte> bytes, std::uint64_t offset) {
     breaks(atByte(offset), "the file ends inside a chunk's header", kIncomplete);
   const std::uint64_t length = word(bytes, offset);
   if (length % 4 != 0)
-    breaks(atByte(offset), "chunk length " + std::to_string(length) + " must be a multiple of 4", kExportAgain);
+    breaks(atByte(offset), "chunk length " + std::to_string(length) + " must be a multiple of 4",
+           kExportAgain);
   if (offset + kChunkHeaderBytes + length > bytes.size())
     breaks(atByte(offset), "chunk of " + std::to_string(length) + " bytes reaches past the end", kIncomplete);
   return {word(bytes, offset + 4), bytes.subspan(offset + kChunkHeaderBytes, length)};
@@ -96,13 +98,16 @@ void checkNesting(std::string_view json) {
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (inString) {
-      if (c == '\\') ++i;
-      else if (c == '"') inString = false;
+      if (c == '\\')
+        ++i;
+      else if (c == '"')
+        inString = false;
     } else if (c == '"') {
       inString = true;
     } else if (c == '{' || c == '[') {
       if (++depth > kMaximumNesting)
-        breaks("JSON byte " + std::to_string(i), "nested more than " + std::to_string(kMaximumNesting) + " deep",
+        breaks("JSON byte " + std::to_string(i),
+               "nested more than " + std::to_string(kMaximumNesting) + " deep",
                "no glTF needs that: this is not a usable file");
     } else if ((c == '}' || c == ']') && depth > 0) {
       --depth;
@@ -122,8 +127,10 @@ bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) 
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   const Container container = isGlb(bytes, path) ? splitGlb(bytes) : Container{asText(bytes), std::nullopt};
   if (container.json.size() > kMaximumJsonBytes)
-    breaks("JSON", std::to_string(container.json.size()) + " bytes are more than the " +
-                       std::to_string(kMaximumJsonBytes) + " that are accepted", "store data in binary buffers");
+    breaks("JSON",
+           std::to_string(container.json.size()) + " bytes are more than the " +
+               std::to_string(kMaximumJsonBytes) + " that are accepted",
+           "store data in binary buffers");
   if (container.json.starts_with("\xEF\xBB\xBF"))
     breaks("JSON byte 0", "begins with a byte order mark", "save the JSON as UTF-8 without one");
   checkNesting(container.json);

@@ -21,8 +21,8 @@ struct Container {
   std::optional<std::span<const std::byte>> binary;  ///< the BIN chunk of a GLB
 };
 
-/// Takes a .glb apart, or passes a .gltf through, after checking sizes, chunk order and JSON nesting. Lengths are
-/// computed in 64 bits, so none can wrap. Throws BrokenRule. O(file), no allocation.
+/// Takes a .glb apart, or passes a .gltf through, after checking sizes, chunk order and JSON nesting. Lengths
+/// are computed in 64 bits, so none can wrap. Throws BrokenRule. O(file), no allocation.
 /// @param bytes  the whole file; must outlive the result
 /// @param path   tells .glb from .gltf where the first bytes do not
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path);

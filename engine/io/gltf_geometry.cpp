@@ -9,7 +9,8 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr float kWeightTolerance = 1e-3f;  // 8-bit weights round by up to 4 * 0.5 / 255 before they are mended
+constexpr float kWeightTolerance =
+    1e-3f;  // 8-bit weights round by up to 4 * 0.5 / 255 before they are mended
 
 std::vector<vec3> readVectors(const Asset& asset, int accessor) {
   const auto values = readFloats(asset, accessor);
@@ -28,8 +29,10 @@ std::vector<uvec3> trianglesOf(const std::vector<std::uint32_t>& corners, int mo
   }
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     uvec3 triangle;
-    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) triangle = {corners[i + 1], corners[i + 2], corners[0]};
-    else triangle = {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]};  // every second one is turned
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+      triangle = {corners[i + 1], corners[i + 2], corners[0]};
+    else
+      triangle = {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]};  // every second one is turned
     const bool stitch = triangle.x == triangle.y || triangle.y == triangle.z || triangle.z == triangle.x;
     if (!stitch) out.push_back(triangle);
   }
@@ -53,7 +56,8 @@ struct Gathered {
     parts.emplace_back(joint, weight);
   }
   Geometry::Influence strongest() {
-    std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
     Geometry::Influence influence;
     float sum = 0;
     for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), 4); ++i) sum += parts[i].second;
@@ -87,14 +91,16 @@ void readInfluences(const Asset& asset, const tinygltf::Primitive& primitive, st
   }
 }
 
-std::vector<std::uint32_t> cornersOf(const Asset& asset, const tinygltf::Primitive& primitive, std::size_t vertices) {
+std::vector<std::uint32_t> cornersOf(const Asset& asset, const tinygltf::Primitive& primitive,
+                                     std::size_t vertices) {
   if (primitive.indices >= 0) return readIntegers(asset, primitive.indices);
   std::vector<std::uint32_t> corners(vertices);
   for (std::size_t i = 0; i < vertices; ++i) corners[i] = std::uint32_t(i);
   return corners;
 }
 
-std::vector<vec3> normalsOf(const Asset& asset, const tinygltf::Primitive& primitive, const TriangleMesh& mesh) {
+std::vector<vec3> normalsOf(const Asset& asset, const tinygltf::Primitive& primitive,
+                            const TriangleMesh& mesh) {
   const int accessor = attribute(primitive, "NORMAL");
   std::vector<vec3> computed = vertexNormals(mesh);
   if (accessor < 0) return computed;
@@ -110,13 +116,14 @@ std::vector<vec3> normalsOf(const Asset& asset, const tinygltf::Primitive& primi
 
 void Budget::spend(std::size_t vertices, std::size_t triangles, const std::string& place) {
   if (vertices > vertices_ || triangles > triangles_)
-    breaks(place, "the meshes of the file, repeated as often as it says, are too large", "split or reduce the asset");
+    breaks(place, "the meshes of the file, repeated as often as it says, are too large",
+           "split or reduce the asset");
   vertices_ -= vertices;
   triangles_ -= triangles;
 }
 
-void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned, const std::string& place,
-                     Budget& budget, Geometry& geometry) {
+void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned,
+                     const std::string& place, Budget& budget, Geometry& geometry) {
   const int position = attribute(primitive, "POSITION");
   if (position < 0 || primitive.mode < TINYGLTF_MODE_TRIANGLES) return;
   const std::size_t vertices = asset.model.accessors[std::size_t(position)].count;

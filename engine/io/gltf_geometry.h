@@ -13,7 +13,8 @@ namespace vasa::gltf {
 struct Geometry {
   TriangleMesh mesh;
   std::vector<vec3> normals;  ///< unit, one a vertex; from the triangles where the file has none
-  /// One a vertex, empty for what is not skinned: up to four joints of the node's skin, weights that sum to 1.
+  /// One a vertex, empty for what is not skinned: up to four joints of the node's skin, weights that sum
+  /// to 1.
   struct Influence {
     std::array<std::uint32_t, 4> joints{};
     vec4 weights{0};
@@ -22,8 +23,8 @@ struct Geometry {
   std::size_t mendedWeights = 0;  ///< vertices whose weights did not sum to 1
 };
 
-/// How much geometry all primitives of a file may expand to: a few bytes of JSON can name a mesh any number of
-/// times.
+/// How much geometry all primitives of a file may expand to: a few bytes of JSON can name a mesh any number
+/// of times.
 class Budget {
  public:
   /// Throws BrokenRule when the sum of all calls exceeds the limits.
@@ -34,14 +35,15 @@ class Budget {
   std::size_t triangles_ = std::size_t(1) << 26;
 };
 
-/// Adds a primitive's triangles (lists, strips and fans, indexed or not). Points and lines add nothing. Corners of
-/// strips that are no triangle are left out.
+/// Adds a primitive's triangles (lists, strips and fans, indexed or not). Points and lines add nothing.
+/// Corners of strips that are no triangle are left out.
 /// @param skinned  read joints and weights; the primitive has them
 /// @param place    of the primitive, for messages
-void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned, const std::string& place,
-                     Budget& budget, Geometry& geometry);
+void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned,
+                     const std::string& place, Budget& budget, Geometry& geometry);
 
-/// Moves positions and normals; where the transform mirrors, turns the triangles over so that they keep facing out.
+/// Moves positions and normals; where the transform mirrors, turns the triangles over so that they keep
+/// facing out.
 void transform(Geometry& geometry, const mat4& by);
 
 }  // namespace vasa::gltf

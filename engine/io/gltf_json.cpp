@@ -13,9 +13,12 @@ namespace {
 std::string escaped(const std::string& key) {
   std::string out;
   for (const char c : key) {
-    if (c == '~') out += "~0";
-    else if (c == '/') out += "~1";
-    else out += c;
+    if (c == '~')
+      out += "~0";
+    else if (c == '/')
+      out += "~1";
+    else
+      out += c;
   }
   return out;
 }
@@ -122,7 +125,8 @@ std::int64_t JsonView::integer(std::int64_t low, std::int64_t high) const {
   const double approximate = value_->get<double>();
   const std::int64_t exact = std::abs(approximate) <= kLargestExactInteger ? std::int64_t(approximate) : -1;
   if (std::abs(approximate) > kLargestExactInteger || exact < low || exact > high)
-    fail("must be between " + std::to_string(low) + " and " + std::to_string(high) + ", is " + value_->dump());
+    fail("must be between " + std::to_string(low) + " and " + std::to_string(high) + ", is " +
+         value_->dump());
   return exact;
 }
 
@@ -144,8 +148,10 @@ void normaliseIntegers(nlohmann::json& value) {
     for (auto& child : value) normaliseIntegers(child);  // at most 64 deep: checked before parsing
   } else if (value.is_number_float() && isInteger(value)) {
     const double number = value.get<double>();
-    if (number >= 0) value = std::uint64_t(number);
-    else value = std::int64_t(number);
+    if (number >= 0)
+      value = std::uint64_t(number);
+    else
+      value = std::int64_t(number);
   }
 }
 

@@ -11,7 +11,8 @@ namespace vasa::gltf {
 /// Accessors throw BrokenRule where the document is not what they ask for.
 class JsonView {
  public:
-  explicit JsonView(const nlohmann::json& value, std::string place = "") : value_(&value), place_(std::move(place)) {}
+  explicit JsonView(const nlohmann::json& value, std::string place = "")
+      : value_(&value), place_(std::move(place)) {}
 
   const std::string& place() const { return place_; }
   [[noreturn]] void fail(const std::string& rule, const std::string& remedy = "") const;
@@ -31,8 +32,8 @@ class JsonView {
   void mustBeObject() const;
   const std::string& text() const;
   bool boolean() const;
-  double number() const;                                         ///< finite
-  std::vector<double> numbers(std::size_t count) const;          ///< exactly count of them
+  double number() const;                                            ///< finite
+  std::vector<double> numbers(std::size_t count) const;             ///< exactly count of them
   std::int64_t integer(std::int64_t low, std::int64_t high) const;  ///< 3.0 counts as 3
   /// An index into a top-level array that has count elements.
   std::uint32_t index(std::size_t count, const char* array) const;

@@ -12,7 +12,9 @@ mat4 localMatrix(const tinygltf::Node& node) {
     return matrix;
   }
   JointTransform transform;
-  const auto vector = [](const std::vector<double>& v) { return vec3(float(v[0]), float(v[1]), float(v[2])); };
+  const auto vector = [](const std::vector<double>& v) {
+    return vec3(float(v[0]), float(v[1]), float(v[2]));
+  };
   if (!node.translation.empty()) transform.translation = vector(node.translation);
   if (!node.scale.empty()) transform.scale = vector(node.scale);
   if (const auto& q = node.rotation; !q.empty())

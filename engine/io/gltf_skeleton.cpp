@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "io/gltf_accessor.h"
 #include "io/gltf_rule.h"
@@ -85,12 +86,14 @@ class Members {
   bool rootsAgree() const {
     const mat4 first = above();
     for (const int node : tree_.order)
-      if (isRoot(node) && difference(worldAbove(node), first) > 1e-6f * std::max(1.0f, size(first))) return false;
+      if (isRoot(node) && difference(worldAbove(node), first) > 1e-6f * std::max(1.0f, size(first)))
+        return false;
     return true;
   }
   void addAllAncestors() {
     for (auto it = tree_.order.rbegin(); it != tree_.order.rend(); ++it)
-      if (has(*it) && tree_.parent[std::size_t(*it)] >= 0) is_[std::size_t(tree_.parent[std::size_t(*it)])] = true;
+      if (has(*it) && tree_.parent[std::size_t(*it)] >= 0)
+        is_[std::size_t(tree_.parent[std::size_t(*it)])] = true;
   }
   const NodeTree& tree_;
   std::vector<bool> is_;
@@ -114,7 +117,9 @@ JointTransform decompose(const mat4& m, const std::string& place) {
 JointTransform restOf(const tinygltf::Node& node, const mat4& local, int index) {
   if (!node.matrix.empty()) return decompose(local, "/nodes/" + std::to_string(index) + "/matrix");
   JointTransform out;
-  const auto vector = [](const std::vector<double>& v) { return vec3(float(v[0]), float(v[1]), float(v[2])); };
+  const auto vector = [](const std::vector<double>& v) {
+    return vec3(float(v[0]), float(v[1]), float(v[2]));
+  };
   if (!node.translation.empty()) out.translation = vector(node.translation);
   if (!node.scale.empty()) out.scale = vector(node.scale);
   if (const auto& q = node.rotation; !q.empty())
@@ -141,10 +146,10 @@ class Binder {
     BodySkeleton::Skin skin{std::move(joints), mat4(1)};
     if (const auto shared = restIsBinding(skin.joints, matrices)) {
       skin.bake = *shared;
-      for (const JointId joint : skin.joints) claim(joint, glm::inverse(at(joint).restWorld), joint);
+      for (JointId& joint : skin.joints) claim(joint, glm::inverse(at(joint).restWorld));
       return skin;
     }
-    for (std::size_t i = 0; i < skin.joints.size(); ++i) claim(skin.joints[i], matrices[i], skin.joints[i]);
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) claim(skin.joints[i], matrices[i]);
     return skin;
   }
 
@@ -167,14 +172,17 @@ class Binder {
     const mat4 first = at(joints[0]).restWorld * matrices[0];
     if (!invertible(first)) return std::nullopt;
     for (std::size_t i = 1; i < joints.size(); ++i)
-      if (!(difference(at(joints[i]).restWorld * matrices[i], first) <= kSameBinding * extent)) return std::nullopt;
+      if (!(difference(at(joints[i]).restWorld * matrices[i], first) <= kSameBinding * extent))
+        return std::nullopt;
     // A transform that is only rounding must not disturb the file's own coordinates.
     return difference(first, mat4(1)) <= kSameBinding * extent ? mat4(1) : first;
   }
 
-  void claim(JointId joint, const mat4& matrix, JointId& used) {
+  // Gives the joint this matrix; where another skin has given it a different one, the joint becomes its
+  // double.
+  void claim(JointId& joint, const mat4& matrix) {
     if (bound_[joint.value] && difference(at(joint).inverseBind, matrix) > kSameBinding * size(matrix)) {
-      used = doubled(joint, matrix);
+      joint = doubled(joint, matrix);
       return;
     }
     if (!bound_[joint.value]) at(joint).inverseBind = matrix;
@@ -212,8 +220,9 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     joint.name = model.nodes[i].name.empty() ? "node " + std::to_string(node) : model.nodes[i].name;
     if (tree.parent[i] >= 0) joint.parent = out.jointOfNode[std::size_t(tree.parent[i])];
     joint.rest = restOf(model.nodes[i], tree.local[i], node);
-    joint.restWorld = (joint.parent.valid() ? skeleton.joints[joint.parent.value].restWorld : skeleton.rootTransform) *
-                      joint.rest.matrix();
+    joint.restWorld =
+        (joint.parent.valid() ? skeleton.joints[joint.parent.value].restWorld : skeleton.rootTransform) *
+        joint.rest.matrix();
     out.jointOfNode[i] = {std::uint32_t(skeleton.joints.size())};
     skeleton.joints.push_back(std::move(joint));
   }

@@ -19,15 +19,15 @@ struct BodySkeleton {
   std::vector<Skin> skins;
 };
 
-/// Joints are the joints of all skins, and besides them every node that moves one of them or a mesh and cannot be
-/// folded into rootTransform: nodes between joints, animated nodes above joints or meshes, and, where the root joints
-/// hang under different transforms, all nodes above them.
+/// Joints are the joints of all skins, and besides them every node that moves one of them or a mesh and
+/// cannot be folded into rootTransform: nodes between joints, animated nodes above joints or meshes, and,
+/// where the root joints hang under different transforms, all nodes above them.
 ///
-/// Where a skin's rest pose is its binding pose up to one transform (nearly every file), that transform is baked
-/// into its vertices and the inverse bind matrices become the inverses of the rest pose. Then at rest the vertices
-/// are where they are stored, and skins bound in different spaces share joints. Any other skin keeps its matrices;
-/// a joint that would need two different ones is doubled.
-/// Throws BrokenRule where a joint's matrix is no translation, rotation and scale.
+/// Where a skin's rest pose is its binding pose up to one transform (nearly every file), that transform is
+/// baked into its vertices and the inverse bind matrices become the inverses of the rest pose. Then at rest
+/// the vertices are where they are stored, and skins bound in different spaces share joints. Any other skin
+/// keeps its matrices; a joint that would need two different ones is doubled. Throws BrokenRule where a
+/// joint's matrix is no translation, rotation and scale.
 BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree);
 
 }  // namespace vasa::gltf
