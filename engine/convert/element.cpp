@@ -1,0 +1,174 @@
+#include "convert/element.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convert/forks.h"
+#include "convert/prune.h"
+#include "convert/reeb.h"
+#include "convert/reslice.h"
+#include "mesh/boundary.h"
+#include "mesh/components.h"
+#include "mesh/level_set.h"
+#include "mesh/weld.h"
+
+namespace vasa {
+namespace {
+
+// One connected piece, its holes filled, ready to be cut.
+struct Piece {
+  TriangleMesh mesh;
+  MeshEdges edges;
+  std::uint32_t holes = 0;
+};
+
+Piece prepare(const TriangleMesh& component) {
+  const MeshEdges edges = buildEdges(component);
+  const auto loops = boundaryLoops(component, edges);
+  Piece piece{fillLoops(component, edges, loops), {}, std::uint32_t(loops.size())};
+  piece.edges = buildEdges(piece.mesh);
+  return piece;
+}
+
+// Radius of a tube from its surface: 2 V / A where the volume can be trusted, and never beyond what one
+// unbranched tube of the farthest distance would have.
+float typicalRadius(const TriangleMesh& mesh, float reach) {
+  const double area = mesh.area();
+  const double fromLength = area / (2 * double(kPi) * std::max(double(reach), 1e-9));
+  return float(std::clamp(2 * std::abs(mesh.volume()) / area, 0.2 * fromLength, fromLength));
+}
+
+struct PieceAxes {
+  AxisGraph graph;
+  std::vector<std::vector<vec4>> sections;
+  PruneReport pruned;
+};
+
+// Drops rough points nearer than `distance` to the chain's start, but leaves at least two.
+void trimStart(std::vector<vec4>& points, vec3 from, float distance) {
+  std::size_t drop = 0;
+  while (drop + 2 < points.size() && glm::distance(vec3(points[drop]), from) < distance) ++drop;
+  points.erase(points.begin(), points.begin() + std::ptrdiff_t(drop));
+}
+
+float endRadius(const std::vector<vec4>& points, bool last) {
+  const std::size_t count = std::min<std::size_t>(7, points.size());
+  std::vector<float> radii;
+  for (std::size_t i = 0; i < count; ++i) radii.push_back(points[last ? points.size() - 1 - i : i].w);
+  std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(count / 2), radii.end());
+  return radii[count / 2];
+}
+
+PieceAxes axesByLevelSets(const Piece& piece) {
+  PieceAxes result;
+  const VertexTriangles around = buildVertexTriangles(piece.mesh);
+  const std::uint32_t first = 0;
+  const std::uint32_t source = farthest(surfaceDistance(piece.mesh, around, {&first, 1}));
+  std::vector<float> distance = surfaceDistance(piece.mesh, around, {&source, 1});
+  const float reach = distance[farthest(distance)];
+  if (!(reach > 0)) return result;
+  const float radius = typicalRadius(piece.mesh, reach);
+  const float step = std::max(0.5f * radius, reach / 5000);
+  result.graph = reebGraph(piece.mesh, piece.edges, distance, step);
+  result.pruned = prune(result.graph);
+
+  const TriangleTree tree(piece.mesh);
+  Slicer slicer(piece.mesh, piece.edges, tree);
+  const auto ends = chainEnds(result.graph);
+  for (std::uint32_t i = 0; i < result.graph.chains.size(); ++i) {
+    const AxisChain& chain = result.graph.chains[i];
+    std::vector<vec4> rough = chain.points;
+    const auto trim = [&](std::uint32_t node, bool last) {
+      float distanceFrom = endRadius(chain.points, last);  // level sets near a tip are askew
+      if (ends[node].size() > 1) {
+        distanceFrom = 0;
+        for (const ChainEnd& end : ends[node])
+          if (end.chain != i || end.last != last)
+            distanceFrom = std::max(distanceFrom, endRadius(result.graph.chains[end.chain].points, end.last));
+      }
+      if (last) std::reverse(rough.begin(), rough.end());
+      trimStart(rough, result.graph.nodes[node], distanceFrom);
+      if (last) std::reverse(rough.begin(), rough.end());
+    };
+    trim(chain.start, false);
+    trim(chain.end, true);
+    std::vector<vec4> sections = reslice(slicer, rough);
+    if (sections.size() >= 2) {
+      const float limit = 0.5f * chain.length + 4 * radius;
+      if (ends[chain.end].size() == 1) extendToEnd(slicer, sections, limit);
+      if (ends[chain.start].size() == 1) {
+        std::reverse(sections.begin(), sections.end());
+        extendToEnd(slicer, sections, limit);
+        std::reverse(sections.begin(), sections.end());
+      }
+    }
+    result.sections.push_back(std::move(sections));
+  }
+  connectForks(result.graph, result.sections);
+  return result;
+}
+
+// Neighbouring sections that coincide become one; end sections stay.
+void separate(std::vector<vec4>& sections, float minimumRadius) {
+  std::vector<vec4> kept;
+  for (vec4 s : sections) {
+    s.w = std::max(s.w, minimumRadius);
+    if (!kept.empty() && glm::distance(vec3(kept.back()), vec3(s)) < 0.01f * s.w) continue;
+    kept.push_back(s);
+  }
+  if (kept.size() > 1) kept.back() = vec4(vec3(sections.back()), std::max(sections.back().w, minimumRadius));
+  sections = std::move(kept);
+}
+
+void add(ElementSkeleton& skeleton, PieceAxes&& axes, float minimumRadius) {
+  const auto base = std::uint32_t(skeleton.nodes.size());
+  for (const vec3& position : axes.graph.nodes) skeleton.nodes.push_back({position, 0});
+  for (std::size_t i = 0; i < axes.graph.chains.size(); ++i) {
+    const AxisChain& chain = axes.graph.chains[i];
+    ElementBranch branch{std::move(axes.sections[i]), base + chain.start, base + chain.end};
+    separate(branch.sections, minimumRadius);
+    if (branch.sections.size() < 2) continue;
+    ++skeleton.nodes[branch.startNode].valence;
+    ++skeleton.nodes[branch.endNode].valence;
+    branch.sections.front() = vec4(skeleton.nodes[branch.startNode].position, branch.sections.front().w);
+    branch.sections.back() = vec4(skeleton.nodes[branch.endNode].position, branch.sections.back().w);
+    skeleton.branches.push_back(std::move(branch));
+  }
+}
+
+void note(std::string& reason, const std::string& text) {
+  if (!reason.empty()) reason += "; ";
+  reason += text;
+}
+
+}  // namespace
+
+ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& options) {
+  ElementSkeleton skeleton;
+  const TriangleMesh clean = weld(mesh, options.weldTolerance);
+  if (clean.empty()) {
+    skeleton.reason = mesh.empty() ? "no triangles" : "no usable triangle";
+    return skeleton;
+  }
+  const std::vector<TriangleMesh> components = splitComponents(clean, buildEdges(clean));
+  skeleton.componentsTotal = std::uint32_t(components.size());
+  const double area = clean.area();
+  std::uint32_t debris = 0, shapeless = 0;
+  for (const TriangleMesh& component : components) {
+    if (component.area() < options.debrisShare * area) {
+      ++debris;
+      continue;
+    }
+    PieceAxes axes = axesByLevelSets(prepare(component));
+    const std::size_t before = skeleton.branches.size();
+    add(skeleton, std::move(axes), options.minimumRadius);
+    if (skeleton.branches.size() == before) ++shapeless;
+    else ++skeleton.componentsUsed;
+  }
+  if (!skeleton.branches.empty()) skeleton.method = "level sets";
+  if (debris > 0) note(skeleton.reason, std::to_string(debris) + " pieces too small");
+  if (shapeless > 0) note(skeleton.reason, std::to_string(shapeless) + " pieces without an axis");
+  return skeleton;
+}
+
+}  // namespace vasa

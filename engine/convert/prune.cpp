@@ -1,0 +1,112 @@
+#include "convert/prune.h"
+
+#include <algorithm>
+#include <map>
+
+namespace vasa {
+namespace {
+
+// The radius of a chain where it leaves a node: the median of its first few contours.
+float radiusAt(const AxisChain& chain, bool last) {
+  std::vector<float> radii;
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, chain.points.size()); ++i)
+    radii.push_back(last ? chain.points[chain.points.size() - 1 - i].w : chain.points[i].w);
+  if (radii.empty()) return 0;
+  std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
+  return radii[radii.size() / 2];
+}
+
+void erase(AxisGraph& graph, std::uint32_t chain) {
+  graph.chains.erase(graph.chains.begin() + chain);
+}
+
+// The shortest leaf chain below the radius of its parent, counted in those radii.
+bool pruneOne(AxisGraph& graph) {
+  const auto ends = chainEnds(graph);
+  float worst = 1;
+  std::int64_t chosen = -1;
+  for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
+    const AxisChain& chain = graph.chains[i];
+    const bool startFree = ends[chain.start].size() == 1, endFree = ends[chain.end].size() == 1;
+    if (startFree == endFree) continue;
+    const auto& fork = ends[startFree ? chain.end : chain.start];
+    if (fork.size() < 3) continue;
+    float parent = 0;
+    for (const ChainEnd& end : fork)
+      if (end.chain != i) parent = std::max(parent, radiusAt(graph.chains[end.chain], end.last));
+    if (!(parent > 0)) continue;
+    const float ratio = chain.length / parent;
+    if (ratio < worst) worst = ratio, chosen = i;
+  }
+  if (chosen < 0) return false;
+  erase(graph, std::uint32_t(chosen));
+  compact(graph);
+  return true;
+}
+
+// A chain that returns to its own node, or the thinner of two that join the same nodes, if both are short.
+bool closeLoop(AxisGraph& graph) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> seen;
+  const auto girth = [&](std::uint32_t i) {
+    float most = 0;
+    for (const vec4& p : graph.chains[i].points) most = std::max(most, p.w);
+    return 2 * kPi * most;
+  };
+  for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
+    const AxisChain& chain = graph.chains[i];
+    if (chain.start == chain.end) {
+      if (chain.length > girth(i) || graph.chains.size() == 1) continue;
+      erase(graph, i);
+      compact(graph);
+      return true;
+    }
+    const auto [found, fresh] = seen.emplace(std::minmax({chain.start, chain.end}), i);
+    if (fresh) continue;
+    const std::uint32_t other = found->second;
+    if (chain.length + graph.chains[other].length > 2 * std::max(girth(i), girth(other))) continue;
+    const auto thickness = [&](std::uint32_t k) {
+      double sum = 0;
+      for (const vec4& p : graph.chains[k].points) sum += p.w;
+      return sum / double(std::max<std::size_t>(1, graph.chains[k].points.size()));
+    };
+    erase(graph, thickness(i) <= thickness(other) ? i : other);
+    compact(graph);
+    return true;
+  }
+  return false;
+}
+
+// Forks nearer than the radius of what joins them.
+bool mergeOne(AxisGraph& graph) {
+  const auto valence = graph.valences();
+  for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
+    const AxisChain chain = graph.chains[i];
+    if (chain.start == chain.end || valence[chain.start] < 3 || valence[chain.end] < 3) continue;
+    if (chain.length >= std::max(radiusAt(chain, false), radiusAt(chain, true))) continue;
+    graph.nodes[chain.start] = 0.5f * (graph.nodes[chain.start] + graph.nodes[chain.end]);
+    erase(graph, i);
+    for (AxisChain& other : graph.chains) {
+      if (other.start == chain.end) other.start = chain.start;
+      if (other.end == chain.end) other.end = chain.start;
+    }
+    compact(graph);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PruneReport prune(AxisGraph& graph) {
+  PruneReport report;
+  // Each step removes a chain, so this ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    while (closeLoop(graph)) ++report.loops, changed = true;
+    while (pruneOne(graph)) ++report.pruned, changed = true;
+    while (mergeOne(graph)) ++report.merged, changed = true;
+  }
+  return report;
+}
+
+}  // namespace vasa

@@ -1,0 +1,111 @@
+#include "mesh/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "math/closest_point.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kLeafSize = 4;
+
+float distanceToBox(vec3 p, const Aabb& box) {
+  return glm::length(glm::max(glm::max(box.low - p, p - box.high), vec3(0)));
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+  boxes_.reserve(mesh.triangles.size());
+  for (const uvec3& t : mesh.triangles) {
+    Aabb& box = boxes_.emplace_back();
+    for (int k = 0; k < 3; ++k) box.add(mesh.positions[t[k]]);
+  }
+  std::iota(order_.begin(), order_.end(), 0u);
+  if (order_.empty()) return;
+  nodes_.reserve(order_.size());
+  nodes_.emplace_back();
+  split(0, 0, std::uint32_t(order_.size()));
+}
+
+void TriangleTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  Aabb box, centres;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    box.add(boxes_[order_[i]]);
+    centres.add(boxes_[order_[i]].centre());
+  }
+  nodes_[node] = {box, first, count};
+  if (count <= kLeafSize) return;
+  const vec3 extent = centres.extent();
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const std::uint32_t half = count / 2;
+  const auto begin = order_.begin() + first;
+  std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+    const float ca = boxes_[a].centre()[axis], cb = boxes_[b].centre()[axis];
+    return ca != cb ? ca < cb : a < b;
+  });
+  const auto children = std::uint32_t(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  nodes_[node].first = children;
+  nodes_[node].count = 0;
+  split(children, first, half);
+  split(children + 1, first + half, count - half);
+}
+
+TriangleTree::Nearest TriangleTree::nearest(vec3 p, float within) const {
+  Nearest best;
+  best.distance = within;
+  if (nodes_.empty()) return best;
+  std::uint32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (distanceToBox(p, node.box) >= best.distance) continue;
+    if (node.count == 0) {
+      const bool leftNearer =
+          distanceToBox(p, nodes_[node.first].box) <= distanceToBox(p, nodes_[node.first + 1].box);
+      stack[depth++] = node.first + (leftNearer ? 1 : 0);
+      stack[depth++] = node.first + (leftNearer ? 0 : 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const uvec3& t = mesh_.triangles[order_[i]];
+      const vec3 q =
+          closestOnTriangle(p, mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]).point;
+      const float distance = glm::distance(p, q);
+      if (distance < best.distance) best = {q, order_[i], distance};
+    }
+  }
+  return best;
+}
+
+void TriangleTree::nearPlane(vec3 onPlane, vec3 normal, float reach,
+                             std::vector<std::uint32_t>& triangles) const {
+  if (nodes_.empty()) return;
+  const std::size_t before = triangles.size();
+  const auto crosses = [&](const Aabb& box) {
+    if (distanceToBox(onPlane, box) > reach) return false;
+    const float half = 0.5f * glm::dot(box.extent(), glm::abs(normal));
+    return std::abs(glm::dot(box.centre() - onPlane, normal)) <= half * 1.0001f + 1e-7f;
+  };
+  std::uint32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (!crosses(node.box)) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (crosses(boxes_[order_[i]])) triangles.push_back(order_[i]);
+  }
+  std::sort(triangles.begin() + std::ptrdiff_t(before), triangles.end());
+}
+
+}  // namespace vasa
