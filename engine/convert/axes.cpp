@@ -69,7 +69,8 @@ void compact(AxisGraph& graph) {
 
 float polylineLength(const std::vector<vec4>& points) {
   float length = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(vec3(points[i]), vec3(points[i - 1]));
+  for (std::size_t i = 1; i < points.size(); ++i)
+    length += glm::distance(vec3(points[i]), vec3(points[i - 1]));
   return length;
 }
 

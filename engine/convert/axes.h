@@ -6,8 +6,8 @@
 
 namespace vasa {
 
-/// A rough axis between two nodes: centres with radius estimates, from the start node's side to the end node's,
-/// without the nodes themselves.
+/// A rough axis between two nodes: centres with radius estimates, from the start node's side to the end
+/// node's, without the nodes themselves.
 struct AxisChain {
   std::uint32_t start = 0, end = 0;
   std::vector<vec4> points;

@@ -162,8 +162,10 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
     PieceAxes axes = axesByLevelSets(prepare(component));
     const std::size_t before = skeleton.branches.size();
     add(skeleton, std::move(axes), options.minimumRadius);
-    if (skeleton.branches.size() == before) ++shapeless;
-    else ++skeleton.componentsUsed;
+    if (skeleton.branches.size() == before)
+      ++shapeless;
+    else
+      ++skeleton.componentsUsed;
   }
   if (!skeleton.branches.empty()) skeleton.method = "level sets";
   if (debris > 0) note(skeleton.reason, std::to_string(debris) + " pieces too small");

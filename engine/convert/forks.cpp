@@ -45,8 +45,8 @@ vec3 placeNode(const std::vector<Arm>& arms, vec3 rough) {
   vec3 chosen = rough;
   float least = std::numeric_limits<float>::infinity();
   for (int step = 0; step <= 16; ++step) {
-    const vec3 p = hermite(arms[i].position, arms[i].direction, arms[j].position, arms[j].direction,
-                           float(step) / 16);
+    const vec3 p =
+        hermite(arms[i].position, arms[i].direction, arms[j].position, arms[j].direction, float(step) / 16);
     float miss = arms.size() > 2 ? 0 : glm::distance(p, rough);
     for (std::size_t k = 0; k < arms.size(); ++k) {
       if (k == i || k == j) continue;
@@ -69,8 +69,9 @@ std::vector<vec4> lead(const Arm& arm, vec3 node) {
     const float t = float(i) / float(count), s = 1 - t;
     // Leaves the arm along its direction; arrives straight.
     const vec3 b1 = arm.position + arm.direction * (length / 3), b2 = node - towards * (length / 3);
-    const vec3 p = i == count ? node
-                              : s * s * s * arm.position + 3 * s * s * t * b1 + 3 * s * t * t * b2 + t * t * t * node;
+    const vec3 p =
+        i == count ? node
+                   : s * s * s * arm.position + 3 * s * s * t * b1 + 3 * s * t * t * b2 + t * t * t * node;
     sections.push_back(vec4(p, arm.radius));
   }
   return sections;
@@ -79,7 +80,8 @@ std::vector<vec4> lead(const Arm& arm, vec3 node) {
 float medianOf(std::vector<vec4> points) {
   if (points.empty()) return 0;
   const auto middle = points.begin() + std::ptrdiff_t(points.size() / 2);
-  std::nth_element(points.begin(), middle, points.end(), [](const vec4& a, const vec4& b) { return a.w < b.w; });
+  std::nth_element(points.begin(), middle, points.end(),
+                   [](const vec4& a, const vec4& b) { return a.w < b.w; });
   return middle->w;
 }
 
@@ -92,19 +94,18 @@ void connectForks(AxisGraph& graph, std::vector<std::vector<vec4>>& sections) {
     std::vector<Arm> arms;
     for (const ChainEnd& end : ends[node])
       if (const auto arm = armOf(end, trimmed[end.chain])) arms.push_back(*arm);
-    if (ends[node].size() > 1) graph.nodes[node] = placeNode(arms, graph.nodes[node]);
-    else if (!arms.empty()) graph.nodes[node] = arms[0].position;
+    if (ends[node].size() > 1)
+      graph.nodes[node] = placeNode(arms, graph.nodes[node]);
+    else if (!arms.empty())
+      graph.nodes[node] = arms[0].position;
     if (ends[node].size() < 2) continue;
-    for (const Arm& arm : arms) {
-      if (glm::distance(arm.position, graph.nodes[node]) < 0.02f * arm.radius) {
-        graph.nodes[node] = arm.position;  // already there: only this arm can be so near, or all are
-      }
-    }
     for (const Arm& arm : arms) {
       auto& list = sections[arm.end.chain];
       const auto added = lead(arm, graph.nodes[node]);
-      if (arm.end.last) list.insert(list.end(), added.begin(), added.end());
-      else list.insert(list.begin(), added.rbegin(), added.rend());
+      if (arm.end.last)
+        list.insert(list.end(), added.begin(), added.end());
+      else
+        list.insert(list.begin(), added.rbegin(), added.rend());
     }
   }
   for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {

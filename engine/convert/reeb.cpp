@@ -70,7 +70,8 @@ Links linkBands(const TriangleMesh& mesh, const Bands& bands, DisjointSets& sets
 
 }  // namespace
 
-AxisGraph reebGraph(const TriangleMesh& mesh, const MeshEdges& edges, std::span<const float> value, float step) {
+AxisGraph reebGraph(const TriangleMesh& mesh, const MeshEdges& edges, std::span<const float> value,
+                    float step) {
   const Bands bands(mesh, value, step);
   DisjointSets sets(bands.first.back());
   for (std::uint32_t e = 0; e < edges.size(); ++e) {

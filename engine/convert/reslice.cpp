@@ -9,7 +9,8 @@ namespace {
 constexpr float kSpacing = 0.6f;       // of sections, in radii
 constexpr float kTangentReach = 1.0f;  // a tangent is the chord over so many radii to both sides
 constexpr int kMostEndCuts = 200;
-constexpr float kSliceReach = 3.0f;    // triangles considered around a centre, in radii
+constexpr float kEndPrecision = 0.04f;  // of where the surface ends, in radii
+constexpr float kSliceReach = 3.0f;     // triangles considered around a centre, in radii
 
 float centreDistance(const vec4& a, const vec4& b) {
   return glm::distance(vec3(a), vec3(b));
@@ -19,7 +20,8 @@ float centreDistance(const vec4& a, const vec4& b) {
 class ArcLength {
  public:
   explicit ArcLength(const std::vector<vec4>& points) : points_(points), at_(points.size(), 0) {
-    for (std::size_t i = 1; i < points.size(); ++i) at_[i] = at_[i - 1] + centreDistance(points[i], points[i - 1]);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      at_[i] = at_[i - 1] + centreDistance(points[i], points[i - 1]);
   }
   float length() const { return at_.back(); }
   vec4 operator()(float s) const {
@@ -31,7 +33,8 @@ class ArcLength {
     return glm::mix(points_[i - 1], points_[i], gap > 0 ? (s - at_[i - 1]) / gap : 0.0f);
   }
   vec3 tangent(float s, float reach) const {
-    const vec3 chord = vec3((*this)(std::min(s + reach, length()))) - vec3((*this)(std::max(s - reach, 0.0f)));
+    const vec3 chord =
+        vec3((*this)(std::min(s + reach, length()))) - vec3((*this)(std::max(s - reach, 0.0f)));
     const float l = glm::length(chord);
     return l > 0 ? chord / l : vec3(0, 0, 1);
   }
@@ -93,6 +96,20 @@ vec3 endDirection(const std::vector<vec4>& sections, float reach) {
   return length > 0 ? chord / length : vec3(0, 0, 1);
 }
 
+// A flat end that is not quite at right angles to the axis cuts the slices off on one side. The axis meets
+// the end where half the area is left: how far that is beyond the last whole section.
+float cutBeyond(Slicer& slicer, const vec4& last, vec3 direction, float reach) {
+  float low = 0, high = 0.5f * last.w;
+  const auto stillHalf = [&](float along) {
+    const auto shape = slicer.section(vec3(last) + along * direction, direction, reach);
+    return shape && shape->radius > 0.7071f * last.w && shape->radius < 1.4f * last.w;
+  };
+  if (stillHalf(high)) return 0;  // no end here
+  while (high - low > 0.5f * kEndPrecision * last.w)
+    (stillHalf(0.5f * (low + high)) ? low : high) = 0.5f * (low + high);
+  return low;
+}
+
 }  // namespace
 
 void smoothSections(std::vector<vec4>& sections, int rounds) {
@@ -121,25 +138,26 @@ std::vector<vec4> reslice(Slicer& slicer, const std::vector<vec4>& rough) {
 
 void extendToEnd(Slicer& slicer, std::vector<vec4>& sections, float limit) {
   if (sections.size() < 2) return;
-  const float radius = sections.back().w;
-  if (!(radius > 0)) return;
-  vec3 direction = endDirection(sections, 2 * radius);
-  const float finest = 0.04f * radius;
-  float step = 0.3f * radius, travelled = 0;
-  for (int cuts = 0; cuts < kMostEndCuts && step >= finest && travelled < limit; ++cuts) {
+  const float full = sections.back().w;
+  if (!(full > 0)) return;
+  vec3 direction = endDirection(sections, 2 * full);
+  float step = 0.3f * full, travelled = 0;
+  for (int cuts = 0; cuts < kMostEndCuts && step >= kEndPrecision * full && travelled < limit; ++cuts) {
     const vec4 last = sections.back();
     const vec3 ahead = vec3(last) + step * direction;
-    const auto shape = slicer.section(ahead, direction, kSliceReach * radius);
-    const bool goesOn = shape && glm::distance(shape->centre, ahead) < 0.5f * last.w &&
-                        shape->radius < 1.4f * last.w && shape->radius > 0.35f * radius;
-    if (!goesOn) {
+    const auto shape = slicer.section(ahead, direction, kSliceReach * full);
+    const float aside = shape ? glm::distance(shape->centre, ahead) : 0;
+    if (!shape || aside > 0.25f * last.w || shape->radius > 1.4f * last.w || shape->radius < 0.35f * full) {
       step *= 0.5f;
       continue;
     }
     travelled += step;
     sections.push_back(vec4(shape->centre, shape->radius));
-    if (shape->radius > 0.8f * radius) direction = endDirection(sections, 1.5f * radius);
+    if (shape->radius > 0.85f * full) direction = endDirection(sections, 1.5f * full);
   }
+  const vec4 last = sections.back();
+  const float beyond = cutBeyond(slicer, last, direction, kSliceReach * full);
+  if (beyond > kEndPrecision * last.w) sections.push_back(vec4(vec3(last) + beyond * direction, last.w));
 }
 
 }  // namespace vasa

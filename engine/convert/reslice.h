@@ -5,9 +5,9 @@
 
 namespace vasa {
 
-/// Sections at right angles to a rough axis: area centroid and sqrt(area / pi) of the slices, in two passes (the
-/// second slices at right angles to what the first found). Slices that catch a neighbour, a side branch or a tear
-/// are left out: those whose radius or centre does not agree with their neighbours'.
+/// Sections at right angles to a rough axis: area centroid and sqrt(area / pi) of the slices, in two passes
+/// (the second slices at right angles to what the first found). Slices that catch a neighbour, a side branch
+/// or a tear are left out: those whose radius or centre does not agree with their neighbours'.
 /// @param rough  centres with radius estimates, in order
 /// @returns      sections about every 0.6 radii; fewer than two where the surface gives none
 std::vector<vec4> reslice(Slicer& slicer, const std::vector<vec4>& rough);

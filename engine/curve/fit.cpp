@@ -14,8 +14,8 @@
 namespace vasa {
 namespace {
 
-constexpr int kRounds = 8;  // of solving and moving parameters
-constexpr double kStiffness = 1e-4;
+constexpr int kRounds = 24;  // of solving and moving parameters
+constexpr double kStiffness = 1e-8;
 
 struct Problem {
   std::vector<dvec4> samples;
@@ -81,7 +81,8 @@ class NormalEquations {
     Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     // The natural order: the matrix is banded, so nothing fills in.
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(
+        matrix);
     if (factor.info() != Eigen::Success) return false;
     const Eigen::MatrixXd x = factor.solve(right_);
     if (!x.allFinite()) return false;
@@ -99,7 +100,8 @@ class NormalEquations {
   Eigen::MatrixXd right_;
 };
 
-bool solve(const Problem& problem, std::uint32_t spans, const std::vector<double>& parameter, Points& points) {
+bool solve(const Problem& problem, std::uint32_t spans, const std::vector<double>& parameter,
+           Points& points) {
   NormalEquations equations(spans, problem.samples.front(), problem.samples.back());
   double weightSum = 0;
   for (std::size_t i = 1; i + 1 < problem.samples.size(); ++i) {
@@ -154,16 +156,16 @@ Fit fitSpans(const Problem& problem, std::uint32_t spans, float leastRadius) {
   for (const double s : problem.chord) parameter.push_back(s / problem.chord.back() * spans);
   Fit best;
   best.error = std::numeric_limits<float>::infinity();
-  double before = std::numeric_limits<double>::infinity();
+  int idle = 0;
   Points points;
   for (int round = 0; round < kRounds; ++round) {
     if (!solve(problem, spans, parameter, points)) break;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) points[i].w = std::max(points[i].w, leastRadius);
     reproject(problem, points, parameter);
     const double error = worst(problem, points, parameter);
+    idle = error < 0.97 * double(best.error) ? 0 : idle + 1;
     if (error < best.error) best = {points, float(error)};
-    if (error <= 1 || error > 0.98 * before) break;
-    before = error;
+    if (error <= 1 || idle > 2) break;
   }
   return best;
 }
@@ -182,7 +184,8 @@ Fit fitSplineMeasured(std::span<const vec4> samples, const FitOptions& options) 
   for (const vec4& s : samples) leastRadius = std::min(leastRadius, s.w);
   leastRadius *= 0.5f;
 
-  const auto limit = std::clamp<std::uint32_t>(std::uint32_t(problem.samples.size()) - 1, 1, options.maxSpans);
+  const auto limit =
+      std::clamp<std::uint32_t>(std::uint32_t(problem.samples.size()) - 1, 1, options.maxSpans);
   std::uint32_t failed = 0, spans = 1;
   Fit best = fitSpans(problem, spans, leastRadius);
   while (best.error > 1 && spans < limit) {
@@ -197,8 +200,10 @@ Fit fitSplineMeasured(std::span<const vec4> samples, const FitOptions& options) 
   while (spans - failed > 1) {
     const std::uint32_t middle = failed + (spans - failed) / 2;
     Fit fit = fitSpans(problem, middle, leastRadius);
-    if (fit.error <= 1) best = std::move(fit), spans = middle;
-    else failed = middle;
+    if (fit.error <= 1)
+      best = std::move(fit), spans = middle;
+    else
+      failed = middle;
   }
   return best;
 }

@@ -65,7 +65,8 @@ std::vector<BoundaryLoop> boundaryLoops(const TriangleMesh& mesh, const MeshEdge
   return loops;
 }
 
-TriangleMesh fillLoops(const TriangleMesh& mesh, const MeshEdges& edges, std::span<const BoundaryLoop> loops) {
+TriangleMesh fillLoops(const TriangleMesh& mesh, const MeshEdges& edges,
+                       std::span<const BoundaryLoop> loops) {
   TriangleMesh filled = mesh;
   for (const BoundaryLoop& loop : loops) {
     const std::size_t count = loop.vertices.size();

@@ -18,7 +18,9 @@ MeshEdges buildEdges(const TriangleMesh& mesh) {
       sides.push_back({std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), t, k});
     }
   std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
-    return l.key != r.key ? l.key < r.key : l.triangle != r.triangle ? l.triangle < r.triangle : l.corner < r.corner;
+    return l.key != r.key             ? l.key < r.key
+           : l.triangle != r.triangle ? l.triangle < r.triangle
+                                      : l.corner < r.corner;
   });
   MeshEdges edges;
   edges.ofTriangle.resize(mesh.triangles.size());

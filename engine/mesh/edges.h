@@ -8,10 +8,10 @@ namespace vasa {
 /// Which triangles meet at each edge. Holds for any triangle soup: an edge may have one triangle (a border),
 /// two, or more (non-manifold).
 struct MeshEdges {
-  std::vector<uvec2> vertices;                 ///< an edge's two vertices, low < high; edges in ascending order
-  std::vector<uvec3> ofTriangle;               ///< edge k of a triangle joins its corners k and (k + 1) % 3
-  std::vector<std::uint32_t> firstTriangle;    ///< edges + 1 offsets into `triangles`
-  std::vector<std::uint32_t> triangles;        ///< edge after edge, ascending
+  std::vector<uvec2> vertices;               ///< an edge's two vertices, low < high; edges in ascending order
+  std::vector<uvec3> ofTriangle;             ///< edge k of a triangle joins its corners k and (k + 1) % 3
+  std::vector<std::uint32_t> firstTriangle;  ///< edges + 1 offsets into `triangles`
+  std::vector<std::uint32_t> triangles;      ///< edge after edge, ascending
 
   std::size_t size() const { return vertices.size(); }
   std::span<const std::uint32_t> trianglesOf(std::uint32_t edge) const {

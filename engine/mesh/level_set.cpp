@@ -50,7 +50,8 @@ std::vector<float> surfaceDistance(const TriangleMesh& mesh, const VertexTriangl
         const std::uint32_t other = corners.x + corners.y + corners.z - v - c;
         const dvec3 pv(mesh.positions[v]), pc(mesh.positions[c]);
         double candidate = t + glm::distance(pv, pc);
-        if (settled[other]) candidate = std::min(candidate, arrival(pv, dvec3(mesh.positions[other]), pc, t, time[other]));
+        if (settled[other])
+          candidate = std::min(candidate, arrival(pv, dvec3(mesh.positions[other]), pc, t, time[other]));
         if (candidate < time[c]) {
           time[c] = candidate;
           front.push({candidate, c});

@@ -49,7 +49,8 @@ const std::vector<Contour>& Slicer::cut(vec3 onPlane, vec3 normal, float reach) 
   const auto crossing = [&](std::uint32_t edge) {
     const uvec2 v = edges_.vertices[edge];
     const float a = height(v.x), b = height(v.y);
-    return glm::mix(mesh_.positions[v.x], mesh_.positions[v.y], a == b ? 0.5f : std::clamp(a / (a - b), 0.0f, 1.0f));
+    return glm::mix(mesh_.positions[v.x], mesh_.positions[v.y],
+                    a == b ? 0.5f : std::clamp(a / (a - b), 0.0f, 1.0f));
   };
   for (std::uint32_t seed = 0; seed < pieces.size(); ++seed) {
     if (used[seed]) continue;

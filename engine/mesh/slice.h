@@ -14,13 +14,13 @@ struct Contour {
 
 /// Area, centroid and shape of a contour about a plane's normal; an open one is closed by its chord.
 struct SectionShape {
-  vec3 centre{0};        ///< area centroid
-  float radius = 0;      ///< sqrt(area / pi)
-  float nearest = 0;     ///< least and greatest distance from the centre to a corner: how round it is
+  vec3 centre{0};     ///< area centroid
+  float radius = 0;   ///< sqrt(area / pi)
+  float nearest = 0;  ///< least and greatest distance from the centre to a corner: how round it is
   float farthest = 0;
-  float perimeter = 0;   ///< without the chord
-  float chord = 0;       ///< length of the closing chord, 0 where closed
-  bool contains = false; ///< the plane's point lies inside
+  float perimeter = 0;    ///< without the chord
+  float chord = 0;        ///< length of the closing chord, 0 where closed
+  bool contains = false;  ///< the plane's point lies inside
 };
 
 /// Cuts a mesh by planes. Holds references: mesh, edges and tree must outlive it. Not for several threads.
@@ -35,8 +35,8 @@ class Slicer {
   const std::vector<Contour>& cut(vec3 onPlane, vec3 normal, float reach);
 
   /// The shape of the contour around the point: the smallest one that contains it, or else the one whose
-  /// centroid is nearest and within `reach / 2`. None where there is no such contour, or where what is there is
-  /// open by more than 40 % of its outline.
+  /// centroid is nearest and within `reach / 2`. None where there is no such contour, or where what is there
+  /// is open by more than 40 % of its outline.
   std::optional<SectionShape> section(vec3 onPlane, vec3 normal, float reach);
 
  private:

@@ -5,8 +5,9 @@
 
 namespace vasa {
 
-/// A binary tree of boxes over a mesh's triangles: nearest points and planes in O(log n) expected. Built once in
-/// O(n log n); queries are const and may run on many threads. The mesh must outlive the tree and not change.
+/// A binary tree of boxes over a mesh's triangles: nearest points and planes in O(log n) expected. Built once
+/// in O(n log n); queries are const and may run on many threads. The mesh must outlive the tree and not
+/// change.
 class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh);

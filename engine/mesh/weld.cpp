@@ -51,7 +51,8 @@ class Welder {
       std::memcpy(&bits, &value, sizeof bits);
       // A far-off vertex must not overflow the cell number; there neighbours are further apart than any cell.
       cell[std::size_t(axis)] =
-          tolerance_ > 0 ? std::int64_t(std::clamp(std::floor(double(value) / tolerance_), -9e17, 9e17)) : bits;
+          tolerance_ > 0 ? std::int64_t(std::clamp(std::floor(double(value) / tolerance_), -9e17, 9e17))
+                         : bits;
     }
     return cell;
   }
@@ -74,7 +75,8 @@ TriangleMesh weld(const TriangleMesh& mesh, float tolerance) {
   TriangleMesh result;
   for (const uvec3& t : mesh.triangles) {
     bool usable = true;
-    for (int k = 0; k < 3; ++k) usable = usable && t[k] < mesh.positions.size() && finite(mesh.positions[t[k]]);
+    for (int k = 0; k < 3; ++k)
+      usable = usable && t[k] < mesh.positions.size() && finite(mesh.positions[t[k]]);
     if (!usable) continue;
     uvec3 corner;
     for (int k = 0; k < 3; ++k) {
