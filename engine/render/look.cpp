@@ -1,0 +1,49 @@
+#include "render/look.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+namespace vasa {
+
+MeshRole roleNamed(std::string_view name) {
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const auto has = [&](std::string_view part) { return lower.find(part) != std::string::npos; };
+  if (has("bone") || has("skelet")) return MeshRole::bones;
+  if (has("heart")) return MeshRole::heart;
+  if (has("skin") || has("body")) return MeshRole::skin;
+  return MeshRole::other;
+}
+
+vec4 colourOf(VesselKind kind) {
+  switch (kind) {
+    case VesselKind::artery: return {0.80f, 0.13f, 0.12f, 1};
+    case VesselKind::vein: return {0.16f, 0.30f, 0.68f, 1};
+    case VesselKind::portalVein: return {0.46f, 0.24f, 0.62f, 1};
+    case VesselKind::lymphatic: return {0.36f, 0.60f, 0.32f, 1};
+    case VesselKind::other: break;
+  }
+  return {0.62f, 0.62f, 0.62f, 1};
+}
+
+vec4 colourOf(MeshRole role) {
+  switch (role) {
+    case MeshRole::bones: return {0.91f, 0.87f, 0.77f, 1};
+    case MeshRole::heart: return {0.52f, 0.11f, 0.12f, 1};
+    case MeshRole::skin: return {0.87f, 0.68f, 0.58f, 1};
+    case MeshRole::other: break;
+  }
+  return {0.78f, 0.70f, 0.66f, 1};
+}
+
+std::uint32_t packColour(vec4 colour) {
+  std::uint32_t packed = 0;
+  for (int i = 0; i < 4; ++i) {
+    const float value = std::clamp(colour[i], 0.0f, 1.0f) * 255 + 0.5f;
+    packed |= std::uint32_t(value) << (8 * i);
+  }
+  return packed;
+}
+
+}  // namespace vasa

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "math/types.h"
+#include "network/network.h"
+
+namespace vasa {
+
+/// How a mesh of the body is shown.
+enum class MeshRole : std::uint8_t { bones, heart, skin, other };
+
+/// The role by a mesh's name: "bones", "skeleton" -> bones, "heart" -> heart, "skin", "body" -> skin;
+/// otherwise other. Upper and lower case are alike.
+MeshRole roleNamed(std::string_view name);
+
+/// What is shown, and in which colours. Colours are sRGB in [0, 1] with straight alpha.
+struct Look {
+  vec4 background{0.93f, 0.94f, 0.95f, 1};
+  bool transparent = false;  ///< picture with alpha: the background counts for nothing
+  bool drawVessels = true;
+  bool drawBones = true;
+  bool drawHeart = true;
+  bool drawSkin = true;
+  bool drawOther = true;
+  float skinOpacity = 0.14f;  ///< of the skin seen face on, in [0, 1]; more towards its outline
+};
+
+/// Arteries red, veins blue, portal vein purple, lymph vessels green, others grey.
+vec4 colourOf(VesselKind kind);
+vec4 colourOf(MeshRole role);
+
+/// A colour as the shaders read it: 8 bits each, red lowest, alpha highest.
+std::uint32_t packColour(vec4 colour);
+
+}  // namespace vasa

@@ -1,0 +1,84 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include "body/body.h"
+#include "core/image.h"
+#include "render/camera.h"
+#include "render/look.h"
+#include "surface/sweep_table.h"
+#include "surface/sweep_template.h"
+
+namespace vasa::gpu {
+class Device;
+}
+
+namespace vasa {
+
+/// What is settled for a renderer's life.
+struct RenderOptions {
+  std::uint32_t width = 1280, height = 720;  ///< [pixels] 1 to the device's limit
+  std::uint32_t samples = 4;                 ///< a pixel: 1 or 4
+  SweepShape shape;                          ///< quads around and along every sweep
+  /// Sweeps tessellated and drawn at a time. Two templates of that size are all the vertex memory that tubes
+  /// take, however many sweeps there are.
+  std::uint32_t sweepsPerBatch = 512;
+};
+
+/// One frame. All spans are read before draw() returns.
+struct RenderInput {
+  std::span<const vec4> points;         ///< de Boor points, as Network::points()
+  std::span<const quat> knotFrames;     ///< networkFrames() of them (surface/sweep_table.h)
+  std::span<const mat4> jointMatrices;  ///< a joint's world · inverseBind; empty where there are no meshes
+  Camera camera;
+  Look look;
+};
+
+/// [ms] of the latest frame, on the device's clock but for upload and total.
+struct FrameTimes {
+  double upload = 0;      ///< host: points, frames and joints into the device's reach
+  double tessellate = 0;  ///< compute passes that write vertices of tubes and caps
+  double draw = 0;        ///< rasterising tubes and caps
+  double meshes = 0;      ///< skinning and drawing bones, heart, skin; clearing and resolving
+  double total = 0;       ///< host: from draw() to the finished picture
+};
+
+/// Draws a network in a body, off screen. A frame is a function of the input alone: nothing of an earlier frame
+/// shows in it. Throws gpu::Error. One thread at a time.
+class Renderer {
+ public:
+  /// @param network  several networks are drawn as one merged network (network/merge.h)
+  /// @param meshes   read, not kept
+  Renderer(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> meshes,
+           const RenderOptions& options);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Colours of the sweeps from the next frame on (packColour), one a sweep in the order of SweepTable::sweeps;
+  /// empty goes back to the colours of the vessels' kinds.
+  void setSweepColours(std::span<const std::uint32_t> colours);
+
+  /// Draws and waits until the picture is done.
+  void draw(const RenderInput& input);
+
+  /// The picture of the latest draw().
+  Image readBack();
+
+  FrameTimes times() const;
+
+  /// For comparison: the time [ms, minimum of `repeats`] to draw the same tubes and caps from vertex buffers
+  /// that hold all of them, with nothing else: no compute, no meshes. Takes memory for every vertex.
+  double staticDraw(const RenderInput& input, unsigned repeats);
+
+  std::uint64_t triangleCount() const;     ///< of tubes and caps
+  std::uint32_t sweepCount() const;
+  std::uint64_t templateBytes() const;     ///< device memory for vertices of tubes and caps
+  const RenderOptions& options() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vasa

@@ -1,0 +1,39 @@
+// Read by C++ and GLSL (scalar layout): linear blend skinning.
+#ifndef VASA_SHARED_SKIN_H
+#define VASA_SHARED_SKIN_H
+#include "shared/sweep.h"
+#ifdef __cplusplus
+namespace vasa::shared {
+#define VASA_ADDRESS(Block) std::uint64_t
+#endif
+
+/// A vertex at rest and the joints that move it: 40 bytes.
+struct SkinVertex {
+  float x, y, z;          // [m]
+  uint normal;            // octahedral
+  uint joints01;          // two 16-bit joints, the first in the low half
+  uint joints23;
+  vec4 weights;           // sum 1
+};
+
+#ifndef __cplusplus
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SkinVertices { SkinVertex vertex[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Joints { mat4 joint[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer PosedVertices { TubeVertex vertex[]; };
+#define VASA_ADDRESS(Block) Block
+#endif
+
+struct SkinPush {
+  VASA_ADDRESS(SkinVertices) rest;
+  VASA_ADDRESS(Joints) joints;
+  VASA_ADDRESS(PosedVertices) posed;
+  uint count;
+  uint jointCount;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(SkinVertex) == 40 && sizeof(SkinPush) == 32);
+}  // namespace vasa::shared
+#endif
+#undef VASA_ADDRESS
+#endif
