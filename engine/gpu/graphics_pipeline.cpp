@@ -60,7 +60,8 @@ struct FixedState {
 GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : pushBytes_(spec.pushBytes) {
   layout_ = makePipelineLayout(device, spec.name, kStages, spec.pushBytes, spec.sets);
   const Unique<VkShaderModule> vertex = makeShaderModule(device, spec.vertex);
-  const Unique<VkShaderModule> fragment = makeShaderModule(device, spec.fragment);
+  const bool shaded = !spec.fragment.words.empty();
+  const Unique<VkShaderModule> fragment = shaded ? makeShaderModule(device, spec.fragment) : Unique<VkShaderModule>();
   const VkSpecializationInfo constants = spec.constants.info();
   const std::array stages{shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &constants),
                           shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &constants)};
@@ -73,7 +74,8 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : p
   samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
   samples.rasterizationSamples = spec.samples;
   const VkPipelineDepthStencilStateCreateInfo depth = depthOf(spec);
-  const VkPipelineColorBlendAttachmentState attachment = blendOf(spec.blend);
+  VkPipelineColorBlendAttachmentState attachment = blendOf(spec.blend);
+  if (!shaded) attachment.colorWriteMask = 0;
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = 1;
@@ -87,7 +89,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : p
   VkGraphicsPipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
   info.pNext = &rendering;
-  info.stageCount = std::uint32_t(stages.size());
+  info.stageCount = shaded ? 2 : 1;
   info.pStages = stages.data();
   info.pVertexInputState = spec.vertexInput ? spec.vertexInput : &fixed.vertexInput;
   info.pInputAssemblyState = &assembly;

@@ -16,7 +16,7 @@ enum class Blend {
 struct GraphicsSpec {
   const char* name = "graphics";
   ShaderCode vertex;
-  ShaderCode fragment;
+  ShaderCode fragment;          ///< without words: only depth is written
   std::uint32_t pushBytes = 0;  ///< one block that both stages see
   Specialization constants;     ///< for both stages
   std::span<const VkDescriptorSetLayout> sets;

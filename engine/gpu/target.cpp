@@ -36,19 +36,25 @@ Target::Target(Device& device, const TargetSpec& spec) : spec_(spec) {
                             spec.samples});
 }
 
-void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth) const {
-  makeAttachment(commands, picture_);
-  if (samples_) makeAttachment(commands, samples_);
-  if (depth_) makeAttachment(commands, depth_);
+void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth, Stretch stretch) const {
+  const bool starts = stretch == Stretch::only || stretch == Stretch::first;
+  const bool ends = stretch == Stretch::only || stretch == Stretch::last;
+  if (starts) {
+    makeAttachment(commands, picture_);
+    if (samples_) makeAttachment(commands, samples_);
+    if (depth_) makeAttachment(commands, depth_);
+  }
+  const VkAttachmentLoadOp load = starts ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+  const VkAttachmentStoreOp keep = ends ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
 
   VkRenderingAttachmentInfo colours{};
   colours.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
   colours.imageView = samples_ ? samples_.view() : picture_.view();
   colours.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  colours.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-  colours.storeOp = samples_ ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
+  colours.loadOp = load;
+  colours.storeOp = samples_ ? keep : VK_ATTACHMENT_STORE_OP_STORE;
   std::copy(colour.begin(), colour.end(), colours.clearValue.color.float32);
-  if (samples_) {
+  if (samples_ && ends) {
     colours.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
     colours.resolveImageView = picture_.view();
     colours.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
@@ -57,8 +63,8 @@ void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float 
   depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
   depths.imageView = depth_.view();
   depths.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-  depths.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-  depths.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  depths.loadOp = load;
+  depths.storeOp = keep;
   depths.clearValue.depthStencil.depth = depth;
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;

@@ -16,6 +16,13 @@ struct TargetSpec {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 };
 
+constexpr VkPipelineStageFlags2 kAttachmentStages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
+                                                    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+
+/// A picture may be drawn in several stretches with other work (compute passes) between them.
+enum class Stretch { only, first, middle, last };
+
 /// What a picture is drawn into: colour and depth, and with several samples a pixel the picture they are
 /// averaged to. Not for presenting: a swapchain's images are copied to from picture().
 class Target {
@@ -27,10 +34,15 @@ class Target {
   /// One sample a pixel, in the layout given to end().
   const Image& picture() const { return picture_; }
 
-  /// Starts rendering into the cleared images, viewport and scissor set to all of them.
-  /// @param colour  linear, alpha last
-  void begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth = 1.0f) const;
-  /// Ends rendering; whatever comes after sees the picture in layout `after`.
+  /// Starts rendering, viewport and scissor set to the whole images. The first stretch of a picture clears
+  /// them, a later one goes on with what is there. Between stretches belongs a stageBarrier() from and to
+  /// kAttachmentStages.
+  /// @param colour  linear, alpha last; for the first stretch
+  void begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth = 1.0f,
+             Stretch stretch = Stretch::only) const;
+  /// Ends a first or middle stretch.
+  void pause(VkCommandBuffer commands) const { vkCmdEndRendering(commands); }
+  /// Ends the only or last stretch; whatever comes after sees the picture in layout `after`.
   void end(VkCommandBuffer commands, VkImageLayout after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) const;
 
   /// After end(): copies the picture, rows from the top, without gaps, 4 bytes a pixel.
