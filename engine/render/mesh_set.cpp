@@ -1,0 +1,55 @@
+#include "render/mesh_set.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "gpu/transfer.h"
+#include "render/picture.h"
+#include "shared/skin.h"
+#include "surface/octahedral.h"
+
+namespace vasa {
+namespace {
+
+shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::size_t i) {
+  const vec3 position = mesh.mesh.positions[i];
+  const SkinInfluence& influence = mesh.influences[i];
+  const auto& j = influence.joints;
+  return {position.x, position.y, position.z, packOctahedral(mesh.normals[i]),
+          j[0] | std::uint32_t(j[1]) << 16,   j[2] | std::uint32_t(j[3]) << 16,
+          influence.weights};
+}
+
+// Bones, heart and skin have colours of their own; any other mesh keeps its material's.
+std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
+  if (role != MeshRole::other) return packColour(colourOf(role));
+  return packColour(vec4(vec3(srgbColour(mesh.colour)), 1));
+}
+
+}  // namespace
+
+MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes) {
+  std::vector<shared::SkinVertex> vertices;
+  std::vector<uvec3> triangles;
+  std::vector<std::uint32_t> colours;
+  for (const SkinnedMesh& mesh : meshes) {
+    assert(mesh.normals.size() == mesh.mesh.positions.size() && mesh.influences.size() == mesh.normals.size());
+    const std::uint32_t firstVertex = std::uint32_t(vertices.size());
+    const MeshRole role = roleNamed(mesh.name);
+    parts_.push_back({role, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * mesh.mesh.triangles.size())});
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) vertices.push_back(restVertex(mesh, i));
+    for (const uvec3& t : mesh.mesh.triangles) triangles.push_back(t + firstVertex);
+    for (const SkinInfluence& influence : mesh.influences)
+      for (const std::uint16_t joint : influence.joints) jointCount_ = std::max(jointCount_, joint + 1u);
+    colours.push_back(meshColour(mesh, role));
+  }
+  vertexCount_ = std::uint32_t(vertices.size());
+  rest_ = gpu::makeBuffer(device, "mesh vertices at rest", std::span<const shared::SkinVertex>(vertices));
+  posed_ = gpu::Buffer(device, {.name = "posed mesh vertices",
+                                .bytes = vertexCount_ * sizeof(shared::TubeVertex),
+                                .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+  indices_ = gpu::makeBuffer(device, "mesh indices", std::span<const uvec3>(triangles));
+  colours_ = gpu::makeBuffer(device, "mesh colours", std::span<const std::uint32_t>(colours));
+}
+
+}  // namespace vasa

@@ -1,0 +1,222 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <string_view>
+
+#include "gpu/barrier.h"
+#include "gpu/device.h"
+#include "gpu/timer.h"
+#include "render/frame_upload.h"
+#include "render/picture.h"
+#include "render/skin_pass.h"
+#include "render/static_tubes.h"
+
+// A frame:
+//   copy the frame's points, knot frames and joints; pose the meshes; write template 0
+//   picture, first stretch: clear, bones and heart
+//   for each batch k: write batch k+1 into the other template; stretch: draw batch k; barrier
+//   picture, last stretch: skin; resolve
+// One barrier a batch keeps both templates apart: whatever wrote or read one of them before it is finished
+// after it. Between two barriers a device may write one template while it draws the other.
+namespace vasa {
+namespace {
+
+constexpr VkPipelineStageFlags2 kTemplateStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                                                  VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT |
+                                                  VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages;
+constexpr const char* kTessellate = "tessellate";
+constexpr const char* kDraw = "draw tubes";
+constexpr const char* kMeshes = "meshes";
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::array<float, 4> clearColour(const Look& look) {
+  if (look.transparent) return {0, 0, 0, 0};
+  const vec4 c = linearColour(look.background);
+  return {c.x, c.y, c.z, 1};
+}
+
+gpu::TargetSpec targetSpec(const RenderOptions& options) {
+  assert(options.samples == 1 || options.samples == 4);
+  return {.name = "picture",
+          .size = {options.width, options.height},
+          .samples = VkSampleCountFlagBits(options.samples)};
+}
+
+}  // namespace
+
+struct Renderer::State {
+  State(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> skinned,
+        const RenderOptions& chosen);
+
+  void record(VkCommandBuffer commands, const RenderInput& input);
+  double timeStatic(const StaticTubes& tubes, const RenderInput& input);
+
+  gpu::Device& device;
+  RenderOptions options;
+  TubeSet tubes;
+  MeshSet meshes;
+  FrameUpload upload;
+  TessellatePass tessellatePass;
+  SkinPass skinPass;
+  gpu::Target target;
+  SurfacePass surfacePass;
+  gpu::Buffer templates;  // two of tubes.templateBytes()
+  gpu::Buffer readBack;
+  gpu::GpuTimer timer;
+  FrameTimes times;
+  bool transparent = false;
+
+ private:
+  void recordTessellation(VkCommandBuffer commands, std::size_t batch);
+  void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch);
+  VkDeviceSize templateOffset(std::size_t batch) const { return (batch % 2) * tubes.templateBytes(); }
+};
+
+Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
+                       const RenderOptions& chosen)
+    : device(dev),
+      options(chosen),
+      tubes(device, network, chosen.shape, std::max(chosen.sweepsPerBatch, 1u)),
+      meshes(device, skinned),
+      upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
+      tessellatePass(device),
+      skinPass(device),
+      target(device, targetSpec(chosen)),
+      surfacePass(device, target.spec()),
+      templates(device, {.name = "templates",
+                         .bytes = 2 * tubes.templateBytes(),
+                         .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+      readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
+      timer(device, std::uint32_t(2 * tubes.batches().size() + 4)) {}
+
+void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
+  const auto scope = timer.scope(commands, kTessellate);
+  tessellatePass.record(commands, {tubes, tubes.batches()[batch], upload.points(), upload.knots(),
+                                   templates.address() + templateOffset(batch)});
+}
+
+void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch) {
+  const auto scope = timer.scope(commands, kDraw);
+  target.begin(commands, {}, 0, gpu::Stretch::middle);
+  surfacePass.recordTubes(commands, push, tubes, tubes.batches()[batch], templates, templateOffset(batch));
+  target.pause(commands);
+}
+
+void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
+  const shared::DrawPush push = drawConstants(input.camera, target.spec().size);
+  const std::size_t batches = input.look.drawVessels ? tubes.batches().size() : 0;
+  timer.begin(commands);
+  upload.record(commands);
+  if (batches > 0) recordTessellation(commands, 0);
+  {
+    const auto scope = timer.scope(commands, kMeshes);
+    skinPass.record(commands, meshes, upload.joints(), upload.jointCount());
+    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
+    target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
+    surfacePass.recordOpaque(commands, push, meshes, input.look);
+    target.pause(commands);
+    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+  }
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    if (batch + 1 < batches) recordTessellation(commands, batch + 1);
+    recordBatch(commands, push, batch);
+    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+  }
+  const auto scope = timer.scope(commands, kMeshes);
+  target.begin(commands, {}, 0, gpu::Stretch::last);
+  surfacePass.recordSkin(commands, push, meshes, input.look);
+  target.end(commands);
+}
+
+double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderInput& input) {
+  const shared::DrawPush push = drawConstants(input.camera, target.spec().size);
+  gpu::Commands commands = device.queue().begin("static draw");
+  timer.begin(commands);
+  {
+    const auto scope = timer.scope(commands, kDraw);
+    target.begin(commands, clearColour(input.look), 0);
+    tubesAtOnce.recordDraw(commands, surfacePass, push);
+    target.end(commands);
+  }
+  device.queue().wait(device.queue().submit(std::move(commands)));
+  const auto results = timer.results();
+  return results.empty() ? 0 : results.front().ms;
+}
+
+Renderer::Renderer(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> meshes,
+                   const RenderOptions& options)
+    : state_(std::make_unique<State>(device, network, meshes, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
+  state_->tubes.setSweepColours(state_->device, colours);
+}
+
+void Renderer::draw(const RenderInput& input) {
+  State& s = *state_;
+  const auto start = Clock::now();
+  s.upload.write(input.points, input.knotFrames, input.jointMatrices);
+  s.times = {.upload = msSince(start)};
+  gpu::Commands commands = s.device.queue().begin("frame");
+  s.record(commands, input);
+  s.transparent = input.look.transparent;
+  s.device.queue().wait(s.device.queue().submit(std::move(commands)));
+  s.times.total = msSince(start);
+  for (const auto& [name, ms] : s.timer.results()) {
+    const std::string_view stage(name);
+    (stage == kTessellate ? s.times.tessellate : stage == kDraw ? s.times.draw : s.times.meshes) += ms;
+  }
+}
+
+Image Renderer::readBack() {
+  State& s = *state_;
+  gpu::Commands commands = s.device.queue().begin("read back");
+  s.target.copyPicture(commands, s.readBack);
+  s.device.queue().wait(s.device.queue().submit(std::move(commands)));
+  s.readBack.invalidate();
+  return toImage(s.readBack.mapped<const std::uint8_t>(), s.options.width, s.options.height, s.transparent);
+}
+
+FrameTimes Renderer::times() const {
+  return state_->times;
+}
+
+double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
+  State& s = *state_;
+  const StaticTubes tubes(s.device, s.tubes);
+  s.upload.write(input.points, input.knotFrames, input.jointMatrices);
+  gpu::Commands commands = s.device.queue().begin("static vertices");
+  s.upload.record(commands);
+  tubes.recordVertices(commands, s.tessellatePass, s.upload.points(), s.upload.knots());
+  s.device.queue().wait(s.device.queue().submit(std::move(commands)));
+  double best = s.timeStatic(tubes, input);
+  for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));
+  return best;
+}
+
+std::uint64_t Renderer::triangleCount() const {
+  return state_->tubes.triangleCount();
+}
+
+std::uint32_t Renderer::sweepCount() const {
+  return std::uint32_t(state_->tubes.table().sweeps.size());
+}
+
+std::uint64_t Renderer::templateBytes() const {
+  return state_->templates.bytes();
+}
+
+const RenderOptions& Renderer::options() const {
+  return state_->options;
+}
+
+}  // namespace vasa

@@ -1,0 +1,22 @@
+#pragma once
+#include "gpu/compute_pipeline.h"
+#include "render/mesh_set.h"
+
+namespace vasa {
+
+/// Poses the body's meshes by linear blend skinning, as glTF has it.
+class SkinPass {
+ public:
+  explicit SkinPass(gpu::Device& device);
+
+  /// Writes meshes.posed(). No barriers.
+  /// @param joints      address of mat4 world · inverseBind, one a joint
+  /// @param jointCount  at least meshes.jointCount()
+  void record(VkCommandBuffer commands, const MeshSet& meshes, VkDeviceAddress joints,
+              std::uint32_t jointCount) const;
+
+ private:
+  gpu::ComputePipeline pipeline_;
+};
+
+}  // namespace vasa

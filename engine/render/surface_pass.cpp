@@ -1,0 +1,132 @@
+#include "render/surface_pass.h"
+
+#include <array>
+#include <cmath>
+
+#include "shared/sweep.h"
+#include "spirv/opaque_frag.h"
+#include "spirv/skin_frag.h"
+#include "spirv/surface_vert.h"
+
+namespace vasa {
+namespace {
+
+// shared::TubeVertex as the fixed-function fetch sees it.
+struct VertexLayout {
+  VkVertexInputBindingDescription binding{0, sizeof(shared::TubeVertex), VK_VERTEX_INPUT_RATE_VERTEX};
+  std::array<VkVertexInputAttributeDescription, 2> attributes{{
+      {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+      {1, 0, VK_FORMAT_R16G16_SNORM, offsetof(shared::TubeVertex, normal)},
+  }};
+  VkPipelineVertexInputStateCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+                                            nullptr,
+                                            0,
+                                            1,
+                                            &binding,
+                                            std::uint32_t(attributes.size()),
+                                            attributes.data()};
+};
+
+bool shown(MeshRole role, const Look& look) {
+  switch (role) {
+    case MeshRole::bones: return look.drawBones;
+    case MeshRole::heart: return look.drawHeart;
+    case MeshRole::skin: return look.drawSkin && look.skinOpacity > 0;
+    case MeshRole::other: return look.drawOther;
+  }
+  return false;
+}
+
+void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDeviceSize offset) {
+  const VkBuffer buffer = vertices.handle();
+  vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+}
+
+// Draws the parts that `wanted` takes.
+template <class Wanted>
+void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+               const gpu::GraphicsPipeline& pipeline, const Wanted& wanted) {
+  bindVertices(commands, meshes.posed(), 0);
+  vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
+  push.colours = meshes.colours();
+  push.verticesPerItem = ~0u;  // a part is one item
+  for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
+    const MeshSet::Part& part = meshes.parts()[i];
+    if (part.indexCount == 0 || !wanted(part.role)) continue;
+    push.firstItem = i;
+    pipeline.bind(commands, push);
+    vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, 0, 0);
+  }
+}
+
+}  // namespace
+
+shared::DrawPush drawConstants(const Camera& camera, VkExtent2D size) {
+  const float width = float(size.width), height = float(size.height);
+  const mat3 axes = cameraAxes(camera);
+  shared::DrawPush push{};
+  push.viewProjection = viewProjection(camera, width / height);
+  push.right = axes[0];
+  push.up = axes[1];
+  if (camera.orthographicHeight <= 0) {
+    const float slope = std::tan(camera.verticalAngle / 2);
+    push.eyeCorner = {slope * width / height, -slope};
+    push.eyeStep = {-2 * slope / height, 2 * slope / height};
+  }
+  return push;
+}
+
+SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
+  const VertexLayout layout;
+  gpu::GraphicsSpec spec{
+      .name = "tubes",
+      .vertex = spirv::surface_vert,
+      .fragment = spirv::opaque_frag,
+      .pushBytes = sizeof(shared::DrawPush),
+      .vertexInput = &layout.info,
+      .colour = target.colour,
+      .depth = target.depth,
+      .samples = target.samples,
+      .depthTest = VK_COMPARE_OP_GREATER,
+  };
+  tubes_ = gpu::GraphicsPipeline(device, spec);
+  spec.name = "opaque meshes";
+  spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
+  opaque_ = gpu::GraphicsPipeline(device, spec);
+  spec.name = "skin depth";
+  spec.cull = VK_CULL_MODE_BACK_BIT;
+  spec.fragment = {};
+  skinDepth_ = gpu::GraphicsPipeline(device, spec);
+  spec.name = "skin";
+  spec.fragment = spirv::skin_frag;
+  spec.depthTest = VK_COMPARE_OP_EQUAL;
+  spec.depthWrite = false;
+  spec.blend = gpu::Blend::premultiplied;
+  skinColour_ = gpu::GraphicsPipeline(device, spec);
+}
+
+void SurfacePass::recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes,
+                              const TubeBatch& batch, const gpu::Buffer& vertices, VkDeviceSize offset) const {
+  push.colours = tubes.colours();
+  push.firstItem = tubes.firstColour(batch);
+  push.verticesPerItem = tubes.verticesPerItem(batch);
+  tubes_.bind(commands, push);
+  bindVertices(commands, vertices, offset);
+  tubes.drawBatch(commands, batch);
+}
+
+void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+                               const Look& look) const {
+  drawParts(commands, push, meshes, opaque_,
+            [&](MeshRole role) { return role != MeshRole::skin && shown(role, look); });
+}
+
+void SurfacePass::recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+                             const Look& look) const {
+  const auto skin = [&](MeshRole role) { return role == MeshRole::skin && shown(role, look); };
+  push.opacity = look.skinOpacity;
+  drawParts(commands, push, meshes, skinDepth_, skin);
+  drawParts(commands, push, meshes, skinColour_, skin);
+}
+
+}  // namespace vasa

@@ -1,0 +1,32 @@
+#pragma once
+#include "gpu/graphics_pipeline.h"
+#include "gpu/target.h"
+#include "render/camera.h"
+#include "render/mesh_set.h"
+#include "render/tube_set.h"
+#include "shared/draw.h"
+
+namespace vasa {
+
+/// The camera's share of the push constants.
+shared::DrawPush drawConstants(const Camera& camera, VkExtent2D size);
+
+/// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
+/// reversed (clear to 0).
+class SurfacePass {
+ public:
+  SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
+
+  /// @param vertices  the batch's, from `offset` on
+  void recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes, const TubeBatch& batch,
+                   const gpu::Buffer& vertices, VkDeviceSize offset = 0) const;
+  /// Bones, heart and others.
+  void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
+  /// The skin: the depth of its nearest side first, then that side's colour over what lies behind.
+  void recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
+
+ private:
+  gpu::GraphicsPipeline tubes_, opaque_, skinDepth_, skinColour_;
+};
+
+}  // namespace vasa
