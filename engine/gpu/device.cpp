@@ -17,10 +17,7 @@ Device::Device(const DeviceOptions& options) : instance_({options.validation, op
   queue_ = std::make_unique<Queue>(*this);
 }
 
-Device::~Device() {
-  // A lost device answers with an error, and may be destroyed all the same.
-  vkDeviceWaitIdle(handle());
-}
+Device::~Device() = default;  // the queue waits
 
 Device::Owner::~Owner() {
   vkDestroyDevice(device, nullptr);

@@ -36,8 +36,12 @@ Queue::Queue(Device& device) : device_(device) {
   device.setName(semaphore, "timeline");
 }
 
+// Not vkQueueWaitIdle(): with synchronization validation (layer 1.3.239) that can go round for ever inside the layer.
 Queue::~Queue() {
-  vkQueueWaitIdle(queue_);
+  try {
+    wait(last());
+  } catch (const Error&) {  // a lost device may be destroyed all the same
+  }
 }
 
 Commands::Slot* Queue::freeSlot() {
