@@ -29,7 +29,6 @@ Result<std::vector<MeshElement>> readGltfElements(const std::filesystem::path& p
 
 struct GltfSummary {
   std::size_t nodes = 0, meshes = 0, skins = 0, animations = 0;
-  std::size_t triangles = 0;  ///< of all meshes, each counted once
 };
 
 /// Checks a file and counts what is in it.

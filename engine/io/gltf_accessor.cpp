@@ -1,8 +1,8 @@
 #include "io/gltf_accessor.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
+#include <limits>
 
 #include "io/gltf_rule.h"
 
@@ -76,22 +76,23 @@ void readSparse(const Asset& asset, int index, const ElementLayout& layout, std:
   const auto& values = accessor.sparse.values;
   const unsigned char* from = bytesOf(asset, values.bufferView, std::size_t(values.byteOffset));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    assert(places[i] < accessor.count);
+    if (places[i] >= out.size() / layout.components()) continue;  // beyond what was asked for
     readElement(from + i * layout.packedBytes(), layout, accessor.componentType, accessor.normalized,
                 out.data() + std::size_t(places[i]) * layout.components());
   }
 }
 
 template <class T>
-std::vector<T> readAll(const Asset& asset, int index) {
+std::vector<T> readElements(const Asset& asset, int index, std::size_t atMost) {
   const auto& accessor = asset.model.accessors[std::size_t(index)];
+  const std::size_t count = std::min(accessor.count, atMost);
   const ElementLayout layout = elementLayout(accessor);
-  std::vector<T> out(accessor.count * layout.components());
+  std::vector<T> out(count * layout.components());
   if (accessor.bufferView >= 0) {
     const std::size_t given = asset.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
     const std::size_t stride = given ? given : layout.packedBytes();
     const unsigned char* from = bytesOf(asset, accessor.bufferView, accessor.byteOffset);
-    for (std::size_t i = 0; i < accessor.count; ++i)
+    for (std::size_t i = 0; i < count; ++i)
       readElement(from + i * stride, layout, accessor.componentType, accessor.normalized,
                   out.data() + i * layout.components());
   }
@@ -164,12 +165,17 @@ bool hasData(const Asset& asset, int index) {
          (present(accessor.sparse.indices.bufferView) && present(accessor.sparse.values.bufferView));
 }
 
-std::vector<float> readFloats(const Asset& asset, int accessor) {
-  return readAll<float>(asset, accessor);
+bool isStored(const Asset& asset, int index) {
+  const auto& accessor = asset.model.accessors[std::size_t(index)];
+  return accessor.bufferView >= 0 || accessor.sparse.isSparse;
+}
+
+std::vector<float> readFloats(const Asset& asset, int accessor, std::size_t atMost) {
+  return readElements<float>(asset, accessor, atMost);
 }
 
 std::vector<std::uint32_t> readIntegers(const Asset& asset, int accessor) {
-  return readAll<std::uint32_t>(asset, accessor);
+  return readElements<std::uint32_t>(asset, accessor, kAll);
 }
 
 std::vector<std::uint32_t> readSparseIndices(const Asset& asset, int index) {

@@ -31,12 +31,18 @@ bool isFloatComponent(std::int64_t componentType);
 ElementLayout elementLayout(std::int64_t componentType, const std::string& type);
 ElementLayout elementLayout(const tinygltf::Accessor& accessor);
 
+inline constexpr std::size_t kAll = ~std::size_t(0);
+
 /// Whether the accessor's bytes are in the file. One without a buffer view is all zeros and counts as there.
 bool hasData(const Asset& asset, int accessor);
 
+/// Whether it has bytes of its own at all, be it a sparse part only.
+bool isStored(const Asset& asset, int accessor);
+
 /// All components of all elements in order, sparse values put in, normalised integers mapped to [0, 1] or
 /// [-1, 1] (glTF 2.0, 3.11). Throws BrokenRule where the data is not in the file.
-std::vector<float> readFloats(const Asset& asset, int accessor);
+/// @param atMost  elements to read, from the first
+std::vector<float> readFloats(const Asset& asset, int accessor, std::size_t atMost = kAll);
 
 /// The same for integers (indices, joints).
 std::vector<std::uint32_t> readIntegers(const Asset& asset, int accessor);

@@ -11,7 +11,8 @@
 #include "io/gltf_rule.h"
 
 // tinygltf gets a document that is reduced to what is used here, whose integers are written as such and whose
-// buffers are named by number; its file callbacks serve them from memory.
+// buffers are named by number; its file callbacks serve them from memory. It refuses indices that are all
+// zeros or sparse (no buffer view), which are valid, so those are put in afterwards.
 namespace vasa::gltf {
 namespace {
 
@@ -39,8 +40,21 @@ json reducedForTinygltf(const json& document, const std::vector<Bytes>& buffers)
   for (std::size_t i = 0; i < buffers.size(); ++i)
     reduced["buffers"].push_back(
         {{"uri", std::to_string(i)}, {"byteLength", std::max<std::size_t>(buffers[i].size(), 1)}});
+  if (const auto meshes = reduced.find("meshes"); meshes != reduced.end())
+    for (json& mesh : *meshes)
+      for (json& primitive : mesh["primitives"])
+        for (const char* key : {"indices", "targets"}) primitive.erase(key);
   normaliseIntegers(reduced);
   return reduced;
+}
+
+void restoreIndices(const json& document, tinygltf::Model& model) {
+  for (std::size_t mesh = 0; mesh < model.meshes.size(); ++mesh)
+    for (std::size_t i = 0; i < model.meshes[mesh].primitives.size(); ++i) {
+      const json& primitive = document["meshes"][mesh]["primitives"][i];
+      if (const auto indices = primitive.find("indices"); indices != primitive.end())
+        model.meshes[mesh].primitives[i].indices = int(indices->get<double>());
+    }
 }
 
 const Bytes& bufferNamed(const std::string& name, void* buffers) {
@@ -79,11 +93,15 @@ Asset loadAsset(const std::filesystem::path& path) {
   const json document = parseJson(container.json);
   const JsonView root(document);
   checkStructure(root);
+  if (container.isGlb && !container.binary && countOf(root, "buffers") > 0 &&
+      !root.at("buffers").first().has("uri"))
+    root.at("buffers").first().fail("has no uri, and the GLB has no BIN chunk that could be meant");
   std::vector<Bytes> buffers = loadBuffers(root, container.binary, path.parent_path());
   const std::string text = reducedForTinygltf(document, buffers).dump();
   Asset asset;
   asset.name = path.filename().string();
   asset.model = parseModel(text, buffers);
+  restoreIndices(document, asset.model);
   for (const Bytes& buffer : buffers) asset.bufferPresent.push_back(!buffer.empty());
   checkData(asset);
   return asset;

@@ -14,6 +14,8 @@ constexpr std::int64_t kMaximumOffset = std::int64_t(kMaximumFileBytes);
 constexpr std::int64_t kMaximumCount = std::int64_t(1) << 30;
 /// An accessor without a buffer view is all zeros: a few bytes of JSON that ask for any amount of memory.
 constexpr std::int64_t kMaximumZeroCount = std::int64_t(1) << 22;
+/// Of all accessors together: any number of them may share one buffer.
+constexpr std::uint64_t kMaximumComponents = std::uint64_t(1) << 28;
 
 std::uint64_t offsetOf(const JsonView& object) {
   const auto offset = object.find("byteOffset");
@@ -74,9 +76,10 @@ void checkSparse(const JsonView& sparse, const Views& views, const ElementLayout
   check(sparse.at("values"), layout.componentBytes, layout.packedBytes());
 }
 
-void checkMatrixAlignment(const JsonView& accessor, const ElementLayout& layout, std::uint64_t begin) {
-  if (layout.columns > 1 && begin % 4 != 0)
-    accessor.fail("matrix columns must begin at multiples of 4 bytes, this one at " + std::to_string(begin));
+void checkMatrixAlignment(const JsonView& accessor, const ElementLayout& layout, std::uint64_t offset) {
+  if (layout.columns > 1 && offset % 4 != 0)
+    accessor.fail("matrix columns must begin at multiples of 4 bytes, byteOffset is " +
+                  std::to_string(offset));
 }
 
 void checkAccessor(const JsonView& accessor, const Views& views) {
@@ -105,7 +108,7 @@ void checkAccessor(const JsonView& accessor, const Views& views) {
   const View view = views.referredBy(*index);
   const std::uint64_t offset = offsetOf(accessor);
   checkAlignment(accessor, offset, view.offset, layout.componentBytes);
-  checkMatrixAlignment(accessor, layout, offset + view.offset);
+  checkMatrixAlignment(accessor, layout, offset);
   if (view.stride && view.stride < layout.bytes())
     accessor.fail("an element of " + std::to_string(layout.bytes()) +
                   " bytes is longer than the byteStride " + std::to_string(view.stride) +
@@ -147,7 +150,17 @@ void checkBuffers(const JsonView& root) {
 
 void checkAccessors(const JsonView& root) {
   const Views views(root);
-  for (const JsonView& accessor : root.items("accessors")) checkAccessor(accessor, views);
+  std::uint64_t components = 0;
+  for (const JsonView& accessor : root.items("accessors")) {
+    checkAccessor(accessor, views);
+    const auto layout =
+        elementLayout(accessor.at("componentType").integer(0, 65535), accessor.at("type").text());
+    components += std::uint64_t(accessor.at("count").integer(1, kMaximumCount)) * layout.components();
+    if (components > kMaximumComponents)
+      accessor.fail(
+          "all accessors together hold too many numbers, more than " + std::to_string(kMaximumComponents),
+          "split or reduce the asset");
+  }
 }
 
 }  // namespace vasa::gltf

@@ -37,8 +37,7 @@ void checkBound(const tinygltf::Accessor& accessor, int index, const std::vector
   const auto& bounds = isMinimum ? accessor.minValues : accessor.maxValues;
   if (bounds.empty()) return;
   const ElementLayout layout = elementLayout(accessor);
-  const bool stored = accessor.normalized;  // bounds are of the stored integers, values are mapped already
-  if (stored) return;
+  if (accessor.normalized) return;  // bounds are of the stored integers, values are mapped already
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double bound = bounds[i % layout.components()];
     const double tolerance = 1e-3 + 1e-4 * std::abs(bound);
@@ -54,6 +53,7 @@ void checkBound(const tinygltf::Accessor& accessor, int index, const std::vector
 void checkValues(const Asset& asset, int index) {
   const auto& accessor = asset.model.accessors[std::size_t(index)];
   const bool isFloat = isFloatComponent(accessor.componentType);
+  if (!isStored(asset, index)) return;
   if (!isFloat && accessor.minValues.empty() && accessor.maxValues.empty()) return;
   const auto values = readFloats(asset, index);
   const auto bad = std::find_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); });
@@ -109,15 +109,35 @@ void checkWeights(const Asset& asset, int accessor) {
              kExportAgain);
 }
 
-void checkJoints(const Asset& asset, const tinygltf::Primitive& primitive, std::size_t joints,
-                 const std::string& skin, Largest& largest) {
-  for (const auto& [name, accessor] : primitive.attributes) {
-    if (!name.starts_with("JOINTS_") || !hasData(asset, accessor)) continue;
-    const auto& [value, component] = largest.of(accessor);
-    if (value >= joints)
+// The largest joint that a mesh is bound to, and where it says so.
+struct LargestJoint {
+  int accessor = -1;
+  Largest::Place place;
+};
+
+LargestJoint largestJoint(const Asset& asset, const tinygltf::Mesh& mesh, Largest& largest) {
+  LargestJoint result;
+  for (const auto& primitive : mesh.primitives)
+    for (const auto& [name, accessor] : primitive.attributes) {
+      if (!name.starts_with("JOINTS_") || !hasData(asset, accessor)) continue;
+      const auto& place = largest.of(accessor);
+      if (result.accessor < 0 || place.value > result.place.value) result = {accessor, place};
+    }
+  return result;
+}
+
+void checkJoints(const Asset& asset, Largest& largest) {
+  std::vector<LargestJoint> ofMesh;
+  for (const auto& mesh : asset.model.meshes) ofMesh.push_back(largestJoint(asset, mesh, largest));
+  for (const auto& node : asset.model.nodes) {
+    if (node.skin < 0) continue;
+    const auto& [accessor, place] = ofMesh[std::size_t(node.mesh)];
+    const std::size_t joints = asset.model.skins[std::size_t(node.skin)].joints.size();
+    if (accessor >= 0 && place.value >= joints)
       breaks(accessorPlace(accessor),
-             "vertex " + std::to_string(component / 4) + " is bound to joint " + std::to_string(value) +
-                 ", but " + skin + " has " + std::to_string(joints),
+             "vertex " + std::to_string(place.component / 4) + " is bound to joint " +
+                 std::to_string(place.value) + ", but /skins/" + std::to_string(node.skin) + " has " +
+                 std::to_string(joints),
              kExportAgain);
   }
 }
@@ -134,20 +154,14 @@ void checkMeshData(const Asset& asset) {
         if (name.starts_with("WEIGHTS_")) weights.insert(accessor);
     }
   for (const int accessor : weights) checkWeights(asset, accessor);
-  std::set<std::pair<int, int>> done;  // a mesh may be used by many nodes
-  for (const auto& node : asset.model.nodes) {
-    if (node.skin < 0 || !done.emplace(node.mesh, node.skin).second) continue;
-    const std::size_t joints = asset.model.skins[std::size_t(node.skin)].joints.size();
-    for (const auto& primitive : asset.model.meshes[std::size_t(node.mesh)].primitives)
-      checkJoints(asset, primitive, joints, "/skins/" + std::to_string(node.skin), largest);
-  }
+  checkJoints(asset, largest);
 }
 
 void checkInverseBinds(const Asset& asset) {
   for (std::size_t i = 0; i < asset.model.skins.size(); ++i) {
     const auto& skin = asset.model.skins[i];
     if (skin.inverseBindMatrices < 0 || !hasData(asset, skin.inverseBindMatrices)) continue;
-    const auto values = readFloats(asset, skin.inverseBindMatrices);
+    const auto values = readFloats(asset, skin.inverseBindMatrices, skin.joints.size());
     for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
       const float* m = &values[16 * joint];
       const auto off = [](float value, float wanted) { return std::abs(value - wanted) > 1e-5f; };
@@ -159,8 +173,13 @@ void checkInverseBinds(const Asset& asset) {
   }
 }
 
+// Animations may be described without data. Reading one then fails, see gltf_clips.cpp.
+bool hasOwnData(const Asset& asset, int accessor) {
+  return isStored(asset, accessor) && hasData(asset, accessor);
+}
+
 void checkTimes(const Asset& asset, int accessor) {
-  if (!hasData(asset, accessor)) return;
+  if (!hasOwnData(asset, accessor)) return;
   const auto times = readFloats(asset, accessor);
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] < 0)
@@ -172,7 +191,7 @@ void checkTimes(const Asset& asset, int accessor) {
 }
 
 void checkQuaternions(const Asset& asset, int accessor, bool cubic) {
-  if (!hasData(asset, accessor)) return;
+  if (!hasOwnData(asset, accessor)) return;
   const auto values = readFloats(asset, accessor);
   const bool coarse = !isFloatComponent(asset.model.accessors[std::size_t(accessor)].componentType);
   const float tolerance = coarse ? 0.02f : 0.01f;

@@ -6,6 +6,8 @@
 namespace vasa::gltf {
 namespace {
 
+constexpr std::size_t kMaximumSets = 4;  // of four joints each; only the strongest four are used
+
 // What checkMeshes must know of an accessor; they have passed checkAccessors.
 struct Shape {
   std::string type;
@@ -100,6 +102,10 @@ void checkInfluenceSets(const JsonView& attributes, const std::set<std::string>&
     joints += setName(name) == "JOINTS";
     weights += setName(name) == "WEIGHTS";
   }
+  if (joints > kMaximumSets)
+    attributes.fail(std::to_string(joints) + " sets of joints are more than the " +
+                        std::to_string(kMaximumSets) + " that are accepted",
+                    "export with fewer influences a vertex");
   if (joints != weights)
     attributes.fail(std::to_string(joints) + " sets of joints do not go with " + std::to_string(weights) +
                     " sets of weights");

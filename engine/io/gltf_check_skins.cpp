@@ -30,20 +30,25 @@ void checkSkin(const JsonView& skin, const JsonView& root, const std::vector<Jso
                    " joints");
 }
 
-void checkSkinnedNode(const JsonView& node, const std::vector<JsonView>& meshes) {
-  const JsonView& mesh = meshes[node.at("mesh").index(meshes.size(), "meshes")];
+// Place of a mesh's first primitive that has no joints; empty where all have.
+std::string placeWithoutJoints(const JsonView& mesh) {
   for (const JsonView& primitive : mesh.at("primitives").items())
-    if (!primitive.at("attributes").has("JOINTS_0"))
-      node.at("skin").fail("the mesh has no joints and weights: see " + primitive.place());
+    if (!primitive.at("attributes").has("JOINTS_0")) return primitive.place();
+  return {};
 }
 
 }  // namespace
 
 void checkSkins(const JsonView& root) {
-  const auto accessors = root.items("accessors"), meshes = root.items("meshes");
+  const auto accessors = root.items("accessors");
   for (const JsonView& skin : root.items("skins")) checkSkin(skin, root, accessors);
-  for (const JsonView& node : root.items("nodes"))
-    if (node.has("skin")) checkSkinnedNode(node, meshes);
+  std::vector<std::string> withoutJoints;
+  for (const JsonView& mesh : root.items("meshes")) withoutJoints.push_back(placeWithoutJoints(mesh));
+  for (const JsonView& node : root.items("nodes")) {
+    if (!node.has("skin")) continue;
+    const std::string& place = withoutJoints[node.at("mesh").index(withoutJoints.size(), "meshes")];
+    if (!place.empty()) node.at("skin").fail("the mesh has no joints and weights: see " + place);
+  }
 }
 
 }  // namespace vasa::gltf

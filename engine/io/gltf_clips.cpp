@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "io/gltf_accessor.h"
+#include "io/gltf_rule.h"
 
 namespace vasa::gltf {
 namespace {
+
+constexpr std::size_t kMaximumKeys = std::size_t(1) << 25;
 
 Interpolation interpolationOf(const tinygltf::AnimationSampler& sampler) {
   if (sampler.interpolation == "STEP") return Interpolation::step;
@@ -15,17 +19,24 @@ Interpolation interpolationOf(const tinygltf::AnimationSampler& sampler) {
   return Interpolation::linear;
 }
 
+std::vector<float> storedFloats(const Asset& asset, int accessor) {
+  if (!isStored(asset, accessor))
+    breaks("/accessors/" + std::to_string(accessor),
+           "an animation that is used needs data, and this has none", kExportAgain);
+  return readFloats(asset, accessor);
+}
+
 Track<vec3> vectorTrack(const Asset& asset, const tinygltf::AnimationSampler& sampler) {
-  Track<vec3> track{interpolationOf(sampler), readFloats(asset, sampler.input), {}};
-  const auto values = readFloats(asset, sampler.output);
+  Track<vec3> track{interpolationOf(sampler), storedFloats(asset, sampler.input), {}};
+  const auto values = storedFloats(asset, sampler.output);
   for (std::size_t i = 0; i + 2 < values.size(); i += 3)
     track.values.emplace_back(values[i], values[i + 1], values[i + 2]);
   return track;
 }
 
 Track<quat> rotationTrack(const Asset& asset, const tinygltf::AnimationSampler& sampler) {
-  Track<quat> track{interpolationOf(sampler), readFloats(asset, sampler.input), {}};
-  const auto values = readFloats(asset, sampler.output);
+  Track<quat> track{interpolationOf(sampler), storedFloats(asset, sampler.input), {}};
+  const auto values = storedFloats(asset, sampler.output);
   for (std::size_t i = 0; i + 3 < values.size(); i += 4) {
     const quat q(values[i + 3], values[i], values[i + 1], values[i + 2]);
     const bool tangent = track.interpolation == Interpolation::cubic && (i / 4) % 3 != 1;
@@ -40,6 +51,19 @@ void extend(Clip& clip, const Track<T>& track, std::vector<float>& longest) {
   clip.start = std::min(clip.start, track.times.front());
   clip.end = std::max(clip.end, track.times.back());
   if (track.times.size() > longest.size()) longest = track.times;
+}
+
+// Any number of channels may share a sampler, but each gets keys of its own.
+void checkKeyCount(const tinygltf::Model& model) {
+  std::size_t keys = 0;
+  for (std::size_t i = 0; i < model.animations.size(); ++i)
+    for (const auto& channel : model.animations[i].channels) {
+      keys += model.accessors[std::size_t(model.animations[i].samplers[std::size_t(channel.sampler)].output)]
+                  .count;
+      if (keys > kMaximumKeys)
+        breaks("/animations/" + std::to_string(i), "too many keys, counting each channel's",
+               "bake fewer keys");
+    }
 }
 
 Clip readClip(const Asset& asset, const tinygltf::Animation& animation,
@@ -93,6 +117,7 @@ float framesPerSecondOf(const std::vector<float>& times) {
 }
 
 std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode) {
+  checkKeyCount(asset.model);
   std::vector<Clip> clips;
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
     Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);

@@ -73,6 +73,7 @@ Container splitGlb(std::span<const std::byte> bytes) {
   const std::uint64_t length = checkHeader(bytes);
   bytes = bytes.first(length);
   Container container;
+  container.isGlb = true;
   std::size_t number = 0;
   for (std::uint64_t offset = kHeaderBytes; offset < length; ++number) {
     const Chunk chunk = chunkAt(bytes, offset);
@@ -125,7 +126,8 @@ bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) 
 }  // namespace
 
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path) {
-  const Container container = isGlb(bytes, path) ? splitGlb(bytes) : Container{asText(bytes), std::nullopt};
+  const Container container =
+      isGlb(bytes, path) ? splitGlb(bytes) : Container{asText(bytes), std::nullopt, false};
   if (container.json.size() > kMaximumJsonBytes)
     breaks("JSON",
            std::to_string(container.json.size()) + " bytes are more than the " +

@@ -19,6 +19,7 @@ inline constexpr std::size_t kMaximumNesting = 64;
 struct Container {
   std::string_view json;
   std::optional<std::span<const std::byte>> binary;  ///< the BIN chunk of a GLB
+  bool isGlb = false;
 };
 
 /// Takes a .glb apart, or passes a .gltf through, after checking sizes, chunk order and JSON nesting. Lengths

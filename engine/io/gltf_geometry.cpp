@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "io/gltf_accessor.h"
-#include "io/gltf_rule.h"
 
 namespace vasa::gltf {
 namespace {
@@ -114,22 +113,11 @@ std::vector<vec3> normalsOf(const Asset& asset, const tinygltf::Primitive& primi
 
 }  // namespace
 
-void Budget::spend(std::size_t vertices, std::size_t triangles, const std::string& place) {
-  if (vertices > vertices_ || triangles > triangles_)
-    breaks(place, "the meshes of the file, repeated as often as it says, are too large",
-           "split or reduce the asset");
-  vertices_ -= vertices;
-  triangles_ -= triangles;
-}
-
 void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned,
-                     const std::string& place, Budget& budget, Geometry& geometry) {
+                     Geometry& geometry) {
   const int position = attribute(primitive, "POSITION");
   if (position < 0 || primitive.mode < TINYGLTF_MODE_TRIANGLES) return;
   const std::size_t vertices = asset.model.accessors[std::size_t(position)].count;
-  const std::size_t corners =
-      primitive.indices >= 0 ? asset.model.accessors[std::size_t(primitive.indices)].count : vertices;
-  budget.spend(vertices, corners, place);
   const TriangleMesh mesh{readVectors(asset, position),
                           trianglesOf(cornersOf(asset, primitive, vertices), primitive.mode)};
   const auto normals = normalsOf(asset, primitive, mesh);

@@ -23,24 +23,11 @@ struct Geometry {
   std::size_t mendedWeights = 0;  ///< vertices whose weights did not sum to 1
 };
 
-/// How much geometry all primitives of a file may expand to: a few bytes of JSON can name a mesh any number
-/// of times.
-class Budget {
- public:
-  /// Throws BrokenRule when the sum of all calls exceeds the limits.
-  void spend(std::size_t vertices, std::size_t triangles, const std::string& place);
-
- private:
-  std::size_t vertices_ = std::size_t(1) << 25;
-  std::size_t triangles_ = std::size_t(1) << 26;
-};
-
 /// Adds a primitive's triangles (lists, strips and fans, indexed or not). Points and lines add nothing.
 /// Corners of strips that are no triangle are left out.
 /// @param skinned  read joints and weights; the primitive has them
-/// @param place    of the primitive, for messages
 void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned,
-                     const std::string& place, Budget& budget, Geometry& geometry);
+                     Geometry& geometry);
 
 /// Moves positions and normals; where the transform mirrors, turns the triangles over so that they keep
 /// facing out.

@@ -130,10 +130,15 @@ JointTransform restOf(const tinygltf::Node& node, const mat4& local, int index) 
 std::vector<mat4> inverseBinds(const Asset& asset, const tinygltf::Skin& skin) {
   std::vector<mat4> out(skin.joints.size(), mat4(1));
   if (skin.inverseBindMatrices < 0) return out;
-  const auto values = readFloats(asset, skin.inverseBindMatrices);
+  const auto values = readFloats(asset, skin.inverseBindMatrices, skin.joints.size());
   for (std::size_t i = 0; i < out.size(); ++i)
     for (int k = 0; k < 16; ++k) out[i][k / 4][k % 4] = values[16 * i + std::size_t(k)];
   return out;
+}
+
+// Influences number joints in 16 bits.
+void checkJointCount(std::size_t count) {
+  if (count > 65535) breaks("/skins", "need more than 65535 joints", "use fewer joints");
 }
 
 constexpr float kSameBinding = 1e-4f;  // of the skeleton's size: exporters write matrices with rounding
@@ -195,6 +200,7 @@ class Binder {
     twin.parent = joint;
     twin.rest = {};
     twin.inverseBind = matrix;
+    checkJointCount(skeleton_.joints.size() + 1);
     skeleton_.joints.push_back(twin);  // after its parent, as the order demands
     bound_.push_back(true);
     return {std::uint32_t(skeleton_.joints.size() - 1)};
@@ -226,6 +232,7 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     out.jointOfNode[i] = {std::uint32_t(skeleton.joints.size())};
     skeleton.joints.push_back(std::move(joint));
   }
+  checkJointCount(skeleton.joints.size());
   Binder binder(skeleton);
   for (const auto& skin : model.skins) {
     std::vector<JointId> joints;
@@ -233,7 +240,6 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     out.skins.push_back(binder.bind(std::move(joints), inverseBinds(asset, skin)));
   }
   binder.bindTheRest();
-  if (skeleton.joints.size() > 65535) breaks("/skins", "need more than 65535 joints", "use fewer joints");
   return out;
 }
 

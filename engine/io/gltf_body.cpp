@@ -1,0 +1,162 @@
+#include "io/gltf_body.h"
+
+#include <cmath>
+#include <map>
+
+#include "core/log.h"
+#include "io/gltf_clips.h"
+#include "io/gltf_rule.h"
+
+namespace vasa::gltf {
+namespace {
+
+constexpr std::size_t kMaximumExpandedSize = std::size_t(1) << 26;  // vertices and indices
+
+vec4 colourOf(const tinygltf::Model& model, int material) {
+  if (material < 0) return SkinnedMesh{}.colour;
+  const auto& found = model.materials[std::size_t(material)];
+  const auto& factor = found.pbrMetallicRoughness.baseColorFactor;
+  vec4 colour(1);
+  for (int i = 0; i < 4; ++i) colour[i] = float(factor[std::size_t(i)]);
+  if (found.alphaMode != "BLEND") colour.a = 1;
+  return colour;
+}
+
+// Nearest joint above a node, or the node itself.
+JointId carrierOf(int node, const NodeTree& tree, const BodySkeleton& joints) {
+  for (; node >= 0; node = tree.parent[std::size_t(node)])
+    if (joints.jointOfNode[std::size_t(node)].valid()) return joints.jointOfNode[std::size_t(node)];
+  return {};
+}
+
+bool canCarry(const Skeleton::Joint& joint) {
+  const float determinant = std::abs(glm::determinant(mat3(joint.restWorld * joint.inverseBind)));
+  return std::isfinite(determinant) && determinant > 1e-12f;
+}
+
+// Bound with full weight to one joint, so that at rest it is where the file puts it.
+SkinnedMesh onJoint(Geometry geometry, JointId carrier, const Skeleton& skeleton, const mat4& restWorld) {
+  const auto& joint = skeleton.joints[carrier.value];
+  transform(geometry, glm::inverse(joint.restWorld * joint.inverseBind) * restWorld);
+  SkinnedMesh out;
+  out.influences.assign(geometry.mesh.positions.size(),
+                        SkinInfluence{{std::uint16_t(carrier.value), 0, 0, 0}, vec4(1, 0, 0, 0)});
+  out.mesh = std::move(geometry.mesh);
+  out.normals = std::move(geometry.normals);
+  return out;
+}
+
+std::map<int, Geometry> geometryByMaterial(const Asset& asset, const tinygltf::Node& node) {
+  std::map<int, Geometry> byMaterial;
+  const auto& primitives = asset.model.meshes[std::size_t(node.mesh)].primitives;
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    appendPrimitive(asset, primitives[i], node.skin >= 0, byMaterial[primitives[i].material]);
+  return byMaterial;
+}
+
+void warnOfMending(const Asset& asset, const std::string& mesh, const Geometry& geometry) {
+  if (geometry.mendedWeights > 0)
+    logWarning(asset.name + ": mesh \"" + mesh + "\": the weights of " +
+               std::to_string(geometry.mendedWeights) + " vertices did not sum to 1; mended");
+}
+
+void addMeshesOfNode(const Asset& asset, int index, const NodeTree& tree, const BodySkeleton& joints,
+                     std::vector<SkinnedMesh>& meshes) {
+  const auto& node = asset.model.nodes[std::size_t(index)];
+  const std::string name = nameOf(asset.model.meshes[std::size_t(node.mesh)].name, node.name, index);
+  const JointId carrier = node.skin < 0 ? carrierOf(index, tree, joints) : JointId{};
+  if (node.skin < 0 && !carrier.valid()) {
+    logWarning(asset.name + ": nothing moves the mesh \"" + name + "\"; left out");
+    return;
+  }
+  if (carrier.valid() && !canCarry(joints.skeleton.joints[carrier.value])) {
+    logWarning(asset.name + ": the mesh \"" + name + "\" hangs on a joint without extent; left out");
+    return;
+  }
+  auto byMaterial = geometryByMaterial(asset, node);
+  for (auto& [material, geometry] : byMaterial) {
+    if (geometry.mesh.empty()) continue;
+    warnOfMending(asset, name, geometry);
+    SkinnedMesh mesh = node.skin >= 0 ? onSkin(std::move(geometry), joints.skins[std::size_t(node.skin)])
+                                      : onJoint(std::move(geometry), carrier, joints.skeleton,
+                                                tree.world[std::size_t(index)]);
+    mesh.name = name;
+    if (byMaterial.size() > 1 && material >= 0)
+      mesh.name += "/" + asset.model.materials[std::size_t(material)].name;
+    mesh.colour = colourOf(asset.model, material);
+    mustBeFinite(mesh.mesh.positions, index);
+    meshes.push_back(std::move(mesh));
+  }
+}
+
+}  // namespace
+
+void checkExpandedSize(const tinygltf::Model& model, const NodeTree& tree) {
+  std::vector<std::size_t> sizes;  // of a mesh; a primitive without triangles costs time too
+  for (const auto& mesh : model.meshes) {
+    sizes.push_back(0);
+    for (const auto& primitive : mesh.primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      ++sizes.back();
+      if (position != primitive.attributes.end())
+        sizes.back() += model.accessors[std::size_t(position->second)].count;
+      if (primitive.indices >= 0) sizes.back() += model.accessors[std::size_t(primitive.indices)].count;
+    }
+  }
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].mesh < 0 || !tree.inScene[i]) continue;
+    sum += sizes[std::size_t(model.nodes[i].mesh)];
+    if (sum > kMaximumExpandedSize)
+      breaks("/nodes/" + std::to_string(i), "the meshes, repeated as often as nodes name them, are too large",
+             "split or reduce the asset");
+  }
+}
+
+std::string nameOf(const std::string& first, const std::string& second, int node) {
+  if (!first.empty()) return first;
+  return second.empty() ? "node " + std::to_string(node) : second;
+}
+
+void mustBeFinite(const std::vector<vec3>& positions, int node) {
+  for (const vec3 p : positions)
+    if (!std::isfinite(p.x + p.y + p.z))
+      breaks("/nodes/" + std::to_string(node), "its transform takes vertices out of the range of numbers",
+             kExportAgain);
+}
+
+SkinnedMesh onSkin(Geometry geometry, const BodySkeleton::Skin& skin) {
+  transform(geometry, skin.bake);
+  SkinnedMesh out;
+  for (const auto& influence : geometry.influences) {
+    SkinInfluence to{{}, influence.weights};
+    for (std::size_t i = 0; i < 4; ++i) to.joints[i] = std::uint16_t(skin.joints[influence.joints[i]].value);
+    out.influences.push_back(to);
+  }
+  out.mesh = std::move(geometry.mesh);
+  out.normals = std::move(geometry.normals);
+  return out;
+}
+
+Body bodyOf(const Asset& asset) {
+  if (asset.model.skins.empty())
+    breaks("/skins", "a body needs a skeleton, and the file has no skin",
+           "export the body with its armature");
+  const NodeTree tree = resolveNodes(asset.model);
+  BodySkeleton joints = buildSkeleton(asset, tree);
+  Body body;
+  body.name = asset.name;
+  checkExpandedSize(asset.model, tree);
+  for (int node = 0; node < int(asset.model.nodes.size()); ++node)
+    if (asset.model.nodes[std::size_t(node)].mesh >= 0 && tree.inScene[std::size_t(node)])
+      addMeshesOfNode(asset, node, tree, joints, body.meshes);
+  body.clips = readClips(asset, joints.jointOfNode);
+  body.skeleton = std::move(joints.skeleton);
+  for (const auto& joint : body.skeleton.joints)
+    if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))
+      breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
+             kExportAgain);
+  return body;
+}
+
+}  // namespace vasa::gltf

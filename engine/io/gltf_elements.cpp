@@ -1,0 +1,63 @@
+#include <optional>
+
+#include "body/skinning.h"
+#include "io/gltf_body.h"
+#include "io/gltf_rule.h"
+
+namespace vasa::gltf {
+namespace {
+
+// A skinned node's place comes from its joints; its own transform counts for nothing.
+struct RestPose {
+  BodySkeleton joints;
+  std::vector<mat4> matrices;
+};
+
+RestPose restOf(const Asset& asset, const NodeTree& tree) {
+  RestPose rest{buildSkeleton(asset, tree), {}};
+  rest.matrices = skinMatrices(rest.joints.skeleton, restPose(rest.joints.skeleton));
+  return rest;
+}
+
+TriangleMesh atRest(Geometry geometry, int skin, const RestPose& rest) {
+  SkinnedMesh mesh = onSkin(std::move(geometry), rest.joints.skins[std::size_t(skin)]);
+  std::vector<vec3> positions;
+  skinPositions(mesh, rest.matrices, positions);
+  mesh.mesh.positions = std::move(positions);
+  return std::move(mesh.mesh);
+}
+
+std::string extra(const tinygltf::Value& node, const tinygltf::Value& mesh, const char* key) {
+  for (const auto* extras : {&node, &mesh})
+    if (extras->IsObject() && extras->Get(key).IsString()) return extras->Get(key).Get<std::string>();
+  return {};
+}
+
+}  // namespace
+
+std::vector<MeshElement> elementsOf(const Asset& asset) {
+  const NodeTree tree = resolveNodes(asset.model);
+  std::optional<RestPose> rest;
+  checkExpandedSize(asset.model, tree);
+  std::vector<MeshElement> elements;
+  for (std::size_t i = 0; i < asset.model.nodes.size(); ++i) {
+    const auto& node = asset.model.nodes[i];
+    if (node.mesh < 0 || !tree.inScene[i]) continue;
+    const auto& mesh = asset.model.meshes[std::size_t(node.mesh)];
+    Geometry geometry;
+    for (const auto& primitive : mesh.primitives) appendPrimitive(asset, primitive, node.skin >= 0, geometry);
+    if (node.skin < 0)
+      transform(geometry, tree.world[i]);
+    else if (!rest)
+      rest = restOf(asset, tree);
+    elements.push_back(
+        {nameOf(node.name, mesh.name, int(i)), extra(node.extras, mesh.extras, "category"),
+         extra(node.extras, mesh.extras, "fma"),
+         node.skin < 0 ? std::move(geometry.mesh) : atRest(std::move(geometry), node.skin, *rest)});
+    mustBeFinite(elements.back().mesh.positions, int(i));
+  }
+  if (elements.empty()) breaks("/nodes", "no node of the scene has a mesh", "export the meshes too");
+  return elements;
+}
+
+}  // namespace vasa::gltf
