@@ -1,0 +1,221 @@
+#include "collide/tube_detector.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "collide/closest_tubes.h"
+#include "collide/kernels.h"
+#include "core/parallel.h"
+
+// Work is cut into tasks: group pairs of some level, found by opening the tree from its root until there are enough.
+// Each task has its own working memory and result; the results are joined and sorted, so that neither the number of
+// tasks nor their order shows. Candidates are settled in chunks while they are in the cache.
+namespace vasa {
+namespace {
+
+constexpr std::size_t kChunk = 1024;             // candidates settled at once
+constexpr int kVectorLevels = 7;                 // halvings in single precision
+constexpr std::uint32_t kLeafBlock = 512;        // groups refitted by one task
+constexpr std::size_t kTasksPerThread = 16;
+
+struct Worker {
+  std::vector<GroupPair> stack;
+  std::vector<TubePair> candidates;
+  std::vector<PiecePair> pieces, halves;
+  std::vector<std::uint8_t> verdicts;
+  std::vector<char> settled;  // by candidate
+  std::vector<TubePair> pairs;
+  TubeDetector::Statistics statistics;
+};
+
+static_assert(sizeof(Bezier) == 16 * sizeof(float));
+const float* floatsOf(std::span<const Bezier> tubes) {
+  return reinterpret_cast<const float*>(tubes.data());
+}
+
+}  // namespace
+
+struct TubeDetector::State {
+  State(std::span<const Bezier> rest, const Exclusions& exclusions, DetectorOptions chosen)
+      : options(chosen), kernels(chosen.scalar ? scalarKernels() : fastKernels()), tree(rest) {
+    groupExclusions(exclusions);
+  }
+
+  void groupExclusions(const Exclusions& exclusions);
+  void update(std::span<const Bezier> shape, float margin);
+  std::vector<GroupPair> tasks();
+  void run(Worker& worker, std::span<const GroupPair> work);
+  void settle(Worker& worker, std::size_t count);
+
+  DetectorOptions options;
+  const Kernels& kernels;
+  BoxTree tree;
+  std::vector<std::uint32_t> firstExcluded;
+  std::vector<ExcludedLanes> excluded;
+  std::span<const Bezier> tubes;
+  float margin = 0;
+  std::vector<Worker> workers;
+  std::vector<TubePair> pairs;
+};
+
+void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
+  std::vector<std::uint32_t> slotOf(tree.tubeCount);
+  for (std::uint32_t slot = 0; slot < tree.tubeCount; ++slot) slotOf[tree.tubes[slot]] = slot;
+  firstExcluded.assign(tree.tubes.size() + 1, 0);
+  std::vector<std::uint32_t> partners;
+  for (std::uint32_t slot = 0; slot < tree.tubeCount; ++slot) {
+    partners.clear();
+    for (const std::uint32_t tube : exclusions.partnersOf(tree.tubes[slot])) partners.push_back(slotOf[tube]);
+    std::sort(partners.begin(), partners.end());
+    const std::size_t begin = excluded.size();
+    for (const std::uint32_t partner : partners) {
+      const std::uint32_t group = partner / kGroup;
+      if (group < slot / kGroup) continue;
+      if (excluded.size() == begin || excluded.back().group != group) excluded.push_back({group, 0});
+      excluded.back().lanes |= 1u << partner % kGroup;
+    }
+    firstExcluded[slot + 1] = std::uint32_t(excluded.size());
+  }
+  for (std::size_t slot = tree.tubeCount; slot < tree.tubes.size(); ++slot)
+    firstExcluded[slot + 1] = std::uint32_t(excluded.size());
+}
+
+void TubeDetector::State::update(std::span<const Bezier> shape, float wantedMargin) {
+  assert(shape.size() == tree.tubeCount);
+  tubes = shape;
+  margin = wantedMargin;
+  if (tubes.empty()) return;
+  const BoxTreeView view = tree.view();
+  const std::uint32_t groups = tree.groups(0);
+  const auto fitBlock = [&](std::size_t block) {
+    const std::uint32_t begin = std::uint32_t(block) * kLeafBlock;
+    kernels.fitLeaves(view, floatsOf(tubes), 0.5f * margin, begin, std::min(groups, begin + kLeafBlock));
+  };
+  const std::size_t blocks = (groups + kLeafBlock - 1) / kLeafBlock;
+  if (blocks > 2) {
+    parallelFor(blocks, 1, fitBlock);
+  } else {
+    for (std::size_t block = 0; block < blocks; ++block) fitBlock(block);
+  }
+  for (std::uint32_t level = 1; level < tree.levels(); ++level) kernels.fitLevel(view, level, 0, tree.groups(level));
+}
+
+std::vector<GroupPair> TubeDetector::State::tasks() {
+  std::vector<GroupPair> open{{tree.levels() - 1, 0, 0}};
+  const std::size_t wanted = threadCount() > 1 ? kTasksPerThread * threadCount() : 1;
+  Traversal work{tree.view(), firstExcluded.data(), excluded.data(), nullptr, 0, nullptr, 0};
+  while (open.size() < wanted && open.front().level > 0) {
+    std::vector<GroupPair> next;
+    for (const GroupPair& pair : open) {
+      GroupPair stack[kGroupPairs + 1] = {pair};
+      work.stack = stack;
+      work.stackSize = 1;
+      kernels.openNode(work);
+      next.insert(next.end(), stack, stack + work.stackSize);
+    }
+    if (next.empty()) break;
+    open.swap(next);
+  }
+  return open;
+}
+
+// Breadth first: one level of all open pieces at a time, so that the vectors stay full.
+void TubeDetector::State::settle(Worker& worker, std::size_t count) {
+  worker.statistics.candidates += count;
+  worker.settled.assign(count, 0);
+  worker.pieces.clear();
+  for (std::uint32_t c = 0; c < count; ++c)
+    worker.pieces.push_back({worker.candidates[c].i, worker.candidates[c].j, 0, 0, c});
+  for (int level = 0; level < kVectorLevels && !worker.pieces.empty(); ++level) {
+    worker.verdicts.resize(std::max(worker.verdicts.size(), worker.pieces.size()));
+    kernels.narrow(floatsOf(tubes), 0.5f * margin, level, worker.pieces.data(), worker.pieces.size(), worker.verdicts.data());
+    worker.statistics.pieces[level] += worker.pieces.size();
+    for (std::size_t k = 0; k < worker.pieces.size(); ++k)
+      if (worker.verdicts[k] & kMeet) worker.settled[worker.pieces[k].candidate] = 1;
+    worker.halves.clear();
+    const float half = std::ldexp(0.5f, -level);
+    for (std::size_t k = 0; k < worker.pieces.size(); ++k) {
+      const PiecePair& piece = worker.pieces[k];
+      if (worker.settled[piece.candidate]) continue;
+      for (std::uint32_t open = worker.verdicts[k]; open; open &= open - 1) {
+        const int child = std::countr_zero(open);
+        worker.halves.push_back({piece.i, piece.j, piece.s + half * float(child / 2), piece.t + half * float(child % 2), piece.candidate});
+      }
+    }
+    worker.pieces.swap(worker.halves);
+  }
+  for (const PiecePair& piece : worker.pieces) {
+    if (worker.settled[piece.candidate]) continue;
+    worker.settled[piece.candidate] = 2;
+    ++worker.statistics.searched;
+    if (tubesIntersect(tubes[piece.i], tubes[piece.j], options.tolerance, margin)) worker.settled[piece.candidate] = 1;
+  }
+  for (std::uint32_t c = 0; c < count; ++c)
+    if (worker.settled[c] == 1) worker.pairs.push_back(orderedPair(worker.candidates[c].i, worker.candidates[c].j));
+}
+
+void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
+  worker.pairs.clear();
+  worker.statistics = {};
+  worker.stack.resize(work.size() + kGroupPairs * (tree.levels() + 1));
+  worker.candidates.resize(kChunk + kGroupPairs);
+  std::copy(work.begin(), work.end(), worker.stack.begin());
+  Traversal traversal{tree.view(),          firstExcluded.data(), excluded.data(),         worker.stack.data(),
+                      work.size(), worker.candidates.data(), 0};
+  while (traversal.stackSize > 0) {
+    traversal.candidateCount = 0;
+    kernels.traverse(traversal, kChunk);
+    settle(worker, traversal.candidateCount);
+  }
+}
+
+TubeDetector::TubeDetector(std::span<const Bezier> rest, const Exclusions& exclusions, DetectorOptions options)
+    : state_(std::make_unique<State>(rest, exclusions, options)) {}
+TubeDetector::~TubeDetector() = default;
+TubeDetector::TubeDetector(TubeDetector&&) noexcept = default;
+
+void TubeDetector::update(std::span<const Bezier> tubes, float margin) {
+  state_->update(tubes, margin);
+}
+
+std::span<const TubePair> TubeDetector::detect() {
+  State& state = *state_;
+  state.pairs.clear();
+  if (state.tubes.empty()) return {};
+  const std::vector<GroupPair> tasks = state.tasks();
+  const std::size_t blocks = threadCount() > 1 ? std::min(tasks.size(), kTasksPerThread * threadCount()) : 1;
+  if (state.workers.size() < blocks) state.workers.resize(blocks);
+  const auto run = [&](std::size_t block) {
+    const std::size_t begin = tasks.size() * block / blocks, end = tasks.size() * (block + 1) / blocks;
+    state.run(state.workers[block], std::span(tasks).subspan(begin, end - begin));
+  };
+  if (blocks > 1) {
+    parallelFor(blocks, 1, run);
+  } else {
+    run(0);
+  }
+  state.workers.resize(blocks);
+  for (const Worker& worker : state.workers)
+    state.pairs.insert(state.pairs.end(), worker.pairs.begin(), worker.pairs.end());
+  std::sort(state.pairs.begin(), state.pairs.end());
+  return state.pairs;
+}
+
+TubeDetector::Statistics TubeDetector::statistics() const {
+  Statistics sum;
+  for (const Worker& worker : state_->workers) {
+    sum.candidates += worker.statistics.candidates;
+    for (std::size_t level = 0; level < sum.pieces.size(); ++level) sum.pieces[level] += worker.statistics.pieces[level];
+    sum.searched += worker.statistics.searched;
+  }
+  return sum;
+}
+
+std::size_t TubeDetector::treeBytes() const {
+  return state_->tree.bytes() + state_->firstExcluded.size() * sizeof(std::uint32_t) +
+         state_->excluded.size() * sizeof(ExcludedLanes);
+}
+
+}  // namespace vasa

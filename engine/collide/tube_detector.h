@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "collide/exclusions.h"
+#include "curve/bezier.h"
+
+namespace vasa {
+
+struct DetectorOptions {
+  /// [m] A pair is reported where f < -tolerance and not where f > tolerance; in between it may be either.
+  double tolerance = 5e-8;
+  /// Plain arithmetic, one lane: for tests.
+  bool scalar = false;
+};
+
+/// The exact detector, the program's default: all pairs of tubes that intersect, and no others.
+/// Method: an implicit 8-ary box tree of fixed topology, refit each frame; group-against-group traversal in vector
+/// registers; chord capsules; then line-swept spheres around ever shorter pieces (Filip, Magedson, Markot 1986), one level of
+/// all open pairs at a time, accepted early where the true curves at the nearest parameters meet; what single
+/// precision leaves open goes to a certified branch and bound in double.
+///
+///   TubeDetector detector(restTubes, exclusions);
+///   each frame:  detector.update(tubes);  for (TubePair pair : detector.detect()) ...
+///
+/// The result does not depend on the number of threads or the instruction set (outside the tolerance). No allocation
+/// once the working memory has grown to what the scene needs. One object serves one caller at a time.
+class TubeDetector {
+ public:
+  /// @param rest        tubes at rest: they decide the tree's topology, which lasts for the object's life
+  /// @param exclusions  copied
+  TubeDetector(std::span<const Bezier> rest, const Exclusions& exclusions, DetectorOptions options = {});
+  ~TubeDetector();
+  TubeDetector(TubeDetector&&) noexcept;
+
+  /// Refits the tree to the present shape.
+  /// @param tubes   as many as at rest, in the same order, all numbers finite; must stay in place until detect() is done
+  /// @param margin  [m] >= 0; detect() then reports pairs with f < margin instead of f < 0
+  void update(std::span<const Bezier> tubes, float margin = 0);
+
+  /// Intersecting pairs that are not excluded, sorted; valid until the next call.
+  std::span<const TubePair> detect();
+
+  /// What the last detect() did.
+  struct Statistics {
+    std::size_t candidates = 0;  ///< pairs whose chord capsules meet
+    std::array<std::size_t, 8> pieces{};  ///< pairs of pieces of length 2^-level that were halved
+    std::size_t searched = 0;             ///< pairs left to the search in double precision
+  };
+  Statistics statistics() const;
+  /// Memory of boxes, capsules and order.
+  std::size_t treeBytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vasa
