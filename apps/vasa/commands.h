@@ -25,6 +25,7 @@ struct Command {
   std::function<Result<void>()> run;
 };
 
+void addBench(CLI::App& app, Command& command);
 void addConvert(CLI::App& app, Command& command);
 void addDevices(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);

@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
   addRender(app, command);
   addInfo(app, command);
   addProfile(app, command);
+  addBench(app, command);
   addDevices(app, command);
   try {
     app.parse(argc, argv);

@@ -21,8 +21,8 @@ struct alignas(32) CapsuleGroup {
   float radius[kGroup];
 };
 
-/// What the kernels see of a BoxTree: raw arrays, because code compiled for one instruction set must not instantiate
-/// inline library functions that the linker could then hand to all.
+/// What the kernels see of a BoxTree: raw arrays, because code compiled for one instruction set must not
+/// instantiate inline library functions that the linker could then hand to all.
 struct BoxTreeView {
   std::uint32_t tubeCount, levels;
   const std::uint32_t* tubes;
@@ -31,18 +31,18 @@ struct BoxTreeView {
   CapsuleGroup* capsules;
 };
 
-/// The fast detector's tree: topology fixed at rest and implicit (group g of a level holds the boxes of groups
-/// 8g .. 8g+7 of the level below; groups of level 0 hold tubes), structure of arrays, no pointers. Filled by
-/// the kernels (collide/kernels.h).
+/// The fast detector's tree: topology fixed at rest and implicit (group g of a level holds the boxes of
+/// groups 8g .. 8g+7 of the level below; groups of level 0 hold tubes), structure of arrays, no pointers.
+/// Filled by the kernels (collide/kernels.h).
 struct BoxTree {
   /// Order and topology from the tubes at rest; boxes are not filled yet.
   explicit BoxTree(std::span<const Bezier> rest);
 
   std::uint32_t tubeCount = 0;
-  std::vector<std::uint32_t> tubes;          ///< slot -> tube, padded to whole groups by repeating the last
-  std::vector<std::uint32_t> levelStart;     ///< first group of each level, and the end; at least level 0
-  std::vector<BoxGroup> boxes;               ///< all levels
-  std::vector<CapsuleGroup> capsules;        ///< level 0
+  std::vector<std::uint32_t> tubes;       ///< slot -> tube, padded to whole groups by repeating the last
+  std::vector<std::uint32_t> levelStart;  ///< first group of each level, and the end; at least level 0
+  std::vector<BoxGroup> boxes;            ///< all levels
+  std::vector<CapsuleGroup> capsules;     ///< level 0
 
   std::uint32_t levels() const { return std::uint32_t(levelStart.size()) - 1; }
   std::uint32_t groups(std::uint32_t level) const { return levelStart[level + 1] - levelStart[level]; }
@@ -50,7 +50,8 @@ struct BoxTree {
     return {tubeCount, levels(), tubes.data(), levelStart.data(), boxes.data(), capsules.data()};
   }
   std::size_t bytes() const {
-    return tubes.size() * sizeof(std::uint32_t) + boxes.size() * sizeof(BoxGroup) + capsules.size() * sizeof(CapsuleGroup);
+    return tubes.size() * sizeof(std::uint32_t) + boxes.size() * sizeof(BoxGroup) +
+           capsules.size() * sizeof(CapsuleGroup);
   }
 };
 

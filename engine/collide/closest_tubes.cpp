@@ -7,11 +7,15 @@
 
 #include "math/segment_distance.h"
 
-// A piece of a tube is its four control points, halved by de Casteljau. Around its chord c the piece lies within
-// ¾ max(|e1|, |e2|) (curve/bounds.cpp), and its radius below its largest coefficient, so for two pieces
-//   f >= |c_a - c_b| - deviation_a - deviation_b - r_a - r_b,
-// while f at the chords' nearest parameters is an upper bound. The difference of the two shrinks fourfold with
-// each halving of both pieces. Coordinates are taken relative to a's first point: the numbers are then as
+// A piece of a tube is its four control points, halved by de Casteljau. Its curve lies within d = ¾ max(|e1|,
+// |e2|) of its chord, point by point (curve/bounds.cpp), and its radius no more than the same bound of the
+// radius coefficients above the straight line between its end radii. So, with the chords' points P(s), Q(t)
+// and linear radii p(s), q(t),
+//   f >= min g - d_a - d_b - e_a - e_b,   g(s, t) = |P(s) - Q(t)| - p(s) - q(t).
+// g is convex: any tangent plane lies below it, and the plane's least value over the unit square is a lower
+// bound, close to the minimum where the tangent point is close to the minimum's. A few Newton steps take it
+// there. The whole error is thus of second order: it shrinks fourfold with each halving. f itself at those
+// parameters is an upper bound. Coordinates are taken relative to a's first point: the numbers are then as
 // small as the tubes, and the subtraction of two floats in double precision is exact.
 namespace vasa {
 namespace {
@@ -22,13 +26,17 @@ struct Piece {
 
   dvec3 point(int i) const { return dvec3(b[i]); }
   double deviation() const {
-    const dvec3 e1 = point(1) - (2.0 * point(0) + point(3)) / 3.0, e2 = point(2) - (point(0) + 2.0 * point(3)) / 3.0;
+    const dvec3 e1 = point(1) - (2.0 * point(0) + point(3)) / 3.0,
+                e2 = point(2) - (point(0) + 2.0 * point(3)) / 3.0;
     return 0.75 * std::sqrt(std::max(glm::dot(e1, e1), glm::dot(e2, e2)));
   }
-  double radius() const { return std::max(std::max(b[0].w, b[1].w), std::max(b[2].w, b[3].w)); }
-  double spread() const {
-    return deviation() + radius() - std::min(std::min(b[0].w, b[1].w), std::min(b[2].w, b[3].w));
+  /// How much higher than the straight line between its ends the radius may be.
+  double radiusExcess() const {
+    const double e1 = b[1].w - (2 * b[0].w + b[3].w) / 3, e2 = b[2].w - (b[0].w + 2 * b[3].w) / 3;
+    return 0.75 * std::max({e1, e2, 0.0});
   }
+  double slack() const { return deviation() + radiusExcess(); }
+  double length() const { return glm::distance(point(0), point(3)); }
   std::pair<Piece, Piece> halves() const {
     const dvec4 p01 = 0.5 * (b[0] + b[1]), p12 = 0.5 * (b[1] + b[2]), p23 = 0.5 * (b[2] + b[3]);
     const dvec4 p012 = 0.5 * (p01 + p12), p123 = 0.5 * (p12 + p23), middle = 0.5 * (p012 + p123);
@@ -45,18 +53,65 @@ Piece pieceOf(const Bezier& tube, const dvec4& origin) {
 
 dvec4 at(const Piece& whole, double t) {
   const double s = 1 - t;
-  return s * s * s * whole.b[0] + 3 * s * s * t * whole.b[1] + 3 * s * t * t * whole.b[2] + t * t * t * whole.b[3];
+  return s * s * s * whole.b[0] + 3 * s * s * t * whole.b[1] + 3 * s * t * t * whole.b[2] +
+         t * t * t * whole.b[3];
 }
+
+// g of two chords with linear radii, at (s, t), and the tangent plane there.
+struct Cones {
+  dvec3 w, u, v;
+  double radii, du, dv;  // radii at s = t = 0, growth along s and t
+
+  Cones(const Piece& a, const Piece& b)
+      : w(a.point(0) - b.point(0)),
+        u(a.point(3) - a.point(0)),
+        v(b.point(3) - b.point(0)),
+        radii(a.b[0].w + b.b[0].w),
+        du(a.b[3].w - a.b[0].w),
+        dv(b.b[3].w - b.b[0].w) {}
+
+  struct Tangent {
+    double lower;   // least value of the tangent plane over the unit square
+    double value;   // g
+    double ds, dt;  // its slopes
+    dvec3 normal;
+    double distance;
+  };
+  Tangent tangent(double s, double t) const {
+    const dvec3 gap = w + s * u - t * v;
+    const double distance = glm::length(gap);
+    const dvec3 normal = distance > 0 ? gap / distance : dvec3(0);
+    const double value = distance - radii - s * du - t * dv;
+    const double ds = glm::dot(normal, u) - du, dt = -glm::dot(normal, v) - dv;
+    const double lower = value + std::min(-s * ds, (1 - s) * ds) + std::min(-t * dt, (1 - t) * dt);
+    return {lower, value, ds, dt, normal, distance};
+  }
+  // One Newton step, kept inside the square; where g is flat in a direction it goes to the end that is
+  // downhill.
+  void step(const Tangent& at, double& s, double& t) const {
+    const double nu = glm::dot(at.normal, u), nv = glm::dot(at.normal, v);
+    const double least = 1e-12 * (glm::dot(u, u) + glm::dot(v, v)) + 1e-300;
+    const double uu = glm::dot(u, u) - nu * nu + least, vv = glm::dot(v, v) - nv * nv + least;
+    const double uv = -(glm::dot(u, v) - nu * nv), gs = at.ds * at.distance, gt = at.dt * at.distance;
+    const double determinant = std::max(uu * vv - uv * uv, 1e-24 * uu * vv);
+    const double s0 = s, t0 = t;
+    s = glm::clamp(s0 - (gs * vv - gt * uv) / determinant, 0.0, 1.0);
+    t = glm::clamp(t0 - (gt + uv * (s - s0)) / vv, 0.0, 1.0);
+    s = glm::clamp(s0 - (gs + uv * (t - t0)) / uu, 0.0, 1.0);
+  }
+};
 
 struct Candidate {
   Piece a, b;
   double lower;
 };
 
+constexpr int kNewtonSteps = 6;
+
 struct Search {
-  Piece a, b;           // whole tubes
+  Piece a, b;  // whole tubes
   double tolerance;
-  bool asks;            // only whether f < limit
+  bool asks;  // only whether f < limit
   double limit;
   double best = std::numeric_limits<double>::infinity();
   double bestS = 0, bestT = 0;
@@ -72,11 +127,19 @@ struct Search {
   double threshold() const { return std::min(best, asks ? limit : best) - tolerance; }
 
   void add(const Piece& pa, const Piece& pb) {
+    const double slack = pa.slack() + pb.slack();
     const auto near = closestOnSegments(pa.point(0), pa.point(3), pb.point(0), pb.point(3));
-    tryValue(pa.from + near.s * (pa.to - pa.from), pb.from + near.t * (pb.to - pb.from));
-    const double lower = near.distance - pa.deviation() - pb.deviation() - pa.radius() - pb.radius();
-    if (lower >= threshold()) return;
-    heap.push_back({pa, pb, lower});
+    const Cones cones(pa, pb);
+    double s = near.s, t = near.t, lower = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kNewtonSteps; ++k) {
+      const auto tangent = cones.tangent(s, t);
+      lower = std::max(lower, tangent.lower);
+      if (tangent.value - lower <= 0.25 * std::max(slack, tolerance) || lower - slack >= threshold()) break;
+      cones.step(tangent, s, t);
+    }
+    tryValue(pa.from + s * (pa.to - pa.from), pb.from + t * (pb.to - pb.from));
+    if (lower - slack >= threshold()) return;
+    heap.push_back({pa, pb, lower - slack});
     std::push_heap(heap.begin(), heap.end(), later);
   }
   static bool later(const Candidate& x, const Candidate& y) { return x.lower > y.lower; }
@@ -89,7 +152,9 @@ struct Search {
       const Candidate next = heap.back();
       heap.pop_back();
       if (next.lower >= threshold()) return;
-      if (next.a.spread() >= next.b.spread()) {
+      // The one that spoils the bound more; of two straight ones, the longer.
+      const double excess = next.a.slack() - next.b.slack();
+      if (excess > 0 || (excess == 0 && next.a.length() >= next.b.length())) {
         const auto [low, high] = next.a.halves();
         add(low, next.b);
         add(high, next.b);
@@ -109,7 +174,7 @@ Search searchOf(const Bezier& a, const Bezier& b, double tolerance, bool asks, d
   for (int i = 0; i < 4; ++i)
     for (int axis = 0; axis < 4; ++axis)
       size = std::max({size, std::abs(search.a.b[i][axis]), std::abs(search.b.b[i][axis])});
-  search.tolerance = std::max(tolerance, 1e-7 * size * 1e-5);
+  search.tolerance = std::max(tolerance, 1e-12 * size);  // below it, double precision itself gives out
   search.run();
   return search;
 }
@@ -129,14 +194,15 @@ Contact closestOfTubes(const Bezier& a, const Bezier& b, double tolerance) {
   return contact;
 }
 
-std::vector<TubePair> intersectingPairsByBruteForce(std::span<const Bezier> tubes, const Exclusions& exclusions,
-                                                    double tolerance) {
+std::vector<TubePair> intersectingPairsByBruteForce(std::span<const Bezier> tubes,
+                                                    const Exclusions& exclusions, double tolerance) {
   std::vector<Aabb> boxes;
   for (const Bezier& tube : tubes) boxes.push_back(tube.bounds());
   std::vector<TubePair> pairs;
   for (std::uint32_t i = 0; i < tubes.size(); ++i)
     for (std::uint32_t j = i + 1; j < tubes.size(); ++j)
-      if (boxes[i].overlaps(boxes[j]) && !exclusions.contains(i, j) && tubesIntersect(tubes[i], tubes[j], tolerance))
+      if (boxes[i].overlaps(boxes[j]) && !exclusions.contains(i, j) &&
+          tubesIntersect(tubes[i], tubes[j], tolerance))
         pairs.push_back({i, j});
   return pairs;
 }

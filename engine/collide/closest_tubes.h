@@ -12,7 +12,8 @@ namespace vasa {
 /// are line-swept spheres around ever shorter pieces and whose upper bounds are values of f itself.
 /// @param tolerance  [m] > 0, the width of the answer. The certain cost grows with -log2 of it.
 
-/// Whether f(a, b) < margin. Certified both ways, except that within the tolerance it may be answered either way.
+/// Whether f(a, b) < margin. Certified both ways, except that within the tolerance it may be answered either
+/// way.
 bool tubesIntersect(const Bezier& a, const Bezier& b, double tolerance, double margin = 0);
 
 /// The nearest place of a and b: a global minimum of f, no more than tolerance above the least value.
@@ -20,7 +21,7 @@ bool tubesIntersect(const Bezier& a, const Bezier& b, double tolerance, double m
 Contact closestOfTubes(const Bezier& a, const Bezier& b, double tolerance);
 
 /// Every intersecting pair by comparing all with all: the specification, O(n²), for tests and tiny inputs.
-std::vector<TubePair> intersectingPairsByBruteForce(std::span<const Bezier> tubes, const Exclusions& exclusions,
-                                                    double tolerance);
+std::vector<TubePair> intersectingPairsByBruteForce(std::span<const Bezier> tubes,
+                                                    const Exclusions& exclusions, double tolerance);
 
 }  // namespace vasa

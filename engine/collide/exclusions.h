@@ -6,8 +6,8 @@
 
 namespace vasa {
 
-/// The pairs of tubes that are not to be tested because they belong together (they share an end, or lie close to
-/// one another along the network). Immutable; each pair is kept once a direction, partners sorted.
+/// The pairs of tubes that are not to be tested because they belong together (they share an end, or lie close
+/// to one another along the network). Immutable; each pair is kept once a direction, partners sorted.
 class Exclusions {
  public:
   explicit Exclusions(std::uint32_t tubeCount) : Exclusions(tubeCount, {}) {}

@@ -47,12 +47,13 @@ struct Nearest {
   V slack;    // the true minimum is no less than squared - slack
 };
 
-// Segments w + s u and t v. Coordinate descent from the inner stationary point: exact where that is well conditioned
-// or the segments are parallel, and within the slack in between.
+// Segments w + s u and t v. Coordinate descent from the inner stationary point: exact where that is well
+// conditioned or the segments are parallel, and within the slack in between.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Nearest<V> nearestOnSegments(D d, const Vec3<V>& w, const Vec3<V>& u, const Vec3<V>& v) {
   const V tiny = hn::Set(d, 1e-37f);
-  const V uu = hn::Max(dot(u, u), tiny), vv = hn::Max(dot(v, v), tiny), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
+  const V uu = hn::Max(dot(u, u), tiny), vv = hn::Max(dot(v, v), tiny), uv = dot(u, v), uw = dot(u, w),
+          vw = dot(v, w);
   const V one = hn::Set(d, 1.0f);
   const V perU = hn::Div(one, uu), perV = hn::Div(one, vv);
   // Divided by uu vv, so that nothing overflows or vanishes for very large or small tubes.
@@ -62,7 +63,8 @@ HWY_INLINE Nearest<V> nearestOnSegments(D d, const Vec3<V>& w, const Vec3<V>& u,
   V s = clampUnit(d, hn::Div(numerator, determinant));
   const V t = clampUnit(d, hn::Mul(hn::MulAdd(s, uv, vw), perV));
   s = clampUnit(d, hn::Mul(hn::MulSub(t, uv, uw), perU));
-  const Vec3<V> gap = {hn::NegMulAdd(t, v.x, hn::MulAdd(s, u.x, w.x)), hn::NegMulAdd(t, v.y, hn::MulAdd(s, u.y, w.y)),
+  const Vec3<V> gap = {hn::NegMulAdd(t, v.x, hn::MulAdd(s, u.x, w.x)),
+                       hn::NegMulAdd(t, v.y, hn::MulAdd(s, u.y, w.y)),
                        hn::NegMulAdd(t, v.z, hn::MulAdd(s, u.z, w.z))};
   const V slack = hn::Mul(hn::Set(d, kDistanceSlack), hn::Add(hn::Add(uu, vv), dot(w, w)));
   return {s, t, dot(gap, gap), slack};
@@ -76,7 +78,8 @@ HWY_INLINE hn::Vec<D> component(D d, const float* tubes, VI at, int c) {
   return hn::GatherIndex(d, tubes + c, at);
 }
 
-void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin, std::uint32_t end) {
+void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin,
+               std::uint32_t end) {
   const F8 d;
   const hn::RebindToSigned<F8> di;
   using V = hn::Vec<F8>;
@@ -86,7 +89,8 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
     CapsuleGroup& capsule = tree.capsules[group];
     for (std::uint32_t lane = 0; lane < kGroup; lane += std::uint32_t(hn::Lanes(d))) {
       const std::uint32_t slot = group * kGroup + lane;
-      const auto at = hn::ShiftLeft<4>(hn::Load(di, reinterpret_cast<const std::int32_t*>(&tree.tubes[slot])));
+      const auto at =
+          hn::ShiftLeft<4>(hn::Load(di, reinterpret_cast<const std::int32_t*>(&tree.tubes[slot])));
       V r[4];
       for (int k = 0; k < 4; ++k) r[k] = hn::Add(component(d, tubes, at, 4 * k + 3), growth);
       const V radius = hn::Max(hn::Max(r[0], r[1]), hn::Max(r[2], r[3]));
@@ -95,10 +99,13 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
       for (int axis = 0; axis < 3; ++axis) {
         V p[4];
         for (int k = 0; k < 4; ++k) p[k] = component(d, tubes, at, 4 * k + axis);
-        low[axis] = hn::Min(hn::Min(hn::Sub(p[0], r[0]), hn::Sub(p[1], r[1])), hn::Min(hn::Sub(p[2], r[2]), hn::Sub(p[3], r[3])));
-        high[axis] = hn::Max(hn::Max(hn::Add(p[0], r[0]), hn::Add(p[1], r[1])), hn::Max(hn::Add(p[2], r[2]), hn::Add(p[3], r[3])));
+        low[axis] = hn::Min(hn::Min(hn::Sub(p[0], r[0]), hn::Sub(p[1], r[1])),
+                            hn::Min(hn::Sub(p[2], r[2]), hn::Sub(p[3], r[3])));
+        high[axis] = hn::Max(hn::Max(hn::Add(p[0], r[0]), hn::Add(p[1], r[1])),
+                             hn::Max(hn::Add(p[2], r[2]), hn::Add(p[3], r[3])));
         const V chord = hn::Sub(p[3], p[0]);
-        const V x1 = hn::NegMulAdd(third, chord, hn::Sub(p[1], p[0])), x2 = hn::MulAdd(third, chord, hn::Sub(p[2], p[3]));
+        const V x1 = hn::NegMulAdd(third, chord, hn::Sub(p[1], p[0])),
+                x2 = hn::MulAdd(third, chord, hn::Sub(p[2], p[3]));
         e1 = hn::MulAdd(x1, x1, e1);
         e2 = hn::MulAdd(x2, x2, e2);
         first[axis] = p[0];
@@ -109,7 +116,8 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
       const V deviation = hn::Mul(hn::Set(d, 0.75f), hn::Sqrt(hn::Max(e1, e2)));
       const V reach = hn::Mul(hn::Add(radius, deviation), hn::Set(d, kReachSlack));
       V size = hn::Zero(d);
-      for (int axis = 0; axis < 3; ++axis) size = hn::Max(size, hn::Max(hn::Abs(first[axis]), hn::Abs(last[axis])));
+      for (int axis = 0; axis < 3; ++axis)
+        size = hn::Max(size, hn::Max(hn::Abs(first[axis]), hn::Abs(last[axis])));
       const V rounding = hn::Mul(relative, hn::Add(size, reach));
       hn::Store(reach, d, &capsule.radius[lane]);
       // Two boxes hold the tube: the hull's and the capsule's. Their intersection does too.
@@ -188,7 +196,8 @@ HWY_INLINE std::uint32_t capsulesMeet(const CapsuleGroup& a, std::uint32_t i, co
   const Vec3<V> u = {hn::Set(d, a.chord[0][i]), hn::Set(d, a.chord[1][i]), hn::Set(d, a.chord[2][i])};
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < kGroup; k += hn::Lanes(d)) {
-    const Vec3<V> startB = {hn::Load(d, b.start[0] + k), hn::Load(d, b.start[1] + k), hn::Load(d, b.start[2] + k)};
+    const Vec3<V> startB = {hn::Load(d, b.start[0] + k), hn::Load(d, b.start[1] + k),
+                            hn::Load(d, b.start[2] + k)};
     const Vec3<V> v = {hn::Load(d, b.chord[0] + k), hn::Load(d, b.chord[1] + k), hn::Load(d, b.chord[2] + k)};
     const auto near = nearestOnSegments(d, startA - startB, u, v);
     const V reach = hn::Add(hn::Set(d, a.radius[i]), hn::Load(d, b.radius + k));
@@ -202,7 +211,8 @@ void meetGroups(Traversal& work, std::uint32_t ga, std::uint32_t gb) {
   const BoxGroup &boxA = tree.boxes[ga], &boxB = tree.boxes[gb];
   // Only lanes that meet the other group's box as a whole.
   std::uint32_t rows = 0xff;
-  if (tree.levels > 1 && ga != gb) rows = overlaps(tree.boxes[tree.levelStart[1] + gb / kGroup], gb % kGroup, boxA);
+  if (tree.levels > 1 && ga != gb)
+    rows = overlaps(tree.boxes[tree.levelStart[1] + gb / kGroup], gb % kGroup, boxA);
   for (; rows; rows &= rows - 1) {
     const std::uint32_t i = std::uint32_t(__builtin_ctz(rows)), slot = ga * kGroup + i;
     std::uint32_t lanes = overlaps(boxA, i, boxB);
@@ -212,8 +222,8 @@ void meetGroups(Traversal& work, std::uint32_t ga, std::uint32_t gb) {
     if (!lanes) continue;
     lanes &= capsulesMeet(tree.capsules[ga], i, tree.capsules[gb]);
     for (; lanes; lanes &= lanes - 1)
-      work.candidates[work.candidateCount++] = {tree.tubes[slot],
-                                                tree.tubes[gb * kGroup + std::uint32_t(__builtin_ctz(lanes))]};
+      work.candidates[work.candidateCount++] = {
+          tree.tubes[slot], tree.tubes[gb * kGroup + std::uint32_t(__builtin_ctz(lanes))]};
   }
 }
 
@@ -255,7 +265,8 @@ template <class D, class VI, class V = hn::Vec<D>>
 HWY_INLINE TubeLanes<V> gatherTubes(D d, const float* base, VI at, V grow) {
   TubeLanes<V> tube;
   for (int k = 0; k < 4; ++k) {
-    tube.p[k] = {component(d, base, at, 4 * k), component(d, base, at, 4 * k + 1), component(d, base, at, 4 * k + 2)};
+    tube.p[k] = {component(d, base, at, 4 * k), component(d, base, at, 4 * k + 1),
+                 component(d, base, at, 4 * k + 2)};
     tube.r[k] = hn::Add(component(d, base, at, 4 * k + 3), grow);
   }
   return tube;
@@ -272,11 +283,13 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE Ball<V> ballAt(D d, const TubeLanes<V>& tube, V t) {
   const V one = hn::Set(d, 1.0f), three = hn::Set(d, 3.0f), s = hn::Sub(one, t);
   const V ss = hn::Mul(s, s), tt = hn::Mul(t, t);
-  const V w0 = hn::Mul(ss, s), w1 = hn::Mul(three, hn::Mul(ss, t)), w2 = hn::Mul(three, hn::Mul(s, tt)), w3 = hn::Mul(tt, t);
+  const V w0 = hn::Mul(ss, s), w1 = hn::Mul(three, hn::Mul(ss, t)), w2 = hn::Mul(three, hn::Mul(s, tt)),
+          w3 = hn::Mul(tt, t);
   const auto mix = [&](V a, V b, V c, V e) HWY_ATTR {
     return hn::MulAdd(w0, a, hn::MulAdd(w1, b, hn::MulAdd(w2, c, hn::Mul(w3, e))));
   };
-  return {{mix(tube.p[0].x, tube.p[1].x, tube.p[2].x, tube.p[3].x), mix(tube.p[0].y, tube.p[1].y, tube.p[2].y, tube.p[3].y),
+  return {{mix(tube.p[0].x, tube.p[1].x, tube.p[2].x, tube.p[3].x),
+           mix(tube.p[0].y, tube.p[1].y, tube.p[2].y, tube.p[3].y),
            mix(tube.p[0].z, tube.p[1].z, tube.p[2].z, tube.p[3].z)},
           mix(tube.r[0], tube.r[1], tube.r[2], tube.r[3])};
 }
@@ -298,11 +311,13 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V largestCoordinate(D d, const TubeLanes<V>& tube) {
   V largest = hn::Zero(d);
   for (int k = 0; k < 4; ++k)
-    largest = hn::Max(largest, hn::Max(hn::Max(hn::Abs(tube.p[k].x), hn::Abs(tube.p[k].y)), hn::Max(hn::Abs(tube.p[k].z), tube.r[k])));
+    largest = hn::Max(largest, hn::Max(hn::Max(hn::Abs(tube.p[k].x), hn::Abs(tube.p[k].y)),
+                                       hn::Max(hn::Abs(tube.p[k].z), tube.r[k])));
   return largest;
 }
 
-void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count, std::uint8_t* verdicts) {
+void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
+            std::uint8_t* verdicts) {
   const FN d;
   const hn::RebindToSigned<FN> di;
   using V = hn::Vec<FN>;
@@ -310,7 +325,8 @@ void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, 
   const std::size_t lanes = hn::Lanes(d);
   HWY_ALIGN std::int32_t first[kMax], second[kMax];
   HWY_ALIGN float fromS[kMax], fromT[kMax];
-  const V growth = hn::Set(d, grow), half = hn::Set(d, 0.5f / float(1 << level)), whole = hn::Set(d, 1.0f / float(1 << level));
+  const V growth = hn::Set(d, grow), half = hn::Set(d, 0.5f / float(1 << level)),
+          whole = hn::Set(d, 1.0f / float(1 << level));
   for (std::size_t begin = 0; begin < count; begin += lanes) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const PiecePair& pair = pieces[begin + lane < count ? begin + lane : count - 1];
@@ -323,18 +339,23 @@ void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, 
     TubeLanes<V> b = gatherTubes(d, tubes, hn::Load(di, second), growth);
     const Vec3<V> origin = a.p[0];
     for (int k = 0; k < 4; ++k) a.p[k] = a.p[k] - origin, b.p[k] = b.p[k] - origin;
-    const V rounding = hn::Mul(hn::Set(d, 8 * kEpsilon), hn::Add(largestCoordinate(d, a), largestCoordinate(d, b)));
+    const V rounding =
+        hn::Mul(hn::Set(d, 8 * kEpsilon), hn::Add(largestCoordinate(d, a), largestCoordinate(d, b)));
     const V slackReach = hn::Add(hn::Add(deviation(d, a, level + 1), deviation(d, b, level + 1)), rounding);
     const V s0 = hn::Load(d, fromS), t0 = hn::Load(d, fromT);
-    const Ball<V> sampleA[3] = {ballAt(d, a, s0), ballAt(d, a, hn::Add(s0, half)), ballAt(d, a, hn::Add(s0, whole))};
-    const Ball<V> sampleB[3] = {ballAt(d, b, t0), ballAt(d, b, hn::Add(t0, half)), ballAt(d, b, hn::Add(t0, whole))};
+    const Ball<V> sampleA[3] = {ballAt(d, a, s0), ballAt(d, a, hn::Add(s0, half)),
+                                ballAt(d, a, hn::Add(s0, whole))};
+    const Ball<V> sampleB[3] = {ballAt(d, b, t0), ballAt(d, b, hn::Add(t0, half)),
+                                ballAt(d, b, hn::Add(t0, whole))};
     V bestGap = hn::Set(d, 3e38f), bestS = hn::Zero(d), bestT = hn::Zero(d);
     std::uint32_t open[4];
     for (int child = 0; child < 4; ++child) {
       const int i = child / 2, j = child % 2;
-      const auto near = nearestOnSegments(d, sampleA[i].centre - sampleB[j].centre, sampleA[i + 1].centre - sampleA[i].centre,
+      const auto near = nearestOnSegments(d, sampleA[i].centre - sampleB[j].centre,
+                                          sampleA[i + 1].centre - sampleA[i].centre,
                                           sampleB[j + 1].centre - sampleB[j].centre);
-      const V radii = hn::Add(hn::Max(sampleA[i].radius, sampleA[i + 1].radius), hn::Max(sampleB[j].radius, sampleB[j + 1].radius));
+      const V radii = hn::Add(hn::Max(sampleA[i].radius, sampleA[i + 1].radius),
+                              hn::Max(sampleB[j].radius, sampleB[j + 1].radius));
       const V reach = hn::Add(radii, slackReach);
       open[child] = bitsOf(d, hn::Le(hn::Sub(near.squared, near.slack), hn::Mul(reach, reach)));
       const V gap = hn::Sub(hn::Sqrt(near.squared), radii);

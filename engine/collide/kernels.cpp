@@ -21,8 +21,9 @@ HWY_EXPORT(narrow);
 const Kernels& fastKernels() {
   static const Kernels kernels = [] {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return Kernels{&HWY_DYNAMIC_DISPATCH(fitLeaves), &HWY_DYNAMIC_DISPATCH(fitLevel), &HWY_DYNAMIC_DISPATCH(openNode),
-                   &HWY_DYNAMIC_DISPATCH(traverse), &HWY_DYNAMIC_DISPATCH(narrow)};
+    return Kernels{&HWY_DYNAMIC_DISPATCH(fitLeaves), &HWY_DYNAMIC_DISPATCH(fitLevel),
+                   &HWY_DYNAMIC_DISPATCH(openNode), &HWY_DYNAMIC_DISPATCH(traverse),
+                   &HWY_DYNAMIC_DISPATCH(narrow)};
   }();
   return kernels;
 }

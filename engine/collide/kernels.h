@@ -5,8 +5,9 @@
 #include "collide/contact.h"
 
 // The vector code of the fast detector, compiled for every instruction set at hand and chosen at run time
-// (Google Highway). All arithmetic that decides is conservative: a rejection and an acceptance are proofs, and what
-// remains is left to the branch and bound in double precision. `tubes` is 16 floats a tube: Bezier's own layout.
+// (Google Highway). All arithmetic that decides is conservative: a rejection and an acceptance are proofs,
+// and what remains is left to the branch and bound in double precision. `tubes` is 16 floats a tube: Bezier's
+// own layout.
 namespace vasa {
 
 /// A group that holds excluded partners of a slot, and which lanes they are.
@@ -23,9 +24,10 @@ struct GroupPair {
 /// One traversal's input and working memory.
 struct Traversal {
   BoxTreeView tree;
-  const std::uint32_t* firstExcluded;  ///< a slot's entries are firstExcluded[slot] .. firstExcluded[slot + 1]
-  const ExcludedLanes* excluded;       ///< only groups that do not come before the slot's own
-  GroupPair* stack;                    ///< room for kGroupPairs more a level than is put there first
+  const std::uint32_t*
+      firstExcluded;              ///< a slot's entries are firstExcluded[slot] .. firstExcluded[slot + 1]
+  const ExcludedLanes* excluded;  ///< only groups that do not come before the slot's own
+  GroupPair* stack;               ///< room for kGroupPairs more a level than is put there first
   std::size_t stackSize;
   TubePair* candidates;  ///< pairs of tubes whose chord capsules meet; room for `enough` and a group more
   std::size_t candidateCount;
@@ -39,13 +41,14 @@ struct PiecePair {
   std::uint32_t candidate;  ///< where it came from
 };
 
-/// What is known of a pair of pieces: kMeet where the tubes are sure to intersect; else bit 2p + q is set where half p
-/// of the first and half q of the second may still meet. No bit: apart.
+/// What is known of a pair of pieces: kMeet where the tubes are sure to intersect; else bit 2p + q is set
+/// where half p of the first and half q of the second may still meet. No bit: apart.
 constexpr std::uint32_t kMeet = 0x10;
 
 struct Kernels {
   /// Fills boxes and capsules of the groups [begin, end) of level 0. Radii are grown by `grow`.
-  void (*fitLeaves)(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin, std::uint32_t end);
+  void (*fitLeaves)(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin,
+                    std::uint32_t end);
   /// Fills the boxes of the groups [begin, end) of a level above 0 from the level below.
   void (*fitLevel)(const BoxTreeView& tree, std::uint32_t level, std::uint32_t begin, std::uint32_t end);
   /// Replaces the one pair on the stack, of a level above 0, by its children.

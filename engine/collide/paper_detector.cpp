@@ -13,7 +13,10 @@ struct SweptTree {
   float filip, filipRadius, largestRadius;
 
   explicit SweptTree(const Bezier& b)
-      : tube(b), filip(filipConstant(b)), filipRadius(filipRadiusConstant(b)), largestRadius(radiusBound(b)) {}
+      : tube(b),
+        filip(filipConstant(b)),
+        filipRadius(filipRadiusConstant(b)),
+        largestRadius(radiusBound(b)) {}
 
   vec4 sample(int level, int index) const {
     const vec4& w = bernsteinTable()[std::size_t(index) << (kBernsteinLevels - level)];
@@ -90,8 +93,8 @@ void PaperDetector::meet(std::uint32_t a, std::uint32_t b) {
   if (sweptSpheresMeet(tubes_[pair.i], tubes_[pair.j], tolerance_)) pairs_.push_back(pair);
 }
 
-// Nodes of one level against one another, themselves included: equal depth keeps the walk simple, and all leaves lie
-// at the same depth.
+// Nodes of one level against one another, themselves included: equal depth keeps the walk simple, and all
+// leaves lie at the same depth.
 std::span<const TubePair> PaperDetector::detect() {
   pairs_.clear();
   stack_.clear();

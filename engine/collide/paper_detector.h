@@ -7,9 +7,9 @@
 namespace vasa {
 
 /// The paper's detection (Park, Shim, Park, Kang, Kim 2013, §5): the yardstick, not what the program uses.
-/// A sphere tree finds pairs of sweeps; each pair is settled by two trees of line-swept spheres made on the fly:
-/// overlapping and ε1 + ε2 below the tolerance, or no finer level left -> reported; else the bigger one is
-/// descended. It therefore over-reports: every intersecting pair is found, and some that miss by up to the
+/// A sphere tree finds pairs of sweeps; each pair is settled by two trees of line-swept spheres made on the
+/// fly: overlapping and ε1 + ε2 below the tolerance, or no finer level left -> reported; else the bigger one
+/// is descended. It therefore over-reports: every intersecting pair is found, and some that miss by up to the
 /// tolerance and more. A small tolerance decides more precisely, for more work.
 class PaperDetector {
  public:

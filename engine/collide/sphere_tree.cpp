@@ -5,11 +5,11 @@
 #include <nanoflann.hpp>
 #include <utility>
 
-// Build: rounds of pairing. In a round every item finds its nearest items, the pairs are taken in the order of their
-// merged radius, each item once, and those left over try again among themselves. After three rounds an item
-// holds eight of the level below. At most one item of a round is incomplete (holds fewer leaves than the others); it
-// stays alone where the count is odd and always comes second, so that it ends up last in the leaves' order and all
-// nodes before it are full.
+// Build: rounds of pairing. In a round every item finds its nearest items, the pairs are taken in the order
+// of their merged radius, each item once, and those left over try again among themselves. After three rounds
+// an item holds eight of the level below. At most one item of a round is incomplete (holds fewer leaves than
+// the others); it stays alone where the count is odd and always comes second, so that it ends up last in the
+// leaves' order and all nodes before it are full.
 namespace vasa {
 namespace {
 
@@ -33,7 +33,8 @@ struct Centres {
     return false;
   }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Centres>, Centres, 3, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Centres>, Centres, 3,
+                                                 std::uint32_t>;
 
 struct Proposal {
   float radius;
@@ -53,7 +54,9 @@ std::vector<Proposal> proposals(const std::vector<Item>& items, std::span<const 
     const std::size_t count = tree.knnSearch(&items[a].sphere.centre.x, kNeighbours + 1, nearest, distances);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t b = open[nearest[k]];
-      if (a != b) found.push_back({mergedSphere(items[a].sphere, items[b].sphere).radius, std::min(a, b), std::max(a, b)});
+      if (a != b)
+        found.push_back(
+            {mergedSphere(items[a].sphere, items[b].sphere).radius, std::min(a, b), std::max(a, b)});
     }
   }
   std::sort(found.begin(), found.end());
@@ -79,7 +82,8 @@ class Builder {
     std::vector<std::uint32_t> next;
     std::uint32_t alone = kLeaf;
     if (open.size() % 2) {
-      auto lone = std::find_if(open.begin(), open.end(), [&](std::uint32_t i) { return items_[i].leaves < full; });
+      auto lone =
+          std::find_if(open.begin(), open.end(), [&](std::uint32_t i) { return items_[i].leaves < full; });
       if (lone == open.end()) --lone;
       alone = *lone;
       open.erase(lone);
@@ -99,7 +103,8 @@ class Builder {
 
   std::uint32_t merge(std::uint32_t a, std::uint32_t b) {
     if (items_[a].leaves < items_[b].leaves) std::swap(a, b);
-    items_.push_back({mergedSphere(items_[a].sphere, items_[b].sphere), a, b, items_[a].leaves + items_[b].leaves});
+    items_.push_back(
+        {mergedSphere(items_[a].sphere, items_[b].sphere), a, b, items_[a].leaves + items_[b].leaves});
     return std::uint32_t(items_.size() - 1);
   }
 
@@ -121,13 +126,15 @@ class Builder {
   std::vector<Item> items_;
 };
 
-// Centre of the children's box, which eight near-equal spheres fill well, then the reach to the farthest child.
+// Centre of the children's box, which eight near-equal spheres fill well, then the reach to the farthest
+// child.
 Sphere sphereAround(std::span<const Sphere> children) {
   Aabb box;
   for (const Sphere& child : children) box.add(child.centre, child.radius);
   const vec3 centre = box.centre();
   float reach = 0;
-  for (const Sphere& child : children) reach = std::max(reach, glm::distance(centre, child.centre) + child.radius);
+  for (const Sphere& child : children)
+    reach = std::max(reach, glm::distance(centre, child.centre) + child.radius);
   return {centre, reach * (1 + 4 * std::numeric_limits<float>::epsilon())};
 }
 
@@ -156,12 +163,13 @@ SphereTree::SphereTree(std::span<const Bezier> rest) : start_{0} {
 
 void SphereTree::refit(std::span<const Bezier> tubes) {
   assert(tubes.size() == order_.size());
-  for (std::size_t leaf = 0; leaf < order_.size(); ++leaf) spheres_[leaf] = boundingSphere(tubes[order_[leaf]]);
+  for (std::size_t leaf = 0; leaf < order_.size(); ++leaf)
+    spheres_[leaf] = boundingSphere(tubes[order_[leaf]]);
   for (std::uint32_t level = 1; level < levels(); ++level) {
     const std::span<const Sphere> below = this->level(level - 1);
     for (std::uint32_t node = 0; node < count(level); ++node)
-      spheres_[start_[level] + node] =
-          sphereAround(below.subspan(node * kArity, std::min<std::size_t>(kArity, below.size() - node * kArity)));
+      spheres_[start_[level] + node] = sphereAround(
+          below.subspan(node * kArity, std::min<std::size_t>(kArity, below.size() - node * kArity)));
   }
 }
 

@@ -7,9 +7,10 @@
 namespace vasa {
 
 /// The paper's upper level: an 8-ary tree of spheres over one bounding sphere a sweep (Park et al. 2013, §5).
-/// Built once at rest, bottom-up: neighbours are merged pair by pair, smallest merged sphere first, three rounds
-/// a level. Nodes are always full but for the last of a level, so topology needs no storage: level after level,
-/// children before parents, 16 bytes a sphere; 4,030 sweeps have 4,606 spheres. refit() is one linear pass.
+/// Built once at rest, bottom-up: neighbours are merged pair by pair, smallest merged sphere first, three
+/// rounds a level. Nodes are always full but for the last of a level, so topology needs no storage: level
+/// after level, children before parents, 16 bytes a sphere; 4,030 sweeps have 4,606 spheres. refit() is one
+/// linear pass.
 class SphereTree {
  public:
   explicit SphereTree(std::span<const Bezier> rest);

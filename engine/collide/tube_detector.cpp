@@ -9,15 +9,15 @@
 #include "collide/kernels.h"
 #include "core/parallel.h"
 
-// Work is cut into tasks: group pairs of some level, found by opening the tree from its root until there are enough.
-// Each task has its own working memory and result; the results are joined and sorted, so that neither the number of
-// tasks nor their order shows. Candidates are settled in chunks while they are in the cache.
+// Work is cut into tasks: group pairs of some level, found by opening the tree from its root until there are
+// enough. Each task has its own working memory and result; the results are joined and sorted, so that neither
+// the number of tasks nor their order shows. Candidates are settled in chunks while they are in the cache.
 namespace vasa {
 namespace {
 
-constexpr std::size_t kChunk = 1024;             // candidates settled at once
-constexpr int kVectorLevels = 7;                 // halvings in single precision
-constexpr std::uint32_t kLeafBlock = 512;        // groups refitted by one task
+constexpr std::size_t kChunk = 1024;       // candidates settled at once
+constexpr int kVectorLevels = 7;           // halvings in single precision
+constexpr std::uint32_t kLeafBlock = 512;  // groups refitted by one task
 constexpr std::size_t kTasksPerThread = 16;
 
 struct Worker {
@@ -99,7 +99,8 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float wantedMarg
   } else {
     for (std::size_t block = 0; block < blocks; ++block) fitBlock(block);
   }
-  for (std::uint32_t level = 1; level < tree.levels(); ++level) kernels.fitLevel(view, level, 0, tree.groups(level));
+  for (std::uint32_t level = 1; level < tree.levels(); ++level)
+    kernels.fitLevel(view, level, 0, tree.groups(level));
 }
 
 std::vector<GroupPair> TubeDetector::State::tasks() {
@@ -130,7 +131,8 @@ void TubeDetector::State::settle(Worker& worker, std::size_t count) {
     worker.pieces.push_back({worker.candidates[c].i, worker.candidates[c].j, 0, 0, c});
   for (int level = 0; level < kVectorLevels && !worker.pieces.empty(); ++level) {
     worker.verdicts.resize(std::max(worker.verdicts.size(), worker.pieces.size()));
-    kernels.narrow(floatsOf(tubes), 0.5f * margin, level, worker.pieces.data(), worker.pieces.size(), worker.verdicts.data());
+    kernels.narrow(floatsOf(tubes), 0.5f * margin, level, worker.pieces.data(), worker.pieces.size(),
+                   worker.verdicts.data());
     worker.statistics.pieces[level] += worker.pieces.size();
     for (std::size_t k = 0; k < worker.pieces.size(); ++k)
       if (worker.verdicts[k] & kMeet) worker.settled[worker.pieces[k].candidate] = 1;
@@ -141,7 +143,8 @@ void TubeDetector::State::settle(Worker& worker, std::size_t count) {
       if (worker.settled[piece.candidate]) continue;
       for (std::uint32_t open = worker.verdicts[k]; open; open &= open - 1) {
         const int child = std::countr_zero(open);
-        worker.halves.push_back({piece.i, piece.j, piece.s + half * float(child / 2), piece.t + half * float(child % 2), piece.candidate});
+        worker.halves.push_back({piece.i, piece.j, piece.s + half * float(child / 2),
+                                 piece.t + half * float(child % 2), piece.candidate});
       }
     }
     worker.pieces.swap(worker.halves);
@@ -150,10 +153,12 @@ void TubeDetector::State::settle(Worker& worker, std::size_t count) {
     if (worker.settled[piece.candidate]) continue;
     worker.settled[piece.candidate] = 2;
     ++worker.statistics.searched;
-    if (tubesIntersect(tubes[piece.i], tubes[piece.j], options.tolerance, margin)) worker.settled[piece.candidate] = 1;
+    if (tubesIntersect(tubes[piece.i], tubes[piece.j], options.tolerance, margin))
+      worker.settled[piece.candidate] = 1;
   }
   for (std::uint32_t c = 0; c < count; ++c)
-    if (worker.settled[c] == 1) worker.pairs.push_back(orderedPair(worker.candidates[c].i, worker.candidates[c].j));
+    if (worker.settled[c] == 1)
+      worker.pairs.push_back(orderedPair(worker.candidates[c].i, worker.candidates[c].j));
 }
 
 void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
@@ -162,8 +167,13 @@ void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
   worker.stack.resize(work.size() + kGroupPairs * (tree.levels() + 1));
   worker.candidates.resize(kChunk + kGroupPairs);
   std::copy(work.begin(), work.end(), worker.stack.begin());
-  Traversal traversal{tree.view(),          firstExcluded.data(), excluded.data(),         worker.stack.data(),
-                      work.size(), worker.candidates.data(), 0};
+  Traversal traversal{tree.view(),
+                      firstExcluded.data(),
+                      excluded.data(),
+                      worker.stack.data(),
+                      work.size(),
+                      worker.candidates.data(),
+                      0};
   while (traversal.stackSize > 0) {
     traversal.candidateCount = 0;
     kernels.traverse(traversal, kChunk);
@@ -171,7 +181,8 @@ void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
   }
 }
 
-TubeDetector::TubeDetector(std::span<const Bezier> rest, const Exclusions& exclusions, DetectorOptions options)
+TubeDetector::TubeDetector(std::span<const Bezier> rest, const Exclusions& exclusions,
+                           DetectorOptions options)
     : state_(std::make_unique<State>(rest, exclusions, options)) {}
 TubeDetector::~TubeDetector() = default;
 TubeDetector::TubeDetector(TubeDetector&&) noexcept = default;
@@ -207,7 +218,8 @@ TubeDetector::Statistics TubeDetector::statistics() const {
   Statistics sum;
   for (const Worker& worker : state_->workers) {
     sum.candidates += worker.statistics.candidates;
-    for (std::size_t level = 0; level < sum.pieces.size(); ++level) sum.pieces[level] += worker.statistics.pieces[level];
+    for (std::size_t level = 0; level < sum.pieces.size(); ++level)
+      sum.pieces[level] += worker.statistics.pieces[level];
     sum.searched += worker.statistics.searched;
   }
   return sum;

@@ -17,16 +17,17 @@ struct DetectorOptions {
 };
 
 /// The exact detector, the program's default: all pairs of tubes that intersect, and no others.
-/// Method: an implicit 8-ary box tree of fixed topology, refit each frame; group-against-group traversal in vector
-/// registers; chord capsules; then line-swept spheres around ever shorter pieces (Filip, Magedson, Markot 1986), one level of
-/// all open pairs at a time, accepted early where the true curves at the nearest parameters meet; what single
-/// precision leaves open goes to a certified branch and bound in double.
+/// Method: an implicit 8-ary box tree of fixed topology, refit each frame; group-against-group traversal in
+/// vector registers; chord capsules; then line-swept spheres around ever shorter pieces (Filip, Magedson,
+/// Markot 1986), one level of all open pairs at a time, accepted early where the true curves at the nearest
+/// parameters meet; what single precision leaves open goes to a certified branch and bound in double.
 ///
 ///   TubeDetector detector(restTubes, exclusions);
 ///   each frame:  detector.update(tubes);  for (TubePair pair : detector.detect()) ...
 ///
-/// The result does not depend on the number of threads or the instruction set (outside the tolerance). No allocation
-/// once the working memory has grown to what the scene needs. One object serves one caller at a time.
+/// The result does not depend on the number of threads or the instruction set (outside the tolerance). No
+/// allocation once the working memory has grown to what the scene needs. One object serves one caller at a
+/// time.
 class TubeDetector {
  public:
   /// @param rest        tubes at rest: they decide the tree's topology, which lasts for the object's life
@@ -36,7 +37,8 @@ class TubeDetector {
   TubeDetector(TubeDetector&&) noexcept;
 
   /// Refits the tree to the present shape.
-  /// @param tubes   as many as at rest, in the same order, all numbers finite; must stay in place until detect() is done
+  /// @param tubes   as many as at rest, in the same order, all numbers finite; must stay in place until
+  /// detect() is done
   /// @param margin  [m] >= 0; detect() then reports pairs with f < margin instead of f < 0
   void update(std::span<const Bezier> tubes, float margin = 0);
 
@@ -45,7 +47,7 @@ class TubeDetector {
 
   /// What the last detect() did.
   struct Statistics {
-    std::size_t candidates = 0;  ///< pairs whose chord capsules meet
+    std::size_t candidates = 0;           ///< pairs whose chord capsules meet
     std::array<std::size_t, 8> pieces{};  ///< pairs of pieces of length 2^-level that were halved
     std::size_t searched = 0;             ///< pairs left to the search in double precision
   };

@@ -39,7 +39,9 @@ class Lines {
   }
 
   std::size_t bytesLeft() const { return rest_.size(); }
-  Error fault(const std::string& cause) const { return badInput(name_ + ":" + std::to_string(number_) + ": " + cause); }
+  Error fault(const std::string& cause) const {
+    return badInput(name_ + ":" + std::to_string(number_) + ": " + cause);
+  }
   Error missing(const std::string& what) const {
     return badInput(name_ + ":" + std::to_string(number_ + 1) + ": the file ends where " + what);
   }
@@ -59,15 +61,20 @@ Result<void> readTube(Lines& lines, Bezier& pose0, Bezier& pose1) {
   for (int k = 0; k < kNumbersPerTube; ++k) {
     float value = 0;
     if (!lines.read(value))
-      return lines.fault((lines.lineDone() ? std::to_string(k) + " numbers" : "number " + std::to_string(k + 1) + " is unreadable or out of range") +
+      return lines.fault((lines.lineDone()
+                              ? std::to_string(k) + " numbers"
+                              : "number " + std::to_string(k + 1) + " is unreadable or out of range") +
                          "; a tube needs 32 (4 control points x y z r in each of two poses)");
     if (!std::isfinite(value) || std::abs(value) > kLargestCoordinate)
-      return lines.fault("number " + std::to_string(k + 1) + " is not a finite number of at most 1e6; correct it");
+      return lines.fault("number " + std::to_string(k + 1) +
+                         " is not a finite number of at most 1e6; correct it");
     if (k % 4 == 3 && !(value > 0))
-      return lines.fault("radius " + std::to_string(value) + " must be positive; correct it or remove the tube");
+      return lines.fault("radius " + std::to_string(value) +
+                         " must be positive; correct it or remove the tube");
     (k < 16 ? pose0 : pose1).b[std::size_t(k / 4 % 4)][k % 4] = value;
   }
-  if (!lines.lineDone()) return lines.fault("more than 32 numbers; a tube has 4 control points x y z r in each of two poses");
+  if (!lines.lineDone())
+    return lines.fault("more than 32 numbers; a tube has 4 control points x y z r in each of two poses");
   return {};
 }
 
@@ -76,18 +83,20 @@ Result<TubePair> readPair(Lines& lines, std::uint32_t tubes) {
   if (!lines.read(i) || !lines.read(j) || !lines.lineDone())
     return lines.fault("expected two tube numbers `i j`");
   if (i >= tubes || j >= tubes)
-    return lines.fault("tube " + std::to_string(std::max(i, j)) + " does not exist; the list has tubes 0 to " +
-                       std::to_string(std::int64_t(tubes) - 1));
+    return lines.fault("tube " + std::to_string(std::max(i, j)) +
+                       " does not exist; the list has tubes 0 to " + std::to_string(std::int64_t(tubes) - 1));
   if (i == j) return lines.fault("tube " + std::to_string(i) + " is paired with itself; remove the line");
   return orderedPair(i, j);
 }
 
 Result<TubeList> parse(Lines lines) {
   std::uint32_t tubes = 0, pairs = 0;
-  if (!lines.next()) return lines.missing("its first line `n m` should be: number of tubes, number of excluded pairs");
+  if (!lines.next())
+    return lines.missing("its first line `n m` should be: number of tubes, number of excluded pairs");
   if (!lines.read(tubes) || !lines.read(pairs) || !lines.lineDone())
     return lines.fault("expected `n m`: number of tubes, number of excluded pairs");
-  // A line holds at least 2 bytes a number and 4 a pair: a false count must not reserve memory it has no lines for.
+  // A line holds at least 2 bytes a number and 4 a pair: a false count must not reserve memory it has no
+  // lines for.
   if (tubes > lines.bytesLeft() / (2 * kNumbersPerTube - 1) || pairs > lines.bytesLeft() / 3)
     return lines.fault(std::to_string(tubes) + " tubes and " + std::to_string(pairs) +
                        " pairs are announced, more than the file can hold; correct the counts");

@@ -10,8 +10,8 @@
 
 namespace vasa {
 
-/// A plain list of tubes in two poses, for trials of detection alone. Text: first line `n m`; n lines of 32 numbers
-/// (4 control points x y z r in pose 0, then in pose 1); m lines `i j`, tubes that share an end.
+/// A plain list of tubes in two poses, for trials of detection alone. Text: first line `n m`; n lines of 32
+/// numbers (4 control points x y z r in pose 0, then in pose 1); m lines `i j`, tubes that share an end.
 struct TubeList {
   std::array<std::vector<Bezier>, 2> poses;
   std::vector<TubePair> excluded;
@@ -20,11 +20,12 @@ struct TubeList {
   void blend(float share, std::vector<Bezier>& tubes) const;
 };
 
-/// Largest coordinate and radius a tube list may hold: beyond it, single precision has nothing left to measure.
+/// Largest coordinate and radius a tube list may hold: beyond it, single precision has nothing left to
+/// measure.
 constexpr float kLargestCoordinate = 1e6f;
 
-/// Reads and checks a tube list: counts, 32 finite numbers a line, radii above zero, pairs of two different tubes
-/// that exist. Fails with badInput that names file, line, cause and remedy, or io.
+/// Reads and checks a tube list: counts, 32 finite numbers a line, radii above zero, pairs of two different
+/// tubes that exist. Fails with badInput that names file, line, cause and remedy, or io.
 Result<TubeList> readTubeList(const std::filesystem::path& path);
 
 /// Writes atomically, with as many digits as bring back the same numbers.

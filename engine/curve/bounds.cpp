@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-// C(t) - L(t) = 3t(1-t) [(1-t) e1 + t e2] with e1 = b1 - (2 b0 + b3)/3, e2 = b2 - (b0 + 2 b3)/3 and L the chord
-// at the same parameter; 3t(1-t) <= 3/4 and the bracket is a mean, hence ¾ max |e|. With the second differences
-// D1, D2: e1 = -(2 D1 + D2)/3, e2 = -(D1 + 2 D2)/3, so max |e| <= K.
+// C(t) - L(t) = 3t(1-t) [(1-t) e1 + t e2] with e1 = b1 - (2 b0 + b3)/3, e2 = b2 - (b0 + 2 b3)/3 and L the
+// chord at the same parameter; 3t(1-t) <= 3/4 and the bracket is a mean, hence ¾ max |e|. With the second
+// differences D1, D2: e1 = -(2 D1 + D2)/3, e2 = -(D1 + 2 D2)/3, so max |e| <= K.
 namespace vasa {
 namespace {
 
@@ -66,8 +66,8 @@ Capsule pieceCapsule(const Bezier& segment, int level, int index) {
     return w.x * segment.b[0] + w.y * segment.b[1] + w.z * segment.b[2] + w.w * segment.b[3];
   };
   const vec4 start = sample(index), end = sample(index + 1);
-  const float radius = std::min(radiusBound(segment), std::max(start.w, end.w) +
-                                                          filipBound(filipRadiusConstant(segment), level));
+  const float radius = std::min(radiusBound(segment),
+                                std::max(start.w, end.w) + filipBound(filipRadiusConstant(segment), level));
   return {vec3(start), vec3(end), radius + filipBound(filipConstant(segment), level) + rounding(segment)};
 }
 

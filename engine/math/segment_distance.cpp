@@ -15,7 +15,8 @@ Real unit(Real value) {
 template <class Real, class Vector>
 SegmentClosest<Real> closest(Vector p0, Vector p1, Vector q0, Vector q1) {
   const Vector u = p1 - p0, v = q1 - q0, w = p0 - q0;
-  const Real uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v), uw = glm::dot(u, w), vw = glm::dot(v, w);
+  const Real uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v), uw = glm::dot(u, w),
+             vw = glm::dot(v, w);
   const auto bestS = [&](Real t) { return uu > 0 ? unit((t * uv - uw) / uu) : Real(0); };
   const auto bestT = [&](Real s) { return vv > 0 ? unit((s * uv + vw) / vv) : Real(0); };
   SegmentClosest<Real> best{0, 0, -1};

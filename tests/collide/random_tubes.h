@@ -1,0 +1,26 @@
+#pragma once
+#include <random>
+#include <vector>
+
+#include "curve/bezier.h"
+
+namespace vasa::test {
+
+/// Tubes thrown at random into a cube of the given side.
+/// @param length  of the chord, about;  @param radius  largest
+inline std::vector<Bezier> randomTubes(std::uint32_t count, std::uint32_t seed, float side, float length,
+                                       float radius) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  const auto vector = [&] { return vec3(unit(random), unit(random), unit(random)); };
+  std::vector<Bezier> tubes(count);
+  for (Bezier& tube : tubes) {
+    const vec3 start = side * vector(), step = length * (vector() - 0.5f);
+    for (int k = 0; k < 4; ++k)
+      tube.b[std::size_t(k)] = vec4(start + float(k) / 3 * step + 0.3f * length * (vector() - 0.5f),
+                                    radius * (0.3f + 0.7f * unit(random)));
+  }
+  return tubes;
+}
+
+}  // namespace vasa::test
