@@ -1,0 +1,21 @@
+#pragma once
+#include "body/body.h"
+#include "make_human/rig.h"
+#include "make_human/shape.h"
+#include "network/network.h"
+
+namespace vasa::human {
+
+/// Everything that the tables of a folder describe.
+struct Human {
+  Rig rig;
+  Shape skinShape;
+  std::vector<SkinnedMesh> meshes;  ///< skin, bones, heart
+  std::vector<Clip> clips;
+  Network vessels;
+};
+
+/// Reads joints, parts, sections, bones, clips, clip_keys and vessels (.csv) and makes the human of them.
+Result<Human> makeHuman(const std::filesystem::path& tables);
+
+}  // namespace vasa::human

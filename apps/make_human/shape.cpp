@@ -1,0 +1,92 @@
+#include "make_human/shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Distance to a superellipse with half axes a, b and exponent n, lofted and capped: with
+//   rho = (|u/a|^n + |v/b|^n)^(1/n),  k = sqrt(rho² + (e/c)²),  e the excess over the part's ends,
+// the surface is k = 1 and (k - 1) / |grad k| is the distance to first order.
+namespace vasa::human {
+namespace {
+
+float smoothMinimum(float a, float b, float k) {
+  const float h = std::max(k - std::abs(a - b), 0.0f);
+  return k > 0 ? std::min(a, b) - h * h / (4 * k) : std::min(a, b);
+}
+
+Part::Section mix(const Part::Section& a, const Part::Section& b, float t) {
+  const auto line = [t](float x, float y) { return x + t * (y - x); };
+  return {line(a.u, b.u),         line(a.v, b.v),       line(a.width, b.width),
+          line(a.front, b.front), line(a.back, b.back), line(a.square, b.square)};
+}
+
+float boxDistance(const Aabb& box, vec3 p) {
+  return glm::length(glm::max(glm::max(box.low - p, p - box.high), vec3(0)));
+}
+
+}  // namespace
+
+float Part::distance(vec3 p) const {
+  const vec3 q = p - origin;
+  const float h = glm::dot(q, axis);
+  const float inside = std::clamp(h, 0.0f, length);
+  const float position = length > 0 ? inside / length * float(sections.size() - 1) : 0.0f;
+  const std::size_t i = std::min(std::size_t(position), sections.size() - 1);
+  const Section s = mix(sections[i], sections[std::min(i + 1, sections.size() - 1)], position - float(i));
+  const float u = glm::dot(q, side) - s.u, v = glm::dot(q, front) - s.v, e = h - inside;
+  const float depth = v > 0 ? s.front : s.back, cap = e > 0 ? capEnd : capStart;
+  const float x = std::abs(u) / s.width, y = std::abs(v) / depth, z = std::abs(e) / cap;
+  const float sum = std::pow(x, s.square) + std::pow(y, s.square);
+  const float rho = std::pow(sum, 1 / s.square);
+  const float k = std::sqrt(rho * rho + z * z);
+  if (k < 1e-4f) return -std::min(s.width, depth);
+  vec3 slope{0, 0, z / cap / k};
+  if (sum > 0) {
+    const float outer = rho / sum * rho / k;
+    slope.x = outer * std::pow(x, s.square - 1) / s.width;
+    slope.y = outer * std::pow(y, s.square - 1) / depth;
+  }
+  return (k - 1) / glm::length(slope);
+}
+
+float Shape::distance(vec3 p) const {
+  float result = 1;
+  for (const Part& part : parts) {
+    const float beyond = boxDistance(part.bounds, p);
+    if (part.carve) {
+      if (beyond < part.blend) result = -smoothMinimum(-result, part.distance(p), part.blend);
+    } else if (beyond < result + part.blend) {
+      result = smoothMinimum(result, part.distance(p), part.blend);
+    }
+  }
+  return result;
+}
+
+vec3 Shape::gradient(vec3 p) const {
+  const float h = 2e-4f;
+  vec3 slope;
+  for (int i = 0; i < 3; ++i) {
+    vec3 low = p, high = p;
+    low[i] -= h;
+    high[i] += h;
+    slope[i] = (distance(high) - distance(low)) / (2 * h);
+  }
+  return slope;
+}
+
+float Shape::cellSize(vec3 p, float reach) const {
+  float size = 1;
+  for (const Part& part : parts)
+    if (part.cell < size && boxDistance(part.bounds, p) < reach && std::abs(part.distance(p)) < 0.8f * reach + 0.5f * part.cell)
+      size = part.cell;
+  return size;
+}
+
+Aabb Shape::bounds() const {
+  Aabb box;
+  for (const Part& part : parts)
+    if (!part.carve) box.add(part.bounds);
+  return box;
+}
+
+}  // namespace vasa::human
