@@ -1,0 +1,223 @@
+#include <doctest/doctest.h>
+
+#include "body/skinning.h"
+#include "core/log.h"
+#include "io/gltf.h"
+#include "io/gltf_builder.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+using nlohmann::json;
+
+namespace {
+
+Body bodyOf(GltfBuilder file) {
+  const TemporaryFolder folder;
+  auto result = readBody(writeBytes(folder.path() / "a.glb", file.glb()));
+  REQUIRE_MESSAGE(result.ok(), (result ? "" : result.error().message));
+  return std::move(result).value();
+}
+
+std::vector<vec3> posed(const Body& body, const SkinnedMesh& mesh, const Pose& pose) {
+  std::vector<vec3> positions;
+  skinPositions(mesh, skinMatrices(body.skeleton, pose), positions);
+  return positions;
+}
+
+std::vector<vec3> atRest(const Body& body, std::size_t mesh = 0) {
+  return posed(body, body.meshes[mesh], restPose(body.skeleton));
+}
+
+bool near(vec3 a, vec3 b) {
+  const bool is = glm::distance(a, b) < 1e-5f;
+  if (!is) MESSAGE(a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z);
+  return is;
+}
+
+void parentsFirst(const Skeleton& skeleton) {
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i)
+    if (skeleton.joints[i].parent.valid()) CHECK(skeleton.joints[i].parent.value < i);
+}
+
+const std::vector<float> kUpright = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // +Z up to +Y up
+
+}  // namespace
+
+TEST_CASE("joints, rest pose, clip and skin of a body worked by hand") {
+  const Body body = bodyOf(bodyFile());
+  REQUIRE(body.skeleton.joints.size() == 2);
+  CHECK(body.name == "a.glb");
+  CHECK(body.skeleton.joints[0].name == "hip");
+  CHECK(!body.skeleton.joints[0].parent.valid());
+  CHECK(body.skeleton.joints[1].parent == JointId{0});
+  CHECK(near(vec3(body.skeleton.joints[1].restWorld[3]), {0, 0.5f, 0}));
+  CHECK(body.height() == doctest::Approx(1));
+  CHECK(atRest(body) == std::vector<vec3>{{0, 1, 0}, {1, 1, 0}, {0, 0, 0}});
+  REQUIRE(body.clips.size() == 1);
+  const Clip& bend = body.clips[0];
+  CHECK(bend.name == "bend");
+  CHECK(bend.framesPerSecond == 10);
+  CHECK(bend.frameCount() == 3);
+  // The knee turns by 90 degrees about z: what hung below it points to +x.
+  const auto bent = posed(body, body.meshes[0], samplePose(body.skeleton, bend, bend.timeOfFrame(2)));
+  CHECK(near(bent[1], {1, 1, 0}));
+  CHECK(near(bent[2], {0.5f, 0.5f, 0}));
+}
+
+TEST_CASE("joints are ordered parents first, whatever order the file has") {
+  GltfBuilder file = bodyFile();
+  file.document["nodes"] = {{{"name", "knee"}, {"translation", {0, -0.5, 0}}},
+                            {{"name", "hip"}, {"translation", {0, 1, 0}}, {"children", {0}}},
+                            {{"mesh", 0}, {"skin", 0}}};
+  file.document["skins"][0]["joints"] = {1, 0};
+  file.document["animations"][0]["channels"][0]["target"]["node"] = 0;
+  const Body body = bodyOf(file);
+  parentsFirst(body.skeleton);
+  CHECK(body.skeleton.joints[0].name == "hip");
+  CHECK(body.clips[0].tracks[0].joint == JointId{1});
+  CHECK(atRest(body) == std::vector<vec3>{{0, 1, 0}, {1, 1, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("nodes above the joints become the root transform, and vertices move with it") {
+  GltfBuilder file = bodyFile();
+  file.add("nodes", {{"name", "upright"}, {"matrix", kUpright}, {"children", {0}}});
+  const Body body = bodyOf(file);
+  CHECK(body.skeleton.joints.size() == 2);
+  CHECK(near(vec3(body.skeleton.rootTransform * vec4(0, 0, 1, 1)), {0, 1, 0}));
+  // Inverse binds still belong to +Y up: the rest pose is the binding pose turned, and that is baked.
+  CHECK(near(body.meshes[0].mesh.positions[0], {0, 0, -1}));
+  CHECK(near(atRest(body)[0], {0, 0, -1}));
+  CHECK(near(atRest(body)[1], {1, 0, -1}));
+}
+
+TEST_CASE("an animated node above the joints becomes a joint") {
+  GltfBuilder file = bodyFile();
+  file.add("nodes", {{"name", "figure root"}, {"translation", {0, 0, 1}}, {"children", {0}}});
+  const int path = file.floats({0, 0, 0, 0, 0, 2, 0, 0, 4}, "VEC3");
+  file.document["animations"][0]["samplers"].push_back({{"input", 4}, {"output", path}});
+  file.document["animations"][0]["channels"].push_back(
+      {{"sampler", 1}, {"target", {{"node", 3}, {"path", "translation"}}}});
+  const Body body = bodyOf(file);
+  REQUIRE(body.skeleton.joints.size() == 3);
+  parentsFirst(body.skeleton);
+  CHECK(body.skeleton.joints[0].name == "figure root");
+  CHECK(near(atRest(body)[0], {0, 1, 1}));
+  const auto moved = posed(body, body.meshes[0], samplePose(body.skeleton, body.clips[0], 0.1f));
+  CHECK(near(moved[0], {0, 1, 2}));
+}
+
+TEST_CASE("a node between joints becomes a joint") {
+  GltfBuilder file = bodyFile();
+  file.document["nodes"][0]["children"] = {3};
+  file.add("nodes", {{"name", "between"}, {"translation", {0, 0.25, 0}}, {"children", {1}}});
+  file.document["nodes"][1]["translation"] = {0, -0.75, 0};
+  const Body body = bodyOf(file);
+  REQUIRE(body.skeleton.joints.size() == 3);
+  CHECK(body.skeleton.joints[1].name == "between");
+  CHECK(near(vec3(body.skeleton.joints[2].restWorld[3]), {0, 0.5f, 0}));
+}
+
+TEST_CASE("root joints under different transforms keep them as joints") {
+  GltfBuilder file = bodyFile();
+  file.document["nodes"][0].erase("children");
+  file.document["nodes"][1]["translation"] = {0, 0, 0};
+  file.add("nodes", {{"name", "holder"}, {"translation", {0, 0.5, 0}}, {"children", {1}}});
+  const Body body = bodyOf(file);
+  CHECK(body.skeleton.joints.size() == 3);
+  CHECK(body.skeleton.rootTransform == mat4(1));
+  CHECK(near(vec3(body.skeleton.joints[body.skeleton.find("knee").value].restWorld[3]), {0, 0.5f, 0}));
+  CHECK(atRest(body) == std::vector<vec3>{{0, 1, 0}, {1, 1, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("two skins in different binding spaces share their joints") {
+  GltfBuilder file = bodyFile();
+  // The second skin's mesh is stored 10 to the right; its inverse binds bring it back.
+  std::vector<float> binds = matrixAt({-10, -1, 0});
+  const auto knee = matrixAt({-10, -0.5f, 0});
+  binds.insert(binds.end(), knee.begin(), knee.end());
+  file.add("skins", {{"joints", {0, 1}}, {"inverseBindMatrices", file.floats(binds, "MAT4")}});
+  file.add("meshes", file.document["meshes"][0]);
+  file.document["meshes"][1]["primitives"][0]["attributes"]["POSITION"] =
+      file.floats({10, 1, 0, 11, 1, 0, 10, 0, 0}, "VEC3");
+  file.add("nodes", {{"mesh", 1}, {"skin", 1}});
+  const Body body = bodyOf(file);
+  CHECK(body.skeleton.joints.size() == 2);
+  REQUIRE(body.meshes.size() == 2);
+  CHECK(near(body.meshes[1].mesh.positions[1], {1, 1, 0}));
+  CHECK(atRest(body, 1) == atRest(body, 0));
+}
+
+TEST_CASE("a skin whose rest pose is not its binding pose keeps its matrices; a second one doubles joints") {
+  GltfBuilder file = bodyFile();
+  file.document["nodes"][1]["translation"] = {0, -0.75, 0};  // bound at -0.5, at rest 0.25 lower
+  Body body = bodyOf(file);
+  CHECK(body.skeleton.joints.size() == 2);
+  CHECK(body.meshes[0].mesh.positions[2] == vec3(0, 0, 0));
+  CHECK(near(atRest(body)[2], {0, -0.25f, 0}));
+  std::vector<float> binds = matrixAt({0, -1, 0});
+  const auto knee = matrixAt({0, -0.25f, 0});
+  binds.insert(binds.end(), knee.begin(), knee.end());
+  file.add("skins", {{"joints", {0, 1}}, {"inverseBindMatrices", file.floats(binds, "MAT4")}});
+  file.add("nodes", {{"mesh", 0}, {"skin", 1}});
+  body = bodyOf(file);
+  parentsFirst(body.skeleton);
+  REQUIRE(body.skeleton.joints.size() == 3);
+  CHECK(body.skeleton.joints[2].name == "knee (second binding)");
+  CHECK(near(atRest(body, 0)[2], {0, -0.25f, 0}));
+  CHECK(near(atRest(body, 1)[2], {0, 0, 0}));
+  const Pose bent = samplePose(body.skeleton, body.clips[0], 0.2f);
+  CHECK(near(posed(body, body.meshes[0], bent)[2], {0.5f, 0.25f, 0}));
+  CHECK(near(posed(body, body.meshes[1], bent)[2], {0.25f, 0.25f, 0}));
+}
+
+TEST_CASE("a mesh without a skin follows the joint it hangs on; one that hangs on nothing is left out") {
+  const LogLevel before = logLevel();
+  setLogLevel(LogLevel::quiet);
+  GltfBuilder file = bodyFile();
+  const int positions = file.floats({0, 0, 0, 0, 0, 1, 0, -0.5f, 0}, "VEC3");
+  file.add("meshes", {{"name", "shoe"}, {"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+  file.document["nodes"][1]["children"] = {3};
+  file.add("nodes", {{"name", "foot"}, {"mesh", 1}, {"translation", {0, -0.5, 0}}});
+  file.add("nodes", {{"name", "floor"}, {"mesh", 1}});
+  const Body body = bodyOf(file);
+  CHECK(body.skeleton.joints.size() == 2);
+  REQUIRE(body.meshes.size() == 2);
+  CHECK(body.meshes[1].name == "shoe");
+  CHECK(near(atRest(body, 1)[0], {0, 0, 0}));
+  const auto bent = posed(body, body.meshes[1], samplePose(body.skeleton, body.clips[0], 0.2f));
+  CHECK(near(bent[0], {0.5f, 0.5f, 0}));
+  CHECK(near(bent[2], {1, 0.5f, 0}));
+  setLogLevel(before);
+}
+
+TEST_CASE("skinned elements are given in the rest pose") {
+  GltfBuilder file = bodyFile();
+  file.document["nodes"][1]["translation"] = {0, -0.75, 0};
+  file.document["nodes"][2]["translation"] = {100, 0, 0};  // of a skinned node: counts for nothing
+  const TemporaryFolder folder;
+  const auto elements = readGltfElements(writeBytes(folder.path() / "a.glb", file.glb()));
+  REQUIRE(elements.ok());
+  CHECK(near((*elements)[0].mesh.positions[0], {0, 1, 0}));
+  CHECK(near((*elements)[0].mesh.positions[2], {0, -0.25f, 0}));
+}
+
+TEST_CASE("what is no body is refused") {
+  const TemporaryFolder folder;
+  const auto refusal = [&](GltfBuilder file) {
+    const auto body = readBody(writeBytes(folder.path() / "a.glb", file.glb()));
+    return body ? std::string("accepted") : body.error().message;
+  };
+  CHECK(refusal(triangleFile()).find("/skins: a body needs a skeleton, and the file has no skin") !=
+        std::string::npos);
+  GltfBuilder sheared = bodyFile();
+  sheared.document["nodes"][0].erase("translation");
+  sheared.document["nodes"][0]["matrix"] = {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  CHECK(refusal(sheared).find("/nodes/0/matrix: the matrix of a joint must be") != std::string::npos);
+  GltfBuilder huge = bodyFile();
+  huge.document["nodes"][0]["scale"] = {1e30, 1e30, 1e30};
+  CHECK(refusal(huge).find("range of numbers") != std::string::npos);
+  GltfBuilder empty = bodyFile();
+  empty.document["accessors"][4].erase("bufferView");
+  CHECK(refusal(empty).find("/accessors/4: an animation that is used needs data") != std::string::npos);
+}
