@@ -1,9 +1,21 @@
 #include "gpu/timer.h"
 
+#include "gpu/barrier.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
 
 namespace vasa::gpu {
+namespace {
+
+// A time stamp between two full barriers. lavapipe takes a stamp only when it gets round to the tiles that were
+// binned with it: without the barriers the stamps around several draws all fall together.
+void stamp(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t index) {
+  stageBarrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+  vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, index);
+  stageBarrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+}
+
+}  // namespace
 
 GpuTimer::GpuTimer(Device& device, std::uint32_t mostScopes) : device_(device), mostScopes_(mostScopes) {
   names_.reserve(mostScopes);
@@ -29,13 +41,11 @@ GpuTimer::Scope::Scope(GpuTimer& timer, VkCommandBuffer commands, const char* na
   // Stretches beyond the pool are labelled, but not timed.
   if (index_ >= timer_.mostScopes_) return;
   timer_.names_.push_back(name);
-  if (timer_.queries_)
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timer_.queries_.get(), 2 * index_);
+  if (timer_.queries_) stamp(commands, timer_.queries_.get(), 2 * index_);
 }
 
 GpuTimer::Scope::~Scope() {
-  if (index_ < timer_.mostScopes_ && timer_.queries_)
-    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timer_.queries_.get(), 2 * index_ + 1);
+  if (index_ < timer_.mostScopes_ && timer_.queries_) stamp(commands_, timer_.queries_.get(), 2 * index_ + 1);
   timer_.device_.endLabel(commands_);
 }
 
