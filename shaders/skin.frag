@@ -8,7 +8,7 @@
 
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 layout(location = 0) in vec3 normal;
-layout(location = 1) flat in vec4 colour;
+layout(location = 1) flat in vec3 colour;
 layout(location = 0) out vec4 pixel;  // premultiplied
 
 void main() {
@@ -17,5 +17,5 @@ void main() {
   vec3 outward = normalize(normal);
   float graze = 1 - clamp(dot(outward, eye), 0.0, 1.0);
   float alpha = clamp(push.opacity * (0.55 + 2.2 * graze * graze * graze), 0.0, 1.0);
-  pixel = vec4(shade(colour.rgb, outward, eye, worldUp) * alpha, alpha);
+  pixel = vec4(shade(colour, outward, eye, worldUp) * alpha, alpha);
 }

@@ -10,15 +10,16 @@ layout(push_constant, scalar) uniform Push { DrawPush push; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 foldedNormal;
 layout(location = 0) out vec3 normal;  // in the camera's axes
-layout(location = 1) flat out vec4 colour;
+layout(location = 1) flat out vec3 colour;
 invariant gl_Position;
 
 vec3 linearOf(vec3 srgb) { return srgb * (srgb * (srgb * 0.305306011 + 0.682171111) + 0.012522878); }
 
 void main() {
-  gl_Position = push.viewProjection * vec4(position, 1);
+  uint item = push.colours.colour[push.firstItem + uint(gl_VertexIndex) / push.verticesPerItem];
+  bool hidden = (push.hiddenKinds >> (item >> 24) & 1u) != 0u;
+  gl_Position = hidden ? vec4(2, 2, 2, 1) : push.viewProjection * vec4(position, 1);  // outside the picture
   vec3 world = unpackOctahedral(foldedNormal);
   normal = vec3(dot(world, push.right), dot(world, push.up), dot(world, cross(push.right, push.up)));
-  vec4 srgb = unpackUnorm4x8(push.colours.colour[push.firstItem + uint(gl_VertexIndex) / push.verticesPerItem]);
-  colour = vec4(linearOf(srgb.rgb), srgb.a);
+  colour = linearOf(unpackUnorm4x8(item).rgb);
 }

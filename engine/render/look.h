@@ -18,7 +18,9 @@ MeshRole roleNamed(std::string_view name);
 struct Look {
   vec4 background{0.93f, 0.94f, 0.95f, 1};
   bool transparent = false;  ///< picture with alpha: the background counts for nothing
-  bool drawVessels = true;
+  bool drawArteries = true;
+  bool drawVeins = true;         ///< portal vein, too
+  bool drawOtherVessels = true;  ///< lymph vessels and unknown ones
   bool drawBones = true;
   bool drawHeart = true;
   bool drawSkin = true;

@@ -22,8 +22,8 @@ shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::size_t i) {
 
 // Bones, heart and skin have colours of their own; any other mesh keeps its material's.
 std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
-  if (role != MeshRole::other) return packColour(colourOf(role));
-  return packColour(vec4(vec3(srgbColour(mesh.colour)), 1));
+  const vec4 colour = role == MeshRole::other ? srgbColour(mesh.colour) : colourOf(role);
+  return packColour(vec4(vec3(colour), 0));
 }
 
 }  // namespace

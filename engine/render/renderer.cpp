@@ -42,6 +42,10 @@ std::array<float, 4> clearColour(const Look& look) {
   return {c.x, c.y, c.z, 1};
 }
 
+bool anyVessels(const Look& look) {
+  return look.drawArteries || look.drawVeins || look.drawOtherVessels;
+}
+
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
   assert(options.samples == 1 || options.samples == 4);
   return {.name = "picture",
@@ -110,8 +114,8 @@ void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPu
 }
 
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
-  const shared::DrawPush push = drawConstants(input.camera, target.spec().size);
-  const std::size_t batches = input.look.drawVessels ? tubes.batches().size() : 0;
+  const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
+  const std::size_t batches = anyVessels(input.look) ? tubes.batches().size() : 0;
   timer.begin(commands);
   upload.record(commands);
   if (batches > 0) recordTessellation(commands, 0);
@@ -136,7 +140,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
 }
 
 double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderInput& input) {
-  const shared::DrawPush push = drawConstants(input.camera, target.spec().size);
+  const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   gpu::Commands commands = device.queue().begin("static draw");
   timer.begin(commands);
   {

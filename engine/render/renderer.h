@@ -56,7 +56,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Colours of the sweeps from the next frame on (packColour), one a sweep in the order of SweepTable::sweeps;
-  /// empty goes back to the colours of the vessels' kinds.
+  /// alpha 0 hides a sweep and its caps, any other alpha shows it. Empty goes back to the colours of the
+  /// vessels' kinds.
   void setSweepColours(std::span<const std::uint32_t> colours);
 
   /// Draws and waits until the picture is done.

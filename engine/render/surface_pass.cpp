@@ -37,6 +37,15 @@ bool shown(MeshRole role, const Look& look) {
   return false;
 }
 
+std::uint32_t hiddenKinds(const Look& look) {
+  const auto bit = [](VesselKind kind) { return 1u << std::uint32_t(kind); };
+  std::uint32_t hidden = 1u << kHiddenKind;
+  if (!look.drawArteries) hidden |= bit(VesselKind::artery);
+  if (!look.drawVeins) hidden |= bit(VesselKind::vein) | bit(VesselKind::portalVein);
+  if (!look.drawOtherVessels) hidden |= bit(VesselKind::lymphatic) | bit(VesselKind::other);
+  return hidden;
+}
+
 void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDeviceSize offset) {
   const VkBuffer buffer = vertices.handle();
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
@@ -50,6 +59,7 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
   push.colours = meshes.colours();
   push.verticesPerItem = ~0u;  // a part is one item
+  push.hiddenKinds = 0;
   for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
     const MeshSet::Part& part = meshes.parts()[i];
     if (part.indexCount == 0 || !wanted(part.role)) continue;
@@ -61,13 +71,14 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
 
 }  // namespace
 
-shared::DrawPush drawConstants(const Camera& camera, VkExtent2D size) {
+shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size) {
   const float width = float(size.width), height = float(size.height);
   const mat3 axes = cameraAxes(camera);
   shared::DrawPush push{};
   push.viewProjection = viewProjection(camera, width / height);
   push.right = axes[0];
   push.up = axes[1];
+  push.hiddenKinds = hiddenKinds(look);
   if (camera.orthographicHeight <= 0) {
     const float slope = std::tan(camera.verticalAngle / 2);
     push.eyeCorner = {slope * width / height, -slope};

@@ -8,8 +8,8 @@
 
 namespace vasa {
 
-/// The camera's share of the push constants.
-shared::DrawPush drawConstants(const Camera& camera, VkExtent2D size);
+/// The push constants that all draws of a frame share: the camera's, and which vessels are hidden.
+shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size);
 
 /// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
 /// reversed (clear to 0).
@@ -19,7 +19,7 @@ class SurfacePass {
 
   /// @param vertices  the batch's, from `offset` on
   void recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes, const TubeBatch& batch,
-                   const gpu::Buffer& vertices, VkDeviceSize offset = 0) const;
+                   const gpu::Buffer& vertices, VkDeviceSize offset) const;
   /// Bones, heart and others.
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
   /// The skin: the depth of its nearest side first, then that side's colour over what lies behind.

@@ -30,6 +30,10 @@ shared::TessellateTables tablesOf(const SweepShape& shape) {
   return tables;
 }
 
+std::uint32_t withKind(std::uint32_t colour, std::uint32_t kind) {
+  return (colour & 0xffffffu) | kind << 24;
+}
+
 template <class T>
 gpu::Buffer uploaded(gpu::Device& device, const char* name, const std::vector<T>& values) {
   return gpu::makeBuffer(device, name, std::span<const T>(values));
@@ -49,8 +53,10 @@ TubeSet::TubeSet(gpu::Device& device, const Network& network, const SweepShape& 
   caps_ = uploaded(device, "caps", caps);
   tables_ = gpu::makeBuffer(device, "tessellation tables", std::span(&tables, 1));
   colours_ = gpu::Buffer(device, {"sweep colours", 4 * (table_.sweeps.size() + table_.caps.size())});
-  for (const std::uint32_t vessel : table_.vesselOfSweep)
-    kindColours_.push_back(packColour(colourOf(network.vessels()[vessel].kind)));
+  for (const std::uint32_t vessel : table_.vesselOfSweep) {
+    const VesselKind kind = network.vessels()[vessel].kind;
+    kindColours_.push_back(withKind(packColour(colourOf(kind)), std::uint32_t(kind)));
+  }
   setSweepColours(device, {});
 }
 
@@ -96,7 +102,9 @@ void TubeSet::drawBatch(VkCommandBuffer commands, const TubeBatch& batch) const 
 
 void TubeSet::setSweepColours(gpu::Device& device, std::span<const std::uint32_t> colours) {
   assert(colours.empty() || colours.size() == table_.sweeps.size());
-  std::vector<std::uint32_t> all = colours.empty() ? kindColours_ : std::vector(colours.begin(), colours.end());
+  std::vector<std::uint32_t> all = kindColours_;
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    all[i] = withKind(colours[i], colours[i] >> 24 ? kindColours_[i] >> 24 : kHiddenKind);
   for (const CapEnd& cap : table_.caps) all.push_back(all[cap.sweep]);
   gpu::uploadBytes(device, colours_, std::as_bytes(std::span(all)));
 }

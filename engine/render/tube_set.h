@@ -13,6 +13,9 @@ struct TubeBatch {
   std::uint32_t first = 0, count = 0;  ///< into SweepTable::sweeps or ::caps
 };
 
+/// Kind of an item that is never drawn; the others are VesselKind's values.
+constexpr std::uint32_t kHiddenKind = 31;
+
 /// What of a network stays the same from frame to frame, in device memory.
 class TubeSet {
  public:
@@ -45,7 +48,7 @@ class TubeSet {
   SweepTable table_;
   SweepShape shape_;
   std::vector<TubeBatch> batches_;
-  std::vector<std::uint32_t> kindColours_;  // one a sweep
+  std::vector<std::uint32_t> kindColours_;  // one a sweep, kind in the highest 8 bits
   VkDeviceSize templateBytes_ = 0;
   gpu::Buffer sweeps_, caps_, tables_, colours_, sweepIndices_, capIndices_;
 };

@@ -16,7 +16,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Col
 #endif
 
 /// Vertex v of a draw belongs to item firstItem + v / verticesPerItem, which has one colour: sRGB, 8 bits each,
-/// red lowest, alpha highest.
+/// red lowest; the highest 8 bits are the item's kind (below 32).
 struct DrawPush {
   mat4 viewProjection;
   vec3 right, up;  // the camera's axes in the world, unit
@@ -25,7 +25,7 @@ struct DrawPush {
   uint firstItem;
   uint verticesPerItem;
   float opacity;
-  uint reserved;  // fills the 128 bytes that every device has
+  uint hiddenKinds;  // bit k: items of kind k are not drawn
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,105 @@
+// Times the renderer over a turning camera; prints minimum and median of each stage and the last picture's hash.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "body/skinning.h"
+#include "core/hash.h"
+#include "gpu/device.h"
+#include "io/gltf.h"
+#include "io/png.h"
+#include "network/file.h"
+#include "network/measure.h"
+#include "render/renderer.h"
+
+using namespace vasa;
+
+namespace {
+
+constexpr int kWarmUp = 5, kFrames = 15;
+constexpr const char* kUsage =
+    "usage: bench_render BODY.glb NETWORK.vasa [MxN [BATCH [SAMPLES [WxH [VIEW [OUT.png]]]]]]\n";
+
+void print(const char* name, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  std::printf("  %-12s min %8.2f  median %8.2f ms\n", name, values.front(), values[values.size() / 2]);
+}
+
+template <class T>
+T taken(Result<T> result) {
+  if (result) return std::move(*result);
+  std::fprintf(stderr, "%s\n", result.error().message.c_str());
+  std::exit(int(result.error().fault));
+}
+
+struct Arguments {
+  RenderOptions options;
+  std::string picture;
+  View view = View::front;
+};
+
+Arguments argumentsOf(int argc, char** argv) {
+  Arguments a;
+  if (argc > 3) std::sscanf(argv[3], "%ux%u", &a.options.shape.around, &a.options.shape.along);
+  if (argc > 4) a.options.sweepsPerBatch = std::uint32_t(std::atoi(argv[4]));
+  if (argc > 5) a.options.samples = std::uint32_t(std::atoi(argv[5]));
+  if (argc > 6) std::sscanf(argv[6], "%ux%u", &a.options.width, &a.options.height);
+  if (argc > 7) a.view = viewNamed(argv[7]).value_or(View::front);
+  if (argc > 8) a.picture = argv[8];
+  return a;
+}
+
+Camera turned(const Camera& camera, float angle) {
+  Camera result = camera;
+  result.position = camera.target + glm::angleAxis(angle, vec3(0, 1, 0)) * (camera.position - camera.target);
+  return result;
+}
+
+void timeFrames(Renderer& renderer, RenderInput& input) {
+  const Camera camera = input.camera;
+  std::vector<double> upload, tessellate, draw, meshes, total;
+  for (int i = kWarmUp + kFrames; i-- > 0;) {
+    input.camera = turned(camera, 0.05f * float(i));
+    renderer.draw(input);
+    if (i >= kFrames) continue;
+    const FrameTimes t = renderer.times();
+    upload.push_back(t.upload), tessellate.push_back(t.tessellate), draw.push_back(t.draw);
+    meshes.push_back(t.meshes), total.push_back(t.total);
+  }
+  print("upload", upload), print("tessellate", tessellate), print("draw", draw), print("meshes", meshes);
+  print("total", total);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) return std::fputs(kUsage, stderr), 2;
+  const Body body = taken(readBody(argv[1]));
+  const Network network = taken(readNetwork(argv[2]));
+  const Arguments arguments = argumentsOf(argc, argv);
+  gpu::Device device;
+  Renderer renderer(device, network, body.meshes, arguments.options);
+  std::printf("%s: %u sweeps, %ux%u quads, %llu triangles, batches of %u, templates %llu bytes\n",
+              device.adapter().name.c_str(), renderer.sweepCount(), arguments.options.shape.around,
+              arguments.options.shape.along, static_cast<unsigned long long>(renderer.triangleCount()),
+              arguments.options.sweepsPerBatch, static_cast<unsigned long long>(renderer.templateBytes()));
+
+  std::vector<quat> frames(network.sectionCount());
+  networkFrames(network, network.points(), restReferences(network), frames);
+  const std::vector<mat4> joints = skinMatrices(body.skeleton, restPose(body.skeleton));
+  Aabb box = measure(network, network.points()).bounds;
+  for (const SkinnedMesh& mesh : body.meshes) box.add(mesh.mesh.bounds());
+  const float aspect = float(arguments.options.width) / float(arguments.options.height);
+  RenderInput input{network.points(), frames, joints, cameraFrom(arguments.view, box, aspect), {}};
+  timeFrames(renderer, input);
+  std::printf("  static draw  min %8.2f ms\n", renderer.staticDraw(input, 10));
+  renderer.draw(input);
+  const Image image = renderer.readBack();
+  std::printf("  picture %016llx\n",
+              static_cast<unsigned long long>(hashOf(std::span<const std::uint8_t>(image.rgba))));
+  if (arguments.picture.empty()) return 0;
+  const Result<void> written = writePng(arguments.picture, image);
+  if (!written) return std::fprintf(stderr, "%s\n", written.error().message.c_str()), int(written.error().fault);
+  return 0;
+}
