@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "camera_choice.h"
+#include "commands.h"
+#include "core/log.h"
+#include "frame_output.h"
+#include "gpu/device.h"
+#include "gpu/error.h"
+#include "network/file.h"
+#include "render/renderer.h"
+#include "report.h"
+#include "scene_options.h"
+
+// vasa profile: the paper's Tables I to III on this machine. Each row draws a clip's changing poses at one
+// resolution, and beside it the same triangles from ready vertex buffers.
+namespace vasa::cli {
+namespace {
+
+constexpr std::uint32_t kWarmUpFrames = 5;  // shaders compile at their first use
+
+struct Options {
+  SceneOptions scene;
+  CameraOptions camera;
+  std::string quads = "4x5,4x10,8x5,8x10", size = "1280x720";
+  std::uint32_t frames = 40;
+  unsigned samples = 1;
+  bool body = false;
+};
+
+struct Setting {
+  Scene scene;
+  const Clip* clip = nullptr;
+  CameraMan camera;
+  Look look;
+  PictureSize size;
+  std::vector<Quads> quads;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// One list of samples a stage, in the order of the report.
+class Stages {
+ public:
+  void add(const std::string& name, double ms) {
+    const auto found = std::find_if(stages_.begin(), stages_.end(), [&](const auto& stage) { return stage.first == name; });
+    if (found == stages_.end()) stages_.push_back({name, {ms}});
+    else found->second.push_back(ms);
+  }
+  void report(Report& row) const {
+    for (const auto& [name, samples] : stages_) row[name] = median(samples);
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<double>>> stages_;
+};
+
+Report profileRow(gpu::Device& device, const Setting& setting, const Options& options, Quads quads) {
+  const std::span<const SkinnedMesh> meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>();
+  Renderer renderer(device, setting.scene.network, meshes,
+                    {.width = setting.size.width, .height = setting.size.height, .samples = options.samples,
+                     .shape = {quads.around, quads.along}});
+  FrameMaker maker(setting.scene);
+  Stages stages;
+  std::vector<double> drawStatic;
+  const std::uint32_t clipFrames = setting.clip ? setting.clip->frameCount() : 1;
+  for (std::uint32_t i = 0; i < kWarmUpFrames + options.frames && !stopRequested(); ++i) {
+    maker.make(setting.clip, setting.clip ? setting.clip->timeOfFrame(i % clipFrames) : 0);
+    const RenderInput input{.points = maker.points(),
+                            .knotFrames = maker.knotFrames(),
+                            .jointMatrices = options.body ? maker.jointMatrices() : std::span<const mat4>(),
+                            .camera = setting.camera.at(setting.scene, maker.pose(), maker.points()),
+                            .look = setting.look};
+    renderer.draw(input);
+    if (i < kWarmUpFrames) continue;
+    const FrameReport& cpu = maker.report();
+    const FrameTimes gpuTimes = renderer.times();
+    const double cpuMs = cpu.poseMs + cpu.deformMs + cpu.volumeMs + cpu.framesMs;
+    stages.add("pose_ms", cpu.poseMs);
+    stages.add("deform_ms", cpu.deformMs);
+    stages.add("volume_ms", cpu.volumeMs);
+    stages.add("knot_frames_ms", cpu.framesMs);
+    stages.add("upload_ms", gpuTimes.upload);
+    stages.add("tessellate_ms", gpuTimes.tessellate);
+    stages.add("draw_ms", gpuTimes.draw);
+    stages.add("meshes_ms", gpuTimes.meshes);
+    stages.add("frame_ms", cpuMs + gpuTimes.total);
+    if (i % 8 == 0) drawStatic.push_back(renderer.staticDraw(input, 1));
+  }
+  Report row{{"quads", fmt::format("{}x{}", quads.around, quads.along)},
+             {"sweeps", renderer.sweepCount()},
+             {"triangles", renderer.triangleCount()}};
+  stages.report(row);
+  row["fps"] = 1000 / row["frame_ms"].get<double>();
+  row["static_draw_ms"] = median(drawStatic);
+  row["template_bytes"] = renderer.templateBytes();
+  return row;
+}
+
+// What the network takes, beside the triangle mesh that would have to be stored at 8x5 instead (paper, Tables I, II).
+Report storageReport(const Scene& scene) {
+  const SweepShape shape{8, 5};
+  const std::size_t sweeps = scene.network.sweepCount(), vessels = scene.network.vessels().size();
+  const std::size_t vertices = (sweeps * shape.along + vessels) * shape.around;
+  const std::size_t triangles = 2 * sweeps * shape.along * shape.around;
+  return {{"network_bytes", encodeNetwork(scene.network).size()},
+          {"network_quantised_bytes", encodeNetwork(scene.network, {.quantise = true}).size()},
+          {"binding_bytes", scene.binding.bytes()},
+          {"mesh_bytes", vertices * sizeof(vec3) + triangles * sizeof(uvec3)}};
+}
+
+std::string asText(const Report& report) {
+  std::string text = fmt::format("{}, {}\n\n", report["device"].get<std::string>(), report["size"].get<std::string>());
+  const Report& rows = report["rows"];
+  for (const auto& [name, unused] : rows.front().items()) text += fmt::format("{:>{}}", name, std::max<std::size_t>(name.size() + 2, 9));
+  text += "\n";
+  for (const Report& row : rows) {
+    for (const auto& [name, value] : row.items()) {
+      const std::string cell = value.is_string() ? value.get<std::string>()
+                               : value.is_number_float() ? fmt::format("{:.2f}", value.get<double>()) : value.dump();
+      text += fmt::format("{:>{}}", cell, std::max<std::size_t>(name.size() + 2, 9));
+    }
+    text += "\n";
+  }
+  text += "\n";
+  for (const auto& [name, value] : report["storage"].items()) text += fmt::format("{:<26}{:>12}\n", name, value.dump());
+  return text;
+}
+
+Result<Setting> prepare(const Options& options) {
+  Setting setting;
+  std::stringstream list(options.quads);
+  for (std::string item; std::getline(list, item, ',');) {
+    const auto quads = parseQuads(item);
+    if (!quads) return quads.error();
+    setting.quads.push_back(*quads);
+  }
+  const auto size = parseSize(options.size);
+  if (!size) return size.error();
+  setting.size = *size;
+  const auto choice = chooseScene(options.scene);
+  if (!choice) return choice.error();
+  const auto cameraChoice = chooseCamera(choice->camera, options.camera);
+  if (!cameraChoice) return cameraChoice.error();
+  auto scene = loadScene(*choice);
+  if (!scene) return scene.error();
+  setting.scene = std::move(*scene);
+  if (!choice->clip.empty()) {
+    const auto clip = findClip(setting.scene.body, choice->clip);
+    if (!clip) return clip.error();
+    setting.clip = *clip;
+  } else if (!setting.scene.body.clips.empty()) {
+    setting.clip = &setting.scene.body.clips.front();
+  }
+  auto camera = CameraMan::create(*cameraChoice, setting.scene, setting.clip, float(size->width) / float(size->height));
+  if (!camera) return camera.error();
+  setting.camera = *camera;
+  return setting;
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto setting = prepare(options);
+  if (!setting) return setting.error();
+  const auto report = gpu::attempt([&] {
+    gpu::Device device({.choice = globals.device});
+    Report all{{"device", device.adapter().name},
+               {"size", options.size},
+               {"clip", setting->clip ? setting->clip->name : "rest"},
+               {"frames", options.frames},
+               {"rows", Report::array()}};
+    ProgressLine progress("profiling");
+    for (const Quads& quads : setting->quads) {
+      if (stopRequested()) break;
+      all["rows"].push_back(profileRow(device, *setting, options, quads));
+      progress.update(all["rows"].size(), setting->quads.size());
+    }
+    all["storage"] = storageReport(setting->scene);
+    return all;
+  });
+  if (!report) return report.error();
+  if (stopRequested()) return stopError();
+  return globals.json ? printJson(*report) : printText(asText(*report));
+}
+
+}  // namespace
+
+void addProfile(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("profile", "How long each stage takes at several tessellations");
+  sub->footer("Examples:\n  vasa profile\n  vasa profile --body b.glb --network b.vasa --clip walk --quads 4x5,8x10 --json");
+  addSceneOptions(*sub, options->scene);
+  addCameraOptions(*sub, options->camera);
+  sub->add_option("--quads", options->quads, "Tessellations, MxN with commas between")->capture_default_str();
+  sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
+  sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();
+  sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_flag("--with-body", options->body, "Draw the body's meshes too");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli

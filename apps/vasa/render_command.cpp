@@ -1,0 +1,313 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <future>
+#include <iostream>
+
+#include "camera_choice.h"
+#include "commands.h"
+#include "core/atomic_file.h"
+#include "core/hash.h"
+#include "core/log.h"
+#include "frame_output.h"
+#include "gpu/device.h"
+#include "gpu/error.h"
+#include "io/png.h"
+#include "io/video.h"
+#include "render/renderer.h"
+#include "report.h"
+#include "scene_options.h"
+
+// vasa render: frames of a clip to PNG files and a video.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  CameraOptions camera;
+  std::string frames, size = "1280x720", output, video, quads = "8x5", shard, hide;
+  unsigned samples = 4;
+  bool resume = false, transparent = false, noVolume = false;
+};
+
+// What is to be drawn, settled before the first frame.
+struct Job {
+  SceneFile choice;
+  Scene scene;
+  const Clip* clip = nullptr;
+  CameraMan camera;
+  Look look;
+  RenderOptions render;
+  FrameRange range;
+  Shard shard;
+  std::optional<FramePattern> pattern;  // none: raw PNG to standard output
+  std::uint64_t runHash = 0;            // tells this run's pictures from another's
+};
+
+Result<void> hide(const std::string& list, LookChoice& look) {
+  std::stringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (word == "skin") look.skin = false;
+    else if (word == "bones") look.bones = false;
+    else if (word == "organs") look.organs = false;
+    else if (word == "arteries") look.arteries = false;
+    else if (word == "veins") look.veins = false;
+    else return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
+  }
+  return {};
+}
+
+Look lookOf(const LookChoice& choice, bool transparent) {
+  Look look;
+  if (choice.background) look.background = *choice.background;
+  look.transparent = transparent;
+  look.drawSkin = choice.skin;
+  look.drawBones = choice.bones;
+  look.drawHeart = look.drawOther = choice.organs;
+  look.drawArteries = choice.arteries;
+  look.drawVeins = choice.veins;
+  look.skinOpacity = choice.skinOpacity;
+  return look;
+}
+
+// Everything that decides a picture but the frame's number.
+Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options) {
+  std::uint64_t hash = 0;
+  std::vector<std::filesystem::path> files = choice.networks;
+  files.push_back(choice.body);
+  if (!options.scene.scene.empty()) files.emplace_back(options.scene.scene);
+  for (const auto& file : files) {
+    const auto bytes = readFile(file);
+    if (!bytes) return bytes.error();
+    hash = hashBytes(*bytes, hash);
+  }
+  const std::string settings =
+      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
+                  options.camera.distance, options.size, options.quads, options.samples, options.hide, options.transparent,
+                  options.noVolume);
+  return hashOf(std::span(settings), hash);
+}
+
+Result<Job> prepare(const Options& options) {
+  Job job;
+  const auto size = parseSize(options.size);
+  if (!size) return size.error();
+  const auto quads = parseQuads(options.quads);
+  if (!quads) return quads.error();
+  const auto shard = parseShard(options.shard);
+  if (!shard) return shard.error();
+  auto choice = chooseScene(options.scene);
+  if (!choice) return choice.error();
+  job.choice = std::move(*choice);
+  const auto cameraChoice = chooseCamera(job.choice.camera, options.camera);
+  if (!cameraChoice) return cameraChoice.error();
+  if (auto hidden = hide(options.hide, job.choice.look); !hidden) return hidden.error();
+  auto scene = loadScene(job.choice);
+  if (!scene) return scene.error();
+  job.scene = std::move(*scene);
+  if (!job.choice.clip.empty()) {
+    const auto clip = findClip(job.scene.body, job.choice.clip);
+    if (!clip) return clip.error();
+    job.clip = *clip;
+  }
+  const auto range = parseFrameRange(options.frames, job.clip ? job.clip->frameCount() : 1);
+  if (!range) return range.error();
+  if (options.output != "-" && !options.output.empty()) {
+    auto pattern = FramePattern::parse(options.output, range->first != range->last);
+    if (!pattern) return pattern.error();
+    job.pattern = std::move(*pattern);
+  }
+  const float aspect = float(size->width) / float(size->height);
+  auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
+  if (!camera) return camera.error();
+  const auto hash = hashOfRun(job.choice, options);
+  if (!hash) return hash.error();
+  job.camera = std::move(*camera);
+  job.look = lookOf(job.choice.look, options.transparent);
+  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}};
+  job.range = *range;
+  job.shard = *shard;
+  job.runHash = *hash;
+  return job;
+}
+
+// Draws frames and hands each picture on; encoding and writing go on beside the next frame's drawing.
+class Film {
+ public:
+  Film(const Job& job, const Options& options, gpu::Device& device)
+      : job_(job),
+        options_(options),
+        maker_(job.scene, {.keepVolume = !options.noVolume}),
+        renderer_(device, job.scene.network, job.scene.body.meshes, job.render) {}
+
+  Result<void> run() {
+    ProgressLine progress("rendering");
+    if (!options_.video.empty()) {
+      auto video = VideoWriter::create(options_.video, job_.render.width, job_.render.height,
+                                       job_.clip ? job_.clip->framesPerSecond : 30);
+      if (!video) return video.error();
+      video_.emplace(std::move(*video));
+    }
+    for (std::uint32_t frame = job_.range.first; frame <= job_.range.last; ++frame) {
+      if (stopRequested()) return stopError();
+      if (frame % job_.shard.count != job_.shard.index) continue;
+      if (auto done = makeFrame(frame); !done) return done;
+      progress.update(frame - job_.range.first + 1, job_.range.last - job_.range.first + 1);
+    }
+    if (auto written = finishWriting(); !written) return written;
+    return video_ ? video_->finish() : Result<void>();
+  }
+
+  std::uint32_t drawn = 0, kept = 0, steps = 0;
+  float largestStep = 0;  // [m] of a control point between consecutive frames
+  std::uint32_t largestStepFrame = 0;
+
+ private:
+  Result<void> makeFrame(std::uint32_t frame) {
+    if (options_.resume && job_.pattern) {
+      const auto present = isPresent(frame);
+      if (!present) return present.error();
+      if (*present) {
+        ++kept;
+        if (!video_) return {};
+        auto picture = readPng(job_.pattern->of(frame));
+        if (!picture) return picture.error();
+        return video_->write(*picture);
+      }
+    }
+    maker_.make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
+    noteStep(frame);
+    renderer_.draw({.points = maker_.points(),
+                    .knotFrames = maker_.knotFrames(),
+                    .jointMatrices = maker_.jointMatrices(),
+                    .camera = job_.camera.at(job_.scene, maker_.pose(), maker_.points()),
+                    .look = job_.look});
+    ++drawn;
+    if (auto written = finishWriting(); !written) return written;
+    writing_ = std::async(std::launch::async, [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
+    return {};
+  }
+
+  // Whether this frame's picture is there already, from the same run.
+  Result<bool> isPresent(std::uint32_t frame) const {
+    const auto path = job_.pattern->of(frame);
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return false;
+    const auto comment = readPngComment(path);
+    if (comment && *comment == stamp()) return true;
+    return Error{Fault::resumeMismatch, path.string() + ": was made by another run (other scene, clip or settings), so --resume "
+                                        "cannot go on from it; choose another output or leave out --resume"};
+  }
+
+  std::string stamp() const { return fmt::format("vasa run {:016x}", job_.runHash); }
+
+  Result<void> write(std::uint32_t frame, const Image& picture) {
+    if (video_)
+      if (auto written = video_->write(picture); !written) return written;
+    if (options_.output.empty()) return {};
+    const auto bytes = encodePng(picture, {.alpha = job_.look.transparent, .comment = stamp()});
+    if (!bytes) return bytes.error();
+    if (job_.pattern) return writeFileAtomically(job_.pattern->of(frame), *bytes);
+    return printText({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  }
+
+  Result<void> finishWriting() { return writing_.valid() ? writing_.get() : Result<void>(); }
+
+  void noteStep(std::uint32_t frame) {
+    const auto points = maker_.points();
+    if (!previous_.empty() && frame == previousFrame_ + 1) {
+      ++steps;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const float step = glm::distance(vec3(points[i]), vec3(previous_[i]));
+        if (step > largestStep) largestStep = step, largestStepFrame = frame;
+      }
+    }
+    previous_.assign(points.begin(), points.end());
+    previousFrame_ = frame;
+  }
+
+  const Job& job_;
+  const Options& options_;
+  FrameMaker maker_;
+  Renderer renderer_;
+  std::optional<VideoWriter> video_;
+  std::future<Result<void>> writing_;
+  std::vector<vec4> previous_;
+  std::uint32_t previousFrame_ = 0;
+};
+
+// Folders are made when there is something to put into them.
+Result<void> makeFolders(const Options& options) {
+  for (const std::string& name : {options.output, options.video}) {
+    const auto folder = std::filesystem::path(name).parent_path();
+    if (name == "-" || folder.empty() || folder.string().find('{') != std::string::npos) continue;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) return ioError(folder.string() + ": cannot make the folder: " + error.message() + "; choose one that you may write to");
+  }
+  return {};
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  if (options.output.empty() && options.video.empty())
+    return Error{Fault::usage, "nothing to write; give -o 'frame_{frame:04}.png', --video film.mp4, or both"};
+  if (options.output == "-" && globals.json)
+    return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
+  auto job = prepare(options);
+  if (!job) return job.error();
+  if (options.output == "-" && job->range.first != job->range.last)
+    return Error{Fault::usage, "-o - writes one picture; choose it with --frames N"};
+  if (auto made = makeFolders(options); !made) return made;
+  const auto start = std::chrono::steady_clock::now();
+  const auto film = gpu::attempt([&]() -> Result<Report> {
+    gpu::Device device({.choice = globals.device});
+    logDetail("device: " + device.adapter().name);
+    Film work(*job, options, device);
+    if (auto done = work.run(); !done) return done.error();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return Report{{"frames", work.drawn},
+                  {"frames_kept", work.kept},
+                  {"width", job->render.width},
+                  {"height", job->render.height},
+                  {"sweeps", job->scene.network.sweepCount()},
+                  {"seconds", seconds},
+                  {"largest_step_m", work.largestStep},
+                  {"largest_step_frame", work.largestStepFrame},
+                  {"device", device.adapter().name}};
+  });
+  if (!film) return film.error();
+  if (!*film) return film->error();
+  const Report& report = **film;
+  if (globals.json) return printJson(report);
+  logInfo(fmt::format("{} frames in {:.1f} s; largest step of a control point between frames {:.1f} mm", report["frames"].get<int>(),
+                      report["seconds"].get<double>(), 1000 * report["largest_step_m"].get<double>()));
+  return {};
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("render", "Frames of a clip to PNG files and a video");
+  sub->footer(
+      "Examples:\n"
+      "  vasa render --clip walk -o 'out/{frame:04}.png' --video walk.mp4\n"
+      "  vasa render --body b.glb --network b.vasa --clip fist --focus LeftHand --camera left -o 'out/{frame:04}.png'\n"
+      "  vasa render --clip squat --frames 30 --size 640x1280 -o - > picture.png");
+  addSceneOptions(*sub, options->scene);
+  addCameraOptions(*sub, options->camera);
+  sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
+  sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
+  sub->add_option("-o,--output", options->output, "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");
+  sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
+  sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN")->capture_default_str();
+  sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, arteries, veins (a list with commas)");
+  sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");
+  sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
+  sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");
+  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli

@@ -1,0 +1,66 @@
+#include "scene/frame.h"
+
+#include <chrono>
+
+#include "surface/sweep_table.h"
+
+namespace vasa {
+namespace {
+
+// Adds the time since it was made to a place, in milliseconds.
+class StageClock {
+ public:
+  explicit StageClock(double& out) : out_(out) {}
+  ~StageClock() { out_ = std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
+  StageClock(const StageClock&) = delete;
+  StageClock& operator=(const StageClock&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& out_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
+    : scene_(&scene),
+      options_(options),
+      deformer_(scene.network, scene.body.skeleton, scene.binding),
+      volume_(scene.network),
+      restReferences_(vasa::restReferences(scene.network)),
+      references_(restReferences_),
+      points_(scene.network.points().begin(), scene.network.points().end()),
+      knotFrames_(scene.network.sectionCount()),
+      jointMatrices_(scene.body.skeleton.joints.size()) {}
+
+void FrameMaker::make(const Clip* clip, float time) {
+  double poseMs = 0;
+  Pose pose;
+  {
+    StageClock clock(poseMs);
+    pose = clip ? samplePose(scene_->body.skeleton, *clip, time) : restPose(scene_->body.skeleton);
+  }
+  make(pose);
+  report_.poseMs = poseMs;
+}
+
+void FrameMaker::make(const Pose& pose) {
+  report_ = {};
+  pose_ = pose;
+  for (std::size_t j = 0; j < jointMatrices_.size(); ++j)
+    jointMatrices_[j] = pose.world[j] * scene_->body.skeleton.joints[j].inverseBind;
+  {
+    StageClock clock(report_.deformMs);
+    deformer_.run(pose, points_);
+    deformer_.carryDirections(restReferences_, references_);
+  }
+  if (options_.keepVolume) {
+    StageClock clock(report_.volumeMs);
+    report_.volume = volume_.run(points_);
+  }
+  StageClock clock(report_.framesMs);
+  networkFrames(scene_->network, points_, references_, knotFrames_);
+}
+
+}  // namespace vasa

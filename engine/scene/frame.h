@@ -1,0 +1,50 @@
+#pragma once
+#include "body/deform.h"
+#include "body/volume.h"
+#include "scene/scene.h"
+
+namespace vasa {
+
+/// What a frame's stages did and how long they took.
+struct FrameReport {
+  double poseMs = 0;    ///< clip to joints (by the caller's clock where a pose is given)
+  double deformMs = 0;  ///< joints to control points
+  double volumeMs = 0;  ///< radii
+  double framesMs = 0;  ///< knot frames
+  VolumeKeeper::Outcome volume;
+};
+
+struct FrameOptions {
+  bool keepVolume = true;
+};
+
+/// Turns poses into everything a picture needs: control points, knot frames, joint matrices. A frame depends on the
+/// scene and the pose alone. Sized once; a frame allocates nothing. The scene must outlive it.
+class FrameMaker {
+ public:
+  explicit FrameMaker(const Scene& scene, FrameOptions options = {});
+
+  /// @param clip  nullptr: the rest pose
+  void make(const Clip* clip, float time);
+  void make(const Pose& pose);
+
+  const Pose& pose() const { return pose_; }
+  std::span<const vec4> points() const { return points_; }
+  std::span<const quat> knotFrames() const { return knotFrames_; }
+  std::span<const mat4> jointMatrices() const { return jointMatrices_; }  ///< world · inverse bind
+  const FrameReport& report() const { return report_; }
+
+ private:
+  const Scene* scene_;
+  FrameOptions options_;
+  Deformer deformer_;
+  VolumeKeeper volume_;
+  std::vector<vec3> restReferences_, references_;
+  Pose pose_;
+  std::vector<vec4> points_;
+  std::vector<quat> knotFrames_;
+  std::vector<mat4> jointMatrices_;
+  FrameReport report_;
+};
+
+}  // namespace vasa

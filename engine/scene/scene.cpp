@@ -1,0 +1,103 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+
+#include "io/gltf.h"
+#include "network/file.h"
+#include "network/measure.h"
+#include "network/merge.h"
+
+namespace vasa {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return result;
+}
+
+// Index of the first item whose name is `wanted`, or else contains it; -1 if none.
+template <class Items>
+std::ptrdiff_t findByName(const Items& items, const std::string& wanted) {
+  std::ptrdiff_t partial = -1;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string name = lower(items[i].name);
+    if (name == wanted) return std::ptrdiff_t(i);
+    if (partial < 0 && name.find(wanted) != std::string::npos) partial = std::ptrdiff_t(i);
+  }
+  return partial;
+}
+
+void addJoints(Aabb& box, const Pose& pose) {
+  for (const mat4& world : pose.world) box.add(vec3(world[3]));
+}
+
+}  // namespace
+
+Result<Scene> loadScene(const SceneFile& file) {
+  auto body = readBody(file.body);
+  if (!body) return body.error();
+  std::vector<Network> networks;
+  for (const auto& path : file.networks) {
+    auto network = readNetwork(path);
+    if (!network) return network.error();
+    networks.push_back(std::move(*network));
+  }
+  auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
+  if (!network) return network.error();
+  auto binding = bindNetwork(*network, *body);
+  if (!binding) return binding.error();
+  return Scene{std::move(*body), std::move(*network), std::move(*binding)};
+}
+
+Result<const Clip*> findClip(const Body& body, std::string_view name) {
+  const Clip* found = nullptr;
+  bool several = false;
+  std::string list;
+  for (const Clip& clip : body.clips) {
+    list += (list.empty() ? "" : ", ") + clip.name;
+    if (clip.name == name) return &clip;
+    if (!clip.name.starts_with(name)) continue;
+    several = found != nullptr;
+    found = &clip;
+  }
+  const std::string quoted = "clip '" + std::string(name) + "'";
+  if (several) return badInput(body.name + ": " + quoted + " is the beginning of several names; write more of it: " + list);
+  if (!found)
+    return badInput(body.name + " has no " + quoted + (list.empty() ? "; it has no clips at all" : "; it has " + list));
+  return found;
+}
+
+Result<Subject> findSubject(const Scene& scene, std::string_view name) {
+  const std::string wanted = lower(name);
+  if (const auto vessel = findByName(scene.network.vessels(), wanted); vessel >= 0)
+    return Subject{{std::uint32_t(vessel)}, {}};
+  if (const auto joint = findByName(scene.body.skeleton.joints, wanted); joint >= 0)
+    return Subject{{}, {std::uint32_t(joint)}};
+  return badInput("no vessel and no joint is named '" + std::string(name) + "'; vasa info --vessels lists the vessels");
+}
+
+Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose, std::span<const vec4> points) {
+  Aabb box;
+  if (subject.joint.valid()) {
+    box.add(vec3(pose.world[subject.joint.value][3]), scene.body.height() / 14);
+    return box;
+  }
+  for (const vec4& p : Network::pointsOf(scene.network.vessel(subject.vessel), points)) box.add(vec3(p), p.w);
+  return box;
+}
+
+Aabb motionBounds(const Scene& scene, const Clip* clip) {
+  Aabb rest, joints, moving;
+  for (const SkinnedMesh& mesh : scene.body.meshes) rest.add(mesh.mesh.bounds());
+  rest.add(measure(scene.network, scene.network.points()).bounds);
+  addJoints(joints, restPose(scene.body.skeleton));
+  for (std::uint32_t frame = 0; clip && frame < clip->frameCount(); ++frame)
+    addJoints(moving, samplePose(scene.body.skeleton, *clip, clip->timeOfFrame(frame)));
+  if (!clip) moving = joints;
+  moving.low += glm::min(rest.low - joints.low, vec3(0));
+  moving.high += glm::max(rest.high - joints.high, vec3(0));
+  return moving;
+}
+
+}  // namespace vasa

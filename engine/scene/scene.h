@@ -1,0 +1,38 @@
+#pragma once
+#include "body/binding.h"
+#include "body/body.h"
+#include "network/network.h"
+#include "scene/scene_file.h"
+
+namespace vasa {
+
+/// A body, the vessels in it, and how they hang on it. Constant over time.
+struct Scene {
+  Body body;
+  Network network;  ///< all networks of the scene, merged
+  Binding binding;
+};
+
+/// Reads what a scene file names and binds the vessels to the body. Fails as readers, merging and binding do;
+/// vessels that do not lie in the body are refused.
+Result<Scene> loadScene(const SceneFile& file);
+
+/// The body's clip with this name, or the only one that begins with it. badInput lists what there is.
+Result<const Clip*> findClip(const Body& body, std::string_view name);
+
+/// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name goes
+/// before a part of one, vessels before joints.
+struct Subject {
+  VesselId vessel;
+  JointId joint;
+};
+Result<Subject> findSubject(const Scene& scene, std::string_view name);
+
+/// Box of a subject in a pose: of the vessel's tubes, or a cube of a seventh of the body height around the joint.
+Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose, std::span<const vec4> points);
+
+/// Box that holds the body and its vessels in every frame of a clip (nullptr: at rest), from the joints' motion and
+/// what stands out beyond the joints at rest.
+Aabb motionBounds(const Scene& scene, const Clip* clip);
+
+}  // namespace vasa
