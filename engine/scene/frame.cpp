@@ -26,10 +26,11 @@ class StageClock {
 FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
     : scene_(&scene),
       options_(options),
-      deformer_(scene.network, scene.body.skeleton, scene.binding),
+      deformer_(scene.binding),
       volume_(scene.network),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
+      rotations_(scene.network.points().size()),
       points_(scene.network.points().begin(), scene.network.points().end()),
       knotFrames_(scene.network.sectionCount()),
       jointMatrices_(scene.body.skeleton.joints.size()) {}
@@ -52,8 +53,10 @@ void FrameMaker::make(const Pose& pose) {
     jointMatrices_[j] = pose.world[j] * scene_->body.skeleton.joints[j].inverseBind;
   {
     StageClock clock(report_.deformMs);
-    deformer_.run(pose, points_);
-    deformer_.carryDirections(restReferences_, references_);
+    deformer_.run(scene_->network, pose, points_);
+    deformer_.rotations(rotations_);
+    for (std::size_t v = 0; v < references_.size(); ++v)
+      references_[v] = rotations_[scene_->network.vessels()[v].firstPoint] * restReferences_[v];
   }
   if (options_.keepVolume) {
     StageClock clock(report_.volumeMs);

@@ -40,6 +40,7 @@ class FrameMaker {
   Deformer deformer_;
   VolumeKeeper volume_;
   std::vector<vec3> restReferences_, references_;
+  std::vector<quat> rotations_;
   Pose pose_;
   std::vector<vec4> points_;
   std::vector<quat> knotFrames_;

@@ -45,7 +45,9 @@ Result<Scene> loadScene(const SceneFile& file) {
   }
   auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
   if (!network) return network.error();
-  auto binding = bindNetwork(*network, *body);
+  std::string names;
+  for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
+  auto binding = bind(*body, *network, names);
   if (!binding) return binding.error();
   return Scene{std::move(*body), std::move(*network), std::move(*binding)};
 }
