@@ -1,0 +1,39 @@
+#include <doctest/doctest.h>
+
+#include "cli/program.h"
+
+using namespace vasa::test;
+
+TEST_CASE("info on a network has the keys that tools rely on") {
+  const auto outcome = runProgram({"info", humanVessels().string(), "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto report = outcome.json();
+  for (const char* key : {"kind", "vessels", "arteries", "veins", "sections", "sweeps", "junctions", "components", "length_m",
+                          "volume_m3", "body_height_m", "file_bytes", "bytes_per_sweep"})
+    CHECK(report.contains(key));
+  CHECK(report["kind"] == "network");
+  CHECK(report["vessels"].get<int>() >= 60);
+  CHECK(report["arteries"].get<int>() + report["veins"].get<int>() == report["vessels"].get<int>());
+  CHECK(report["file_bytes"] == std::filesystem::file_size(humanVessels()));
+}
+
+TEST_CASE("info on a body and on the built-in scene") {
+  const auto body = runProgram({"info", humanBody().string(), "--json"}).json();
+  CHECK(body["kind"] == "body");
+  CHECK(body["joints"].get<int>() > 30);
+  CHECK(body["clips"].size() >= 5);
+  const auto scene = runProgram({"info", "--json"}).json();
+  CHECK(scene["kind"] == "scene");
+  CHECK(scene["networks"][0]["kind"] == "network");
+  const auto text = runProgram({"info"});
+  CHECK(text.exit == 0);
+  CHECK(text.out.find("sweeps") != std::string::npos);
+}
+
+TEST_CASE("info tells what is missing or broken") {
+  CHECK(runProgram({"info", "/nowhere/x.vasa"}).exit == 6);
+  CHECK(runProgram({"info", "/nowhere/x.json"}).exit == 6);
+  const auto wrong = runProgram({"info", VASA_PROGRAM + std::string(".vasa")});
+  CHECK(wrong.exit == 6);
+  CHECK(runProgram({"info", "--json"}, {.standardOutput = "/dev/full"}).exit == 6);
+}

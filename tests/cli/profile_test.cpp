@@ -1,0 +1,21 @@
+#include <doctest/doctest.h>
+
+#include "cli/program.h"
+
+using namespace vasa::test;
+
+TEST_CASE("profile has a row a tessellation with every stage that exists") {
+  const auto outcome = runProgram({"profile", "--size", "64x64", "--frames", "3", "--quads", "3x2,8x5", "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto report = outcome.json();
+  REQUIRE(report["rows"].size() == 2);
+  for (const auto& row : report["rows"]) {
+    for (const char* key : {"quads", "sweeps", "triangles", "pose_ms", "deform_ms", "volume_ms", "upload_ms", "tessellate_ms",
+                            "draw_ms", "frame_ms", "fps", "static_draw_ms"})
+      CHECK_MESSAGE(row.contains(key), key);
+    CHECK(row["frame_ms"].get<double>() > 0);
+  }
+  CHECK(report["rows"][0]["quads"] == "3x2");
+  CHECK(report["rows"][1]["triangles"].get<int>() > report["rows"][0]["triangles"].get<int>());
+  for (const char* key : {"network_bytes", "binding_bytes", "mesh_bytes"}) CHECK(report["storage"].contains(key));
+}

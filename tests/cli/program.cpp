@@ -1,0 +1,86 @@
+#include "cli/program.h"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "support/shared_data.h"
+
+extern char** environ;
+
+namespace vasa::test {
+namespace {
+
+std::string contentOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+nlohmann::json Outcome::json() const {
+  auto parsed = nlohmann::json::parse(out, nullptr, false);
+  REQUIRE_MESSAGE(!parsed.is_discarded(), "not JSON: " << out << err);
+  return parsed;
+}
+
+Outcome runProgram(const std::vector<std::string>& arguments, const ProgramOptions& options) {
+  TemporaryFolder folder;
+  const auto out = options.standardOutput.empty() ? folder.path() / "out" : std::filesystem::path(options.standardOutput);
+  const auto err = folder.path() / "err";
+  std::vector<char*> argv{const_cast<char*>(VASA_PROGRAM)};
+  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  std::vector<char*> environment;
+  for (char** entry = environ; *entry; ++entry) {
+    const std::string_view name = std::string_view(*entry).substr(0, std::string_view(*entry).find('=') + 1);
+    if (std::ranges::none_of(options.environment, [&](const auto& own) { return own.starts_with(name); }))
+      environment.push_back(*entry);
+  }
+  for (const auto& entry : options.environment) environment.push_back(const_cast<char*>(entry.c_str()));
+  environment.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
+  posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
+  pid_t child = -1;
+  REQUIRE(posix_spawn(&child, VASA_PROGRAM, &actions, nullptr, argv.data(), environment.data()) == 0);
+  posix_spawn_file_actions_destroy(&actions);
+  if (options.signalAfterMs >= 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(options.signalAfterMs));
+    kill(child, SIGINT);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  Outcome outcome;
+  outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (options.standardOutput.empty()) outcome.out = contentOf(out);
+  outcome.err = contentOf(err);
+  return outcome;
+}
+
+std::filesystem::path humanBody() {
+  return std::filesystem::path(VASA_BUILD_DATA_DIR) / "human.glb";
+}
+std::filesystem::path humanVessels() {
+  return std::filesystem::path(VASA_BUILD_DATA_DIR) / "human.vasa";
+}
+
+std::vector<std::string> listOf(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace vasa::test

@@ -1,0 +1,108 @@
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "cli/program.h"
+#include "io/png.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+std::string bytesOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> walk(const std::filesystem::path& folder, std::initializer_list<std::string> more) {
+  std::vector<std::string> arguments{"render", "--clip", "walk", "--size", "96x160", "--quads", "4x2", "-o", (folder / "{frame:03}.png").string()};
+  arguments.insert(arguments.end(), more);
+  return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("a clip becomes numbered pictures with vessels in them") {
+  TemporaryFolder folder;
+  const auto outcome = runProgram(walk(folder.path(), {"--frames", "2:4", "--hide", "skin,bones,organs", "--json"}));
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(listOf(folder.path()) == std::vector<std::string>{"002.png", "003.png", "004.png"});
+  CHECK(outcome.json()["frames"] == 3);
+  CHECK(outcome.json()["largest_step_m"].get<double>() > 0);
+  const auto picture = readPng(folder.path() / "003.png");
+  REQUIRE(picture.ok());
+  CHECK(picture->width == 96);
+  int red = 0, blue = 0;
+  for (std::size_t i = 0; i < picture->rgba.size(); i += 4) {
+    red += picture->rgba[i] > picture->rgba[i + 2] + 60;
+    blue += picture->rgba[i + 2] > picture->rgba[i] + 40;
+  }
+  CHECK(red > 50);
+  CHECK(blue > 50);
+}
+
+TEST_CASE("the same frame has the same bits on one and two threads, and in any order of frames") {
+  TemporaryFolder one, two, single;
+  REQUIRE(runProgram(walk(one.path(), {"--frames", "0:3", "--threads", "1"}), {.environment = {"LP_NUM_THREADS=1"}}).exit == 0);
+  REQUIRE(runProgram(walk(two.path(), {"--frames", "0:3", "--threads", "2"}), {.environment = {"LP_NUM_THREADS=2"}}).exit == 0);
+  REQUIRE(runProgram(walk(single.path(), {"--frames", "3"})).exit == 0);
+  REQUIRE(runProgram(walk(single.path(), {"--frames", "1"})).exit == 0);
+  for (const char* name : {"000.png", "001.png", "002.png", "003.png"}) CHECK(bytesOf(one.path() / name) == bytesOf(two.path() / name));
+  for (const char* name : {"001.png", "003.png"}) CHECK(bytesOf(one.path() / name) == bytesOf(single.path() / name));
+}
+
+TEST_CASE("shards share a film without overlap, and --resume keeps what is there") {
+  TemporaryFolder folder;
+  REQUIRE(runProgram(walk(folder.path(), {"--frames", "0:3", "--shard", "0/2"})).exit == 0);
+  CHECK(listOf(folder.path()) == std::vector<std::string>{"000.png", "002.png"});
+  const auto resumed = runProgram(walk(folder.path(), {"--frames", "0:3", "--resume", "--json"}));
+  REQUIRE_MESSAGE(resumed.exit == 0, resumed.err);
+  CHECK(resumed.json()["frames"] == 2);
+  CHECK(resumed.json()["frames_kept"] == 2);
+  CHECK(listOf(folder.path()).size() == 4);
+  const auto other = runProgram(walk(folder.path(), {"--frames", "0:3", "--resume", "--camera", "back"}));
+  CHECK(other.exit == 7);
+  CHECK(other.err.find("--resume cannot go on from it") != std::string::npos);
+}
+
+TEST_CASE("a picture goes to standard output, with alpha if asked") {
+  const auto outcome = runProgram({"render", "--size", "40x60", "--transparent", "-o", "-"});
+  REQUIRE(outcome.exit == 0);
+  const auto picture = decodePng(std::as_bytes(std::span(outcome.out)), "standard output");
+  REQUIRE(picture.ok());
+  CHECK(picture->rgba[3] == 0);
+}
+
+TEST_CASE("what cannot be drawn or written ends with the right code, a remedy and no rest") {
+  TemporaryFolder folder;
+  const auto output = (folder.path() / "{frame}.png").string();
+  const auto unknown = runProgram({"render", "--clip", "moonwalk", "-o", output});
+  CHECK(unknown.exit == 3);
+  CHECK(unknown.err.find("it has") != std::string::npos);
+  CHECK(unknown.err.find("walk") != std::string::npos);
+  CHECK(runProgram({"render", "--body", "/nowhere.glb", "--network", humanVessels().string(), "-o", output}).exit == 6);
+  CHECK(runProgram({"render", "--body", humanBody().string(), "--network", "/nowhere.vasa", "-o", output}).exit == 6);
+  CHECK(runProgram({"render", "--focus", "tail", "-o", output}).exit == 3);
+  const auto full = runProgram({"render", "--size", "32x32", "-o", "/dev/full"});
+  CHECK(full.exit == 6);
+  CHECK(full.err.find("No space left") != std::string::npos);
+  CHECK(runProgram({"render", "--size", "32x32", "-o", "/proc/nowhere/x.png"}).exit == 6);
+  CHECK(runProgram({"render", "--size", "32x32", "-o", "-"}, {.standardOutput = "/dev/full"}).exit == 6);
+  CHECK(listOf(folder.path()).empty());
+}
+
+TEST_CASE("Ctrl-C in the middle of an export leaves only whole pictures and no video") {
+  TemporaryFolder folder;
+  auto arguments = walk(folder.path(), {"--video", (folder.path() / "walk.mp4").string()});
+  arguments[4] = "1280x720";
+  const auto outcome = runProgram(arguments, {.signalAfterMs = 2500});
+  CHECK(outcome.exit == 130);
+  for (const auto& name : listOf(folder.path())) {
+    CHECK(name.ends_with(".png"));
+    CHECK(readPng(folder.path() / name).ok());
+  }
+}
