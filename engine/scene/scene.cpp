@@ -47,7 +47,7 @@ Result<Scene> loadScene(const SceneFile& file) {
   if (!network) return network.error();
   std::string names;
   for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
-  auto binding = bind(*body, *network, names);
+  auto binding = vasa::bind(*body, *network, names);
   if (!binding) return binding.error();
   return Scene{std::move(*body), std::move(*network), std::move(*binding)};
 }

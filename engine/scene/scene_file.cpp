@@ -114,8 +114,7 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
                  {"skin", reader.flag(look.skin)},
                  {"bones", reader.flag(look.bones)},
                  {"organs", reader.flag(look.organs)},
-                 {"arteries", reader.flag(look.arteries)},
-                 {"veins", reader.flag(look.veins)},
+                 {"vessels", reader.flag(look.vessels)},
                  {"skin_opacity", reader.number(look.skinOpacity, 0, 1)}});
 }
 
