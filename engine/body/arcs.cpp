@@ -1,0 +1,154 @@
+#include "body/arcs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/clip.h"
+
+namespace vasa {
+namespace {
+
+constexpr float kDegree = kPi / 180;
+constexpr float kAngleWithoutClips = 100 * kDegree;
+constexpr float kSmallestAngle = 40 * kDegree;
+constexpr float kLargestAngle = 160 * kDegree;
+constexpr float kAngleMargin = 1.1f;
+constexpr float kSteepestSlope = 1.5f;  // of smoothstep
+constexpr float kReachQuantile = 0.9f;
+constexpr float kBesideLink = 0.15f;       // of the link's length: another bone this near runs beside it
+constexpr float kShortestArcReach = 0.5f;  // of the body's height / 100
+constexpr std::size_t kFrameStep = 2;
+constexpr std::size_t kPointsLookedAt = 4000;
+
+/// A joint's largest bend; the axis is in rest directions, zero where any direction is possible.
+struct LargestBend {
+  float angle = 0;
+  vec3 axis{0};
+};
+
+std::vector<LargestBend> largestBends(const SpineSet& spines, const Body& body) {
+  std::vector<LargestBend> bends(spines.joints.size());
+  for (const Clip& clip : body.clips)
+    for (std::uint32_t f = 0; f < clip.frameCount(); f += kFrameStep) {
+      const Pose pose = samplePose(body.skeleton, clip, clip.timeOfFrame(f));
+      for (std::uint32_t j = 0; j < bends.size(); ++j) {
+        const vec3 bend = bendOf(spines, pose, {j});
+        const float angle = glm::length(bend);
+        if (angle > bends[j].angle) bends[j] = {angle, bend / angle};
+      }
+    }
+  for (LargestBend& bend : bends) {
+    if (body.clips.empty()) bend.angle = kAngleWithoutClips;
+    bend.angle = std::clamp(kAngleMargin * bend.angle, kSmallestAngle, kLargestAngle);
+  }
+  return bends;
+}
+
+/// The joint whose bones come before this joint's: joints without bones are passed over.
+JointId boneBefore(const SpineSet& spines, std::span<const float> own, JointId joint) {
+  JointId at = spines.joints[joint.value].parent;
+  while (at.valid() && own[at.value] >= BoneField::kFar) at = spines.joints[at.value].parent;
+  return at;
+}
+
+/// How far along the limb a joint's vessels are looked for: half the shorter of the links that meet there.
+float neighbourhood(const SpineSet& spines, std::size_t j) {
+  const SpineJoint& joint = spines.joints[j];
+  const float before = spines.joints[joint.parent.value].link;
+  const float after = joint.link > 0 ? joint.link : before;
+  return 0.5f * (before > 0 ? std::min(before, after) : after);
+}
+
+/// How far the points around each joint lie from its link, in the plane of its largest bend.
+std::vector<float> vesselReaches(const SpineSet& spines, const BoneField& bones, std::span<const vec4> points,
+                                 std::span<const LargestBend> bends) {
+  const std::size_t count = spines.joints.size();
+  std::vector<std::vector<float>> found(count);
+  std::vector<float> own(count);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsLookedAt);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const vec3 p(points[i]);
+    bones.distances(p, own);
+    const auto nearest = std::uint32_t(std::min_element(own.begin(), own.end()) - own.begin());
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const SpineJoint& joint = spines.joints[j];
+      if (!joint.parent.valid() || (nearest != j && boneBefore(spines, own, {j}) != JointId{nearest}))
+        continue;
+      const vec3 arm = p - joint.centre;
+      const vec3 axis = joint.axis != vec3(0) ? joint.axis : spines.joints[joint.parent.value].axis;
+      if (std::abs(glm::dot(arm, axis)) > neighbourhood(spines, j)) continue;
+      const vec3 across = arm - glm::dot(arm, axis) * axis;
+      const vec3 inward = glm::cross(bends[j].axis, axis);
+      const float length = glm::length(inward);
+      found[j].push_back(length > 0 ? std::abs(glm::dot(across, inward)) / length : glm::length(across));
+    }
+  }
+  std::vector<float> reach(count, 0.0f);
+  for (std::size_t j = 0; j < count; ++j) {
+    if (found[j].empty()) continue;
+    auto at = found[j].begin() + std::ptrdiff_t(kReachQuantile * float(found[j].size() - 1));
+    std::nth_element(found[j].begin(), at, found[j].end());
+    reach[j] = *at;
+  }
+  return reach;
+}
+
+/// Shortens arcs that would reach beyond the next joint of their limb, unless that is closer than the vessels
+/// are.
+void shortenArcs(SpineSet& spines, std::span<const float> reach) {
+  std::vector<float> longest(spines.joints.size(), BoneField::kFar);
+  for (std::size_t j = 0; j < spines.joints.size(); ++j)
+    for (JointId at = spines.joints[j].parent; at.valid(); at = spines.joints[at.value].parent) {
+      const float apart = glm::distance(spines.joints[j].centre, spines.joints[at.value].centre);
+      const std::size_t above = at.value;
+      if (apart < std::max(reach[j], reach[above])) continue;
+      longest[j] = std::min(longest[j], 2 * apart);
+      if (spines.joints[above].next == JointId{std::uint32_t(j)})
+        longest[above] = std::min(longest[above], 2 * apart);
+      break;
+    }
+  for (std::size_t j = 0; j < spines.joints.size(); ++j)
+    spines.joints[j].arc = std::min(spines.joints[j].arc, longest[j]);
+}
+
+bool boneRunsBeside(const SpineSet& spines, const BoneField& bones, std::size_t j) {
+  constexpr int kSamples = 9;
+  const SpineJoint& joint = spines.joints[j];
+  std::vector<float> own(spines.joints.size()), behind(own.size()), before(own.size());
+  int beside = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    bones.distances(joint.centre + joint.axis * (joint.link * (float(i) + 0.5f) / kSamples), own);
+    distancesAcrossJoints(spines, own, behind, before);
+    beside += before[j] < kBesideLink * joint.link;
+  }
+  return beside > kSamples * 2 / 3;
+}
+
+}  // namespace
+
+void distancesAcrossJoints(const SpineSet& spines, std::span<const float> own, std::span<float> behind,
+                           std::span<float> before) {
+  const std::size_t count = spines.joints.size();
+  std::copy(own.begin(), own.end(), behind.begin());
+  for (std::size_t j = count; j-- > 0;)
+    if (const JointId parent = spines.joints[j].parent; parent.valid())
+      behind[parent.value] = std::min(behind[parent.value], behind[j]);
+  for (std::size_t j = 0; j < count; ++j) {
+    const JointId parent = spines.joints[j].parent;
+    before[j] = parent.valid() ? std::min(own[parent.value], before[parent.value]) : BoneField::kFar;
+  }
+}
+
+void chooseArcs(SpineSet& spines, const Body& body, const BoneField& bones, std::span<const vec4> points) {
+  if (bones.fromMeshes())
+    for (std::size_t j = 0; j < spines.joints.size(); ++j)
+      spines.joints[j].spreadsTwist = spines.joints[j].spreadsTwist && boneRunsBeside(spines, bones, j);
+  const std::vector<LargestBend> bends = largestBends(spines, body);
+  const std::vector<float> reach = vesselReaches(spines, bones, points, bends);
+  const float shortest = kShortestArcReach * 0.01f * body.height();
+  for (std::size_t j = 0; j < spines.joints.size(); ++j)
+    spines.joints[j].arc = std::max(kSteepestSlope * bends[j].angle * reach[j], shortest);
+  shortenArcs(spines, reach);
+}
+
+}  // namespace vasa

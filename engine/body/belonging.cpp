@@ -1,0 +1,88 @@
+#include "body/belonging.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "body/bone_field.h"
+#include "math/closest_point.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kSamples = 400;
+constexpr float kOutsideHeights = 0.01f;
+constexpr float kFarHeights = 0.15f;
+constexpr float kMostOutside = 0.15f;
+
+/// The mesh that envelops the body: the largest one that is not moved by rigid parts.
+const TriangleMesh* skinOf(const Body& body) {
+  const TriangleMesh* skin = nullptr;
+  float largest = 0;
+  for (const SkinnedMesh& mesh : body.meshes) {
+    const vec3 extent = mesh.mesh.bounds().extent();
+    const float size = extent.x * extent.y * extent.z;
+    if (movesByRigidParts(mesh) || mesh.mesh.empty() || !(size > largest)) continue;
+    largest = size;
+    skin = &mesh.mesh;
+  }
+  return skin;
+}
+
+/// How often the mesh winds around p (van Oosterom and Strackee 1983): near 0 outside, also where it has
+/// holes.
+float windingNumber(const TriangleMesh& mesh, vec3 p) {
+  double sum = 0;
+  for (const uvec3 t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x] - p, b = mesh.positions[t.y] - p, c = mesh.positions[t.z] - p;
+    const float la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    const float denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)), denominator);
+  }
+  return float(std::abs(sum) / (4 * kPi));
+}
+
+bool outsideSkin(const TriangleMesh& skin, vec3 p, float margin) {
+  if (windingNumber(skin, p) >= 0.5f) return false;
+  for (const uvec3 t : skin.triangles) {
+    const vec3 nearest =
+        closestOnTriangle(p, skin.positions[t.x], skin.positions[t.y], skin.positions[t.z]).point;
+    if (glm::distance(nearest, p) <= margin) return false;
+  }
+  return true;
+}
+
+bool farFromLinks(const SpineSet& spines, vec3 p, float margin) {
+  for (const SpineJoint& joint : spines.joints) {
+    const vec3 from = joint.parent.valid() ? spines.joints[joint.parent.value].centre : joint.centre;
+    const vec3 nearest = glm::mix(from, joint.centre, closestOnSegment(p, from, joint.centre));
+    if (glm::distance(nearest, p) <= margin) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<const vec4> points,
+                          std::string_view name) {
+  const float height = body.height();
+  const TriangleMesh* skin = skinOf(body);
+  const std::size_t samples = std::min(points.size(), kSamples);
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const vec3 p(points[i * points.size() / samples]);
+    outside += skin ? outsideSkin(*skin, p, kOutsideHeights * height)
+                    : farFromLinks(spines, p, kFarHeights * height);
+  }
+  const float share = float(outside) / float(samples);
+  if (share <= kMostOutside) return {};
+  return badInput(fmt::format(
+      "{}: these vessels do not belong to the body {}: {:.0f} % of them lie {} at rest. Choose the body they "
+      "were made "
+      "for, or fit them to this one first (vasa fit {} --from THEIR_BODY.glb --to {} -o FITTED.vasa)",
+      name, body.name, 100 * share, skin ? "outside its skin" : "far from all of its joints", name,
+      body.name));
+}
+
+}  // namespace vasa

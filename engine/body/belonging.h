@@ -1,0 +1,19 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "body/body.h"
+#include "body/spine.h"
+#include "core/result.h"
+
+namespace vasa {
+
+/// Whether vessels lie in a body at rest, judged by a fixed sample of their points. With a skin, by the share
+/// that lies outside it by more than 1 % of the body's height; without, by the share farther than 15 % of it
+/// from every link. Fails with badInput that names both, the share and what helps, when it is above 15 %.
+/// @param points  (x, y, z, r) [m], at least one
+/// @param name    of the network, for the message
+Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<const vec4> points,
+                          std::string_view name);
+
+}  // namespace vasa

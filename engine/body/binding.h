@@ -1,0 +1,61 @@
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "body/body.h"
+#include "body/spine.h"
+#include "network/network.h"
+
+namespace vasa {
+
+/// What a point is bound to: a station of a spine and its share in the point's motion. The paper's "where
+/// along the link, at which angle around it, how far from it" is this station and the rest point in the
+/// station's rest frame, which the network holds already.
+struct BindingRecord {
+  float along;          ///< Station::along
+  std::uint16_t joint;  ///< Station::joint
+  std::uint16_t share;  ///< of kWholeShare; a point's records follow one another until theirs add up to it
+
+  Station station() const { return {{joint}, along}; }
+};
+static_assert(sizeof(BindingRecord) == 8);
+
+constexpr std::uint32_t kWholeShare = 65535;
+
+/// How a set of points hangs on a body. Most points have one record; those between limbs have one for each
+/// limb that takes part, and move to the mean of the places.
+struct Binding {
+  static constexpr std::size_t kBlock = 256;  ///< points that are found by one entry of firstRecord
+
+  SpineSet spines;
+  std::uint32_t pointCount = 0;
+  std::vector<BindingRecord> records;
+  std::vector<std::uint32_t> firstRecord;  ///< of every kBlock-th point
+
+  /// Bytes of the records and their index: the paper's "binding".
+  std::size_t bytes() const {
+    return records.size() * sizeof(BindingRecord) + firstRecord.size() * sizeof(std::uint32_t);
+  }
+};
+
+/// Binds points of a body at rest, first choosing the length of every joint's arc from them.
+///
+/// For each joint the points are told apart by how much nearer they are to the bones behind it than to those
+/// before it; the share of the joint's motion is a smoothstep of that difference over the arc's length
+/// L = 1.5 · angle · R, with the largest angle in the body's clips (100° without clips) and R the distance of
+/// the joint's vessels from it. Arcs of joints farther apart than R are shortened so that they do not
+/// overlap; joints closer together act as one, their arcs in sequence. At a fork of limbs, limbs less than
+/// twice as far away as the nearest take part. The map from a rest point to its posed place is continuous.
+///
+/// Fails with badInput: no joints, a broken rest transform, no points, or points that do not belong to this
+/// body (checkBelongs, body/belonging.h).
+/// @param points  (x, y, z, r) [m]; r is not looked at
+/// @param name    of what the points are, for messages: the network's file
+/// O(points · joints), in parallel; the result does not depend on the number of threads.
+Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name);
+
+/// Binds a network's de Boor points.
+Result<Binding> bind(const Body& body, const Network& network, std::string_view name);
+
+}  // namespace vasa

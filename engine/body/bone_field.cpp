@@ -1,0 +1,112 @@
+#include "body/bone_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nanoflann.hpp>
+
+#include "math/aabb.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kNearest = 6;
+constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
+constexpr float kRigidWeight = 0.99f;  // of a vertex
+constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
+constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
+constexpr std::uint32_t kLinkSamples = 24;
+
+struct Cloud {
+  std::vector<vec3> points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][int(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
+
+void addLink(std::vector<vec3>& points, vec3 from, vec3 to) {
+  for (std::uint32_t i = 0; i < kLinkSamples; ++i)
+    points.push_back(glm::mix(from, to, (float(i) + 0.5f) / float(kLinkSamples)));
+}
+
+void addLinks(const SpineSet& spines, std::vector<std::vector<vec3>>& points) {
+  for (std::size_t i = 0; i < spines.joints.size(); ++i) {
+    const SpineJoint& joint = spines.joints[i];
+    if (!joint.parent.valid()) continue;
+    const SpineJoint& parent = spines.joints[joint.parent.value];
+    if (joint.centre != parent.centre) addLink(points[joint.parent.value], parent.centre, joint.centre);
+    if (!joint.next.valid())
+      addLink(points[i], joint.centre, joint.centre + kTipShare * (joint.centre - parent.centre));
+  }
+}
+
+}  // namespace
+
+struct BoneField::Part {
+  std::unique_ptr<Cloud> cloud;
+  std::unique_ptr<Tree> tree;
+  Aabb box;
+};
+
+bool movesByRigidParts(const SkinnedMesh& mesh) {
+  std::size_t rigid = 0;
+  for (const SkinInfluence& influence : mesh.influences) {
+    const vec4 w = influence.weights;
+    rigid += std::max({w.x, w.y, w.z, w.w}) >= kRigidWeight;
+  }
+  return rigid > 0 && float(rigid) >= kRigidShare * float(mesh.influences.size());
+}
+
+BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.joints.size()) {
+  std::vector<std::vector<vec3>> points(spines.joints.size());
+  Aabb bounds;
+  for (const SpineJoint& joint : spines.joints) bounds.add(joint.centre);
+  for (const SkinnedMesh& mesh : body.meshes) {
+    if (!movesByRigidParts(mesh)) continue;
+    fromMeshes_ = true;
+    for (std::size_t v = 0; v < mesh.influences.size(); ++v) {
+      const SkinInfluence& influence = mesh.influences[v];
+      for (int k = 0; k < 4; ++k)
+        if (influence.weights[k] >= kRigidWeight)
+          points[influence.joints[std::size_t(k)]].push_back(mesh.mesh.positions[v]);
+    }
+  }
+  if (!fromMeshes_) addLinks(spines, points);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (points[i].empty()) continue;
+    Part& part = parts_[i];
+    for (vec3 p : points[i]) part.box.add(p), bounds.add(p);
+    part.cloud = std::make_unique<Cloud>(Cloud{std::move(points[i])});
+    part.tree = std::make_unique<Tree>(3, *part.cloud);
+    part.tree->buildIndex();
+  }
+  const vec3 extent = bounds.extent();
+  reach_ = kReachHeights * std::max({extent.x, extent.y, extent.z});
+}
+
+BoneField::~BoneField() = default;
+BoneField::BoneField(BoneField&&) noexcept = default;
+BoneField& BoneField::operator=(BoneField&&) noexcept = default;
+
+void BoneField::distances(vec3 p, std::span<float> distances) const {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    distances[i] = kFar;
+    if (!part.tree) continue;
+    const float toBox = glm::distance(p, glm::clamp(p, part.box.low, part.box.high));
+    distances[i] = toBox;
+    if (toBox > reach_) continue;
+    std::array<std::uint32_t, kNearest> index{};
+    std::array<float, kNearest> squared{};
+    const std::size_t found = part.tree->knnSearch(&p.x, kNearest, index.data(), squared.data());
+    float sum = 0;
+    for (std::size_t k = 0; k < found; ++k) sum += 1 / std::max(squared[k] * squared[k], 1e-20f);
+    distances[i] = std::pow(float(found) / sum, 0.25f);
+  }
+}
+
+}  // namespace vasa
