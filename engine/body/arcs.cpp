@@ -11,14 +11,20 @@ namespace {
 constexpr float kDegree = kPi / 180;
 constexpr float kAngleWithoutClips = 100 * kDegree;
 constexpr float kSmallestAngle = 40 * kDegree;
-constexpr float kLargestAngle = 160 * kDegree;
+constexpr float kLargestAngle = 150 * kDegree;
 constexpr float kAngleMargin = 1.1f;
-constexpr float kSteepestSlope = 1.5f;  // of smoothstep
-constexpr float kReachQuantile = 0.9f;
-constexpr float kBesideLink = 0.15f;       // of the link's length: another bone this near runs beside it
+constexpr float kSteepestSlope = 1.5f * 1.1f;  // of smoothstep, and of how the way from a joint is measured
+constexpr float kReachQuantile = 0.95f;
+constexpr float kBesideLink = 0.1f;        // of the link's length: another bone this near runs beside it
 constexpr float kShortestArcReach = 0.5f;  // of the body's height / 100
 constexpr std::size_t kFrameStep = 2;
 constexpr std::size_t kPointsLookedAt = 4000;
+
+/// Arc length for vessels at distance 1: they must not fold within the arc, nor the straight parts beyond its
+/// ends run into one another.
+float arcPerReach(float angle) {
+  return std::max(kSteepestSlope * kAngleMargin * angle, 2 * std::tan(0.5f * angle));
+}
 
 /// A joint's largest bend; the axis is in rest directions, zero where any direction is possible.
 struct LargestBend {
@@ -39,7 +45,7 @@ std::vector<LargestBend> largestBends(const SpineSet& spines, const Body& body) 
     }
   for (LargestBend& bend : bends) {
     if (body.clips.empty()) bend.angle = kAngleWithoutClips;
-    bend.angle = std::clamp(kAngleMargin * bend.angle, kSmallestAngle, kLargestAngle);
+    bend.angle = std::clamp(bend.angle, kSmallestAngle, kLargestAngle);
   }
   return bends;
 }
@@ -147,7 +153,7 @@ void chooseArcs(SpineSet& spines, const Body& body, const BoneField& bones, std:
   const std::vector<float> reach = vesselReaches(spines, bones, points, bends);
   const float shortest = kShortestArcReach * 0.01f * body.height();
   for (std::size_t j = 0; j < spines.joints.size(); ++j)
-    spines.joints[j].arc = std::max(kSteepestSlope * bends[j].angle * reach[j], shortest);
+    spines.joints[j].arc = std::max(arcPerReach(bends[j].angle) * reach[j], shortest);
   shortenArcs(spines, reach);
 }
 

@@ -18,8 +18,12 @@
 namespace vasa {
 namespace {
 
-constexpr float kNearness = 0.5f;  // a limb takes part if the nearest is nearer than it by no more than this
-constexpr float kSmallestTurn = 5e-4f;  // of a joint's motion
+constexpr float kSoftening = 0.2f;
+constexpr float kNarrowArc = 0.6f;      // of the way between the bones before and behind a joint
+constexpr float kNarrowestArc = 0.25f;  // of the arc
+constexpr float kNearness = 0.65f;  // a limb takes part if the nearest is nearer than it by no more than this
+constexpr float kLimbBlur = 0.02f;  // of the limbs' length, added to the distances that are compared
+constexpr float kSmallestTurn = 1e-3f;  // of a joint's motion
 constexpr float kSmallestShare = 0.004f;
 constexpr std::size_t kMostLimbs = 4;
 constexpr float kTwistTilt = 8;  // largest ratio by which nearness to one bone tilts the spread of twist
@@ -27,6 +31,26 @@ constexpr float kTwistTilt = 8;  // largest ratio by which nearness to one bone 
 float smoothstep(float x) {
   x = std::clamp(x, 0.0f, 1.0f);
   return x * x * (3 - 2 * x);
+}
+
+/// How far [m] a place is beyond the plane of a joint, from its distances to the bones before and behind:
+/// where these are two straight links, before² − behind² is ± the square of that way. The softening keeps the
+/// slope finite between bones that face each other.
+float beyond(float before, float behind) {
+  const float squares = before * before - behind * behind, soft = kSoftening * (before + behind);
+  return squares / std::max(std::sqrt(std::abs(squares) + soft * soft), 1e-9f);
+}
+
+/// Length [m] of the longest way from each joint to a tip, the link that leads to the joint included.
+std::vector<float> limbLengths(const SpineSet& spines) {
+  std::vector<float> lengths(spines.joints.size(), 0.0f);
+  for (std::size_t j = lengths.size(); j-- > 0;) {
+    const JointId parent = spines.joints[j].parent;
+    if (!parent.valid()) continue;
+    lengths[j] += glm::distance(spines.joints[j].centre, spines.joints[parent.value].centre);
+    lengths[parent.value] = std::max(lengths[parent.value], lengths[j]);
+  }
+  return lengths;
 }
 
 /// How a point moves with one limb: the stations of the joints that have set in partly, the deepest first.
@@ -54,6 +78,7 @@ class PointBinder {
         bend_(own_),
         twist_(own_),
         limbShare_(own_),
+        lengthBelow_(limbLengths(spines)),
         children_(spines.joints.size()) {
     for (std::uint32_t j = 0; j < spines.joints.size(); ++j) {
       const JointId parent = spines.joints[j].parent;
@@ -80,7 +105,7 @@ class PointBinder {
     if (behind_[j] >= BoneField::kFar)
       bend_[j] = 0;
     else if (joint.parent.valid() && before_[j] < BoneField::kFar)
-      bend_[j] = smoothstep(0.5f + (before_[j] - behind_[j]) / joint.arc);
+      bend_[j] = smoothstep(0.5f + beyond(before_[j], behind_[j]) / arcAt(j, p));
     if (!joint.spreadsTwist) return;
     const float way = smoothstep(glm::dot(p - joint.centre, joint.axis) / joint.link);
     float tilt = 1;
@@ -89,13 +114,25 @@ class PointBinder {
     twist_[j] = way / (way + tilt * (1 - way));
   }
 
+  /// Where the bones before and behind come close again away from the joint, as those of an arm beside the
+  /// chest, the arc narrows until each bone keeps what is on it.
+  float arcAt(std::size_t j, vec3 p) const {
+    const SpineJoint& joint = spines_.joints[j];
+    const float between = before_[j] + behind_[j], away = glm::distance(p, joint.centre);
+    const float narrow = std::clamp(kNarrowArc * between, kNarrowestArc * joint.arc, joint.arc);
+    const float share =
+        smoothstep(2 * away / joint.arc - 1) * smoothstep(2 - 2 * between / std::max(away, 1e-6f));
+    return glm::mix(joint.arc, narrow, share);
+  }
+
   /// Shares `weight` among the limbs that start with these joints, by how near they are.
   void chooseLimbs(std::span<const std::uint32_t> starts, float weight) {
     float nearest = BoneField::kFar;
     for (const std::uint32_t j : starts) nearest = std::min(nearest, behind_[j]);
-    float sum = 0;
+    float sum = 0, blur = 1e-6f;
+    for (const std::uint32_t j : starts) blur = std::max(blur, kLimbBlur * lengthBelow_[j]);
     for (const std::uint32_t j : starts) {
-      const float nearness = behind_[j] >= BoneField::kFar ? 0 : (nearest + 1e-6f) / (behind_[j] + 1e-6f);
+      const float nearness = behind_[j] >= BoneField::kFar ? 0 : (nearest + blur) / (behind_[j] + blur);
       limbShare_[j] = smoothstep((nearness - kNearness) / (1 - kNearness));
       sum += limbShare_[j];
     }
@@ -152,7 +189,7 @@ class PointBinder {
 
   const SpineSet& spines_;
   const BoneField& bones_;
-  std::vector<float> own_, behind_, before_, bend_, twist_, limbShare_;
+  std::vector<float> own_, behind_, before_, bend_, twist_, limbShare_, lengthBelow_;
   std::vector<std::vector<std::uint32_t>> children_;
   std::vector<std::uint32_t> roots_;
   std::vector<LimbShare> shares_;

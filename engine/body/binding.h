@@ -43,10 +43,11 @@ struct Binding {
 ///
 /// For each joint the points are told apart by how much nearer they are to the bones behind it than to those
 /// before it; the share of the joint's motion is a smoothstep of that difference over the arc's length
-/// L = 1.5 · angle · R, with the largest angle in the body's clips (100° without clips) and R the distance of
-/// the joint's vessels from it. Arcs of joints farther apart than R are shortened so that they do not
-/// overlap; joints closer together act as one, their arcs in sequence. At a fork of limbs, limbs less than
-/// twice as far away as the nearest take part. The map from a rest point to its posed place is continuous.
+/// L = max(1.8 · angle · R, 2 R tan(angle / 2)), with angle the largest in the body's clips (100° without
+/// clips) and R the distance of the joint's vessels from it. Arcs of joints farther apart than R are
+/// shortened so that they do not overlap; joints closer together act as one, their arcs in sequence. At a
+/// fork of limbs, limbs less than twice as far away as the nearest take part. The map from a rest point to
+/// its posed place is continuous.
 ///
 /// Fails with badInput: no joints, a broken rest transform, no points, or points that do not belong to this
 /// body (checkBelongs, body/belonging.h).

@@ -6,6 +6,7 @@
 #include <nanoflann.hpp>
 
 #include "math/aabb.h"
+#include "math/closest_point.h"
 
 namespace vasa {
 namespace {
@@ -15,7 +16,6 @@ constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
 constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
-constexpr std::uint32_t kLinkSamples = 24;
 
 struct Cloud {
   std::vector<vec3> points;
@@ -28,25 +28,33 @@ struct Cloud {
 };
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
 
-void addLink(std::vector<vec3>& points, vec3 from, vec3 to) {
-  for (std::uint32_t i = 0; i < kLinkSamples; ++i)
-    points.push_back(glm::mix(from, to, (float(i) + 0.5f) / float(kLinkSamples)));
-}
+using Links = std::vector<std::pair<vec3, vec3>>;
 
-void addLinks(const SpineSet& spines, std::vector<std::vector<vec3>>& points) {
+/// The links that each joint moves.
+std::vector<Links> linksOf(const SpineSet& spines) {
+  std::vector<Links> links(spines.joints.size());
   for (std::size_t i = 0; i < spines.joints.size(); ++i) {
     const SpineJoint& joint = spines.joints[i];
     if (!joint.parent.valid()) continue;
-    const SpineJoint& parent = spines.joints[joint.parent.value];
-    if (joint.centre != parent.centre) addLink(points[joint.parent.value], parent.centre, joint.centre);
+    const vec3 before = spines.joints[joint.parent.value].centre;
+    if (joint.centre != before) links[joint.parent.value].emplace_back(before, joint.centre);
     if (!joint.next.valid())
-      addLink(points[i], joint.centre, joint.centre + kTipShare * (joint.centre - parent.centre));
+      links[i].emplace_back(joint.centre, joint.centre + kTipShare * (joint.centre - before));
   }
+  return links;
+}
+
+float distanceToLinks(const Links& links, vec3 p) {
+  float nearest = BoneField::kFar;
+  for (const auto& [from, to] : links)
+    nearest = std::min(nearest, glm::distance(p, glm::mix(from, to, closestOnSegment(p, from, to))));
+  return nearest;
 }
 
 }  // namespace
 
 struct BoneField::Part {
+  Links links;
   std::unique_ptr<Cloud> cloud;
   std::unique_ptr<Tree> tree;
   Aabb box;
@@ -75,7 +83,10 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
           points[influence.joints[std::size_t(k)]].push_back(mesh.mesh.positions[v]);
     }
   }
-  if (!fromMeshes_) addLinks(spines, points);
+  if (!fromMeshes_) {
+    std::vector<Links> links = linksOf(spines);
+    for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].links = std::move(links[i]);
+  }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (points[i].empty()) continue;
     Part& part = parts_[i];
@@ -95,7 +106,7 @@ BoneField& BoneField::operator=(BoneField&&) noexcept = default;
 void BoneField::distances(vec3 p, std::span<float> distances) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    distances[i] = kFar;
+    distances[i] = distanceToLinks(part.links, p);
     if (!part.tree) continue;
     const float toBox = glm::distance(p, glm::clamp(p, part.box.low, part.box.high));
     distances[i] = toBox;

@@ -216,19 +216,14 @@ vec3 SpinePose::place(Station station, vec3 p) const {
   return centre + scale * (rotation(station) * (p - m.centre));
 }
 
-vec3 SpinePose::placeByLinearBlend(Station station, vec3 p) const {
-  const Motion& m = motions_[station.joint.value];
-  const float share = std::clamp(station.along, 0.0f, 1.0f);
-  const vec3 arm = p - m.centre;
-  return (1 - share) * (m.centreBefore + m.scaleBefore * (m.before * arm)) +
-         share * (m.centreAfter + m.scaleAfter * (m.after * arm));
+vec3 SpinePose::placeBefore(JointId joint, vec3 p) const {
+  const Motion& m = motions_[joint.value];
+  return m.centreBefore + m.scaleBefore * (m.before * (p - m.centre));
 }
 
-vec3 SpinePose::turnByLinearBlend(Station station, vec3 p) const {
-  const Motion& m = motions_[station.joint.value];
-  const float share = station.along <= 1 ? station.along : station.along - 1;
-  const vec3 turned = m.centre + turning({station.joint, station.along <= 1 ? 1.0f : 2.0f}) * (p - m.centre);
-  return glm::mix(p, turned, share);
+vec3 SpinePose::placeAfter(JointId joint, vec3 p) const {
+  const Motion& m = motions_[joint.value];
+  return m.centreAfter + m.scaleAfter * (m.after * (p - m.centre));
 }
 
 vec3 bendOf(const SpineSet& spines, const Pose& pose, JointId id) {

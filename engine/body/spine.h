@@ -68,10 +68,9 @@ class SpinePose {
   quat rotation(Station station) const;
   quat turning(Station station) const;
 
-  /// The same by linear blend skinning, bone before against bone after in the shares of the station: for
-  /// comparison only.
-  vec3 placeByLinearBlend(Station station, vec3 p) const;
-  vec3 turnByLinearBlend(Station station, vec3 p) const;
+  /// Where the bone before a joint, and the joint's own bone, take a rest point.
+  vec3 placeBefore(JointId joint, vec3 p) const;
+  vec3 placeAfter(JointId joint, vec3 p) const;
 
  private:
   struct Motion {
