@@ -79,11 +79,9 @@ Result<void> run(const Globals& globals) {
 }  // namespace
 
 void addDevices(CLI::App& app, Command& command) {
-  CLI::App* devices = app.add_subcommand("devices",
-                                         "List the Vulkan devices and what each lacks\n"
-                                         "  vasa devices\n"
-                                         "  vasa devices --json --device llvmpipe\n"
-                                         "An asterisk marks the device that other commands use.");
+  CLI::App* devices = app.add_subcommand("devices", "Vulkan devices, and what each lacks");
+  devices->footer("Examples:\n  vasa devices\n  vasa devices --json --device llvmpipe\n"
+                  "An asterisk marks the device that other commands use.");
   devices->callback([&command] { command.run = [&command] { return run(command.globals); }; });
 }
 
