@@ -38,6 +38,7 @@ Buffer::Buffer(Device& device, const BufferSpec& spec) : bytes_(spec.bytes) {
   VkBufferDeviceAddressInfo addressInfo{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, buffer};
   address_ = vkGetBufferDeviceAddress(device.handle(), &addressInfo);
   assert(address_ % 16 == 0);
+  if (AddressMap* map = device.addresses()) known_ = map->add(address_, info.size, buffer);
 }
 
 void Buffer::writeBytes(const void* data, std::size_t bytes, VkDeviceSize offset) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 
 #include "gpu/memory.h"
@@ -58,6 +59,7 @@ class Buffer {
   void writeBytes(const void* data, std::size_t bytes, VkDeviceSize offset);
   void readBytes(void* data, std::size_t bytes, VkDeviceSize offset) const;
 
+  std::shared_ptr<void> known_;  // the entry of the device's address map
   Memory memory_;
   Unique<VkBuffer> buffer_;
   VkDeviceSize bytes_ = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "gpu/address_shadow.h"
 #include "gpu/buffer.h"
 #include "gpu/pipeline.h"
 
@@ -36,8 +37,9 @@ class ComputePipeline {
   template <PushConstants Push>
   void dispatch(VkCommandBuffer commands, const Push& push, std::uint32_t x, std::uint32_t y = 1,
                 std::uint32_t z = 1) const {
+    if (!worthDispatching({x, y, z})) return;
     bind(commands, &push, sizeof push);
-    dispatchGroups(commands, {x, y, z});
+    vkCmdDispatch(commands, x, y, z);
   }
   /// The same with a VkDispatchIndirectCommand that the device finds at `offset` in `arguments`.
   template <PushConstants Push>
@@ -49,11 +51,12 @@ class ComputePipeline {
 
  private:
   void bind(VkCommandBuffer commands, const void* push, std::uint32_t bytes) const;
-  void dispatchGroups(VkCommandBuffer commands, std::array<std::uint32_t, 3> groups) const;
+  bool worthDispatching(std::array<std::uint32_t, 3> groups) const;
 
   std::string name_;
   std::uint32_t pushBytes_ = 0;
   std::array<std::uint32_t, 3> mostGroups_{};
+  AddressShadow shadow_;
   Unique<VkPipelineLayout> layout_;
   Unique<VkPipeline> pipeline_;
 };

@@ -4,10 +4,11 @@
 
 namespace vasa::gpu {
 
-Device::Device(const DeviceOptions& options) : instance_({options.validation, options.instanceExtensions}) {
+Device::Device(const DeviceOptions& options) : instance_({options.validation, options.instanceExtensions}), gpuAssisted_(options.validation.gpuAssisted) {
   choose(options.choice);
   create(options);
   if (options.validation.any()) loadLabels();
+  if (options.validation.synchronization) followAddresses();
   VkPipelineCacheCreateInfo cacheInfo{};
   cacheInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
   VkPipelineCache cache = VK_NULL_HANDLE;
@@ -53,13 +54,15 @@ void Device::create(const DeviceOptions& options) {
   queueInfo.queueFamilyIndex = adapter_.queueFamily;
   queueInfo.queueCount = 1;
   queueInfo.pQueuePriorities = &priority;
+  std::vector<const char*> extensions = options.deviceExtensions;
+  if (options.validation.synchronization) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = features_.chain();
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queueInfo;
-  info.enabledExtensionCount = std::uint32_t(options.deviceExtensions.size());
-  info.ppEnabledExtensionNames = options.deviceExtensions.data();
+  info.enabledExtensionCount = std::uint32_t(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physical_, &info, nullptr, &owner_.device), "vkCreateDevice");
 }
 
@@ -68,6 +71,12 @@ void Device::loadLabels() {
   labels_.setName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(find("vkSetDebugUtilsObjectNameEXT"));
   labels_.begin = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(find("vkCmdBeginDebugUtilsLabelEXT"));
   labels_.end = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(find("vkCmdEndDebugUtilsLabelEXT"));
+}
+
+void Device::followAddresses() {
+  addresses_ = std::make_unique<AddressMap>();
+  pushDescriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
+      vkGetDeviceProcAddr(handle(), "vkCmdPushDescriptorSetKHR"));
 }
 
 void Device::setObjectName(VkObjectType type, std::uint64_t handle, std::string_view name) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/adapter.h"
+#include "gpu/address_map.h"
 #include "gpu/features.h"
 #include "gpu/instance.h"
 #include "gpu/queue.h"
@@ -47,6 +48,11 @@ class Device {
   std::uint32_t timestampBits() const { return timestampBits_; }  ///< 0: no timestamps
 
   Queue& queue() { return *queue_; }
+  bool gpuAssisted() const { return gpuAssisted_; }
+
+  /// Where buffers lie, and vkCmdPushDescriptorSetKHR; nullptr unless synchronization is validated.
+  AddressMap* addresses() { return addresses_.get(); }
+  PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
 
   /// Shown in validation messages and by debuggers; does nothing without validation.
   template <class Handle>
@@ -74,6 +80,7 @@ class Device {
   void choose(const std::string& choice);
   void create(const DeviceOptions& options);
   void loadLabels();
+  void followAddresses();
   void setObjectName(VkObjectType type, std::uint64_t handle, std::string_view name) const;
 
   Instance instance_;
@@ -83,6 +90,8 @@ class Device {
   VkPhysicalDeviceMemoryProperties memory_{};
   Features features_;
   std::uint32_t timestampBits_ = 0;
+  bool gpuAssisted_;
+  std::unique_ptr<AddressMap> addresses_;
   Labels labels_;
   Owner owner_;
   Unique<VkPipelineCache> pipelineCache_;

@@ -78,6 +78,7 @@ class Queue {
   Commands::Slot* freeSlot();
 
   Device& device_;
+  bool immediate_;  // each submit waits until it is done
   VkQueue queue_ = VK_NULL_HANDLE;
   Unique<VkSemaphore> timeline_;
   std::uint64_t submitted_ = 0;
