@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collide/closest_tubes.h"
+#include "collide/contact_search.h"
 #include "collide/kernels.h"
 #include "core/parallel.h"
 
@@ -58,6 +59,7 @@ struct TubeDetector::State {
   float margin = 0;
   std::vector<Worker> workers;
   std::vector<TubePair> pairs;
+  std::vector<Contact> contacts;
 };
 
 void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
@@ -212,6 +214,19 @@ std::span<const TubePair> TubeDetector::detect() {
     state.pairs.insert(state.pairs.end(), worker.pairs.begin(), worker.pairs.end());
   std::sort(state.pairs.begin(), state.pairs.end());
   return state.pairs;
+}
+
+std::span<const Contact> TubeDetector::contacts() {
+  State& state = *state_;
+  state.contacts.resize(state.pairs.size());
+  parallelFor(state.pairs.size(), 64, [&state](std::size_t k) {
+    const TubePair pair = state.pairs[k];
+    Contact contact = nearestPlace(state.tubes[pair.i], state.tubes[pair.j]);
+    contact.i = pair.i;
+    contact.j = pair.j;
+    state.contacts[k] = contact;
+  });
+  return state.contacts;
 }
 
 TubeDetector::Statistics TubeDetector::statistics() const {

@@ -1,0 +1,122 @@
+#include "collide/contact_search.h"
+
+#include <algorithm>
+#include <array>
+
+#include "math/segment_distance.h"
+
+// f(s, t) = |A(s) - B(t)| - r_a(s) - r_b(t). Newton with the positive part of its Hessian, kept inside the unit square:
+// a parameter at the square's edge that wants out stays there. A step that does not lower f is halved.
+namespace vasa {
+namespace {
+
+constexpr int kPieces = 4;
+constexpr int kSteps = 8;
+
+struct Curve {
+  std::array<dvec4, 4> b;
+
+  Curve(const Bezier& tube, const dvec4& origin) {
+    for (std::size_t k = 0; k < 4; ++k) b[k] = dvec4(tube.b[k]) - origin;
+  }
+  dvec4 at(double t) const {
+    const double s = 1 - t;
+    return s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
+  }
+  dvec4 first(double t) const {
+    const double s = 1 - t;
+    return 3.0 * (s * s * (b[1] - b[0]) + 2 * s * t * (b[2] - b[1]) + t * t * (b[3] - b[2]));
+  }
+  dvec4 second(double t) const { return 6.0 * ((1 - t) * (b[0] - 2.0 * b[1] + b[2]) + t * (b[1] - 2.0 * b[2] + b[3])); }
+};
+
+struct State {
+  double s, t, f;
+  dvec3 gap;
+};
+
+State evaluate(const Curve& a, const Curve& b, double s, double t) {
+  const dvec4 p = a.at(s), q = b.at(t);
+  const dvec3 gap = dvec3(p) - dvec3(q);
+  return {s, t, glm::length(gap) - p.w - q.w, gap};
+}
+
+State chordStart(const Curve& a, const Curve& b) {
+  dvec4 pa[kPieces + 1], pb[kPieces + 1];
+  for (int k = 0; k <= kPieces; ++k) pa[k] = a.at(double(k) / kPieces), pb[k] = b.at(double(k) / kPieces);
+  double best = std::numeric_limits<double>::infinity(), s = 0, t = 0;
+  for (int i = 0; i < kPieces; ++i)
+    for (int j = 0; j < kPieces; ++j) {
+      const auto near = closestOnSegments(dvec3(pa[i]), dvec3(pa[i + 1]), dvec3(pb[j]), dvec3(pb[j + 1]));
+      const double f = near.distance - glm::mix(pa[i].w, pa[i + 1].w, near.s) - glm::mix(pb[j].w, pb[j + 1].w, near.t);
+      if (f < best) best = f, s = (i + near.s) / kPieces, t = (j + near.t) / kPieces;
+    }
+  return evaluate(a, b, s, t);
+}
+
+// The Newton direction at a state, before it is kept inside the square.
+struct Direction {
+  double ds, dt;
+};
+
+Direction newton(const Curve& a, const Curve& b, const State& at) {
+  const double distance = std::max(glm::length(at.gap), 1e-12);
+  const dvec3 n = at.gap / distance;
+  const dvec4 a1 = a.first(at.s), b1 = b.first(at.t), a2 = a.second(at.s), b2 = b.second(at.t);
+  const dvec3 u(a1), v(b1);
+  const double gs = glm::dot(n, u) - a1.w, gt = -glm::dot(n, v) - b1.w;
+  const double nu = glm::dot(n, u), nv = glm::dot(n, v), floor = 1e-3 * (glm::dot(u, u) + glm::dot(v, v)) / distance + 1e-300;
+  double ss = (glm::dot(u, u) - nu * nu) / distance + glm::dot(n, dvec3(a2)) - a2.w;
+  double tt = (glm::dot(v, v) - nv * nv) / distance - glm::dot(n, dvec3(b2)) - b2.w;
+  double st = -(glm::dot(u, v) - nu * nv) / distance;
+  ss = std::max(ss, floor);
+  tt = std::max(tt, floor);
+  if (st * st > 0.998 * ss * tt) st *= std::sqrt(0.998 * ss * tt) / std::abs(st);
+  const bool holdS = (at.s <= 0 && gs > 0) || (at.s >= 1 && gs < 0), holdT = (at.t <= 0 && gt > 0) || (at.t >= 1 && gt < 0);
+  if (holdS && holdT) return {0, 0};
+  if (holdS) return {0, -gt / tt};
+  if (holdT) return {-gs / ss, 0};
+  const double determinant = ss * tt - st * st;
+  return {-(gs * tt - gt * st) / determinant, -(gt * ss - gs * st) / determinant};
+}
+
+Contact descend(const Curve& a, const Curve& b, State at) {
+  for (int k = 0; k < kSteps; ++k) {
+    const auto [ds, dt] = newton(a, b, at);
+    if (std::abs(ds) + std::abs(dt) < 1e-9) break;
+    double share = 1;
+    State next = at;
+    for (int halving = 0; halving < 6; ++halving, share *= 0.5) {
+      next = evaluate(a, b, glm::clamp(at.s + share * ds, 0.0, 1.0), glm::clamp(at.t + share * dt, 0.0, 1.0));
+      if (next.f < at.f) break;
+    }
+    if (!(next.f < at.f)) break;
+    at = next;
+  }
+  Contact contact{0, 1, float(at.s), float(at.t), float(at.f), {}};
+  const double distance = glm::length(at.gap);
+  if (distance > 0) {
+    contact.normal = vec3(at.gap / distance);
+  } else {
+    const dvec3 across = glm::cross(dvec3(a.first(at.s)), dvec3(b.first(at.t)));
+    const double length = glm::length(across);
+    contact.normal = length > 0 ? vec3(across / length) : vec3(0, 0, 1);
+  }
+  return contact;
+}
+
+}  // namespace
+
+Contact nearestPlace(const Bezier& a, const Bezier& b) {
+  const dvec4 origin(dvec3(a.b[0]), 0);
+  const Curve ca(a, origin), cb(b, origin);
+  return descend(ca, cb, chordStart(ca, cb));
+}
+
+Contact nearestPlaceFrom(const Bezier& a, const Bezier& b, float s, float t) {
+  const dvec4 origin(dvec3(a.b[0]), 0);
+  const Curve ca(a, origin), cb(b, origin);
+  return descend(ca, cb, evaluate(ca, cb, s, t));
+}
+
+}  // namespace vasa

@@ -1,0 +1,149 @@
+#include "collide/network_tubes.h"
+
+#include <algorithm>
+#include <map>
+#include <queue>
+#include <tuple>
+
+#include "math/quadrature.h"
+
+// Neighbours come from a graph whose places are the spans' ends and the points where side branches sit, and whose edges are
+// the stretches between places of one span, as long as the arc. A node's ends are one place. From the places of each
+// tube a shortest-path search runs as far as radii may reach; every tube that has a place within reach is linked.
+namespace vasa {
+namespace {
+
+float arcLength(const Bezier& tube) {
+  float sum = 0;
+  for (const auto& [t, weight] : kGauss4) sum += weight * glm::length(vec3(tube.derivative(t)));
+  return sum;
+}
+
+struct Place {
+  std::uint32_t id;
+  float t;  // on the tube
+};
+
+struct Graph {
+  std::vector<std::vector<Place>> placesOf;  // tube -> places, by t
+  struct Visit {
+    std::uint32_t tube;
+    float t;
+  };
+  std::vector<std::vector<Visit>> tubesAt;  // place -> tubes
+};
+
+Graph buildGraph(const Network& network, const NetworkTubes& tubes) {
+  Graph graph;
+  graph.placesOf.resize(tubes.count());
+  std::uint32_t next = std::uint32_t(network.nodes().size());
+  for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
+    const Vessel& vessel = network.vessels()[v];
+    for (std::uint32_t knot = 0; knot <= vessel.spanCount(); ++knot) {
+      std::uint32_t id = next;
+      if (knot == 0 && vessel.start.valid()) id = vessel.start.value;
+      if (knot == vessel.spanCount() && vessel.end.valid()) id = vessel.end.value;
+      if (id == next) ++next;
+      if (knot > 0) graph.placesOf[tubes.tube({v}, knot - 1)].push_back({id, 1});
+      if (knot < vessel.spanCount()) graph.placesOf[tubes.tube({v}, knot)].push_back({id, 0});
+    }
+  }
+  for (std::uint32_t n = 0; n < network.nodes().size(); ++n) {
+    const Node& node = network.nodes()[n];
+    if (!node.host) continue;
+    const SpanParameter at = locate(node.host->parameter, network.vessel(node.host->vessel).spanCount());
+    graph.placesOf[tubes.tube(node.host->vessel, at.span)].push_back({n, at.t});
+  }
+  graph.tubesAt.resize(next);
+  for (std::uint32_t tube = 0; tube < tubes.count(); ++tube) {
+    auto& places = graph.placesOf[tube];
+    std::sort(places.begin(), places.end(), [](Place a, Place b) { return std::tie(a.t, a.id) < std::tie(b.t, b.id); });
+    for (const Place& place : places) graph.tubesAt[place.id].push_back({tube, place.t});
+  }
+  return graph;
+}
+
+// All links of one tube to tubes of a higher number.
+class LinkSearch {
+ public:
+  LinkSearch(const Graph& graph, std::span<const Bezier> tubes, std::span<const float> lengths, float reach)
+      : graph_(graph), tubes_(tubes), lengths_(lengths), reach_(reach) {
+    for (const Bezier& tube : tubes) largest_ = std::max(largest_, radiusOf(tube));
+  }
+
+  void linksOf(std::uint32_t tube, std::vector<TubeLink>& links) {
+    for (const Place& start : graph_.placesOf[tube]) {
+      search(start.id, reach_ * (radiusOf(tubes_[tube]) + largest_));
+      for (const auto& [place, gap] : settled_)
+        for (const auto& [other, t] : graph_.tubesAt[place])
+          if (other > tube && gap < reach_ * (radiusOf(tubes_[tube]) + radiusOf(tubes_[other])))
+            links.push_back({tube, other, start.t, t, gap});
+    }
+  }
+
+ private:
+  static float radiusOf(const Bezier& tube) {
+    return std::max(std::max(tube.b[0].w, tube.b[1].w), std::max(tube.b[2].w, tube.b[3].w));
+  }
+
+  void search(std::uint32_t start, float limit) {
+    using Open = std::pair<float, std::uint32_t>;
+    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    settled_.clear();
+    open.push({0, start});
+    while (!open.empty()) {
+      const auto [distance, place] = open.top();
+      open.pop();
+      if (distance >= limit) return;
+      if (!settled_.emplace(place, distance).second) continue;
+      for (const auto& [tube, t] : graph_.tubesAt[place])
+        for (const Place& next : graph_.placesOf[tube])
+          open.push({distance + std::abs(next.t - t) * lengths_[tube], next.id});
+    }
+  }
+
+  const Graph& graph_;
+  std::span<const Bezier> tubes_;
+  std::span<const float> lengths_;
+  float reach_, largest_ = 0;
+  std::map<std::uint32_t, float> settled_;
+};
+
+}  // namespace
+
+NetworkTubes::NetworkTubes(const Network& network, float reach) {
+  for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
+    const Vessel& vessel = network.vessels()[v];
+    runs_.push_back({vessel.firstPoint, vessel.spanCount()});
+    firstTube_.push_back(count());
+    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) addresses_.push_back({{v}, span});
+  }
+  std::vector<Bezier> tubes(count());
+  shape(network.points(), tubes);
+  std::vector<float> lengths;
+  for (const Bezier& tube : tubes) lengths.push_back(arcLength(tube));
+  const Graph graph = buildGraph(network, *this);
+  LinkSearch search(graph, tubes, lengths, reach);
+  std::vector<TubeLink> links;
+  for (std::uint32_t tube = 0; tube < count(); ++tube) search.linksOf(tube, links);
+  neighbours_ = Neighbours(lengths, std::move(links), reach);
+}
+
+void NetworkTubes::shape(std::span<const vec4> points, std::span<Bezier> tubes) const {
+  Bezier* next = tubes.data();
+  for (const Run& run : runs_) {
+    const std::span<const vec4> own = points.subspan(run.firstPoint, run.spans + 3);
+    for (std::uint32_t span = 0; span < run.spans; ++span, ++next) {
+      const vec4* d = &own[span];
+      // Away from the clamped ends every span has the uniform weights.
+      if (span >= 2 && span + 3 <= run.spans) {
+        const vec4 b1 = (2.0f * d[1] + d[2]) / 3.0f, b2 = (d[1] + 2.0f * d[2]) / 3.0f;
+        *next = {{(d[0] + 4.0f * d[1] + d[2]) / 6.0f, b1, b2, (d[1] + 4.0f * d[2] + d[3]) / 6.0f}};
+      } else {
+        *next = bezierOfSpan(own, span);
+      }
+    }
+  }
+}
+
+}  // namespace vasa

@@ -1,0 +1,81 @@
+#include "collide/network_tubes.h"
+
+#include <doctest/doctest.h>
+
+#include "collide/closest_tubes.h"
+#include "network/builder.h"
+#include "support/networks.h"
+
+using namespace vasa;
+
+namespace {
+
+std::vector<Bezier> shapeOf(const NetworkTubes& tubes, const Network& network) {
+  std::vector<Bezier> shape(tubes.count());
+  tubes.shape(network.points(), shape);
+  return shape;
+}
+
+// A straight vessel along x, and a branch that leaves its side at u = 3.25 along +z.
+Network tee() {
+  NetworkBuilder builder;
+  std::vector<vec4> host, branch;
+  for (int k = 0; k < 13; ++k) host.emplace_back(0.1f * float(k), 0, 0, 0.02f);
+  const VesselId hostId = builder.addVessel({"host", "", VesselKind::artery}, host);
+  const vec4 root = evaluate(host, 3.25f);
+  for (int k = 0; k < 7; ++k) branch.emplace_back(root.x, 0, 0.1f * float(k), 0.02f);
+  const VesselId branchId = builder.addVessel({"branch", "", VesselKind::artery}, branch);
+  builder.joinToSide({branchId, false}, {hostId, 3.25f});
+  auto network = builder.build(1);
+  REQUIRE(network.ok());
+  return std::move(*network);
+}
+
+}  // namespace
+
+TEST_CASE("tubes are the spans, vessel after vessel, in any shape") {
+  const Network network = test::windingNetwork(20, 3);
+  const NetworkTubes tubes(network);
+  CHECK(tubes.count() == network.sweepCount());
+  const auto shape = shapeOf(tubes, network);
+  for (std::uint32_t i = 0; i < tubes.count(); ++i) {
+    const auto [vessel, span] = tubes.address(i);
+    CHECK(tubes.tube(vessel, span) == i);
+    const Bezier expected = bezierOfSpan(network.pointsOf(network.vessel(vessel)), span);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(glm::length(shape[i].b[k] - expected.b[k]) < 1e-6f);
+  }
+}
+
+TEST_CASE("neighbours: along a vessel and from a side branch into its host") {
+  const NetworkTubes tubes(tee(), 2);
+  const auto& exclusions = tubes.neighbours().exclusions();
+  CHECK(exclusions.contains(4, 5));
+  CHECK(!exclusions.contains(4, 6));
+  const std::uint32_t branch = tubes.tube({1}, 0);
+  CHECK(exclusions.contains(3, branch));
+  CHECK(exclusions.contains(2, branch));
+  CHECK(!exclusions.contains(5, branch));
+  const NeighbourPair* pair = tubes.neighbours().find({3, branch});
+  REQUIRE(pair);
+  bool atTheSide = false;
+  for (const TubeLink& link : tubes.neighbours().links(*pair)) atTheSide |= link.s == 0.25f && link.t == 0 && link.gap == 0;
+  CHECK(atTheSide);
+  CHECK(!tubes.neighbours().find({0, 9}));
+}
+
+TEST_CASE("a straight run and a right-angled branch do not meet where points count; a fold does") {
+  const Network network = tee();
+  const NetworkTubes tubes(network, 2);
+  auto shape = shapeOf(tubes, network);
+  CHECK(intersectingNeighbours(shape, tubes.neighbours(), 1e-8).empty());
+  const NeighbourPair* next = tubes.neighbours().find({6, 7});
+  REQUIRE(next);
+  CHECK(neighboursRunOn(shape[6], shape[7], tubes.neighbours(), *next, 0));
+  // Tube 7 folded back onto tube 6, 0.01 beside it.
+  for (std::size_t k = 0; k < 4; ++k) shape[7].b[k] = shape[6].b[3 - k] + vec4(0, 0.01f * float(k) / 3, 0, 0);
+  CHECK(!neighboursRunOn(shape[6], shape[7], tubes.neighbours(), *next, 0));
+  CHECK(neighboursIntersect(shape[6], shape[7], tubes.neighbours(), *next, 1e-8));
+  const Contact contact = closestOfNeighbours(shape[6], shape[7], tubes.neighbours(), *next, 1e-6);
+  CHECK(contact.f < -0.02f);
+  CHECK((1 - contact.s) * next->lengthI + contact.t * next->lengthJ >= 2 * 0.04f - 1e-5f);
+}
