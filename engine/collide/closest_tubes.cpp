@@ -110,7 +110,8 @@ struct Admission {
 
   bool point(double s, double t, double radii) const {
     for (const TubeLink& link : links)
-      if (std::abs(s - link.s) * lengthI + link.gap + std::abs(t - link.t) * lengthJ < reach * radii) return false;
+      if (std::abs(s - link.s) * lengthI + link.gap + std::abs(t - link.t) * lengthJ < reach * radii)
+        return false;
     return true;
   }
   // False only if no point of the two pieces counts.
@@ -153,8 +154,8 @@ struct Search {
   // A pair of pieces is dropped once it cannot hold a value that matters.
   double threshold() const { return std::min(best, asks ? limit : best) - tolerance; }
 
-  // Where only some points count, the nearest may not: the pieces' corners are looked at too, and pieces of no
-  // extent are given up.
+  // Where only some points count, the nearest may not: the pieces' corners are looked at too, and pieces of
+  // no extent are given up.
   bool tryCorners(const Piece& pa, const Piece& pb) {
     if (!admission.any(pa, pb)) return false;
     for (const double s : {pa.from, pa.to})
@@ -239,22 +240,22 @@ Contact closestOfTubes(const Bezier& a, const Bezier& b, double tolerance) {
   return contactOf(searchOf(a, b, tolerance, false, 0));
 }
 
-bool neighboursIntersect(const Bezier& a, const Bezier& b, const Neighbours& neighbours, const NeighbourPair& pair,
-                         double tolerance, double margin) {
+bool neighboursIntersect(const Bezier& a, const Bezier& b, const Neighbours& neighbours,
+                         const NeighbourPair& pair, double tolerance, double margin) {
   return searchOf(a, b, tolerance, true, margin, admissionOf(neighbours, pair)).best < margin;
 }
 
-Contact closestOfNeighbours(const Bezier& a, const Bezier& b, const Neighbours& neighbours, const NeighbourPair& pair,
-                            double tolerance) {
+Contact closestOfNeighbours(const Bezier& a, const Bezier& b, const Neighbours& neighbours,
+                            const NeighbourPair& pair, double tolerance) {
   return contactOf(searchOf(a, b, tolerance, false, 0, admissionOf(neighbours, pair)));
 }
 
-// The way from a point of a over the link to a point of b advances along an axis by at least |Δs| m_a + D + |Δt| m_b:
-// m is the least component of a control polygon's steps, taken thrice, and D the advance between the link's two
-// points. Where each of the three is at least c times its arc length, points that count are at least
-// c reach (r_a + r_b) apart.
-bool neighboursRunOn(const Bezier& a, const Bezier& b, const Neighbours& neighbours, const NeighbourPair& pair,
-                     float margin) {
+// The way from a point of a over the link to a point of b advances along an axis by at least |Δs| m_a + D +
+// |Δt| m_b: m is the least component of a control polygon's steps, taken thrice, and D the advance between
+// the link's two points. Where each of the three is at least c times its arc length, points that count are at
+// least c reach (r_a + r_b) apart.
+bool neighboursRunOn(const Bezier& a, const Bezier& b, const Neighbours& neighbours,
+                     const NeighbourPair& pair, float margin) {
   for (const TubeLink& link : neighbours.links(pair)) {
     if ((link.s != 0 && link.s != 1) || (link.t != 0 && link.t != 1)) continue;
     const float towards = link.s == 1 ? 1.0f : -1.0f, away = link.t == 0 ? 1.0f : -1.0f;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "math/segment_distance.h"
 
-// f(s, t) = |A(s) - B(t)| - r_a(s) - r_b(t). Newton with the positive part of its Hessian, kept inside the unit square:
-// a parameter at the square's edge that wants out stays there. A step that does not lower f is halved.
+// f(s, t) = |A(s) - B(t)| - r_a(s) - r_b(t). Newton on its parabola from above, |x| <= (|x|²/d + d) / 2 with
+// d the present distance, which touches it to second order where the gap is at right angles to both curves,
+// and is safe far away. Kept inside the unit square: a parameter at the edge that wants out stays there. A
+// step that does not lower f is halved.
 namespace vasa {
 namespace {
 
@@ -27,7 +31,9 @@ struct Curve {
     const double s = 1 - t;
     return 3.0 * (s * s * (b[1] - b[0]) + 2 * s * t * (b[2] - b[1]) + t * t * (b[3] - b[2]));
   }
-  dvec4 second(double t) const { return 6.0 * ((1 - t) * (b[0] - 2.0 * b[1] + b[2]) + t * (b[1] - 2.0 * b[2] + b[3])); }
+  dvec4 second(double t) const {
+    return 6.0 * ((1 - t) * (b[0] - 2.0 * b[1] + b[2]) + t * (b[1] - 2.0 * b[2] + b[3]));
+  }
 };
 
 struct State {
@@ -48,7 +54,8 @@ State chordStart(const Curve& a, const Curve& b) {
   for (int i = 0; i < kPieces; ++i)
     for (int j = 0; j < kPieces; ++j) {
       const auto near = closestOnSegments(dvec3(pa[i]), dvec3(pa[i + 1]), dvec3(pb[j]), dvec3(pb[j + 1]));
-      const double f = near.distance - glm::mix(pa[i].w, pa[i + 1].w, near.s) - glm::mix(pb[j].w, pb[j + 1].w, near.t);
+      const double f =
+          near.distance - glm::mix(pa[i].w, pa[i + 1].w, near.s) - glm::mix(pb[j].w, pb[j + 1].w, near.t);
       if (f < best) best = f, s = (i + near.s) / kPieces, t = (j + near.t) / kPieces;
     }
   return evaluate(a, b, s, t);
@@ -65,14 +72,13 @@ Direction newton(const Curve& a, const Curve& b, const State& at) {
   const dvec4 a1 = a.first(at.s), b1 = b.first(at.t), a2 = a.second(at.s), b2 = b.second(at.t);
   const dvec3 u(a1), v(b1);
   const double gs = glm::dot(n, u) - a1.w, gt = -glm::dot(n, v) - b1.w;
-  const double nu = glm::dot(n, u), nv = glm::dot(n, v), floor = 1e-3 * (glm::dot(u, u) + glm::dot(v, v)) / distance + 1e-300;
-  double ss = (glm::dot(u, u) - nu * nu) / distance + glm::dot(n, dvec3(a2)) - a2.w;
-  double tt = (glm::dot(v, v) - nv * nv) / distance - glm::dot(n, dvec3(b2)) - b2.w;
-  double st = -(glm::dot(u, v) - nu * nv) / distance;
-  ss = std::max(ss, floor);
-  tt = std::max(tt, floor);
+  const double uu = glm::dot(u, u) / distance, vv = glm::dot(v, v) / distance;
+  const double ss = std::max(uu + glm::dot(n, dvec3(a2)) - a2.w, 0.1 * uu + 1e-300);
+  const double tt = std::max(vv - glm::dot(n, dvec3(b2)) - b2.w, 0.1 * vv + 1e-300);
+  double st = -glm::dot(u, v) / distance;
   if (st * st > 0.998 * ss * tt) st *= std::sqrt(0.998 * ss * tt) / std::abs(st);
-  const bool holdS = (at.s <= 0 && gs > 0) || (at.s >= 1 && gs < 0), holdT = (at.t <= 0 && gt > 0) || (at.t >= 1 && gt < 0);
+  const bool holdS = (at.s <= 0 && gs > 0) || (at.s >= 1 && gs < 0),
+             holdT = (at.t <= 0 && gt > 0) || (at.t >= 1 && gt < 0);
   if (holdS && holdT) return {0, 0};
   if (holdS) return {0, -gt / tt};
   if (holdT) return {-gs / ss, 0};

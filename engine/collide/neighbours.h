@@ -6,8 +6,8 @@
 
 namespace vasa {
 
-/// A way through the network between two tubes: from parameter s of tube i over `gap` metres of other tubes to
-/// parameter t of tube j. The arc length between points of the two is then
+/// A way through the network between two tubes: from parameter s of tube i over `gap` metres of other tubes
+/// to parameter t of tube j. The arc length between points of the two is then
 ///   |s' - s| length_i + gap + |t' - t| length_j.
 struct TubeLink {
   std::uint32_t i = 0, j = 0;  ///< i < j
@@ -22,9 +22,9 @@ struct NeighbourPair {
   std::uint32_t firstLink = 0, linkCount = 0;
 };
 
-/// Tubes that lie close to one another along the network. Two of their points may overlap, because they belong
-/// together, where the arc length between them is below `reach` times the sum of the radii there; the rest of
-/// the two tubes is tested like any other. Immutable.
+/// Tubes that lie close to one another along the network. Two of their points may overlap, because they
+/// belong together, where the arc length between them is below `reach` times the sum of the radii there; the
+/// rest of the two tubes is tested like any other. Immutable.
 class Neighbours {
  public:
   Neighbours() : exclusions_(0) {}

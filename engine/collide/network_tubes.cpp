@@ -7,9 +7,10 @@
 
 #include "math/quadrature.h"
 
-// Neighbours come from a graph whose places are the spans' ends and the points where side branches sit, and whose edges are
-// the stretches between places of one span, as long as the arc. A node's ends are one place. From the places of each
-// tube a shortest-path search runs as far as radii may reach; every tube that has a place within reach is linked.
+// Neighbours come from a graph whose places are the spans' ends and the points where side branches sit, and
+// whose edges are the stretches between places of one span, as long as the arc. A node's ends are one place.
+// From the places of each tube a shortest-path search runs as far as radii may reach; every tube that has a
+// place within reach is linked.
 namespace vasa {
 namespace {
 
@@ -57,7 +58,8 @@ Graph buildGraph(const Network& network, const NetworkTubes& tubes) {
   graph.tubesAt.resize(next);
   for (std::uint32_t tube = 0; tube < tubes.count(); ++tube) {
     auto& places = graph.placesOf[tube];
-    std::sort(places.begin(), places.end(), [](Place a, Place b) { return std::tie(a.t, a.id) < std::tie(b.t, b.id); });
+    std::sort(places.begin(), places.end(),
+              [](Place a, Place b) { return std::tie(a.t, a.id) < std::tie(b.t, b.id); });
     for (const Place& place : places) graph.tubesAt[place.id].push_back({tube, place.t});
   }
   return graph;

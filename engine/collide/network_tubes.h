@@ -13,8 +13,8 @@ class NetworkTubes {
     std::uint32_t span;
   };
 
-  /// Finds the neighbours at rest: along vessels, across nodes, and from a side branch into its host's spans. A path
-  /// counts while it is shorter than `reach` times the sum of the largest radii at its two ends.
+  /// Finds the neighbours at rest: along vessels, across nodes, and from a side branch into its host's spans.
+  /// A path counts while it is shorter than `reach` times the sum of the largest radii at its two ends.
   explicit NetworkTubes(const Network& network, float reach = 2);
 
   std::uint32_t count() const { return std::uint32_t(addresses_.size()); }

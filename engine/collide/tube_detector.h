@@ -45,8 +45,9 @@ class TubeDetector {
   /// Intersecting pairs that are not excluded, sorted; valid until the next call.
   std::span<const TubePair> detect();
 
-  /// The nearest place of each pair that the last detect() returned, in its order: where the two come deepest. Found by
-  /// Newton steps from the nearest of 4x4 chords; the value is f there exactly. Valid until the next call.
+  /// The nearest place of each pair that the last detect() returned, in its order: where the two come
+  /// deepest. Found by Newton steps from the nearest of 4x4 chords; the value is f there exactly. Valid until
+  /// the next call.
   std::span<const Contact> contacts();
 
   /// What the last detect() did.

@@ -39,7 +39,8 @@ TEST_CASE("contacts of a network are the certified nearest places") {
       CHECK(TubePair{contact.i, contact.j} == pairs[k]);
       CHECK(contact.f < 1e-7f);
       const vec4 p = a.at(contact.s), q = b.at(contact.t);
-      CHECK(glm::distance(vec3(p), vec3(q)) - p.w - q.w == doctest::Approx(contact.f).scale(1e-3).epsilon(1e-3));
+      CHECK(glm::distance(vec3(p), vec3(q)) - p.w - q.w ==
+            doctest::Approx(contact.f).scale(1e-3).epsilon(1e-3));
       other += contact.f > closestOfTubes(a, b, 1e-8).f + 1e-6f;
     }
     CHECK(other <= pairs.size() / 50);

@@ -58,7 +58,8 @@ TEST_CASE("neighbours: along a vessel and from a side branch into its host") {
   const NeighbourPair* pair = tubes.neighbours().find({3, branch});
   REQUIRE(pair);
   bool atTheSide = false;
-  for (const TubeLink& link : tubes.neighbours().links(*pair)) atTheSide |= link.s == 0.25f && link.t == 0 && link.gap == 0;
+  for (const TubeLink& link : tubes.neighbours().links(*pair))
+    atTheSide |= link.s == 0.25f && link.t == 0 && link.gap == 0;
   CHECK(atTheSide);
   CHECK(!tubes.neighbours().find({0, 9}));
 }
