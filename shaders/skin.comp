@@ -11,19 +11,27 @@ layout(push_constant, scalar) uniform Push { SkinPush push; };
 
 vec2 unpackSnorm(uint bits) { return max(vec2(bitfieldExtract(int(bits), 0, 16), int(bits) >> 16) / 32767.0, -1.0); }
 
+void blend(inout JointRows sum, uint joint, float weight) {
+  if (weight == 0) return;  // bones have one joint: on a CPU device the loads saved are most of the work
+  JointRows rows = push.joints.joint[min(joint, push.jointCount - 1)];
+  sum.row0 += weight * rows.row0;
+  sum.row1 += weight * rows.row1;
+  sum.row2 += weight * rows.row2;
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= push.count) return;
   SkinVertex rest = push.rest.vertex[i];
-  uvec4 joints = uvec4(rest.joints01 & 0xffffu, rest.joints01 >> 16, rest.joints23 & 0xffffu, rest.joints23 >> 16);
-  joints = min(joints, uvec4(push.jointCount - 1));
-  mat4 blend = rest.weights.x * push.joints.joint[joints.x];
-  blend += rest.weights.y * push.joints.joint[joints.y];
-  blend += rest.weights.z * push.joints.joint[joints.z];
-  blend += rest.weights.w * push.joints.joint[joints.w];
-  vec3 position = (blend * vec4(rest.x, rest.y, rest.z, 1)).xyz;
-  vec3 normal = mat3(blend) * unpackOctahedral(unpackSnorm(rest.normal));
-  float size2 = dot(normal, normal);
-  normal = size2 > 0 ? normal * inversesqrt(size2) : vec3(0, 0, 1);
-  push.posed.vertex[i] = TubeVertex(position.x, position.y, position.z, packOctahedral(normal));
+  JointRows m = JointRows(vec4(0), vec4(0), vec4(0));
+  blend(m, rest.joints01 & 0xffffu, rest.weights.x);
+  blend(m, rest.joints01 >> 16, rest.weights.y);
+  blend(m, rest.joints23 & 0xffffu, rest.weights.z);
+  blend(m, rest.joints23 >> 16, rest.weights.w);
+  vec4 position = vec4(rest.x, rest.y, rest.z, 1), normal = vec4(unpackOctahedral(unpackSnorm(rest.normal)), 0);
+  vec3 turned = vec3(dot(m.row0, normal), dot(m.row1, normal), dot(m.row2, normal));
+  float size2 = dot(turned, turned);
+  turned = size2 > 0 ? turned * inversesqrt(size2) : vec3(0, 0, 1);
+  push.posed.vertex[i] = TubeVertex(dot(m.row0, position), dot(m.row1, position), dot(m.row2, position),
+                                    packOctahedral(turned));
 }

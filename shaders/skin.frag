@@ -16,6 +16,7 @@ void main() {
   vec3 worldUp = vec3(push.right.y, push.up.y, push.right.z * push.up.x - push.right.x * push.up.z);
   vec3 outward = normalize(normal);
   float graze = 1 - clamp(dot(outward, eye), 0.0, 1.0);
-  float alpha = clamp(push.opacity * (0.55 + 2.2 * graze * graze * graze), 0.0, 1.0);
-  pixel = vec4(shade(colour, outward, eye, worldUp) * alpha, alpha);
+  float alpha = clamp(push.opacity * (0.7 + 2.0 * graze * graze * graze), 0.0, 1.0);
+  vec3 light = mix(kGround, kSky, 0.5 + 0.5 * dot(outward, worldUp)) + 0.45 * wrapped(dot(outward, kKey));
+  pixel = vec4((colour * light + 0.3 * kKeyColour * highlight(outward, eye, kKey)) * alpha, alpha);
 }

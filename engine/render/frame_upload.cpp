@@ -6,7 +6,7 @@
 
 namespace vasa {
 
-static_assert(sizeof(vec4) == 16 && sizeof(quat) == 16 && sizeof(mat4) == 64);
+static_assert(sizeof(vec4) == 16 && sizeof(quat) == 16);
 
 FrameUpload::FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_t knots, std::uint32_t joints)
     : pointCount_(points),
@@ -14,7 +14,7 @@ FrameUpload::FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_
       jointCount_(joints),
       knotOffset_(VkDeviceSize(points) * sizeof(vec4)),
       jointOffset_(knotOffset_ + VkDeviceSize(knots) * sizeof(quat)) {
-  const VkDeviceSize bytes = jointOffset_ + VkDeviceSize(joints) * sizeof(mat4);
+  const VkDeviceSize bytes = jointOffset_ + VkDeviceSize(joints) * sizeof(shared::JointRows);
   host_ = gpu::Buffer(device, {"frame, host", bytes, gpu::MemoryRole::upload});
   device_ = gpu::Buffer(device, {"frame", bytes});
 }
@@ -23,7 +23,12 @@ void FrameUpload::write(std::span<const vec4> points, std::span<const quat> knot
   assert(points.size() == pointCount_ && knots.size() == knotCount_ && joints.size() >= jointCount_);
   host_.write(points);
   host_.write(knots, knotOffset_);
-  host_.write(joints.first(jointCount_), jointOffset_);
+  rows_.clear();
+  for (const mat4& joint : joints.first(jointCount_)) {
+    const mat4 rows = glm::transpose(joint);
+    rows_.push_back({rows[0], rows[1], rows[2]});
+  }
+  host_.write(std::span<const shared::JointRows>(rows_), jointOffset_);
 }
 
 void FrameUpload::record(VkCommandBuffer commands) const {

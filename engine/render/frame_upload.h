@@ -1,13 +1,15 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "math/types.h"
+#include "shared/skin.h"
 
 namespace vasa {
 
 /// What changes from frame to frame, on its way from the host to the device: 16 bytes a de Boor point, 16 a knot
-/// frame, 64 a joint, in one copy.
+/// frame, 48 a joint, in one copy.
 class FrameUpload {
  public:
   FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_t knots, std::uint32_t joints);
@@ -26,6 +28,7 @@ class FrameUpload {
  private:
   std::uint32_t pointCount_, knotCount_, jointCount_;
   VkDeviceSize knotOffset_, jointOffset_;
+  std::vector<shared::JointRows> rows_;
   gpu::Buffer host_, device_;
 };
 

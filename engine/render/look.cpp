@@ -31,7 +31,7 @@ vec4 colourOf(MeshRole role) {
   switch (role) {
     case MeshRole::bones: return {0.91f, 0.87f, 0.77f, 1};
     case MeshRole::heart: return {0.52f, 0.11f, 0.12f, 1};
-    case MeshRole::skin: return {0.87f, 0.68f, 0.58f, 1};
+    case MeshRole::skin: return {0.86f, 0.60f, 0.48f, 1};
     case MeshRole::other: break;
   }
   return {0.78f, 0.70f, 0.66f, 1};

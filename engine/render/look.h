@@ -25,7 +25,7 @@ struct Look {
   bool drawHeart = true;
   bool drawSkin = true;
   bool drawOther = true;
-  float skinOpacity = 0.14f;  ///< of the skin seen face on, in [0, 1]; more towards its outline
+  float skinOpacity = 0.3f;  ///< of the skin seen face on, in [0, 1]; more towards its outline
 };
 
 /// Arteries red, veins blue, portal vein purple, lymph vessels green, others grey.

@@ -10,7 +10,7 @@ class SkinPass {
   explicit SkinPass(gpu::Device& device);
 
   /// Writes meshes.posed(). No barriers.
-  /// @param joints      address of mat4 world · inverseBind, one a joint
+  /// @param joints      address of shared::JointRows of world · inverseBind, one a joint
   /// @param jointCount  at least meshes.jointCount()
   void record(VkCommandBuffer commands, const MeshSet& meshes, VkDeviceAddress joints,
               std::uint32_t jointCount) const;

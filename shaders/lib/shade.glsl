@@ -4,7 +4,7 @@
 #define VASA_SHADE
 
 const vec3 kKey = vec3(-0.408, 0.612, 0.677), kFill = vec3(0.857, -0.086, 0.508);  // unit, towards the light
-const vec3 kKeyColour = vec3(1.30, 1.25, 1.16), kFillColour = vec3(0.26, 0.30, 0.38);
+const vec3 kKeyColour = vec3(1.06, 1.02, 0.95), kFillColour = vec3(0.24, 0.28, 0.35);
 const vec3 kSky = vec3(0.52, 0.55, 0.60), kGround = vec3(0.22, 0.19, 0.17);
 
 // Half a step of shade beyond the terminator keeps thin round tubes readable.
@@ -28,7 +28,7 @@ vec3 shade(vec3 base, vec3 normal, vec3 eye, vec3 worldUp) {
   ambient *= 0.55 + 0.45 * facing;  // darker outlines set one tube off against the next
   vec3 light = ambient + kKeyColour * wrapped(dot(normal, kKey)) + kFillColour * wrapped(dot(normal, kFill));
   vec3 gloss = kKeyColour * highlight(normal, eye, kKey) + kFillColour * highlight(normal, eye, kFill);
-  return base * light * 0.82 + gloss;
+  return base * light * 0.85 + gloss;
 }
 
 #endif

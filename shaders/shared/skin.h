@@ -16,9 +16,14 @@ struct SkinVertex {
   vec4 weights;           // sum 1
 };
 
+/// The first three rows of a joint's matrix; the fourth is 0 0 0 1.
+struct JointRows {
+  vec4 row0, row1, row2;
+};
+
 #ifndef __cplusplus
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SkinVertices { SkinVertex vertex[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Joints { mat4 joint[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Joints { JointRows joint[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer PosedVertices { TubeVertex vertex[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
@@ -32,7 +37,7 @@ struct SkinPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SkinVertex) == 40 && sizeof(SkinPush) == 32);
+static_assert(sizeof(SkinVertex) == 40 && sizeof(JointRows) == 48 && sizeof(SkinPush) == 32);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

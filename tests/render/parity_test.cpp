@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "gpu/barrier.h"
+#include "body/skinning.h"
 #include "gpu/gpu_rig.h"
+#include "render/frame_upload.h"
+#include "render/skin_pass.h"
 #include "render/tessellate_pass.h"
 #include "shared/sweep.h"
 #include "support/networks.h"
@@ -98,6 +101,42 @@ TEST_CASE("one sweep, and one more than a workgroup takes") {
     CHECK(worst.position <= 1e-5f);
     CHECK(worst.normal <= 1e-3f);
   }
+}
+
+TEST_CASE("skinning on the device is that of the body's") {
+  VASA_REQUIRE_GPU(rig);
+  std::mt19937 engine(17);
+  std::uniform_real_distribution<float> number(-1, 1);
+  SkinnedMesh mesh;
+  mesh.name = "skin";
+  for (int i = 0; i < 333; ++i) {
+    mesh.mesh.positions.emplace_back(number(engine), number(engine), number(engine));
+    mesh.normals.push_back(glm::normalize(mesh.mesh.positions.back() + vec3(0.01f)));
+    SkinInfluence influence;
+    for (int k = 0; k < 4; ++k) influence.joints[k] = std::uint16_t(engine() % 7);
+    influence.weights = i % 3 == 0 ? vec4(1, 0, 0, 0) : vec4(0.4f, 0.3f, 0.2f, 0.1f);
+    mesh.influences.push_back(influence);
+  }
+  std::vector<mat4> matrices;
+  for (int k = 0; k < 7; ++k)
+    matrices.push_back(glm::translate(glm::mat4_cast(glm::angleAxis(number(engine), vec3(0, 0.6f, 0.8f))),
+                                      vec3(number(engine), number(engine), number(engine))));
+  const MeshSet meshes(rig.device(), std::span(&mesh, 1));
+  const SkinPass pass(rig.device());
+  FrameUpload upload(rig.device(), 0, 0, meshes.jointCount());
+  upload.write({}, {}, matrices);
+  rig.run([&](VkCommandBuffer commands) {
+    upload.record(commands);
+    pass.record(commands, meshes, upload.joints(), upload.jointCount());
+  });
+  std::vector<SurfacePoint> wanted;
+  std::vector<vec3> positions, normals;
+  skinVertices(mesh, matrices, positions, normals);
+  for (std::size_t i = 0; i < positions.size(); ++i) wanted.push_back({positions[i], normals[i]});
+  Difference worst;
+  compare(worst, rig.download<shared::TubeVertex>(meshes.posed()), wanted);
+  CHECK(worst.position <= 1e-5f);
+  CHECK(worst.normal <= 1e-3f);
 }
 
 TEST_CASE("degenerate curves: points that coincide, hairpins, a radius that falls steeply") {

@@ -1,0 +1,230 @@
+#include "render/renderer.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/hash.h"
+#include "gpu/gpu_rig.h"
+#include "network/measure.h"
+#include "support/meshes.h"
+#include "support/networks.h"
+
+using namespace vasa;
+
+namespace {
+
+using Pixel = std::array<int, 4>;
+
+Pixel at(const Image& image, std::uint32_t x, std::uint32_t y) {
+  const std::uint8_t* p = &image.rgba[4 * (std::size_t(y) * image.width + x)];
+  return {p[0], p[1], p[2], p[3]};
+}
+
+std::uint64_t hashOfPicture(const Image& image) {
+  return hashOf(std::span<const std::uint8_t>(image.rgba));
+}
+
+// Everything that a RenderInput points at.
+struct Subject {
+  explicit Subject(Network chosen) : network(std::move(chosen)), frames(network.sectionCount()) {
+    points.assign(network.points().begin(), network.points().end());
+    networkFrames(network, points, restReferences(network), frames);
+  }
+  RenderInput input(const Camera& camera) const { return {points, frames, joints, camera, {}}; }
+
+  Network network;
+  std::vector<vec4> points;
+  std::vector<quat> frames;
+  std::vector<mat4> joints;
+};
+
+// One tube from z = 0 to 1 seen from the side: along the picture's width, an eighth of its height thick.
+Camera sideView() {
+  Camera camera;
+  camera.position = {3, 0, 0.5f};
+  camera.target = {0, 0, 0.5f};
+  camera.orthographicHeight = 1.6f;
+  return camera;
+}
+
+RenderOptions small(std::uint32_t samples = 1) {
+  RenderOptions options;
+  options.width = 161;
+  options.height = 160;
+  options.samples = samples;
+  options.shape = {16, 4};
+  return options;
+}
+
+std::size_t covered(const Image& image) {
+  std::size_t count = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) count += image.rgba[i] > 0;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a tube is where it should be, red, and closed at its ends") {
+  VASA_REQUIRE_GPU(rig);
+  const Subject subject(test::straightVessel(1, 0.1f, 0.1f, 5));
+  Renderer renderer(rig.device(), subject.network, {}, small());
+  RenderInput input = subject.input(sideView());
+  input.look.transparent = true;
+  renderer.draw(input);
+  const Image image = renderer.readBack();
+  const Pixel middle = at(image, 80, 80);
+  CHECK(middle[3] == 255);
+  CHECK(middle[0] > 2 * middle[2]);
+  CHECK(at(image, 80, 60)[3] == 0);
+  // 100 pixels a metre: the tube 100 x 20, half a disc of radius 10 at either end
+  CHECK(double(covered(image)) == doctest::Approx(100 * 20 + kPi * 100).epsilon(0.04));
+
+  // Looking at an end: the cap hides the inside.
+  input.camera.position = {0, 0, 4};
+  input.camera.target = {0, 0, 0};
+  renderer.draw(input);
+  const Image end = renderer.readBack();
+  CHECK(at(end, 80, 80)[3] == 255);
+  CHECK(double(covered(end)) == doctest::Approx(kPi * 100).epsilon(0.1));
+}
+
+TEST_CASE("the background is the look's colour, sRGB as given") {
+  VASA_REQUIRE_GPU(rig);
+  const Subject subject(test::straightVessel(1, 0.1f, 0.1f, 1));
+  Renderer renderer(rig.device(), subject.network, {}, small(4));
+  RenderInput input = subject.input(sideView());
+  input.look.background = {0.2f, 0.4f, 0.8f, 0.5f};
+  renderer.draw(input);
+  const Pixel corner = at(renderer.readBack(), 0, 0);
+  CHECK(std::abs(corner[0] - 51) <= 1);
+  CHECK(std::abs(corner[1] - 102) <= 1);
+  CHECK(std::abs(corner[2] - 204) <= 1);
+  CHECK(corner[3] == 255);
+}
+
+TEST_CASE("kinds and single sweeps can be hidden and coloured, caps with them") {
+  VASA_REQUIRE_GPU(rig);
+  const Subject subject(test::straightVessel(1, 0.1f, 0.1f, 2));
+  Renderer renderer(rig.device(), subject.network, {}, small());
+  RenderInput input = subject.input(sideView());
+  input.look.transparent = true;
+  input.look.drawArteries = false;
+  renderer.draw(input);
+  CHECK(covered(renderer.readBack()) == 0);
+  input.look.drawArteries = true;
+  renderer.setSweepColours(std::vector<std::uint32_t>{packColour({0, 1, 0, 1}), packColour({0, 1, 0, 0})});
+  renderer.draw(input);
+  const Image image = renderer.readBack();
+  // From +x, +z is to the left: the first sweep is on the right.
+  CHECK(at(image, 105, 80)[1] > 2 * at(image, 105, 80)[0]);
+  CHECK(at(image, 55, 80)[3] == 0);
+  CHECK(double(covered(image)) == doctest::Approx(50 * 20 + kPi * 50).epsilon(0.06));
+  renderer.setSweepColours({});
+  renderer.draw(input);
+  CHECK(double(covered(renderer.readBack())) == doctest::Approx(100 * 20 + kPi * 100).epsilon(0.04));
+}
+
+TEST_CASE("skin lets what lies behind it show through") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::straightVessel(1, 0.1f, 0.1f, 2));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("skin", {-0.3f, -0.3f, 0}, {0.3f, 0.3f, 1})};
+  subject.joints = {mat4(1)};
+  Renderer renderer(rig.device(), subject.network, meshes, small());
+  RenderInput input = subject.input(sideView());
+  input.look.drawSkin = false;
+  renderer.draw(input);
+  const Image bare = renderer.readBack();
+  input.look.drawSkin = true;
+  renderer.draw(input);
+  const Image dressed = renderer.readBack();
+  CHECK(at(bare, 80, 80) != at(dressed, 80, 80));
+  CHECK(at(dressed, 80, 80)[0] > at(dressed, 80, 80)[2] + 40);  // still red
+  CHECK(at(dressed, 80, 62) != at(bare, 80, 62));
+  CHECK(at(dressed, 80, 2) == at(bare, 80, 2));
+
+  input.look.transparent = true;
+  renderer.draw(input);
+  const Pixel shell = at(renderer.readBack(), 80, 62);
+  CHECK(shell[3] > 10);
+  CHECK(shell[3] < 200);
+  CHECK(shell[0] > 100);  // straight alpha: the skin's own colour, not darkened by its opacity
+}
+
+TEST_CASE("joints move meshes") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.1f, 0.4f}, {0.1f, 0.1f, 0.6f})};
+  Renderer renderer(rig.device(), subject.network, meshes, small());
+  subject.joints = {glm::translate(mat4(1), vec3(0, 0.5f, 0))};
+  RenderInput input = subject.input(sideView());
+  input.look.transparent = true;
+  renderer.draw(input);
+  const Image image = renderer.readBack();
+  CHECK(at(image, 80, 30)[3] == 255);  // half a metre up
+  CHECK(at(image, 80, 75)[3] == 0);
+}
+
+TEST_CASE("a picture depends on its input alone: not on the batch size, nor on frames before it") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::windingNetwork(40, 9));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("skin", {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f})};
+  subject.joints = {mat4(1)};
+  const Camera front = cameraFrom(View::front, measure(subject.network, subject.points).bounds, 1);
+  const Camera left = cameraFrom(View::left, measure(subject.network, subject.points).bounds, 1);
+  std::vector<std::uint64_t> hashes;
+  for (const std::uint32_t batch : {1u, 7u, 64u, 100000u}) {
+    RenderOptions options = small(4);
+    options.sweepsPerBatch = batch;
+    Renderer renderer(rig.device(), subject.network, meshes, options);
+    if (batch == 7) {
+      renderer.draw(subject.input(left));
+      CHECK(renderer.staticDraw(subject.input(left), 1) >= 0);
+    }
+    renderer.draw(subject.input(front));
+    hashes.push_back(hashOfPicture(renderer.readBack()));
+  }
+  CHECK(std::count(hashes.begin(), hashes.end(), hashes[0]) == std::ptrdiff_t(hashes.size()));
+}
+
+TEST_CASE("memory for vertices does not grow with the network") {
+  VASA_REQUIRE_GPU(rig);
+  RenderOptions options = small();
+  options.sweepsPerBatch = 32;
+  const Renderer few(rig.device(), test::windingNetwork(20, 1), {}, options);
+  const Renderer many(rig.device(), test::windingNetwork(200, 1), {}, options);
+  CHECK(many.triangleCount() > 5 * few.triangleCount());
+  CHECK(many.templateBytes() == few.templateBytes());
+}
+
+TEST_CASE("three hundred frames of changing poses without a word from the validation layer") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::windingNetwork(25, 3));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("skin", {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f}),
+                                        test::boxMesh("bones", {-0.1f, 0, -0.1f}, {0.1f, 1, 0.1f})};
+  RenderOptions options = small(4);
+  options.shape = {5, 3};
+  options.sweepsPerBatch = 50;
+  Renderer renderer(rig.device(), subject.network, meshes, options);
+  const std::vector<vec4> rest = subject.points;
+  const Camera camera = cameraFrom(View::front, measure(subject.network, rest).bounds, 1);
+  std::uint64_t first = 0, last = 0;
+  for (int i = 0; i < 300; ++i) {
+    const float angle = 0.02f * float(i % 299);  // the last pose is the first one again
+    const mat4 turn = glm::rotate(mat4(1), angle, vec3(0, 1, 0));
+    for (std::size_t k = 0; k < rest.size(); ++k) subject.points[k] = vec4(vec3(turn * vec4(vec3(rest[k]), 1)), rest[k].w);
+    networkFrames(subject.network, subject.points, restReferences(subject.network), subject.frames);
+    subject.joints = {turn};
+    renderer.draw(subject.input(camera));
+    if (i == 0) first = hashOfPicture(renderer.readBack());
+    if (i == 299) last = hashOfPicture(renderer.readBack());
+  }
+  CHECK(first == last);
+  const FrameTimes times = renderer.times();
+  CHECK(times.tessellate > 0);
+  CHECK(times.draw > 0);
+  CHECK(times.meshes > 0);
+  CHECK(times.total >= times.tessellate + times.draw);
+}
