@@ -59,7 +59,7 @@ float endRadius(const std::vector<vec4>& points, bool last) {
   return radii[count / 2];
 }
 
-PieceAxes axesByLevelSets(const Piece& piece) {
+PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
   PieceAxes result;
   const VertexTriangles around = buildVertexTriangles(piece.mesh);
   const std::uint32_t first = 0;
@@ -68,9 +68,9 @@ PieceAxes axesByLevelSets(const Piece& piece) {
   const float reach = distance[farthest(distance)];
   if (!(reach > 0)) return result;
   const float radius = typicalRadius(piece.mesh, reach);
-  const float step = std::max(0.5f * radius, reach / 5000);
+  const float step = std::max({0.5f * radius, std::min(0.25f * options.detail, 0.1f * reach), reach / 5000});
   result.graph = reebGraph(piece.mesh, piece.edges, distance, step);
-  result.pruned = prune(result.graph);
+  result.pruned = prune(result.graph, options.detail);
 
   const TriangleTree tree(piece.mesh);
   Slicer slicer(piece.mesh, piece.edges, tree);
@@ -92,7 +92,7 @@ PieceAxes axesByLevelSets(const Piece& piece) {
     };
     trim(chain.start, false);
     trim(chain.end, true);
-    std::vector<vec4> sections = reslice(slicer, rough);
+    std::vector<vec4> sections = reslice(slicer, rough, 0.25f * options.detail);
     if (sections.size() >= 2) {
       const float limit = 0.5f * chain.length + 4 * radius;
       if (ends[chain.end].size() == 1) extendToEnd(slicer, sections, limit);
@@ -150,7 +150,7 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
     skeleton.reason = mesh.empty() ? "no triangles" : "no usable triangle";
     return skeleton;
   }
-  const std::vector<TriangleMesh> components = splitComponents(clean, buildEdges(clean));
+  const std::vector<TriangleMesh> components = splitComponents(clean);
   skeleton.componentsTotal = std::uint32_t(components.size());
   const double area = clean.area();
   std::uint32_t debris = 0, shapeless = 0;
@@ -159,7 +159,7 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
       ++debris;
       continue;
     }
-    PieceAxes axes = axesByLevelSets(prepare(component));
+    PieceAxes axes = axesByLevelSets(prepare(component), options);
     const std::size_t before = skeleton.branches.size();
     add(skeleton, std::move(axes), options.minimumRadius);
     if (skeleton.branches.size() == before)

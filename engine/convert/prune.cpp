@@ -16,12 +16,29 @@ float radiusAt(const AxisChain& chain, bool last) {
   return radii[radii.size() / 2];
 }
 
+double thickness(const AxisChain& chain) {
+  double sum = 0;
+  for (const vec4& p : chain.points) sum += p.w;
+  return sum / double(std::max<std::size_t>(1, chain.points.size()));
+}
+
+// All of `chain` runs inside or close beside the other: strips of one torn tube.
+bool shadowed(const AxisChain& chain, const AxisChain& other, float detail) {
+  for (const vec4& p : chain.points) {
+    bool near = false;
+    for (const vec4& q : other.points)
+      near = near || glm::distance(vec3(p), vec3(q)) < std::max(1.2f * std::max(p.w, q.w), detail);
+    if (!near) return false;
+  }
+  return true;
+}
+
 void erase(AxisGraph& graph, std::uint32_t chain) {
   graph.chains.erase(graph.chains.begin() + chain);
 }
 
 // The shortest leaf chain below the radius of its parent, counted in those radii.
-bool pruneOne(AxisGraph& graph) {
+bool pruneOne(AxisGraph& graph, float detail) {
   const auto ends = chainEnds(graph);
   float worst = 1;
   std::int64_t chosen = -1;
@@ -34,8 +51,11 @@ bool pruneOne(AxisGraph& graph) {
     float parent = 0;
     for (const ChainEnd& end : fork)
       if (end.chain != i) parent = std::max(parent, radiusAt(graph.chains[end.chain], end.last));
-    if (!(parent > 0)) continue;
-    const float ratio = chain.length / parent;
+    float ratio = chain.length / std::max({parent, detail, 1e-9f});
+    for (const ChainEnd& end : fork)
+      if (end.chain != i && thickness(chain) <= thickness(graph.chains[end.chain]) && ratio >= 1 &&
+          shadowed(chain, graph.chains[end.chain], detail))
+        ratio = 0.999f;
     if (ratio < worst) worst = ratio, chosen = i;
   }
   if (chosen < 0) return false;
@@ -45,12 +65,12 @@ bool pruneOne(AxisGraph& graph) {
 }
 
 // A chain that returns to its own node, or the thinner of two that join the same nodes, if both are short.
-bool closeLoop(AxisGraph& graph) {
+bool closeLoop(AxisGraph& graph, float detail) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> seen;
   const auto girth = [&](std::uint32_t i) {
     float most = 0;
     for (const vec4& p : graph.chains[i].points) most = std::max(most, p.w);
-    return 2 * kPi * most;
+    return std::max(2 * kPi * most, 4 * detail);
   };
   for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
     const AxisChain& chain = graph.chains[i];
@@ -63,13 +83,11 @@ bool closeLoop(AxisGraph& graph) {
     const auto [found, fresh] = seen.emplace(std::minmax({chain.start, chain.end}), i);
     if (fresh) continue;
     const std::uint32_t other = found->second;
-    if (chain.length + graph.chains[other].length > 2 * std::max(girth(i), girth(other))) continue;
-    const auto thickness = [&](std::uint32_t k) {
-      double sum = 0;
-      for (const vec4& p : graph.chains[k].points) sum += p.w;
-      return sum / double(std::max<std::size_t>(1, graph.chains[k].points.size()));
-    };
-    erase(graph, thickness(i) <= thickness(other) ? i : other);
+    const bool small = chain.length + graph.chains[other].length <= 2 * std::max(girth(i), girth(other));
+    if (!small && !shadowed(chain, graph.chains[other], detail) &&
+        !shadowed(graph.chains[other], chain, detail))
+      continue;
+    erase(graph, thickness(graph.chains[i]) <= thickness(graph.chains[other]) ? i : other);
     compact(graph);
     return true;
   }
@@ -77,12 +95,12 @@ bool closeLoop(AxisGraph& graph) {
 }
 
 // Forks nearer than the radius of what joins them.
-bool mergeOne(AxisGraph& graph) {
+bool mergeOne(AxisGraph& graph, float detail) {
   const auto valence = graph.valences();
   for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
     const AxisChain chain = graph.chains[i];
     if (chain.start == chain.end || valence[chain.start] < 3 || valence[chain.end] < 3) continue;
-    if (chain.length >= std::max(radiusAt(chain, false), radiusAt(chain, true))) continue;
+    if (chain.length >= std::max({radiusAt(chain, false), radiusAt(chain, true), detail})) continue;
     graph.nodes[chain.start] = 0.5f * (graph.nodes[chain.start] + graph.nodes[chain.end]);
     erase(graph, i);
     for (AxisChain& other : graph.chains) {
@@ -97,14 +115,14 @@ bool mergeOne(AxisGraph& graph) {
 
 }  // namespace
 
-PruneReport prune(AxisGraph& graph) {
+PruneReport prune(AxisGraph& graph, float detail) {
   PruneReport report;
   // Each step removes a chain, so this ends.
   for (bool changed = true; changed;) {
     changed = false;
-    while (closeLoop(graph)) ++report.loops, changed = true;
-    while (pruneOne(graph)) ++report.pruned, changed = true;
-    while (mergeOne(graph)) ++report.merged, changed = true;
+    while (closeLoop(graph, detail)) ++report.loops, changed = true;
+    while (pruneOne(graph, detail)) ++report.pruned, changed = true;
+    while (mergeOne(graph, detail)) ++report.merged, changed = true;
   }
   return report;
 }

@@ -9,6 +9,8 @@
 namespace vasa {
 namespace {
 
+constexpr std::uint32_t kNone = 0xffffffffu;
+
 // The part of a triangle inside a band is numbered first[triangle] + band - low[triangle].
 struct Bands {
   std::vector<std::int32_t> low;
@@ -81,6 +83,14 @@ AxisGraph reebGraph(const TriangleMesh& mesh, const MeshEdges& edges, std::span<
       for (std::int32_t band = low; band <= high; ++band)
         sets.unite(bands.piece(triangles[0], band), bands.piece(triangles[i], band));
   }
+  std::vector<std::uint32_t> firstAt(mesh.positions.size(), kNone);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh.triangles[t][k];
+      const std::uint32_t piece = bands.piece(t, bands.of(vertex));
+      if (firstAt[vertex] == kNone) firstAt[vertex] = piece;
+      sets.unite(firstAt[vertex], piece);
+    }
   const Links links = linkBands(mesh, bands, sets);
 
   // Every set that is linked becomes a node and every contour a chain of one point; compact() joins them.

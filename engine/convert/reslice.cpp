@@ -52,23 +52,26 @@ float medianRadius(const std::vector<vec4>& sections, std::size_t i, std::size_t
   return radii[radii.size() / 2];
 }
 
-// Leaves out sections that disagree with their neighbours or turn back.
+// Leaves out sections that disagree with their neighbours or turn back. Where the second in a row turns back,
+// the one before them was wrong.
 std::vector<vec4> consistent(const std::vector<vec4>& sections) {
   std::vector<vec4> kept;
+  int turned = 0;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const float median = medianRadius(sections, i, 4);
     if (sections[i].w > 1.5f * median || sections[i].w < 0.55f * median) continue;
-    if (!kept.empty()) {
-      const vec3 step = vec3(sections[i]) - vec3(kept.back());
-      if (glm::length(step) < 0.1f * median) continue;
-      if (kept.size() > 1 && glm::dot(step, vec3(kept.back()) - vec3(kept[kept.size() - 2])) < 0) continue;
-    }
+    if (!kept.empty() && centreDistance(sections[i], kept.back()) < 0.1f * median) continue;
+    const bool turns = kept.size() > 1 && glm::dot(vec3(sections[i]) - vec3(kept.back()),
+                                                   vec3(kept.back()) - vec3(kept[kept.size() - 2])) < 0;
+    if (turns && ++turned < 2) continue;
+    if (turns) kept.pop_back();
+    turned = 0;
     kept.push_back(sections[i]);
   }
   return kept;
 }
 
-std::vector<vec4> slicePass(Slicer& slicer, const std::vector<vec4>& axis) {
+std::vector<vec4> slicePass(Slicer& slicer, const std::vector<vec4>& axis, float leastSpacing) {
   const ArcLength curve(axis);
   const float length = curve.length();
   std::vector<vec4> sections;
@@ -81,7 +84,7 @@ std::vector<vec4> slicePass(Slicer& slicer, const std::vector<vec4>& axis) {
         sections.push_back(vec4(shape->centre, shape->radius));
     if (s >= length) break;
     // The last step ends at the end, without a sliver before it.
-    const float step = std::max(kSpacing * at.w, length * 1e-4f);
+    const float step = std::max({kSpacing * at.w, leastSpacing, length * 1e-4f});
     s = s + 1.5f * step > length ? length : s + step;
   }
   return consistent(sections);
@@ -123,12 +126,12 @@ void smoothSections(std::vector<vec4>& sections, int rounds) {
   }
 }
 
-std::vector<vec4> reslice(Slicer& slicer, const std::vector<vec4>& rough) {
+std::vector<vec4> reslice(Slicer& slicer, const std::vector<vec4>& rough, float leastSpacing) {
   if (rough.size() < 2) return {};
   std::vector<vec4> axis = rough;
   smoothSections(axis, 4);
   for (int pass = 0; pass < 2; ++pass) {
-    std::vector<vec4> sections = slicePass(slicer, axis);
+    std::vector<vec4> sections = slicePass(slicer, axis, leastSpacing);
     if (sections.size() < 2) return pass == 0 ? std::vector<vec4>{} : axis;
     axis = std::move(sections);
     if (pass == 0) smoothSections(axis, 1);

@@ -9,8 +9,10 @@ namespace vasa {
 /// (the second slices at right angles to what the first found). Slices that catch a neighbour, a side branch
 /// or a tear are left out: those whose radius or centre does not agree with their neighbours'.
 /// @param rough  centres with radius estimates, in order
-/// @returns      sections about every 0.6 radii; fewer than two where the surface gives none
-std::vector<vec4> reslice(Slicer& slicer, const std::vector<vec4>& rough);
+/// @param leastSpacing  [m]
+/// @returns      sections about every 0.6 radii, but no closer than leastSpacing; fewer than two where the
+/// surface gives none
+std::vector<vec4> reslice(Slicer& slicer, const std::vector<vec4>& rough, float leastSpacing);
 
 /// Goes on from the last section by slices until the surface ends, and appends what it meets; the last one
 /// appended is the flat end. Stops as well where the tube widens or narrows abruptly.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "curve/bspline.h"
+#include "math/closest_point.h"
 
 // Unknown are the inner de Boor points d_1 .. d_{n+1}; d_0 and d_{n+2} are the end samples. Minimised is
 //   sum_i |C(u_i) - p_i|² / tol_i²  +  stiffness · sum_j |second divided difference of d at j|²,
@@ -141,6 +142,24 @@ void reproject(const Problem& problem, const Points& points, std::vector<double>
   }
 }
 
+// Between samples the curve may swing out where nothing holds it: its distance from the chord of the samples
+// around it, less a quarter of the chord for honest bends.
+double wildest(const Problem& problem, const Points& points, const std::vector<double>& parameter) {
+  double most = 0;
+  for (std::size_t i = 1; i < parameter.size(); ++i) {
+    const vec3 a(problem.samples[i - 1]), b(problem.samples[i]);
+    const int checks = 1 + int((parameter[i] - parameter[i - 1]) * 4);
+    for (int k = 1; k <= checks; ++k) {
+      const double u = glm::mix(parameter[i - 1], parameter[i], double(k) / (checks + 1));
+      const vec3 p(evaluate(points, float(u)));
+      const vec3 foot = glm::mix(a, b, closestOnSegment(p, a, b));
+      const double slack = 0.25 * double(glm::distance(a, b));
+      most = std::max(most, (double(glm::distance(p, foot)) - slack) / problem.positionTolerance[i]);
+    }
+  }
+  return most;
+}
+
 double worst(const Problem& problem, const Points& points, const std::vector<double>& parameter) {
   double most = 0;
   for (std::size_t i = 0; i < parameter.size(); ++i) {
@@ -148,7 +167,7 @@ double worst(const Problem& problem, const Points& points, const std::vector<dou
     most = std::max(most, glm::distance(dvec3(at), dvec3(problem.samples[i])) / problem.positionTolerance[i]);
     most = std::max(most, std::abs(at.w - problem.samples[i].w) / problem.radiusTolerance[i]);
   }
-  return most;
+  return std::max(most, wildest(problem, points, parameter));
 }
 
 Fit fitSpans(const Problem& problem, std::uint32_t spans, float leastRadius) {

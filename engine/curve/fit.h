@@ -10,9 +10,9 @@ namespace vasa {
 /// How near a spline has to come to each sample. A sample's tolerance is `share` of its radius, kept within
 /// [least, most].
 struct FitTolerance {
-  float share = 0.1f;
-  float least = 1e-4f;  ///< [m]
-  float most = 3e-4f;   ///< [m]
+  float share = 0.15f;
+  float least = 4e-4f;  ///< [m]
+  float most = 1e-3f;   ///< [m]
   float at(float radius) const { return glm::clamp(share * radius, least, most); }
 };
 

@@ -1,6 +1,7 @@
 #include "mesh/boundary.h"
 
 #include <algorithm>
+#include <queue>
 
 namespace vasa {
 namespace {
@@ -65,31 +66,67 @@ std::vector<BoundaryLoop> boundaryLoops(const TriangleMesh& mesh, const MeshEdge
   return loops;
 }
 
+namespace {
+
+// A corner of the polygon that is still open, as a ring by `before` and `after`.
+struct Corner {
+  std::uint32_t vertex, before, after;
+  bool open = true;
+};
+
+// Cuts ears off a polygon, always the one with the shortest cut: a slit closes like a zip.
+void zip(const TriangleMesh& mesh, std::span<const std::uint32_t> polygon, std::vector<uvec3>& triangles) {
+  const auto count = std::uint32_t(polygon.size());
+  std::vector<Corner> ring(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    ring[i] = {polygon[i], (i + count - 1) % count, (i + 1) % count, true};
+  struct Ear {
+    float cut;
+    std::uint32_t corner, before, after;
+    bool operator>(const Ear& other) const {
+      return cut != other.cut ? cut > other.cut : corner > other.corner;
+    }
+  };
+  std::priority_queue<Ear, std::vector<Ear>, std::greater<>> ears;
+  const auto offer = [&](std::uint32_t i) {
+    const Corner& c = ring[i];
+    const float cut =
+        glm::distance(mesh.positions[ring[c.before].vertex], mesh.positions[ring[c.after].vertex]);
+    ears.push({cut, i, c.before, c.after});
+  };
+  for (std::uint32_t i = 0; i < count; ++i) offer(i);
+  for (std::uint32_t left = count; left >= 3;) {
+    const Ear ear = ears.top();
+    ears.pop();
+    Corner& c = ring[ear.corner];
+    if (!c.open || c.before != ear.before || c.after != ear.after) continue;  // the ring has changed there
+    triangles.push_back({ring[c.before].vertex, c.vertex, ring[c.after].vertex});
+    c.open = false;
+    ring[c.before].after = c.after;
+    ring[c.after].before = c.before;
+    if (--left < 3) break;
+    offer(c.before);
+    offer(c.after);
+  }
+}
+
+}  // namespace
+
 TriangleMesh fillLoops(const TriangleMesh& mesh, const MeshEdges& edges,
                        std::span<const BoundaryLoop> loops) {
   TriangleMesh filled = mesh;
   for (const BoundaryLoop& loop : loops) {
-    const std::size_t count = loop.vertices.size();
-    if (count < 3) continue;
-    dvec3 sum(0);
-    for (const std::uint32_t v : loop.vertices) sum += dvec3(mesh.positions[v]);
-    const auto apex = std::uint32_t(filled.positions.size());
-    if (count > 3) filled.positions.push_back(vec3(sum / double(count)));
-    for (std::size_t i = 0; i < (count > 3 ? count : 1); ++i) {
-      std::uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % count];
-      const uvec3& t = mesh.triangles[edges.trianglesOf(loop.edges[i])[0]];
-      for (int k = 0; k < 3; ++k)
-        if (t[k] == a && t[(k + 1) % 3] == b) {  // the neighbour runs a → b, so the patch runs b → a
-          std::swap(a, b);
-          break;
-        }
-      if (count > 3) {
-        filled.triangles.push_back({a, b, apex});
-        continue;
+    if (loop.vertices.size() < 3) continue;
+    std::vector<std::uint32_t> polygon = loop.vertices;
+    // Against the direction of the triangles beside it, by the first edge's.
+    const std::uint32_t a = polygon[0], b = polygon[1];
+    const uvec3& t = mesh.triangles[edges.trianglesOf(loop.edges[0])[0]];
+    for (int k = 0; k < 3; ++k)
+      if (t[k] == a && t[(k + 1) % 3] == b) {
+        std::reverse(polygon.begin(), polygon.end());
+        break;
       }
-      for (const std::uint32_t c : loop.vertices)
-        if (c != a && c != b) filled.triangles.push_back({a, b, c});
-    }
+    zip(mesh, polygon, filled.triangles);
   }
   return filled;
 }

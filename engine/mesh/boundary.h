@@ -13,8 +13,9 @@ struct BoundaryLoop {
 /// Border edges that belong to no loop (possible where the mesh is non-manifold) are left out. O(n).
 std::vector<BoundaryLoop> boundaryLoops(const TriangleMesh& mesh, const MeshEdges& edges);
 
-/// The mesh with every loop closed by a fan around the loop's mean point (three edges: one triangle),
-/// oriented as the triangles beside it. The mesh's own vertices and triangles keep their numbers.
+/// The mesh with every loop closed by triangles between its vertices, oriented as what lies beside it. Ears
+/// are cut off in the order of the shortest new edge, so that a long slit closes like a zip and a round hole
+/// like a lid. The mesh's own vertices and triangles keep their numbers. O(n log n).
 TriangleMesh fillLoops(const TriangleMesh& mesh, const MeshEdges& edges, std::span<const BoundaryLoop> loops);
 
 }  // namespace vasa

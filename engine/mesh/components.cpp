@@ -2,11 +2,16 @@
 
 namespace vasa {
 
-std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh, const MeshEdges& edges) {
+std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
   constexpr std::uint32_t kNone = 0xffffffffu;
   DisjointSets sets(mesh.triangles.size());
-  for (std::uint32_t e = 0; e < edges.size(); ++e)
-    for (const std::uint32_t t : edges.trianglesOf(e)) sets.unite(t, edges.trianglesOf(e)[0]);
+  std::vector<std::uint32_t> firstAt(mesh.positions.size(), kNone);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& first = firstAt[mesh.triangles[t][k]];
+      if (first == kNone) first = t;
+      sets.unite(first, t);
+    }
 
   std::vector<TriangleMesh> parts;
   std::vector<std::uint32_t> partOf(mesh.triangles.size(), kNone);

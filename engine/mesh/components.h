@@ -24,8 +24,8 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// The parts of a mesh that hang together through edges (sharing a vertex only does not count), in the order
-/// of their first triangles. O(n log n).
-std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh, const MeshEdges& edges);
+/// The parts of a mesh that hang together through vertices, in the order of their first triangles. A common
+/// vertex is enough: decimated thin tubes fall into triangles that share no edge. O(n).
+std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh);
 
 }  // namespace vasa

@@ -17,6 +17,42 @@ struct PieceEnd {
   }
 };
 
+// Area against that of the circle with the same outline: 1 for a circle, 0 for a strip.
+constexpr float kStrip = 0.35f;
+float roundness(const SectionShape& shape) {
+  const float circle = (shape.perimeter + shape.chord) / (2 * kPi);
+  return circle > 0 ? shape.radius * shape.radius / (circle * circle) : 0;
+}
+
+// Convex hull in the plane of all contour points within `reach` (Andrew 1979, monotone chain).
+Contour hullOf(const std::vector<Contour>& contours, vec3 onPlane, vec3 normal, float reach) {
+  const vec3 u = anyPerpendicular(normal), v = glm::cross(normal, u);
+  std::vector<vec2> flat;
+  for (const Contour& contour : contours)
+    for (const vec3& p : contour.points)
+      if (glm::distance(p, onPlane) < reach)
+        flat.push_back({glm::dot(p - onPlane, u), glm::dot(p - onPlane, v)});
+  std::sort(flat.begin(), flat.end(), [](vec2 a, vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<vec2> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t base = hull.size();
+    for (const vec2 p : flat) {
+      const auto right = [&] {
+        const vec2 a = hull[hull.size() - 2], b = hull.back();
+        return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) <= 0;
+      };
+      while (hull.size() >= base + 2 && right()) hull.pop_back();
+      hull.push_back(p);
+    }
+    if (!hull.empty()) hull.pop_back();
+    std::reverse(flat.begin(), flat.end());
+  }
+  Contour contour;
+  contour.closed = true;
+  for (const vec2 p : hull) contour.points.push_back(onPlane + p.x * u + p.y * v);
+  return contour;
+}
+
 }  // namespace
 
 const std::vector<Contour>& Slicer::cut(vec3 onPlane, vec3 normal, float reach) {
@@ -128,7 +164,11 @@ std::optional<SectionShape> Slicer::section(vec3 onPlane, vec3 normal, float rea
     if (!shape.contains && glm::distance(shape.centre, onPlane) > 0.5f * reach) continue;
     if (better(shape)) best = shape;
   }
-  return best;
+  if (best && roundness(*best) > kStrip) return best;
+  const Contour hull = hullOf(contours_, onPlane, normal, 0.5f * reach);
+  if (hull.points.size() < 3) return best;
+  const SectionShape shape = shapeOf(hull, onPlane, normal);
+  return !best || roundness(shape) > roundness(*best) ? shape : best;
 }
 
 }  // namespace vasa

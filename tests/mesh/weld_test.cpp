@@ -45,12 +45,14 @@ TEST_CASE("an unwelded soup of a tube becomes the tube again") {
   CHECK(clean.triangles.size() == tube.triangles.size());
 }
 
-TEST_CASE("components hang together by edges, not by single vertices") {
+TEST_CASE("components hang together by vertices, in the order of their first triangles") {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 4, 5}, {1, 3, 2}};
-  const auto parts = splitComponents(mesh, buildEdges(mesh));
+  mesh.positions = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {-1, 0, 0},
+                    {0, -1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {6, 7, 8}, {0, 4, 5}, {1, 3, 2}};
+  const auto parts = splitComponents(mesh);
   REQUIRE(parts.size() == 2);
-  CHECK(parts[0].triangles.size() == 2);
-  CHECK(parts[1].positions[0] == vec3(0));
+  CHECK(parts[0].triangles.size() == 3);
+  CHECK(parts[0].positions.size() == 6);
+  CHECK(parts[1].positions[0] == vec3(5, 0, 0));
 }
