@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSides = 8;
 constexpr float kStep = 0.014f;    // between the rings of a tube
-constexpr float kCell = 0.014f;    // largest polygon of a free form
+constexpr float kCell = 0.020f;    // largest polygon of a free form
 
 /// One ring of a tube: half width across, half height along `up` as far as the tube's direction lets it.
 struct Ring {

@@ -54,7 +54,7 @@ float Shape::distance(vec3 p) const {
   for (const Part& part : parts) {
     const float beyond = boxDistance(part.bounds, p);
     if (part.carve) {
-      if (beyond < part.blend) result = -smoothMinimum(-result, part.distance(p), part.blend);
+      if (beyond <= part.blend) result = -smoothMinimum(-result, part.distance(p), part.blend);
     } else if (beyond < result + part.blend) {
       result = smoothMinimum(result, part.distance(p), part.blend);
     }

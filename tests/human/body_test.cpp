@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.h"
 #include "human/made_human.h"
+#include "io/gltf.h"
 #include "make_human/glb.h"
 
 using namespace vasa;
@@ -112,6 +113,36 @@ TEST_CASE("a looping motion ends where it began") {
     for (const JointTracks& track : clip.tracks)
       gap = std::max(gap, glm::length(track.rotation.values.front() - track.rotation.values.back()));
     CHECK(gap < 1e-3f);
+  }
+}
+
+TEST_CASE("the reader of glTF takes the body whole") {
+  const auto path = std::filesystem::temp_directory_path() / "vasa_made_human.glb";
+  const std::vector<std::byte> bytes = writeGlb(madeHuman().rig, madeHuman().meshes, madeHuman().clips);
+  REQUIRE(writeFileAtomically(path, bytes).ok());
+  const Result<Body> read = readBody(path);
+  std::filesystem::remove(path);
+  if (!read.ok()) FAIL(read.error().message);
+  CHECK(read->skeleton.joints.size() == madeHuman().rig.joints.size());
+  REQUIRE(read->meshes.size() == 3);
+  CHECK(read->meshes[0].mesh.triangles.size() == madeHuman().meshes[0].mesh.triangles.size());
+  CHECK(read->meshes[0].colour.a < 1);
+  REQUIRE(read->clips.size() == madeHuman().clips.size());
+  for (std::size_t i = 0; i < read->clips.size(); ++i) {
+    CHECK(read->clips[i].name == madeHuman().clips[i].name);
+    CHECK(read->clips[i].frameCount() == madeHuman().clips[i].tracks[0].rotation.times.size());
+  }
+}
+
+TEST_CASE("no motion lifts or sinks the standing body off the floor") {
+  for (const Clip& clip : madeHuman().clips) {
+    if (clip.name == "run") continue;  // which has a flight
+    CAPTURE(clip.name);
+    const std::vector<vec3>& root = clip.tracks[0].translation.values;
+    const float rest = madeHuman().rig.points[0].position.y;
+    float highest = 0;
+    for (vec3 p : root) highest = std::max(highest, p.y - rest);
+    CHECK(highest < 0.05f);
   }
 }
 

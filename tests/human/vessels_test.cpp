@@ -98,7 +98,7 @@ TEST_CASE("the vessels lie inside the skin") {
       outside += madeHuman().skinShape.distance(vec3(p)) + p.w > 0.002f;
     }
   MESSAGE(outside << " of " << samples << " samples reach more than 2 mm outside");
-  CHECK(outside <= samples / 200);
+  CHECK(outside <= samples / 1000);
 }
 
 TEST_CASE("a vessel's bends are wider than its radius") {
