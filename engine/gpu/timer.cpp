@@ -19,7 +19,7 @@ void stamp(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t index) {
 
 GpuTimer::GpuTimer(Device& device, std::uint32_t mostScopes) : device_(device), mostScopes_(mostScopes) {
   names_.reserve(mostScopes);
-  if (device.timestampBits() == 0) return;
+  if (device.timestampBits() == 0 || mostScopes == 0) return;
   VkQueryPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;

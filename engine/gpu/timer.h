@@ -34,6 +34,7 @@ class GpuTimer {
     std::uint32_t index_;
   };
 
+  /// @param mostScopes  further stretches are only labelled; 0: times nothing and adds no barriers
   explicit GpuTimer(Device& device, std::uint32_t mostScopes = 32);
 
   /// First in the command buffer, outside rendering: forgets the stretches of the frame before.

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <string_view>
@@ -46,6 +47,10 @@ bool anyVessels(const Look& look) {
   return look.drawArteries || look.drawVeins || look.drawOtherVessels;
 }
 
+gpu::Buffer templateBuffer(gpu::Device& device, const TubeSet& tubes) {
+  return {device, {.name = "template", .bytes = tubes.templateBytes(), .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}};
+}
+
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
   assert(options.samples == 1 || options.samples == 4);
   return {.name = "picture",
@@ -71,16 +76,15 @@ struct Renderer::State {
   SkinPass skinPass;
   gpu::Target target;
   SurfacePass surfacePass;
-  gpu::Buffer templates;  // two of tubes.templateBytes()
+  std::array<gpu::Buffer, 2> templates;  // two buffers: validation takes a vertex fetch to reach a buffer's end
   gpu::Buffer readBack;
-  gpu::GpuTimer timer;
+  gpu::GpuTimer timer, staticTimer;
   FrameTimes times;
   bool transparent = false;
 
  private:
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
   void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch);
-  VkDeviceSize templateOffset(std::size_t batch) const { return (batch % 2) * tubes.templateBytes(); }
 };
 
 Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
@@ -94,22 +98,21 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
-      templates(device, {.name = "templates",
-                         .bytes = 2 * tubes.templateBytes(),
-                         .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+      templates{templateBuffer(device, tubes), templateBuffer(device, tubes)},
       readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
-      timer(device, std::uint32_t(2 * tubes.batches().size() + 4)) {}
+      timer(device, chosen.timed ? std::uint32_t(2 * tubes.batches().size() + 2) : 0),
+      staticTimer(device, 1) {}
 
 void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
   const auto scope = timer.scope(commands, kTessellate);
   tessellatePass.record(commands, {tubes, tubes.batches()[batch], upload.points(), upload.knots(),
-                                   templates.address() + templateOffset(batch)});
+                                   templates[batch % 2].address()});
 }
 
 void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch) {
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
-  surfacePass.recordTubes(commands, push, tubes, tubes.batches()[batch], templates, templateOffset(batch));
+  surfacePass.recordTubes(commands, push, tubes, tubes.batches()[batch], templates[batch % 2], 0);
   target.pause(commands);
 }
 
@@ -142,15 +145,21 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
 double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderInput& input) {
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   gpu::Commands commands = device.queue().begin("static draw");
-  timer.begin(commands);
+  staticTimer.begin(commands);
+  target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
+  target.pause(commands);
+  gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
   {
-    const auto scope = timer.scope(commands, kDraw);
-    target.begin(commands, clearColour(input.look), 0);
+    const auto scope = staticTimer.scope(commands, kDraw);
+    target.begin(commands, {}, 0, gpu::Stretch::middle);
     tubesAtOnce.recordDraw(commands, surfacePass, push);
-    target.end(commands);
+    target.pause(commands);
   }
+  gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
+  target.begin(commands, {}, 0, gpu::Stretch::last);
+  target.end(commands);
   device.queue().wait(device.queue().submit(std::move(commands)));
-  const auto results = timer.results();
+  const auto results = staticTimer.results();
   return results.empty() ? 0 : results.front().ms;
 }
 
@@ -216,7 +225,7 @@ std::uint32_t Renderer::sweepCount() const {
 }
 
 std::uint64_t Renderer::templateBytes() const {
-  return state_->templates.bytes();
+  return state_->templates[0].bytes() + state_->templates[1].bytes();
 }
 
 const RenderOptions& Renderer::options() const {

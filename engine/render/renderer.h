@@ -23,6 +23,9 @@ struct RenderOptions {
   /// Sweeps tessellated and drawn at a time. Two templates of that size are all the vertex memory that tubes
   /// take, however many sweeps there are.
   std::uint32_t sweepsPerBatch = 512;
+  /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and keeps a
+  /// device from writing one template while it draws the other; the pictures are the same.
+  bool timed = true;
 };
 
 /// One frame. All spans are read before draw() returns.
@@ -34,7 +37,8 @@ struct RenderInput {
   Look look;
 };
 
-/// [ms] of the latest frame, on the device's clock but for upload and total.
+/// [ms] of the latest frame: upload and total by the host's clock, the others by the device's, which are 0 where
+/// the device has no clock or RenderOptions::timed is off.
 struct FrameTimes {
   double upload = 0;      ///< host: points, frames and joints into the device's reach
   double tessellate = 0;  ///< compute passes that write vertices of tubes and caps
@@ -68,8 +72,9 @@ class Renderer {
 
   FrameTimes times() const;
 
-  /// For comparison: the time [ms, minimum of `repeats`] to draw the same tubes and caps from vertex buffers
-  /// that hold all of them, with nothing else: no compute, no meshes. Takes memory for every vertex.
+  /// For comparison with times().draw and .tessellate: the time [ms, minimum of `repeats`] to draw the same tubes
+  /// and caps from vertex buffers that hold all of them, with nothing else: no compute, no meshes, no clearing.
+  /// Takes memory for every vertex. 0 without a clock on the device.
   double staticDraw(const RenderInput& input, unsigned repeats);
 
   std::uint64_t triangleCount() const;     ///< of tubes and caps

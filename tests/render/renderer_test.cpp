@@ -56,6 +56,7 @@ RenderOptions small(std::uint32_t samples = 1) {
   options.height = 160;
   options.samples = samples;
   options.shape = {16, 4};
+  options.timed = false;  // the timer's barriers would hide a missing one
   return options;
 }
 
@@ -222,6 +223,23 @@ TEST_CASE("three hundred frames of changing poses without a word from the valida
     if (i == 299) last = hashOfPicture(renderer.readBack());
   }
   CHECK(first == last);
+}
+
+TEST_CASE("a timed frame tells each stage's time and shows the same picture") {
+  VASA_REQUIRE_GPU(rig);
+  if (rig.device().timestampBits() == 0) return;
+  const Subject subject(test::windingNetwork(40, 9));
+  RenderOptions options = small(4);
+  options.sweepsPerBatch = 64;
+  const Camera camera = cameraFrom(View::front, measure(subject.network, subject.points).bounds, 1);
+  Renderer untimed(rig.device(), subject.network, {}, options);
+  untimed.draw(subject.input(camera));
+  CHECK(untimed.times().draw == 0);
+  CHECK(untimed.times().total > 0);
+  options.timed = true;
+  Renderer renderer(rig.device(), subject.network, {}, options);
+  renderer.draw(subject.input(camera));
+  CHECK(hashOfPicture(renderer.readBack()) == hashOfPicture(untimed.readBack()));
   const FrameTimes times = renderer.times();
   CHECK(times.tessellate > 0);
   CHECK(times.draw > 0);
