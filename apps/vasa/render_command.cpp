@@ -50,8 +50,9 @@ Result<void> hide(const std::string& list, LookChoice& look) {
     if (word == "skin") look.skin = false;
     else if (word == "bones") look.bones = false;
     else if (word == "organs") look.organs = false;
-    else if (word == "vessels") look.vessels = false;
-    else return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, vessels"};
+    else if (word == "arteries") look.arteries = false;
+    else if (word == "veins") look.veins = false;
+    else return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
   }
   return {};
 }
@@ -63,7 +64,8 @@ Look lookOf(const LookChoice& choice, bool transparent) {
   look.drawSkin = choice.skin;
   look.drawBones = choice.bones;
   look.drawHeart = look.drawOther = choice.organs;
-  look.drawVessels = choice.vessels;
+  look.drawArteries = choice.arteries;
+  look.drawVeins = choice.veins;
   look.skinOpacity = choice.skinOpacity;
   return look;
 }
@@ -300,7 +302,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN")->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
-  sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, vessels (a list with commas)");
+  sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, arteries, veins (a list with commas)");
   sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
   sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");

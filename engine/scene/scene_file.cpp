@@ -114,7 +114,8 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
                  {"skin", reader.flag(look.skin)},
                  {"bones", reader.flag(look.bones)},
                  {"organs", reader.flag(look.organs)},
-                 {"vessels", reader.flag(look.vessels)},
+                 {"arteries", reader.flag(look.arteries)},
+                 {"veins", reader.flag(look.veins)},
                  {"skin_opacity", reader.number(look.skinOpacity, 0, 1)}});
 }
 
