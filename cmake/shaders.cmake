@@ -27,7 +27,7 @@ function(vasa_shaders name)
     set(header "${root}/spirv/${symbol}.h")
     set(optimise "")
     if(VASA_OPTIMISE_SHADERS)
-      set(optimise COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 "${spirv}" -o "${spirv}")
+      set(optimise COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 --scalar-block-layout "${spirv}" -o "${spirv}")
     endif()
     add_custom_command(
       OUTPUT "${header}"

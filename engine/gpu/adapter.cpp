@@ -25,11 +25,16 @@ std::string lowerCase(std::string_view text) {
 
 int preference(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
-    default: return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 3;
+    default:
+      return 4;
   }
 }
 
@@ -71,9 +76,11 @@ bool drawsTo(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags use)
 
 void findMissingLimits(VkPhysicalDevice device, const VkPhysicalDeviceLimits& limits,
                        std::vector<std::string>& lacks) {
-  if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize || limits.maxComputeWorkGroupSize[0] < kWorkgroupSize)
+  if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize ||
+      limits.maxComputeWorkGroupSize[0] < kWorkgroupSize)
     lacks.push_back("workgroups of " + std::to_string(kWorkgroupSize));
-  const VkSampleCountFlags samples = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
+  const VkSampleCountFlags samples =
+      limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
   if (!(samples & VK_SAMPLE_COUNT_4_BIT)) lacks.emplace_back("4 samples a pixel");
   if (!drawsTo(device, VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT))
     lacks.emplace_back("32-bit depth");
@@ -94,11 +101,16 @@ std::string listText(std::span<const Adapter> adapters) {
 
 const char* typeName(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
   }
 }
 

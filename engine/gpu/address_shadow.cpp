@@ -16,8 +16,8 @@ namespace {
 constexpr VkDeviceSize kTouched = 16;
 
 Unique<VkDescriptorSetLayout> makeSetLayout(Device& device) {
-  const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
-                                             nullptr};
+  const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                                             VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
@@ -79,8 +79,8 @@ void AddressShadow::record(VkCommandBuffer commands, const std::byte* push) cons
   }
 }
 
-// The layer (1.3.239) does not report a write after a write through descriptors of one stage. After a write, a
-// shadow therefore reads first, which is reported if no barrier came between.
+// The layer (1.3.239) does not report a write after a write through descriptors of one stage. After a write,
+// a shadow therefore reads first, which is reported if no barrier came between.
 void AddressShadow::orderOwnShadows(VkCommandBuffer commands, const AddressMap::Place& place) const {
   VkBufferMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
@@ -108,7 +108,7 @@ void AddressShadow::touch(VkCommandBuffer commands, const AddressMap::Place& pla
   descriptor.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   descriptor.pBufferInfo = &buffer;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, write ? write_.get() : read_.get());
-  device_->pushDescriptors(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &descriptor);
+  device_->pushDescriptor(commands, layout_.get(), descriptor);
   vkCmdDispatch(commands, 0, 0, 0);
 }
 

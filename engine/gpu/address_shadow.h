@@ -18,13 +18,13 @@ class Device;
 /// The validation layer follows descriptors, copies, vertex, index and indirect buffers and attachments, but
 /// no buffer addresses: a missing barrier between two passes of this engine would go unseen. So for each
 /// dispatch a shadow of it is recorded, too: for each pushed address, a dispatch of no workgroups whose only
-/// descriptor is the first 16 bytes at that address, read or written as the shader declares its block. It does
-/// nothing on the device, and the layer checks it like any other access.
+/// descriptor is the first 16 bytes at that address, read or written as the shader declares its block. It
+/// does nothing on the device, and the layer checks it like any other access.
 ///
 /// Seen: passes that use the same address, and a pass against any copy, vertex fetch, index fetch or indirect
 /// argument that covers it. Not seen: addresses within buffers, different addresses whose ranges overlap, and
-/// reads by address of vertex and fragment shaders. Two dispatches that write disjoint parts through one address
-/// are reported: give each part its own address.
+/// reads by address of vertex and fragment shaders. Two dispatches that write disjoint parts through one
+/// address are reported: give each part its own address.
 class AddressShadow {
  public:
   AddressShadow() = default;

@@ -5,7 +5,8 @@ namespace {
 
 constexpr VkAccessFlags2 kReadWrite = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
 
-void record(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkPipelineStageFlags2 to, VkAccessFlags2 seen) {
+void record(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkPipelineStageFlags2 to,
+            VkAccessFlags2 seen) {
   VkMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
   barrier.srcStageMask = from;
@@ -26,7 +27,8 @@ void stageBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkPipeli
 }
 
 void makeVisibleToHost(VkCommandBuffer commands) {
-  record(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  record(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+         VK_ACCESS_2_HOST_READ_BIT);
 }
 
 void changeLayout(VkCommandBuffer commands, const LayoutChange& change) {

@@ -9,7 +9,8 @@ namespace vasa::gpu {
 
 ComputePipeline::ComputePipeline(Device& device, const ComputeSpec& spec)
     : name_(spec.shader.name), pushBytes_(spec.pushBytes) {
-  for (std::size_t axis = 0; axis < 3; ++axis) mostGroups_[axis] = device.limits().maxComputeWorkGroupCount[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    mostGroups_[axis] = device.limits().maxComputeWorkGroupCount[axis];
   shadow_ = AddressShadow(device, spec.shader);
   layout_ = makePipelineLayout(device, name_, VK_SHADER_STAGE_COMPUTE_BIT, spec.pushBytes, spec.sets);
   const Unique<VkShaderModule> module = makeShaderModule(device, spec.shader);
@@ -36,8 +37,8 @@ void ComputePipeline::bind(VkCommandBuffer commands, const void* push, std::uint
 bool ComputePipeline::worthDispatching(std::array<std::uint32_t, 3> groups) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (groups[axis] > mostGroups_[axis])
-      throw Error({Fault::failed, name_ + ": " + std::to_string(groups[axis]) + " workgroups, more than the " +
-                                      std::to_string(mostGroups_[axis]) +
+      throw Error({Fault::failed, name_ + ": " + std::to_string(groups[axis]) +
+                                      " workgroups, more than the " + std::to_string(mostGroups_[axis]) +
                                       " of the device; spread them over two directions or two dispatches"});
   return groups[0] && groups[1] && groups[2];
 }

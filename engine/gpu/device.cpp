@@ -4,7 +4,9 @@
 
 namespace vasa::gpu {
 
-Device::Device(const DeviceOptions& options) : instance_({options.validation, options.instanceExtensions}), gpuAssisted_(options.validation.gpuAssisted) {
+Device::Device(const DeviceOptions& options)
+    : instance_({options.validation, options.instanceExtensions}),
+      gpuAssisted_(options.validation.gpuAssisted) {
   choose(options.choice);
   create(options);
   if (options.validation.any()) loadLabels();
@@ -27,7 +29,8 @@ Device::Owner::~Owner() {
 void Device::choose(const std::string& choice) {
   const std::vector<VkPhysicalDevice> devices = physicalDevices(instance_.handle());
   std::vector<Adapter> adapters;
-  for (VkPhysicalDevice device : devices) adapters.push_back(describe(device, std::uint32_t(adapters.size())));
+  for (VkPhysicalDevice device : devices)
+    adapters.push_back(describe(device, std::uint32_t(adapters.size())));
   const std::size_t chosen = chooseAdapter(adapters, choice);
   physical_ = devices[chosen];
   adapter_ = adapters[chosen];
@@ -75,8 +78,13 @@ void Device::loadLabels() {
 
 void Device::followAddresses() {
   addresses_ = std::make_unique<AddressMap>();
-  pushDescriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
+  pushDescriptors_ = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
       vkGetDeviceProcAddr(handle(), "vkCmdPushDescriptorSetKHR"));
+}
+
+void Device::pushDescriptor(VkCommandBuffer commands, VkPipelineLayout layout,
+                            const VkWriteDescriptorSet& descriptor) const {
+  pushDescriptors_(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &descriptor);
 }
 
 void Device::setObjectName(VkObjectType type, std::uint64_t handle, std::string_view name) const {

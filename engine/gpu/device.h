@@ -50,9 +50,11 @@ class Device {
   Queue& queue() { return *queue_; }
   bool gpuAssisted() const { return gpuAssisted_; }
 
-  /// Where buffers lie, and vkCmdPushDescriptorSetKHR; nullptr unless synchronization is validated.
+  /// Where buffers lie, and a way to bind one without a descriptor pool. For AddressShadow: the map is
+  /// nullptr, and nothing can be pushed, unless synchronization is validated.
   AddressMap* addresses() { return addresses_.get(); }
-  PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
+  void pushDescriptor(VkCommandBuffer commands, VkPipelineLayout layout,
+                      const VkWriteDescriptorSet& descriptor) const;
 
   /// Shown in validation messages and by debuggers; does nothing without validation.
   template <class Handle>
@@ -92,6 +94,7 @@ class Device {
   std::uint32_t timestampBits_ = 0;
   bool gpuAssisted_;
   std::unique_ptr<AddressMap> addresses_;
+  PFN_vkCmdPushDescriptorSetKHR pushDescriptors_ = nullptr;
   Labels labels_;
   Owner owner_;
   Unique<VkPipelineCache> pipelineCache_;

@@ -8,8 +8,10 @@ struct Feature {
   VkBool32& (*at)(Features&);
 };
 
-#define VASA_FEATURE(group, name) \
-  Feature { #name, [](Features& f) -> VkBool32& { return f.group.name; } }
+#define VASA_FEATURE(group, name)                                 \
+  Feature {                                                       \
+#name, [](Features & f) -> VkBool32& { return f.group.name; } \
+  }
 
 const Feature kRequired[] = {
     VASA_FEATURE(core.features, multiDrawIndirect),

@@ -46,13 +46,13 @@ VkPipelineDepthStencilStateCreateInfo depthOf(const GraphicsSpec& spec) {
 
 // The parts that every pipeline of the engine has alike.
 struct FixedState {
-  VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-                                                   nullptr, 0, 0, nullptr, 0, nullptr};
+  VkPipelineVertexInputStateCreateInfo vertexInput{
+      VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO, nullptr, 0, 0, nullptr, 0, nullptr};
   std::array<VkDynamicState, 2> dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO, nullptr, 0,
                                            std::uint32_t(dynamicStates.size()), dynamicStates.data()};
-  VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, nullptr, 0, 1,
-                                             nullptr, 1, nullptr};
+  VkPipelineViewportStateCreateInfo viewport{
+      VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, nullptr, 0, 1, nullptr, 1, nullptr};
 };
 
 }  // namespace
@@ -61,7 +61,8 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : p
   layout_ = makePipelineLayout(device, spec.name, kStages, spec.pushBytes, spec.sets);
   const Unique<VkShaderModule> vertex = makeShaderModule(device, spec.vertex);
   const bool shaded = !spec.fragment.words.empty();
-  const Unique<VkShaderModule> fragment = shaded ? makeShaderModule(device, spec.fragment) : Unique<VkShaderModule>();
+  const Unique<VkShaderModule> fragment =
+      shaded ? makeShaderModule(device, spec.fragment) : Unique<VkShaderModule>();
   const VkSpecializationInfo constants = spec.constants.info();
   const std::array stages{shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &constants),
                           shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &constants)};

@@ -28,8 +28,8 @@ class QueueSubmitSwitch {
   explicit QueueSubmitSwitch(bool on) : on_(on) {
     if (!on_) return;
     if (const char* set = std::getenv(kVariable)) before_ = set;
-    const std::string value = (before_ ? *before_ + "," : "") +
-                              "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
+    const std::string value =
+        (before_ ? *before_ + "," : "") + "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
     setenv(kVariable, value.c_str(), 1);
   }
   ~QueueSubmitSwitch() {
@@ -53,7 +53,8 @@ Function load(VkInstance instance, const char* name) {
   return reinterpret_cast<Function>(vkGetInstanceProcAddr(instance, name));
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                       VkDebugUtilsMessageTypeFlagsEXT,
                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   static_cast<ValidationLog*>(user)->add(data->pMessage ? data->pMessage : "(no text)");
   return VK_FALSE;
@@ -87,15 +88,17 @@ std::vector<std::string> ValidationLog::messages() const {
 Instance::Instance(const InstanceOptions& options) {
   const Validation& validation = options.validation;
   if (validation.any() && !hasValidationLayer())
-    throw Error({Fault::failed, std::string(kLayer) +
-                                    " is not installed; install vulkan-validationlayers or switch validation off"});
+    throw Error(
+        {Fault::failed, std::string(kLayer) +
+                            " is not installed; install vulkan-validationlayers or switch validation off"});
   VkApplicationInfo application{};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   application.pApplicationName = "vasa";
   application.apiVersion = VK_API_VERSION_1_3;
 
   std::vector<VkValidationFeatureEnableEXT> enables;
-  if (validation.synchronization) enables.push_back(VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT);
+  if (validation.synchronization)
+    enables.push_back(VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT);
   if (validation.gpuAssisted) {
     enables.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT);
     enables.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT);
@@ -138,8 +141,8 @@ void Instance::createMessenger() {
 
 Instance::~Instance() {
   if (messenger_)
-    load<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(instance_, messenger_,
-                                                                                            nullptr);
+    load<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(
+        instance_, messenger_, nullptr);
   vkDestroyInstance(instance_, nullptr);
 }
 

@@ -21,9 +21,12 @@ Wish wishOf(MemoryRole role) {
   constexpr VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
   switch (role) {
-    case MemoryRole::upload: return {visible, coherent, cached | local};
-    case MemoryRole::readBack: return {visible, cached, local};
-    default: return {0, local, visible};
+    case MemoryRole::upload:
+      return {visible, coherent, cached | local};
+    case MemoryRole::readBack:
+      return {visible, cached, local};
+    default:
+      return {0, local, visible};
   }
 }
 
@@ -43,14 +46,15 @@ constexpr VkMemoryPropertyFlags kForbidden =
 
 }  // namespace
 
-std::vector<std::uint32_t> rankMemoryTypes(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t typeBits,
-                                           MemoryRole role) {
+std::vector<std::uint32_t> rankMemoryTypes(const VkPhysicalDeviceMemoryProperties& memory,
+                                           std::uint32_t typeBits, MemoryRole role) {
   const Wish wish = wishOf(role);
   const auto flags = [&](std::uint32_t type) { return memory.memoryTypes[type].propertyFlags; };
   std::vector<std::uint32_t> types;
   for (std::uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
     const bool allowed = (typeBits >> type & 1u) != 0;
-    if (allowed && (flags(type) & wish.needed) == wish.needed && !(flags(type) & kForbidden)) types.push_back(type);
+    if (allowed && (flags(type) & wish.needed) == wish.needed && !(flags(type) & kForbidden))
+      types.push_back(type);
   }
   // Stable: among equals, drivers list the faster type first.
   std::stable_sort(types.begin(), types.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -79,7 +83,8 @@ Memory::Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryDedica
     coherent_ = device.memory().memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;  // else the next heap may have room
   }
-  check(result, ("vkAllocateMemory of " + std::to_string(needs.size) + " bytes for " + std::string(name)).c_str());
+  check(result,
+        ("vkAllocateMemory of " + std::to_string(needs.size) + " bytes for " + std::string(name)).c_str());
   memory_ = {device_, memory};
   device.setName(memory, name);
   if (role == MemoryRole::device) return;

@@ -24,8 +24,8 @@ enum class MemoryRole {
 /// device: local, out of the host's sight if possible (that window is small on many GPUs). upload: visible,
 /// coherent and uncached if possible. readBack: visible, cached if possible. Never protected or lazily
 /// allocated memory, nor the uncached types of VK_AMD_device_coherent_memory.
-std::vector<std::uint32_t> rankMemoryTypes(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t typeBits,
-                                           MemoryRole role);
+std::vector<std::uint32_t> rankMemoryTypes(const VkPhysicalDeviceMemoryProperties& memory,
+                                           std::uint32_t typeBits, MemoryRole role);
 
 /// The memory of one buffer or image: an allocation of its own. The engine makes few and large ones, far from
 /// the 4,096 that every device grants. Visible roles are mapped for good.
@@ -46,8 +46,8 @@ class Memory {
  private:
   friend Memory allocate(Device&, VkBuffer, MemoryRole, std::string_view);
   friend Memory allocate(Device&, VkImage, std::string_view);
-  Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryDedicatedAllocateInfo owner, MemoryRole role,
-         std::string_view name);
+  Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryDedicatedAllocateInfo owner,
+         MemoryRole role, std::string_view name);
   VkMappedMemoryRange range(VkDeviceSize offset, VkDeviceSize bytes) const;
 
   VkDevice device_ = VK_NULL_HANDLE;

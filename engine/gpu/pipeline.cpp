@@ -14,7 +14,8 @@ Specialization& Specialization::set(std::uint32_t id, std::uint32_t value) {
 }
 
 VkSpecializationInfo Specialization::info() const {
-  return {std::uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(std::uint32_t), values_.data()};
+  return {std::uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(std::uint32_t),
+          values_.data()};
 }
 
 Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code) {
@@ -41,7 +42,8 @@ VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShade
 }
 
 Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view name, VkShaderStageFlags stages,
-                                            std::uint32_t pushBytes, std::span<const VkDescriptorSetLayout> sets) {
+                                            std::uint32_t pushBytes,
+                                            std::span<const VkDescriptorSetLayout> sets) {
   const std::uint32_t most = device.limits().maxPushConstantsSize;
   if (pushBytes > most)
     throw Error({Fault::failed, std::string(name) + ": " + std::to_string(pushBytes) +

@@ -27,7 +27,9 @@ class Specialization {
   Specialization& set(std::uint32_t id, std::uint32_t value);
   Specialization& set(std::uint32_t id, std::int32_t value) { return set(id, std::uint32_t(value)); }
   Specialization& set(std::uint32_t id, float value) { return set(id, std::bit_cast<std::uint32_t>(value)); }
-  Specialization& set(std::uint32_t id, bool value) { return set(id, std::uint32_t(value ? VK_TRUE : VK_FALSE)); }
+  Specialization& set(std::uint32_t id, bool value) {
+    return set(id, std::uint32_t(value ? VK_TRUE : VK_FALSE));
+  }
 
   VkSpecializationInfo info() const;  ///< points into this object
 

@@ -22,9 +22,9 @@ Commands::operator VkCommandBuffer() const {
   return slot_->buffer;
 }
 
-// GPU-assisted validation (layer 1.3.239) waits for the queue inside vkQueueSubmit2, before the layer itself has
-// noted the timeline's new value: waiting for that value then takes 10 s, ends in a message and may hang. With it
-// on, a submit signals nothing and waits for the queue.
+// GPU-assisted validation (layer 1.3.239) waits for the queue inside vkQueueSubmit2, before the layer itself
+// has noted the timeline's new value: waiting for that value then takes 10 s, ends in a message and may hang.
+// With it on, a submit signals nothing and waits for the queue.
 Queue::Queue(Device& device) : device_(device), immediate_(device.gpuAssisted()) {
   vkGetDeviceQueue(device.handle(), device.adapter().queueFamily, 0, &queue_);
   VkSemaphoreTypeCreateInfo type{};
@@ -39,7 +39,8 @@ Queue::Queue(Device& device) : device_(device), immediate_(device.gpuAssisted())
   device.setName(semaphore, "timeline");
 }
 
-// Not vkQueueWaitIdle(): with synchronization validation (layer 1.3.239) that can go round for ever inside the layer.
+// Not vkQueueWaitIdle(): with synchronization validation (layer 1.3.239) that can go round for ever inside
+// the layer.
 Queue::~Queue() {
   try {
     wait(last());

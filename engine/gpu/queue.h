@@ -38,10 +38,10 @@ class Commands {
 
 /// The device's one queue: command buffers from a growing ring, a timeline of tickets, late destruction.
 ///
-/// Submits run one after the other: begin() records a barrier against everything submitted before, so barriers
-/// are needed inside a command buffer only (gpu/barrier.h). What the host wrote and flushed before submit() is
-/// seen by the device, and what the device wrote is seen by the host after wait(): submit() ends each command
-/// buffer with a barrier for that.
+/// Submits run one after the other: begin() records a barrier against everything submitted before, so
+/// barriers are needed inside a command buffer only (gpu/barrier.h). What the host wrote and flushed before
+/// submit() is seen by the device, and what the device wrote is seen by the host after wait(): submit() ends
+/// each command buffer with a barrier for that.
 class Queue {
  public:
   explicit Queue(Device& device);

@@ -30,13 +30,15 @@ Target::Target(Device& device, const TargetSpec& spec) : spec_(spec) {
                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                 VK_IMAGE_USAGE_SAMPLED_BIT});
   if (multisampled)
-    samples_ = Image(device, {spec.name, spec.size, spec.colour, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, spec.samples});
+    samples_ =
+        Image(device, {spec.name, spec.size, spec.colour, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, spec.samples});
   if (spec.depth != VK_FORMAT_UNDEFINED)
     depth_ = Image(device, {spec.name, spec.size, spec.depth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                             spec.samples});
 }
 
-void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth, Stretch stretch) const {
+void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth,
+                   Stretch stretch) const {
   const bool starts = stretch == Stretch::only || stretch == Stretch::first;
   const bool ends = stretch == Stretch::only || stretch == Stretch::last;
   if (starts) {
@@ -86,9 +88,9 @@ void Target::setViewport(VkCommandBuffer commands) const {
 
 void Target::end(VkCommandBuffer commands, VkImageLayout after) const {
   vkCmdEndRendering(commands);
-  changeLayout(commands, {picture_.handle(), VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                          after, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT});
+  changeLayout(commands,
+               {picture_.handle(), VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, after,
+                VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT});
 }
 
 void Target::copyPicture(VkCommandBuffer commands, const Buffer& to) const {
@@ -96,7 +98,8 @@ void Target::copyPicture(VkCommandBuffer commands, const Buffer& to) const {
   VkBufferImageCopy region{};
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {spec_.size.width, spec_.size.height, 1};
-  vkCmdCopyImageToBuffer(commands, picture_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1, &region);
+  vkCmdCopyImageToBuffer(commands, picture_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1,
+                         &region);
 }
 
 }  // namespace vasa::gpu

@@ -7,8 +7,8 @@
 namespace vasa::gpu {
 namespace {
 
-// A time stamp between two full barriers. lavapipe takes a stamp only when it gets round to the tiles that were
-// binned with it: without the barriers the stamps around several draws all fall together.
+// A time stamp between two full barriers. lavapipe takes a stamp only when it gets round to the tiles that
+// were binned with it: without the barriers the stamps around several draws all fall together.
 void stamp(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t index) {
   stageBarrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
   vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, index);

@@ -13,7 +13,8 @@ class Device;
 
 /// Times named stretches of one command buffer on the device. One timer for each frame in flight.
 /// A stretch begins when all earlier commands have finished and ends when its own have, so stretches in a row
-/// add up. Both ends are full barriers: outside rendering only, and a timed frame overlaps less than an untimed one.
+/// add up. Both ends are full barriers: outside rendering only, and a timed frame overlaps less than an
+/// untimed one.
 class GpuTimer {
  public:
   struct Time {

@@ -52,10 +52,11 @@ TEST_CASE("a choice that cannot be met says what there is") {
                        "1 = Old Board 9, 2 = Board 10, 3 = Cloud Board",
                        gpu::Error);
   CHECK_THROWS_AS(gpu::chooseAdapter(kMachine, "10"), gpu::Error);  // an index, not a part of "Board 10"
-  CHECK_THROWS_WITH_AS(gpu::chooseAdapter(kMachine, "old"),
-                       "Vulkan device 1 (Old Board 9) lacks dynamicRendering, Vulkan 1.3; update its driver or "
-                       "choose another device (vasa devices lists them)",
-                       gpu::Error);
+  CHECK_THROWS_WITH_AS(
+      gpu::chooseAdapter(kMachine, "old"),
+      "Vulkan device 1 (Old Board 9) lacks dynamicRendering, Vulkan 1.3; update its driver or "
+      "choose another device (vasa devices lists them)",
+      gpu::Error);
   try {
     (void)gpu::chooseAdapter(kMachine, "1");
     FAIL("a device that lacks something was taken");
@@ -70,6 +71,16 @@ TEST_CASE("types have the names that reports use") {
   CHECK(std::string(gpu::typeName(VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU)) == "virtual");
   CHECK(std::string(gpu::typeName(VK_PHYSICAL_DEVICE_TYPE_CPU)) == "cpu");
   CHECK(std::string(gpu::typeName(VK_PHYSICAL_DEVICE_TYPE_OTHER)) == "other");
+}
+
+TEST_CASE("a device that is not there cannot be made") {
+  VASA_REQUIRE_GPU(rig);
+  const auto made = gpu::attempt([] {
+    gpu::Device device(
+        {.choice = "no such card", .validation = {}, .instanceExtensions = {}, .deviceExtensions = {}});
+  });
+  REQUIRE(!made.ok());
+  CHECK(made.error().fault == Fault::noDevice);
 }
 
 TEST_CASE("the devices of this machine are described in full") {

@@ -52,7 +52,7 @@ TEST_CASE("a buffer that shaders cannot reach as a whole is refused") {
   VASA_REQUIRE_GPU(rig);
   const VkDeviceSize most = rig.device().limits().maxStorageBufferRange;
   CHECK_THROWS_WITH_AS(gpu::Buffer(rig.device(), {"vertices", most + 1}),
-                       doctest::Contains("bytes, more than the " ), gpu::Error);
+                       doctest::Contains("bytes, more than the "), gpu::Error);
 }
 
 TEST_CASE("a moved buffer leaves an empty one") {

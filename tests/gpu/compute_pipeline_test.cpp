@@ -59,7 +59,8 @@ TEST_CASE("passes in one command buffer see each other's results across a barrie
   const test::ScalePush push{buffer.address(), 100};
   rig.run([&](VkCommandBuffer commands) {
     pipeline.dispatch(commands, push, 4);
-    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
     pipeline.dispatch(commands, push, 4);
   });
   CHECK(rig.download<float>(buffer)[99] == 400.0f);
@@ -83,9 +84,8 @@ TEST_CASE("nothing is dispatched for nothing, and too many groups are refused") 
   const test::ScalePush push{buffer.address(), 4};
   rig.run([&](VkCommandBuffer commands) {
     pipeline.dispatch(commands, push, 0);
-    CHECK_THROWS_WITH_AS(
-        pipeline.dispatch(commands, push, 1, 0xffffffffu),
-        doctest::Contains("scale.comp: 4294967295 workgroups, more than the "), gpu::Error);
+    CHECK_THROWS_WITH_AS(pipeline.dispatch(commands, push, 1, 0xffffffffu),
+                         doctest::Contains("scale.comp: 4294967295 workgroups, more than the "), gpu::Error);
   });
   CHECK(rig.download<float>(buffer) == ramp(4));
 }
@@ -110,7 +110,9 @@ TEST_CASE("all iterations that a shader may make are made") {
   const gpu::ComputePipeline pipeline(rig.device(), {spirv::count_loops_comp, sizeof(Push), {}, {}});
   const auto made = [&](std::uint32_t wanted) {
     const gpu::Buffer counted = rig.upload(std::vector<std::uint32_t>{0});
-    rig.run([&](VkCommandBuffer commands) { pipeline.dispatch(commands, Push{counted.address(), wanted, 0}, 1); });
+    rig.run([&](VkCommandBuffer commands) {
+      pipeline.dispatch(commands, Push{counted.address(), wanted, 0}, 1);
+    });
     return rig.download<std::uint32_t>(counted)[0];
   };
   CHECK(made(30'000) == 30'000);

@@ -10,10 +10,11 @@ TEST_CASE("check passes successes on") {
 }
 
 TEST_CASE("a failed call names itself, its result and a remedy") {
-  CHECK_THROWS_WITH_AS(gpu::check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory"),
-                       "vkAllocateMemory: VK_ERROR_OUT_OF_DEVICE_MEMORY; use a smaller picture or fewer quads, or "
-                       "another --device",
-                       gpu::Error);
+  CHECK_THROWS_WITH_AS(
+      gpu::check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory"),
+      "vkAllocateMemory: VK_ERROR_OUT_OF_DEVICE_MEMORY; use a smaller picture or fewer quads, or "
+      "another --device",
+      gpu::Error);
   CHECK_THROWS_WITH_AS(gpu::check(VK_ERROR_OUT_OF_HOST_MEMORY, "vkCreateBuffer"),
                        "vkCreateBuffer: VK_ERROR_OUT_OF_HOST_MEMORY; free some memory", gpu::Error);
   CHECK_THROWS_WITH_AS(gpu::check(VkResult(-77), "vkDoThings"), "vkDoThings: VkResult -77", gpu::Error);

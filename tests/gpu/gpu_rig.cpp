@@ -68,8 +68,7 @@ bool vulkanAvailable() {
   return false;
 }
 
-GpuRig::GpuRig()
-    : device_(*processDevice().device()), messagesBefore_(device_.validationMessages().size()) {}
+GpuRig::GpuRig() : device_(*processDevice().device()), messagesBefore_(device_.validationMessages().size()) {}
 
 GpuRig::~GpuRig() {
   auto messages = device_.validationMessages();

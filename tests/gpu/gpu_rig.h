@@ -16,7 +16,8 @@ bool vulkanAvailable();
 
 /// The process's one device with core and synchronization validation, for a test case. Fails the case if the
 /// validation layer said anything while the rig was there. Objects left behind when the process ends fail
-/// the process. Mesa's shader cache is a temporary folder of the process.
+/// the process. VASA_TEST_DEVICE chooses the device as --device does. Mesa's shader cache is a temporary
+/// folder of the process.
 class GpuRig {
  public:
   GpuRig();

@@ -62,10 +62,11 @@ TEST_CASE("a driver whose device is not in this machine counts as no device") {
 
 TEST_CASE("a missing validation layer is said clearly") {
   const Variable path("VK_LAYER_PATH", "/nonexistent");
-  CHECK_THROWS_WITH_AS(gpu::Instance({.validation = {.core = true}}),
-                       "VK_LAYER_KHRONOS_validation is not installed; install vulkan-validationlayers or switch "
-                       "validation off",
-                       gpu::Error);
+  CHECK_THROWS_WITH_AS(
+      gpu::Instance({.validation = {.core = true}}),
+      "VK_LAYER_KHRONOS_validation is not installed; install vulkan-validationlayers or switch "
+      "validation off",
+      gpu::Error);
 }
 
 TEST_CASE("the layer's switches leave the environment as it was") {

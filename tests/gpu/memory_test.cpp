@@ -13,23 +13,24 @@ constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
 VkPhysicalDeviceMemoryProperties machine(std::initializer_list<VkMemoryPropertyFlags> types) {
   VkPhysicalDeviceMemoryProperties memory{};
-  for (VkMemoryPropertyFlags flags : types) memory.memoryTypes[memory.memoryTypeCount++].propertyFlags = flags;
+  for (VkMemoryPropertyFlags flags : types)
+    memory.memoryTypes[memory.memoryTypeCount++].propertyFlags = flags;
   return memory;
 }
 
 // The tables that drivers show, shortened to the types that differ.
 const auto kSoftware = machine({kLocal | kVisible | kCoherent | kCached});
-const auto kDiscrete = machine({0, kLocal, kVisible | kCoherent, kVisible | kCoherent | kCached,
-                                kLocal | kVisible | kCoherent});
-const auto kDiscreteAmd = machine({kLocal, kVisible | kCoherent, kLocal | kVisible | kCoherent,
-                                   kVisible | kCoherent | kCached,
-                                   kLocal | VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD |
-                                       VK_MEMORY_PROPERTY_DEVICE_UNCACHED_BIT_AMD});
-const auto kMobile = machine({kLocal | kVisible | kCached, kLocal | kVisible | kCoherent,
-                              kLocal | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT,
-                              kLocal | VK_MEMORY_PROPERTY_PROTECTED_BIT});
+const auto kDiscrete =
+    machine({0, kLocal, kVisible | kCoherent, kVisible | kCoherent | kCached, kLocal | kVisible | kCoherent});
+const auto kDiscreteAmd = machine(
+    {kLocal, kVisible | kCoherent, kLocal | kVisible | kCoherent, kVisible | kCoherent | kCached,
+     kLocal | VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD | VK_MEMORY_PROPERTY_DEVICE_UNCACHED_BIT_AMD});
+const auto kMobile =
+    machine({kLocal | kVisible | kCached, kLocal | kVisible | kCoherent,
+             kLocal | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT, kLocal | VK_MEMORY_PROPERTY_PROTECTED_BIT});
 
-std::uint32_t best(const VkPhysicalDeviceMemoryProperties& memory, gpu::MemoryRole role, std::uint32_t bits = ~0u) {
+std::uint32_t best(const VkPhysicalDeviceMemoryProperties& memory, gpu::MemoryRole role,
+                   std::uint32_t bits = ~0u) {
   const auto ranked = gpu::rankMemoryTypes(memory, bits, role);
   REQUIRE(!ranked.empty());
   return ranked.front();

@@ -34,9 +34,9 @@ struct Scene {
   Scene(const test::GpuRig& rig, VkSampleCountFlagBits samples, gpu::GraphicsSpec spec = {})
       : target(rig.device(), {"scene", kSize, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT, samples}),
         // Two triangles over the left half: the first nearer and above the diagonal only, then both halves.
-        corners(rig.upload(std::vector<float>{-1, -1, .2f, -1, 1, .2f, 0, -1, .2f,    //
-                                              -1, -1, .5f, -1, 1, .5f, 0, -1, .5f,    //
-                                              0, -1, .5f, -1, 1, .5f, 0, 1, .5f})),
+        corners(rig.upload(std::vector<float>{-1, -1, .2f, -1, 1, .2f, 0, -1, .2f,  //
+                                              -1, -1, .5f, -1, 1, .5f, 0, -1, .5f,  //
+                                              0,  -1, .5f, -1, 1, .5f, 0, 1,  .5f})),
         picture(rig.device(), {"picture", target.pictureBytes(), gpu::MemoryRole::readBack}) {
     spec.name = "triangle";
     spec.vertex = spirv::triangle_vert;
@@ -75,7 +75,7 @@ TEST_CASE("triangles fetched by address are drawn, hidden by depth and read back
     Scene scene(rig, samples);
     for (int frame = 0; frame < 2; ++frame) {
       const auto pixels = scene.draw(rig);
-      CHECK(at(pixels, 1, 1) == kRed);     // nearer, though drawn first
+      CHECK(at(pixels, 1, 1) == kRed);  // nearer, though drawn first
       CHECK(at(pixels, 16, 19) == kGreen);
       CHECK(at(pixels, 30, 1) == kBlack);
       CHECK(at(pixels, 36, 20) == kBlack);

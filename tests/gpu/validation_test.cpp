@@ -131,7 +131,8 @@ TEST_CASE("a barrier left out between a compute pass and a draw is reported") {
     std::uint64_t corners;
     float colour[4];
   };
-  const gpu::Target target(bench.device, {.name = "target", .size = {8, 8}, .samples = VK_SAMPLE_COUNT_1_BIT});
+  const gpu::Target target(bench.device,
+                           {.name = "target", .size = {8, 8}, .samples = VK_SAMPLE_COUNT_1_BIT});
   const gpu::GraphicsPipeline pipeline(bench.device, {.name = "triangle",
                                                       .vertex = spirv::triangle_vert,
                                                       .fragment = spirv::triangle_frag,
@@ -161,7 +162,8 @@ TEST_CASE("a write behind the end of a buffer is reported with its invocation") 
   const RoomyBuffer roomy(bench.device, kCount * sizeof(float));
   const auto scaleRoomy = [&](std::uint32_t count) {
     return bench.messagesOf([&](VkCommandBuffer commands) {
-      bench.pipeline.dispatch(commands, test::ScalePush{roomy.address, count}, gpu::groupsFor(kCount, kGroup));
+      bench.pipeline.dispatch(commands, test::ScalePush{roomy.address, count},
+                              gpu::groupsFor(kCount, kGroup));
     });
   };
   const std::string correct = scaleRoomy(kCount - 1);
@@ -175,7 +177,8 @@ TEST_CASE("an object left behind is reported when the device goes") {
   VASA_REQUIRE_GPU(rig);
   std::shared_ptr<const gpu::ValidationLog> log;
   {
-    gpu::Device device({.choice = {}, .validation = {.core = true}, .instanceExtensions = {}, .deviceExtensions = {}});
+    gpu::Device device(
+        {.choice = {}, .validation = {.core = true}, .instanceExtensions = {}, .deviceExtensions = {}});
     log = device.validationLog();
     VkFenceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
