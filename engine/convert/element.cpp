@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convert/bridge.h"
 #include "convert/forks.h"
 #include "convert/prune.h"
 #include "convert/reeb.h"
 #include "convert/reslice.h"
+#include "convert/rings.h"
 #include "mesh/boundary.h"
 #include "mesh/components.h"
 #include "mesh/level_set.h"
@@ -19,13 +21,10 @@ namespace {
 struct Piece {
   TriangleMesh mesh;
   MeshEdges edges;
-  std::uint32_t holes = 0;
 };
 
-Piece prepare(const TriangleMesh& component) {
-  const MeshEdges edges = buildEdges(component);
-  const auto loops = boundaryLoops(component, edges);
-  Piece piece{fillLoops(component, edges, loops), {}, std::uint32_t(loops.size())};
+Piece prepare(const TriangleMesh& component, const MeshEdges& edges, std::span<const BoundaryLoop> loops) {
+  Piece piece{fillLoops(component, edges, loops), {}};
   piece.edges = buildEdges(piece.mesh);
   return piece;
 }
@@ -108,6 +107,14 @@ PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
   return result;
 }
 
+PieceAxes axesOfRings(const std::vector<vec4>& sections) {
+  PieceAxes axes;
+  axes.graph.nodes = {vec3(sections.front()), vec3(sections.back())};
+  axes.graph.chains = {{0, 1, sections, polylineLength(sections)}};
+  axes.sections = {sections};
+  return axes;
+}
+
 // Neighbouring sections that coincide become one; end sections stay.
 void separate(std::vector<vec4>& sections, float minimumRadius) {
   std::vector<vec4> kept;
@@ -153,21 +160,29 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
   const std::vector<TriangleMesh> components = splitComponents(clean);
   skeleton.componentsTotal = std::uint32_t(components.size());
   const double area = clean.area();
-  std::uint32_t debris = 0, shapeless = 0;
+  std::uint32_t debris = 0, shapeless = 0, byRings = 0, byLevels = 0;
   for (const TriangleMesh& component : components) {
     if (component.area() < options.debrisShare * area) {
       ++debris;
       continue;
     }
-    PieceAxes axes = axesByLevelSets(prepare(component), options);
+    const MeshEdges edges = buildEdges(component);
+    const auto loops = boundaryLoops(component, edges);
+    const auto rings = options.useRings ? traceRings(component, edges, loops) : std::nullopt;
     const std::size_t before = skeleton.branches.size();
-    add(skeleton, std::move(axes), options.minimumRadius);
+    add(skeleton, rings ? axesOfRings(*rings) : axesByLevelSets(prepare(component, edges, loops), options),
+        options.minimumRadius);
     if (skeleton.branches.size() == before)
       ++shapeless;
     else
-      ++skeleton.componentsUsed;
+      ++(rings ? byRings : byLevels);
   }
-  if (!skeleton.branches.empty()) skeleton.method = "level sets";
+  skeleton.componentsUsed = byRings + byLevels;
+  if (byRings > 0) skeleton.method = byLevels > 0 ? "rings and level sets" : "rings";
+  else if (byLevels > 0) skeleton.method = "level sets";
+  const std::uint32_t bridged = bridgeGaps(skeleton, options.bridgeRadii, options.detail);
+  dropUnusedNodes(skeleton);
+  if (bridged > 0) note(skeleton.reason, std::to_string(bridged) + " gaps bridged");
   if (debris > 0) note(skeleton.reason, std::to_string(debris) + " pieces too small");
   if (shapeless > 0) note(skeleton.reason, std::to_string(shapeless) + " pieces without an axis");
   return skeleton;
