@@ -22,7 +22,8 @@ FreeEnd freeEnd(const ElementBranch& branch, bool last) {
     radius = std::max(radius, at(i).w);
     ++i;
   }
-  return {last ? branch.endNode : branch.startNode, vec3(tip), glm::normalize(vec3(tip) - vec3(at(i))), radius};
+  return {last ? branch.endNode : branch.startNode, vec3(tip), glm::normalize(vec3(tip) - vec3(at(i))),
+          radius};
 }
 
 std::vector<FreeEnd> freeEnds(const ElementSkeleton& skeleton) {
@@ -81,9 +82,11 @@ std::uint32_t bridgeGaps(ElementSkeleton& skeleton, float bridgeRadii, float det
   std::vector<Gap> gaps;
   for (std::uint32_t i = 0; i < ends.size(); ++i)
     for (std::uint32_t j = i + 1; j < ends.size(); ++j)
-      if (pieces.find(ends[i].node) != pieces.find(ends[j].node) && faces(ends[i], ends[j], bridgeRadii, detail))
+      if (pieces.find(ends[i].node) != pieces.find(ends[j].node) &&
+          faces(ends[i], ends[j], bridgeRadii, detail))
         gaps.push_back({glm::distance(ends[i].position, ends[j].position), i, j});
-  std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.distance < b.distance; });
+  std::stable_sort(gaps.begin(), gaps.end(),
+                   [](const Gap& a, const Gap& b) { return a.distance < b.distance; });
   std::uint32_t closed = 0;
   for (const Gap& gap : gaps) {
     const std::uint32_t a = ends[gap.a].node, b = ends[gap.b].node;

@@ -178,8 +178,10 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
       ++(rings ? byRings : byLevels);
   }
   skeleton.componentsUsed = byRings + byLevels;
-  if (byRings > 0) skeleton.method = byLevels > 0 ? "rings and level sets" : "rings";
-  else if (byLevels > 0) skeleton.method = "level sets";
+  if (byRings > 0)
+    skeleton.method = byLevels > 0 ? "rings and level sets" : "rings";
+  else if (byLevels > 0)
+    skeleton.method = "level sets";
   const std::uint32_t bridged = bridgeGaps(skeleton, options.bridgeRadii, options.detail);
   dropUnusedNodes(skeleton);
   if (bridged > 0) note(skeleton.reason, std::to_string(bridged) + " gaps bridged");

@@ -103,7 +103,8 @@ std::vector<vec4> sectionsOf(const TriangleMesh& mesh, const std::vector<Ring>& 
   return sections;
 }
 
-std::optional<std::vector<vec4>> ringsFrom(const TriangleMesh& mesh, const Ring& start, const Neighbours& neighbours) {
+std::optional<std::vector<vec4>> ringsFrom(const TriangleMesh& mesh, const Ring& start,
+                                           const Neighbours& neighbours) {
   std::vector<std::uint32_t> layerOf;
   const std::vector<Ring> layers = layersFrom(start, mesh.positions.size(), neighbours, layerOf);
   std::vector<Ring> rings;
@@ -111,8 +112,10 @@ std::optional<std::vector<vec4>> ringsFrom(const TriangleMesh& mesh, const Ring&
   for (std::size_t i = 0; i < layers.size(); ++i) {
     Ring ring = closedLoop(layers[i], layerOf, neighbours);
     if (ring.empty()) continue;
-    if (rings.empty()) firstLayer = i;
-    else if (lastLayer + 1 != i) return std::nullopt;  // something else between the rings
+    if (rings.empty())
+      firstLayer = i;
+    else if (lastLayer + 1 != i)
+      return std::nullopt;  // something else between the rings
     lastLayer = i;
     inRings += ring.size();
     rings.push_back(std::move(ring));
@@ -125,7 +128,8 @@ std::optional<std::vector<vec4>> ringsFrom(const TriangleMesh& mesh, const Ring&
     vec3 tip(ring);
     for (std::size_t i = from; i < to; ++i)
       for (const std::uint32_t v : layers[i])
-        if (glm::distance(mesh.positions[v], vec3(ring)) > glm::distance(tip, vec3(ring))) tip = mesh.positions[v];
+        if (glm::distance(mesh.positions[v], vec3(ring)) > glm::distance(tip, vec3(ring)))
+          tip = mesh.positions[v];
     const vec3 middle = vec3(ring) + 0.9f * (tip - vec3(ring));
     if (from == to || glm::distance(tip, vec3(ring)) < 0.2f * ring.w) return std::nullopt;
     return vec4(middle, 0.5f * ring.w);
