@@ -9,8 +9,8 @@ namespace vasa::human {
 namespace {
 
 constexpr int kSides = 8;
-constexpr float kStep = 0.014f;    // between the rings of a tube
-constexpr float kCell = 0.020f;    // largest polygon of a free form
+constexpr float kStep = 0.014f;  // between the rings of a tube
+constexpr float kCell = 0.020f;  // largest polygon of a free form
 
 /// One ring of a tube: half width across, half height along `up` as far as the tube's direction lets it.
 struct Ring {
@@ -33,7 +33,9 @@ void addRings(SkinnedMesh& to, const std::vector<std::vector<vec3>>& rings, vec3
   for (const auto& ring : rings) mesh.positions.insert(mesh.positions.end(), ring.begin(), ring.end());
   const std::uint32_t last = std::uint32_t(mesh.positions.size());
   mesh.positions.push_back(end);
-  const auto at = [&](std::size_t ring, int side) { return first + 1 + std::uint32_t(ring * kSides + side % kSides); };
+  const auto at = [&](std::size_t ring, int side) {
+    return first + 1 + std::uint32_t(ring * kSides + side % kSides);
+  };
   for (int k = 0; k < kSides; ++k) {
     mesh.triangles.push_back({first, at(0, k + 1), at(0, k)});
     for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
@@ -75,15 +77,20 @@ void addTube(SkinnedMesh& to, const std::vector<Ring>& stations) {
     outline.emplace_back();
     for (int k = 0; k < kSides; ++k) {
       const float angle = 2 * kPi * float(k) / float(kSides);
-      outline.back().push_back(centre + scale * (std::cos(angle) * size.width * across + std::sin(angle) * size.height * up));
+      outline.back().push_back(
+          centre + scale * (std::cos(angle) * size.width * across + std::sin(angle) * size.height * up));
     }
   };
-  const auto capOf = [](const Ring& ring) { return std::min(0.8f * std::min(ring.width, ring.height), 0.006f + 0.25f * std::min(ring.width, ring.height)); };
+  const auto capOf = [](const Ring& ring) {
+    return std::min(0.8f * std::min(ring.width, ring.height),
+                    0.006f + 0.25f * std::min(ring.width, ring.height));
+  };
   const vec3 first = direction(0), last = direction(rings.size() - 1);
   addRing(rings.front().centre - 0.6f * capOf(rings.front()) * first, rings.front(), 0.75f, first);
   for (std::size_t i = 0; i < rings.size(); ++i) addRing(rings[i].centre, rings[i], 1, direction(i));
   addRing(rings.back().centre + 0.6f * capOf(rings.back()) * last, rings.back(), 0.75f, last);
-  addRings(to, outline, rings.front().centre - capOf(rings.front()) * first, rings.back().centre + capOf(rings.back()) * last);
+  addRings(to, outline, rings.front().centre - capOf(rings.front()) * first,
+           rings.back().centre + capOf(rings.back()) * last);
 }
 
 void addBall(SkinnedMesh& to, vec3 centre, vec3 half) {
@@ -93,8 +100,9 @@ void addBall(SkinnedMesh& to, vec3 centre, vec3 half) {
     const float polar = kPi * float(row + 1) / float(kRows + 1);
     for (int k = 0; k < kSides; ++k) {
       const float angle = -2 * kPi * float(k) / float(kSides);
-      outline[std::size_t(row)].push_back(
-          centre + half * vec3(std::sin(polar) * std::cos(angle), -std::cos(polar), std::sin(polar) * std::sin(angle)));
+      outline[std::size_t(row)].push_back(centre + half * vec3(std::sin(polar) * std::cos(angle),
+                                                               -std::cos(polar),
+                                                               std::sin(polar) * std::sin(angle)));
     }
   }
   addRings(to, outline, centre - vec3(0, half.y, 0), centre + vec3(0, half.y, 0));
@@ -120,10 +128,12 @@ void addBone(SkinnedMesh& to, Table& table, std::size_t row, const Rig& rig, Sid
   const std::vector<vec2> radii = table.take(row, parseRadii(table.text(row, "radii_mm")));
   if (joint < 0) return table.fault(row, "no joint " + quoted(name));
   if (table.text(row, "shape") == "ball") {
-    if (places.size() != 1 || radii.size() != 3) return table.fault(row, "a ball has one place and three half axes");
+    if (places.size() != 1 || radii.size() != 3)
+      return table.fault(row, "a ball has one place and three half axes");
     addBall(to, places[0], {radii[0].x, radii[1].x, radii[2].x});
   } else {
-    if (places.size() < 2 || radii.size() != places.size()) return table.fault(row, "a tube has a radius for every place");
+    if (places.size() < 2 || radii.size() != places.size())
+      return table.fault(row, "a tube has a radius for every place");
     std::vector<Ring> rings;
     for (std::size_t i = 0; i < places.size(); ++i) rings.push_back({places[i], radii[i].x, radii[i].y});
     addTube(to, rings);
@@ -133,8 +143,8 @@ void addBone(SkinnedMesh& to, Table& table, std::size_t row, const Rig& rig, Sid
 
 void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
   const TriangleMesh solid =
-      polygonise({[&](vec3 p) { return shape.distance(p); }, [&](vec3 p, float reach) { return shape.cellSize(p, reach); },
-                  shape.bounds()},
+      polygonise({[&](vec3 p) { return shape.distance(p); },
+                  [&](vec3 p, float reach) { return shape.cellSize(p, reach); }, shape.bounds()},
                  kCell);
   const std::uint32_t first = std::uint32_t(to.mesh.positions.size());
   to.mesh.positions.insert(to.mesh.positions.end(), solid.positions.begin(), solid.positions.end());

@@ -4,8 +4,8 @@
 
 namespace vasa::human {
 
-/// The skeleton's bones as closed solids, each with weight 1 to one joint: tubes and balls of bones.csv, and the
-/// free forms of `shape`, whose parts are united joint by joint.
+/// The skeleton's bones as closed solids, each with weight 1 to one joint: tubes and balls of bones.csv, and
+/// the free forms of `shape`, whose parts are united joint by joint.
 Result<SkinnedMesh> makeBones(const std::filesystem::path& bones, const Shape& shape, const Rig& rig);
 
 /// A shape as one solid that moves with its first part's joint.

@@ -10,7 +10,7 @@ namespace {
 constexpr float kFramesPerSecond = 30;
 
 struct Key {
-  float at = 0;  ///< share of the clip
+  float at = 0;   ///< share of the clip
   vec4 value{0};  ///< flexion, abduction, twist [rad], lift [m]
 };
 
@@ -131,15 +131,18 @@ Clip sample(const Motion& motion, const Rig& rig) {
 
 void readKeys(Table& table, const Rig& rig, std::vector<Motion>& motions) {
   for (std::size_t r = 0; r < table.rowCount(); ++r) {
-    const auto motion = std::find_if(motions.begin(), motions.end(), [&](const Motion& m) { return m.name == table.text(r, "clip"); });
+    const auto motion = std::find_if(motions.begin(), motions.end(),
+                                     [&](const Motion& m) { return m.name == table.text(r, "clip"); });
     if (motion == motions.end()) return table.fault(r, "no clip of this name");
-    const vec4 degrees{table.number(r, "flex_deg"), table.number(r, "abduct_deg"), table.number(r, "twist_deg"), 0};
+    const vec4 degrees{table.number(r, "flex_deg"), table.number(r, "abduct_deg"),
+                       table.number(r, "twist_deg"), 0};
     Key key{table.number(r, "at"), glm::radians(degrees)};
     key.value.w = 1e-3f * table.numberOr(r, "up_mm", 0);
     const std::string_view name = table.text(r, "joint");
     for (Side side : sidesOf(table.text(r, "side"))) {
       const int point = rig.find(side == Side::right ? mirroredName(name) : std::string(name));
-      if (point < 0 || rig.points[std::size_t(point)].landmark) return table.fault(r, "no joint " + quoted(name));
+      if (point < 0 || rig.points[std::size_t(point)].landmark)
+        return table.fault(r, "no joint " + quoted(name));
       std::vector<Key>& keys = motion->keys[rig.points[std::size_t(point)].joint];
       if (!keys.empty() && keys.back().at >= key.at) table.fault(r, "keys must follow one another");
       keys.push_back(key);
@@ -149,8 +152,8 @@ void readKeys(Table& table, const Rig& rig, std::vector<Motion>& motions) {
 
 }  // namespace
 
-Result<std::vector<Clip>> makeClips(const std::filesystem::path& clipsPath, const std::filesystem::path& keysPath,
-                                    const Rig& rig) {
+Result<std::vector<Clip>> makeClips(const std::filesystem::path& clipsPath,
+                                    const std::filesystem::path& keysPath, const Rig& rig) {
   Result<Table> clips = Table::read(clipsPath);
   if (!clips.ok()) return clips.error();
   Result<Table> keys = Table::read(keysPath);

@@ -15,7 +15,8 @@ class GlbWriter {
  public:
   GlbWriter() {
     root_["asset"] = {{"version", "2.0"}, {"generator", "vasa make_human"}};
-    for (const char* list : {"scenes", "nodes", "meshes", "materials", "skins", "animations", "accessors", "bufferViews"})
+    for (const char* list :
+         {"scenes", "nodes", "meshes", "materials", "skins", "animations", "accessors", "bufferViews"})
       root_[list] = Json::array();
   }
 
@@ -25,7 +26,8 @@ class GlbWriter {
     for (int point : rig.joints) {
       const RigPoint& joint = rig.points[std::size_t(point)];
       const bool isRoot = joint.parent < 0;
-      const vec3 offset = isRoot ? joint.position : joint.position - rig.points[std::size_t(joint.parent)].position;
+      const vec3 offset =
+          isRoot ? joint.position : joint.position - rig.points[std::size_t(joint.parent)].position;
       Json node = {{"name", joint.name}, {"translation", {offset.x, offset.y, offset.z}}};
       for (std::size_t child = 0; child < rig.joints.size(); ++child)
         if (rig.points[std::size_t(rig.joints[child])].parent == point) node["children"].push_back(child);
@@ -57,9 +59,10 @@ class GlbWriter {
     attributes["JOINTS_0"] = addAccessor(joints, "VEC4", kUnsignedByte, kVertices);
     attributes["WEIGHTS_0"] = addAccessor(weights, "VEC4", kFloat, kVertices);
     const std::size_t indices = addAccessor(mesh.mesh.triangles, "SCALAR", kUnsignedInt, kIndices, 3);
-    root_["meshes"].push_back(
-        {{"name", mesh.name},
-         {"primitives", Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", addMaterial(mesh)}}})}});
+    root_["meshes"].push_back({{"name", mesh.name},
+                               {"primitives", Json::array({{{"attributes", attributes},
+                                                            {"indices", indices},
+                                                            {"material", addMaterial(mesh)}}})}});
     sceneNodes_.push_back(root_["nodes"].size());
     root_["nodes"].push_back({{"name", mesh.name}, {"mesh", root_["meshes"].size() - 1}, {"skin", 0}});
   }
@@ -68,7 +71,8 @@ class GlbWriter {
     Json samplers = Json::array(), channels = Json::array();
     std::size_t times = 0;
     const auto channel = [&](const JointTracks& track, const char* path, std::size_t output) {
-      channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", track.joint.value}, {"path", path}}}});
+      channels.push_back(
+          {{"sampler", samplers.size()}, {"target", {{"node", track.joint.value}, {"path", path}}}});
       samplers.push_back({{"input", times}, {"output", output}, {"interpolation", "LINEAR"}});
     };
     for (const JointTracks& track : clip.tracks) {
@@ -115,8 +119,8 @@ class GlbWriter {
   }
 
   template <class T>
-  std::size_t addAccessor(const std::vector<T>& values, const char* type, ComponentType component, Target target,
-                          std::size_t scalarsPerValue = 1) {
+  std::size_t addAccessor(const std::vector<T>& values, const char* type, ComponentType component,
+                          Target target, std::size_t scalarsPerValue = 1) {
     Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", values.size() * sizeof(T)}};
     if (target != kNoTarget) view["target"] = int(target);
     append(bytes_, values.data(), values.size() * sizeof(T));
@@ -131,9 +135,10 @@ class GlbWriter {
 
   std::size_t addMaterial(const SkinnedMesh& mesh) {
     const vec4 c = mesh.colour;
-    Json material = {{"name", mesh.name},
-                     {"pbrMetallicRoughness",
-                      {{"baseColorFactor", {c.x, c.y, c.z, c.w}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}};
+    Json material = {
+        {"name", mesh.name},
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {c.x, c.y, c.z, c.w}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}};
     if (c.w < 1) material["alphaMode"] = "BLEND";
     root_["materials"].push_back(material);
     return root_["materials"].size() - 1;

@@ -14,7 +14,8 @@ vasa::Result<void> generate(const std::filesystem::path& tables, const std::file
   Result<human::Human> made = human::makeHuman(tables);
   if (!made.ok()) return made.error();
   const std::vector<std::byte> body = human::writeGlb(made->rig, made->meshes, made->clips);
-  if (const Result<void> written = writeFileAtomically(out / "human.glb", body); !written.ok()) return written;
+  if (const Result<void> written = writeFileAtomically(out / "human.glb", body); !written.ok())
+    return written;
   const Result<std::size_t> network = writeNetwork(out / "human.vasa", made->vessels);
   if (!network.ok()) return network.error();
   return {};
@@ -24,7 +25,9 @@ vasa::Result<void> generate(const std::filesystem::path& tables, const std::file
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::fputs("usage: make_human TABLES OUT\n\nMakes OUT/human.glb and OUT/human.vasa of the tables in a folder.\n", stderr);
+    std::fputs(
+        "usage: make_human TABLES OUT\n\nMakes OUT/human.glb and OUT/human.vasa of the tables in a folder.\n",
+        stderr);
     return int(vasa::Fault::usage);
   }
   const vasa::Result<void> done = generate(argv[1], argv[2]);

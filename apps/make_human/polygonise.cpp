@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
-// Every octree leaf that the surface crosses gets one vertex. Every shortest edge between leaves whose ends lie on
-// different sides of the surface gives a polygon of the three or four leaves around it. Such polygons close across
-// leaves of different size, whatever the size, because each edge is answered exactly once.
+#include "make_human/separate_sheets.h"
+
+// Every octree leaf that the surface crosses gets one vertex. Every shortest edge between leaves whose ends
+// lie on different sides of the surface gives a polygon of the three or four leaves around it. Such polygons
+// close across leaves of different size, whatever the size, because each edge is answered exactly once.
 namespace vasa::human {
 namespace {
 
-constexpr int kLevels = 3;             // coarse leaves are 2^kLevels units wide
+constexpr int kLevels = 3;  // coarse leaves are 2^kLevels units wide
 constexpr int kCoarse = 1 << kLevels;
-constexpr float kCertainty = 2.5f;     // the distance may be wrong by this factor
+constexpr float kCertainty = 2.5f;  // the distance may be wrong by this factor
 
 using ivec3 = glm::ivec3;
 
@@ -60,7 +61,8 @@ class Contouring {
     const vec3 centre = origin_ + unit_ * (vec3(leaf.corner) + 0.5f * float(leaf.size));
     const float reach = 0.87f * unit_ * float(leaf.size);
     leaf.nearSurface = std::abs(surface_.distance(centre)) < kCertainty * reach;
-    if (leaf.nearSurface && leaf.size > 1 && surface_.cellSize(centre, reach) < 0.75f * unit_ * float(leaf.size)) {
+    if (leaf.nearSurface && leaf.size > 1 &&
+        surface_.cellSize(centre, reach) < 0.75f * unit_ * float(leaf.size)) {
       const int half = leaf.size / 2;
       for (int i = 0; i < 8; ++i) grow({leaf.corner + half * ivec3(i & 1, i >> 1 & 1, i >> 2), half, true});
       return;
@@ -123,8 +125,10 @@ class Contouring {
     for (int step = 0; step < 3; ++step) {
       const vec3 middle = glm::mix(p, q, std::min(std::max(a / (a - b), 0.02f), 0.98f));
       const float value = surface_.distance(middle);
-      if ((value < 0) == (a < 0)) p = middle, a = value;
-      else q = middle, b = value;
+      if ((value < 0) == (a < 0))
+        p = middle, a = value;
+      else
+        q = middle, b = value;
     }
     return glm::mix(p, q, a / (a - b));
   }
@@ -202,74 +206,6 @@ void relax(TriangleMesh& mesh, const ImplicitSurface& surface) {
     const vec3 mean = sums[i] / counts[i];
     const float reach = glm::length(mean - mesh.positions[i]);
     mesh.positions[i] = ontoSurface(surface, glm::mix(mesh.positions[i], mean, 0.5f), 0.5f * reach + 5e-4f);
-  }
-}
-
-/// An edge of the mesh with the triangles that have it, each with its direction and its angle around the edge.
-struct Wing {
-  std::uint32_t triangle;
-  bool forward;
-  float angle;
-};
-
-std::vector<Wing> wingsOf(const TriangleMesh& mesh, std::uint32_t u, std::uint32_t v, const std::vector<std::uint32_t>& around) {
-  const vec3 axis = glm::normalize(mesh.positions[v] - mesh.positions[u]);
-  const vec3 x = anyPerpendicular(axis), y = glm::cross(axis, x);
-  std::vector<Wing> wings;
-  for (std::uint32_t index : around) {
-    const uvec3 t = mesh.triangles[index];
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      if (!(a == u && b == v) && !(a == v && b == u)) continue;
-      const vec3 out = mesh.positions[t[(i + 2) % 3]] - mesh.positions[u];
-      wings.push_back({index, a == u, std::atan2(glm::dot(out, y), glm::dot(out, x))});
-    }
-  }
-  return wings;
-}
-
-/// Gives two triangles an edge of their own, through a new point in its middle.
-void splitEdge(TriangleMesh& mesh, std::uint32_t u, std::uint32_t v, std::uint32_t first, std::uint32_t second) {
-  const std::uint32_t middle = std::uint32_t(mesh.positions.size());
-  mesh.positions.push_back(0.5f * (mesh.positions[u] + mesh.positions[v]));
-  for (std::uint32_t index : {first, second}) {
-    uvec3 half = mesh.triangles[index];
-    for (int i = 0; i < 3; ++i) {
-      if (half[i] == u) mesh.triangles[index][i] = middle;
-      if (half[i] == v) half[i] = middle;
-    }
-    mesh.triangles.push_back(half);
-  }
-}
-
-/// Where two sheets meet in one edge of four triangles, pairs the triangles that bound the same piece of the solid and
-/// gives each further pair an edge of its own. Afterwards every edge has two triangles.
-void separateSheets(TriangleMesh& mesh) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
-    for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k)
-      for (int i = 0; i < 3; ++i)
-        edges[std::minmax({mesh.triangles[k][i], mesh.triangles[k][(i + 1) % 3]})].push_back(k);
-    std::vector<bool> touched(mesh.triangles.size(), false);
-    for (const auto& [edge, around] : edges) {
-      if (around.size() <= 2) continue;
-      changed = true;
-      bool busy = false;
-      for (std::uint32_t k : around) busy = busy || touched[k];
-      if (busy) continue;
-      for (std::uint32_t k : around) touched[k] = true;
-      const std::vector<Wing> wings = wingsOf(mesh, edge.first, edge.second, around);
-      const Wing& forward = *std::find_if(wings.begin(), wings.end(), [](const Wing& w) { return w.forward; });
-      const Wing* partner = nullptr;  // the next one through the solid, which lies towards smaller angles
-      float nearest = 10;
-      for (const Wing& wing : wings) {
-        if (wing.forward) continue;
-        const float turn = forward.angle - wing.angle, angle = turn > 0 ? turn : turn + 2 * kPi;
-        if (angle < nearest) nearest = angle, partner = &wing;
-      }
-      splitEdge(mesh, edge.first, edge.second, forward.triangle, partner->triangle);
-    }
   }
 }
 

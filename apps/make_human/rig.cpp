@@ -3,7 +3,9 @@
 namespace vasa::human {
 namespace {
 
-bool onLeft(std::string_view name) { return mirroredName(name) != name; }
+bool onLeft(std::string_view name) {
+  return mirroredName(name) != name;
+}
 
 struct PendingRow {
   RigPoint point;
@@ -16,7 +18,8 @@ std::vector<PendingRow> readRows(Table& table) {
     PendingRow row;
     row.point.name = table.text(r, "name");
     row.point.landmark = table.text(r, "kind") == "point";
-    row.point.position = {table.millimetres(r, "x_mm"), table.millimetres(r, "y_mm"), table.millimetres(r, "z_mm")};
+    row.point.position = {table.millimetres(r, "x_mm"), table.millimetres(r, "y_mm"),
+                          table.millimetres(r, "z_mm")};
     row.parent = table.text(r, "parent");
     if (!row.point.landmark) {
       row.towards = table.text(r, "towards");
@@ -69,7 +72,8 @@ Result<Rig> Rig::read(const std::filesystem::path& path) {
     row.point.parent = rig.find(row.parent);
     if (row.point.parent < 0 && !row.parent.empty())
       return badInput("joints.csv: '" + row.point.name + "' comes before its parent '" + row.parent + "'");
-    row.point.joint = row.point.landmark ? rig.points[std::size_t(row.point.parent)].joint : int(rig.joints.size());
+    row.point.joint =
+        row.point.landmark ? rig.points[std::size_t(row.point.parent)].joint : int(rig.joints.size());
     if (!row.point.landmark) rig.joints.push_back(self);
     rig.points.push_back(row.point);
   }
@@ -77,7 +81,8 @@ Result<Rig> Rig::read(const std::filesystem::path& path) {
     if (rows[i].point.landmark) continue;
     rig.points[i].towards = rig.find(rows[i].towards);
     if (rig.points[i].towards < 0)
-      return badInput("joints.csv: '" + rows[i].point.name + "' leads towards an unknown point '" + rows[i].towards + "'");
+      return badInput("joints.csv: '" + rows[i].point.name + "' leads towards an unknown point '" +
+                      rows[i].towards + "'");
   }
   return rig;
 }

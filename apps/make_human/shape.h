@@ -6,8 +6,9 @@
 
 namespace vasa::human {
 
-/// A lofted part of the body: parallel cross-sections along a straight axis. A section is a superellipse with its own
-/// centre, half width and half depths to the front and the back; the ends are closed by half ellipsoids.
+/// A lofted part of the body: parallel cross-sections along a straight axis. A section is a superellipse with
+/// its own centre, half width and half depths to the front and the back; the ends are closed by half
+/// ellipsoids.
 struct Part {
   struct Section {
     float u = 0, v = 0;  ///< [m] centre, from the axis, to the side and to the front

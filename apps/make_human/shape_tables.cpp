@@ -3,8 +3,8 @@
 
 #include "make_human/shape.h"
 
-// The sections of the table become equal steps by a monotone-ish cubic (Catmull-Rom with chord parameters), so that
-// the outline is smooth along the limb.
+// The sections of the table become equal steps by a monotone-ish cubic (Catmull-Rom with chord parameters),
+// so that the outline is smooth along the limb.
 namespace vasa::human {
 namespace {
 
@@ -22,7 +22,8 @@ Part::Section combine(const Part::Section& a, float wa, const Part::Section& b, 
 }
 
 /// Cubic Hermite between stations i and i+1 at height h, slopes from the neighbours.
-Part::Section interpolate(const std::vector<Station>& stations, const std::vector<float>& heights, std::size_t i, float h) {
+Part::Section interpolate(const std::vector<Station>& stations, const std::vector<float>& heights,
+                          std::size_t i, float h) {
   const auto slope = [&](std::size_t k) {
     const std::size_t a = k > 0 ? k - 1 : k, b = std::min(k + 1, heights.size() - 1);
     const float step = heights[b] - heights[a];
@@ -30,7 +31,8 @@ Part::Section interpolate(const std::vector<Station>& stations, const std::vecto
   };
   const float step = heights[i + 1] - heights[i], t = (h - heights[i]) / step;
   const float t2 = t * t, t3 = t2 * t;
-  const Part::Section ends = combine(stations[i].section, 2 * t3 - 3 * t2 + 1, stations[i + 1].section, 3 * t2 - 2 * t3);
+  const Part::Section ends =
+      combine(stations[i].section, 2 * t3 - 3 * t2 + 1, stations[i + 1].section, 3 * t2 - 2 * t3);
   const Part::Section slopes = combine(slope(i), step * (t3 - 2 * t2 + t), slope(i + 1), step * (t3 - t2));
   Part::Section result = combine(ends, 1, slopes, 1);
   const auto keep = [](float& value, float a, float b) { value = std::max(value, 0.7f * std::min(a, b)); };
@@ -78,7 +80,8 @@ Result<void> loft(Part& part, std::vector<Station>& stations, vec3 front) {
 void findBounds(Part& part) {
   for (std::size_t i = 0; i < part.sections.size(); ++i) {
     const Part::Section& s = part.sections[i];
-    const float h = part.sections.size() > 1 ? part.length * float(i) / float(part.sections.size() - 1) : 0.0f;
+    const float h =
+        part.sections.size() > 1 ? part.length * float(i) / float(part.sections.size() - 1) : 0.0f;
     const vec3 centre = part.origin + h * part.axis + s.u * part.side + s.v * part.front;
     for (int corner = 0; corner < 8; ++corner)
       part.bounds.add(centre + (corner & 1 ? s.width : -s.width) * part.side +
@@ -92,8 +95,10 @@ std::vector<int> jointPath(Table& table, std::size_t row, const Rig& rig, Side s
   for (std::string_view name : split(table.text(row, "path"), ' ')) {
     if (name.empty()) continue;
     const int joint = rig.find(side == Side::right ? mirroredName(name) : std::string(name));
-    if (joint < 0) table.fault(row, "no joint " + quoted(name));
-    else path.push_back(joint);
+    if (joint < 0)
+      table.fault(row, "no joint " + quoted(name));
+    else
+      path.push_back(joint);
   }
   if (path.empty()) table.fault(row, "no joint moves this part");
   return path;
@@ -119,7 +124,8 @@ std::vector<Station> stationsOf(Table& table, std::string_view part, const Rig& 
     station.section.square = table.numberOr(r, "square", 2);
     const Part::Section& s = station.section;
     station.cap = 1e-3f * table.numberOr(r, "cap_mm", 1e3f * std::min(s.width, 0.5f * (s.front + s.back)));
-    if (s.width <= 0 || s.front <= 0 || s.back <= 0 || station.cap <= 0) table.fault(r, "sizes must be positive");
+    if (s.width <= 0 || s.front <= 0 || s.back <= 0 || station.cap <= 0)
+      table.fault(r, "sizes must be positive");
     stations.push_back(station);
   }
   return stations;

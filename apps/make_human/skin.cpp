@@ -45,7 +45,8 @@ void addPathWeights(const Part& part, const Rig& rig, vec3 p, float share, Weigh
     const RigPoint& joint = rig.points[std::size_t(part.path[i])];
     float passed = 1;
     if (i > 0) {
-      const float t = std::clamp(0.5f + 0.5f * (position.along - position.joints[i]) / joint.skinBlend, 0.0f, 1.0f);
+      const float t =
+          std::clamp(0.5f + 0.5f * (position.along - position.joints[i]) / joint.skinBlend, 0.0f, 1.0f);
       passed = t * t * (3 - 2 * t);
     }
     weights[std::size_t(joint.joint)] += passed * left;
@@ -112,8 +113,8 @@ SkinnedMesh makeSkin(const Shape& shape, const Rig& rig) {
   SkinnedMesh skin;
   skin.name = "skin";
   skin.colour = {0.85f, 0.62f, 0.52f, 0.32f};
-  skin.mesh = polygonise({[&](vec3 p) { return shape.distance(p); }, [&](vec3 p, float reach) { return shape.cellSize(p, reach); },
-                          shape.bounds()},
+  skin.mesh = polygonise({[&](vec3 p) { return shape.distance(p); },
+                          [&](vec3 p, float reach) { return shape.cellSize(p, reach); }, shape.bounds()},
                          kCoarseCell);
   std::vector<Weights> weights;
   for (vec3 p : skin.mesh.positions) {

@@ -11,7 +11,8 @@ namespace {
 constexpr int kSamplesPerSpan = 48;
 
 /// Solves a tridiagonal system with vector right-hand sides (Thomas). a: below, b: on, c: above the diagonal.
-std::vector<dvec3> solveTridiagonal(std::vector<double> a, std::vector<double> b, std::vector<double> c, std::vector<dvec3> d) {
+std::vector<dvec3> solveTridiagonal(std::vector<double> a, std::vector<double> b, std::vector<double> c,
+                                    std::vector<dvec3> d) {
   const std::size_t n = b.size();
   for (std::size_t i = 1; i < n; ++i) {
     const double factor = a[i] / b[i - 1];
@@ -71,7 +72,8 @@ vec3 ThroughPoints::position(float length) const {
 
 vec3 ThroughPoints::tangent(float length) const {
   const float h = 0.002f * lengths_.back();
-  return glm::normalize(position(std::min(length + h, lengths_.back())) - position(std::max(length - h, 0.0f)));
+  return glm::normalize(position(std::min(length + h, lengths_.back())) -
+                        position(std::max(length - h, 0.0f)));
 }
 
 std::vector<vec3> interpolateAtKnots(std::span<const vec3> p, vec3 startTangent, vec3 endTangent) {

@@ -21,8 +21,8 @@ class ThroughPoints {
   std::vector<vec3> samples_;
 };
 
-/// De Boor points of the clamped uniform cubic B-spline (curve/bspline.h) that passes at its knots through points
-/// at equal distances, with the given unit tangents at its ends. @param points  at least 3
+/// De Boor points of the clamped uniform cubic B-spline (curve/bspline.h) that passes at its knots through
+/// points at equal distances, with the given unit tangents at its ends. @param points  at least 3
 std::vector<vec3> interpolateAtKnots(std::span<const vec3> points, vec3 startTangent, vec3 endTangent);
 
 }  // namespace vasa::human

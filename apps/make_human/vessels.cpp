@@ -8,8 +8,8 @@
 #include "make_human/through.h"
 #include "network/builder.h"
 
-// A row's curve passes through its waypoints and the points of the vessels it leaves and joins. Rows linked by
-// `continues` are one smooth curve, cut where the names change. Curves are made on demand, hosts first.
+// A row's curve passes through its waypoints and the points of the vessels it leaves and joins. Rows linked
+// by `continues` are one smooth curve, cut where the names change. Curves are made on demand, hosts first.
 namespace vasa::human {
 namespace {
 
@@ -30,8 +30,8 @@ struct Row {
   std::vector<vec3> waypoints;
   float startRadius = 0, endRadius = 0;
   Attachment source, target;
-  int next = -1;       ///< the row that continues this one
-  bool begun = false;  ///< its curve is being made
+  int next = -1;             ///< the row that continues this one
+  bool begun = false;        ///< its curve is being made
   std::vector<vec3> points;  ///< de Boor points, once made
 };
 
@@ -58,21 +58,26 @@ class VesselMaker {
         row.label.name = std::string(prefix).append(table_.text(r, "name"));
         row.label.ontologyId = table_.text(r, "ontology");
         const std::string_view kind = table_.text(r, "kind");
-        row.label.kind = kind == "artery" ? VesselKind::artery : kind == "vein" ? VesselKind::vein : VesselKind::portalVein;
+        row.label.kind = kind == "artery" ? VesselKind::artery
+                         : kind == "vein" ? VesselKind::vein
+                                          : VesselKind::portalVein;
         if (kind != kindName(row.label.kind)) table_.fault(r, "unknown kind " + quoted(kind));
         row.from = table_.text(r, "from");
         row.to = table_.text(r, "to");
         row.waypoints = table_.take(r, rig_.places(table_.text(r, "waypoints"), side));
         row.startRadius = table_.millimetres(r, "radius_start_mm");
         row.endRadius = table_.millimetres(r, "radius_end_mm");
-        if (!numbers_.emplace(row.label.name, int(rows_.size())).second) table_.fault(r, "this vessel is there already");
+        if (!numbers_.emplace(row.label.name, int(rows_.size())).second)
+          table_.fault(r, "this vessel is there already");
         rows_.push_back(std::move(row));
       }
   }
 
   /// The vessel of this name on the row's own side, or in the middle.
   int vesselNamed(const Row& row, std::string_view name) {
-    const std::string_view prefix = row.side == Side::left ? "left " : row.side == Side::right ? "right " : "";
+    const std::string_view prefix = row.side == Side::left    ? "left "
+                                    : row.side == Side::right ? "right "
+                                                              : "";
     auto found = numbers_.find(std::string(prefix).append(name));
     if (found == numbers_.end()) found = numbers_.find(std::string(name));
     if (found != numbers_.end()) return found->second;
@@ -94,7 +99,8 @@ class VesselMaker {
     result.kind = parts.back() == "start" ? Attachment::Kind::start
                   : parts.back() == "end" ? Attachment::Kind::end
                                           : Attachment::Kind::side;
-    if (result.kind == Attachment::Kind::side) result.fraction = table_.take(row.line, parseNumber(parts.back()));
+    if (result.kind == Attachment::Kind::side)
+      result.fraction = table_.take(row.line, parseNumber(parts.back()));
     if (result.fraction < 0 || result.fraction > 1) table_.fault(row.line, "a share lies between 0 and 1");
     return result;
   }
@@ -123,8 +129,10 @@ class VesselMaker {
   /// Makes the whole line of rows that continue one another around row i.
   void make(int i) {
     if (!table_.state().ok() || !rows_[std::size_t(i)].points.empty()) return;
-    while (rows_[std::size_t(i)].source.kind == Attachment::Kind::continues) i = rows_[std::size_t(i)].source.vessel;
-    if (rows_[std::size_t(i)].begun) return table_.fault(rows_[std::size_t(i)].line, "this vessel hangs on itself");
+    while (rows_[std::size_t(i)].source.kind == Attachment::Kind::continues)
+      i = rows_[std::size_t(i)].source.vessel;
+    if (rows_[std::size_t(i)].begun)
+      return table_.fault(rows_[std::size_t(i)].line, "this vessel hangs on itself");
     std::vector<vec3> waypoints;
     std::vector<std::size_t> ends;
     if (rows_[std::size_t(i)].source.kind != Attachment::Kind::none) {
@@ -151,7 +159,8 @@ class VesselMaker {
   static void fit(Row& row, const ThroughPoints& curve, float start, float end) {
     const int spans = std::max({2, int(std::ceil((end - start) / kSpanLength)), int(row.waypoints.size())});
     std::vector<vec3> knots;
-    for (int k = 0; k <= spans; ++k) knots.push_back(curve.position(start + (end - start) * float(k) / float(spans)));
+    for (int k = 0; k <= spans; ++k)
+      knots.push_back(curve.position(start + (end - start) * float(k) / float(spans)));
     row.points = interpolateAtKnots(knots, curve.tangent(start), curve.tangent(end));
   }
 

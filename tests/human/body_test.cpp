@@ -82,7 +82,8 @@ TEST_CASE("weights are of at most four joints and sum to one") {
 TEST_CASE("a bone's or the heart's vertex moves with one joint") {
   for (std::size_t m : {1u, 2u}) {
     bool single = true;
-    for (const SkinInfluence& influence : madeHuman().meshes[m].influences) single &= influence.weights == vec4(1, 0, 0, 0);
+    for (const SkinInfluence& influence : madeHuman().meshes[m].influences)
+      single &= influence.weights == vec4(1, 0, 0, 0);
     CHECK(single);
   }
 }
@@ -102,7 +103,8 @@ TEST_CASE("the motions are there, thirty frames a second, unit rotations") {
     CHECK(units);
     CHECK(steps);
   }
-  for (const char* name : {"stand", "walk", "run", "squat", "wave", "elbow_flex", "fist", "neck_turn", "twist", "arms_overhead"})
+  for (const char* name :
+       {"stand", "walk", "run", "squat", "wave", "elbow_flex", "fist", "neck_turn", "twist", "arms_overhead"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 
@@ -150,10 +152,11 @@ TEST_CASE("a fault in a table is named with its file and line") {
   const auto folder = std::filesystem::temp_directory_path() / "vasa_human_faulty";
   std::filesystem::remove_all(folder);
   std::filesystem::copy(VASA_HUMAN_TABLES, folder);
-  REQUIRE(writeFileAtomically(folder / "joints.csv",
-                              std::string("kind,name,parent,x_mm,y_mm,z_mm,towards,bend_towards,skin_blend_mm\n"
-                                          "joint,Hips,,0,abc,0,Top,0 0 1,40\n"))
-              .ok());
+  REQUIRE(
+      writeFileAtomically(folder / "joints.csv",
+                          std::string("kind,name,parent,x_mm,y_mm,z_mm,towards,bend_towards,skin_blend_mm\n"
+                                      "joint,Hips,,0,abc,0,Top,0 0 1,40\n"))
+          .ok());
   const Result<Human> made = makeHuman(folder);
   std::filesystem::remove_all(folder);
   REQUIRE_FALSE(made.ok());

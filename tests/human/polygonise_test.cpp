@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "curve/bspline.h"
 #include "make_human/table.h"
 #include "make_human/through.h"
-#include "curve/bspline.h"
 
 using namespace vasa;
 using namespace vasa::human;
@@ -32,9 +32,11 @@ TEST_CASE("a curve through points passes through them and its B-spline through i
   const float length = curve.lengthAt(3);
   for (int k = 0; k <= 8; ++k) knots.push_back(curve.position(length * float(k) / 8));
   std::vector<vec4> points;
-  for (vec3 p : interpolateAtKnots(knots, curve.tangent(0), curve.tangent(length))) points.emplace_back(p, 0.001f);
+  for (vec3 p : interpolateAtKnots(knots, curve.tangent(0), curve.tangent(length)))
+    points.emplace_back(p, 0.001f);
   REQUIRE(points.size() == 11);
-  for (int k = 0; k <= 8; ++k) CHECK(glm::distance(vec3(evaluate(points, float(k))), knots[std::size_t(k)]) < 1e-5f);
+  for (int k = 0; k <= 8; ++k)
+    CHECK(glm::distance(vec3(evaluate(points, float(k))), knots[std::size_t(k)]) < 1e-5f);
   const vec3 start = glm::normalize(vec3(evaluateDerivative(points, 0)));
   CHECK(glm::distance(start, curve.tangent(0)) < 1e-3f);
 }

@@ -15,33 +15,33 @@ const Vessel* vesselNamed(std::string_view name) {
   return nullptr;
 }
 
-/// A published artery. Reymond 2009: Reymond et al., Am J Physiol Heart 297:H208. ADAN56: Blanco et al. 2015, IEEE Trans
-/// Biomed Eng 62:736, in the 56-vessel reduction.
+/// A published artery. Reymond 2009: Reymond et al., Am J Physiol Heart 297:H208. ADAN56: Blanco et al. 2015,
+/// IEEE Trans Biomed Eng 62:736, in the 56-vessel reduction.
 struct Published {
   const char* name;
   float length, startRadius, endRadius;  ///< [m]; length 0: not compared
 };
 constexpr Published kPublished[] = {
-    {"ascending aorta", 0.040f, 0.0147f, 0.0144f},                 // Reymond 2009
-    {"thoracic aorta", 0.156f, 0.0100f, 0.0065f},                  // Reymond 2009, segments A and B
-    {"abdominal aorta", 0.127f, 0.0073f, 0.0059f},                 // ADAN56, segments I to V
-    {"brachiocephalic trunk", 0.047f, 0.0067f, 0.0062f},           // ADAN56
-    {"left common carotid artery", 0.139f, 0.0045f, 0.0033f},      // Reymond 2009, radii ADAN56
-    {"right common carotid artery", 0.094f, 0.0045f, 0.0033f},     // Reymond 2009, radii ADAN56
-    {"left internal carotid artery", 0.132f, 0.0028f, 0.0021f},    // ADAN56
-    {"left vertebral artery", 0.148f, 0.0019f, 0.0014f},           // Reymond 2009
-    {"left subclavian artery", 0.090f, 0.0049f, 0.0030f},          // ADAN56, segments I and II
-    {"left axillary artery", 0.120f, 0.0030f, 0.0023f},            // ADAN56 length
-    {"left brachial artery", 0.223f, 0.0021f, 0.0018f},            // ADAN56
-    {"left radial artery", 0.301f, 0.0014f, 0.0014f},              // ADAN56
-    {"left common iliac artery", 0.074f, 0.0045f, 0.0041f},        // ADAN56
-    {"left external iliac artery", 0.102f, 0.0034f, 0.0032f},      // ADAN56
-    {"left internal iliac artery", 0.073f, 0.0028f, 0.0024f},      // ADAN56
-    {"left femoral artery", 0.351f, 0.0032f, 0.0027f},             // ADAN56, segments I and II
-    {"left deep femoral artery", 0.238f, 0.0021f, 0.0018f},        // ADAN56
-    {"left popliteal artery", 0.141f, 0.0027f, 0.0023f},           // ADAN56
-    {"left anterior tibial artery", 0.386f, 0.0013f, 0.0012f},     // ADAN56
-    {"left posterior tibial artery", 0.383f, 0.0016f, 0.0014f},    // ADAN56 length, Reymond 2009 radii
+    {"ascending aorta", 0.040f, 0.0147f, 0.0144f},               // Reymond 2009
+    {"thoracic aorta", 0.156f, 0.0100f, 0.0065f},                // Reymond 2009, segments A and B
+    {"abdominal aorta", 0.127f, 0.0073f, 0.0059f},               // ADAN56, segments I to V
+    {"brachiocephalic trunk", 0.047f, 0.0067f, 0.0062f},         // ADAN56
+    {"left common carotid artery", 0.139f, 0.0045f, 0.0033f},    // Reymond 2009, radii ADAN56
+    {"right common carotid artery", 0.094f, 0.0045f, 0.0033f},   // Reymond 2009, radii ADAN56
+    {"left internal carotid artery", 0.132f, 0.0028f, 0.0021f},  // ADAN56
+    {"left vertebral artery", 0.148f, 0.0019f, 0.0014f},         // Reymond 2009
+    {"left subclavian artery", 0.090f, 0.0049f, 0.0030f},        // ADAN56, segments I and II
+    {"left axillary artery", 0.120f, 0.0030f, 0.0023f},          // ADAN56 length
+    {"left brachial artery", 0.223f, 0.0021f, 0.0018f},          // ADAN56
+    {"left radial artery", 0.301f, 0.0014f, 0.0014f},            // ADAN56
+    {"left common iliac artery", 0.074f, 0.0045f, 0.0041f},      // ADAN56
+    {"left external iliac artery", 0.102f, 0.0034f, 0.0032f},    // ADAN56
+    {"left internal iliac artery", 0.073f, 0.0028f, 0.0024f},    // ADAN56
+    {"left femoral artery", 0.351f, 0.0032f, 0.0027f},           // ADAN56, segments I and II
+    {"left deep femoral artery", 0.238f, 0.0021f, 0.0018f},      // ADAN56
+    {"left popliteal artery", 0.141f, 0.0027f, 0.0023f},         // ADAN56
+    {"left anterior tibial artery", 0.386f, 0.0013f, 0.0012f},   // ADAN56
+    {"left posterior tibial artery", 0.383f, 0.0016f, 0.0014f},  // ADAN56 length, Reymond 2009 radii
 };
 
 }  // namespace
@@ -66,11 +66,12 @@ TEST_CASE("the systemic arteries are one network, the systemic veins another") {
     return parts[std::size_t(vessel - network.vessels().data())];
   };
   CHECK(network.componentCount() == 5);  // and the portal veins, the pulmonary arteries, the pulmonary veins
-  for (const char* name : {"right middle cerebral artery", "left ulnar palmar digital artery of little finger", "splenic artery",
-                           "right plantar digital artery of big toe"})
+  for (const char* name :
+       {"right middle cerebral artery", "left ulnar palmar digital artery of little finger", "splenic artery",
+        "right plantar digital artery of big toe"})
     CHECK(partOf(name) == partOf("ascending aorta"));
-  for (const char* name : {"superior sagittal sinus", "right dorsal digital vein of index finger", "left renal vein",
-                           "right dorsal venous arch of foot", "hemiazygos vein"})
+  for (const char* name : {"superior sagittal sinus", "right dorsal digital vein of index finger",
+                           "left renal vein", "right dorsal venous arch of foot", "hemiazygos vein"})
     CHECK(partOf(name) == partOf("inferior vena cava"));
   CHECK(partOf("splenic vein") == partOf("portal vein"));
   CHECK(partOf("ascending aorta") != partOf("inferior vena cava"));
@@ -112,7 +113,8 @@ TEST_CASE("a vessel's bends are wider than its radius") {
         const float t = float(k) / 8;
         const vec3 first(bezier.derivative(t)), second(bezier.secondDerivative(t));
         const float speed = glm::length(first);
-        worst = std::max(worst, bezier.at(t).w * glm::length(glm::cross(first, second)) / (speed * speed * speed));
+        worst = std::max(worst,
+                         bezier.at(t).w * glm::length(glm::cross(first, second)) / (speed * speed * speed));
       }
     }
     CHECK(worst < 1);
