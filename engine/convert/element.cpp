@@ -9,6 +9,7 @@
 #include "convert/reeb.h"
 #include "convert/reslice.h"
 #include "convert/rings.h"
+#include "math/closest_point.h"
 #include "mesh/boundary.h"
 #include "mesh/components.h"
 #include "mesh/level_set.h"
@@ -58,6 +59,26 @@ float endRadius(const std::vector<vec4>& points, bool last) {
   return radii[count / 2];
 }
 
+// Whether the slices lost the way: part of the rough axis lies well outside what they found.
+bool strays(const std::vector<vec4>& rough, const std::vector<vec4>& sections) {
+  if (sections.size() < 2) return rough.size() >= 2;
+  std::size_t from = 0;  // both run in the same direction, so the search only moves on
+  for (const vec4& p : rough) {
+    float best = std::numeric_limits<float>::infinity();
+    std::size_t at = from;
+    for (std::size_t i = from; i + 1 < sections.size(); ++i) {
+      const vec3 a(sections[i]), b(sections[i + 1]);
+      const float d = glm::distance(vec3(p), glm::mix(a, b, closestOnSegment(vec3(p), a, b))) -
+                      std::max({p.w, sections[i].w, sections[i + 1].w}) * 1.5f;
+      if (d < best) best = d, at = i;
+      if (best <= 0 && i > at + 8) break;
+    }
+    if (best > 0) return true;
+    from = at > 2 ? at - 2 : 0;
+  }
+  return false;
+}
+
 PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
   PieceAxes result;
   const VertexTriangles around = buildVertexTriangles(piece.mesh);
@@ -92,6 +113,10 @@ PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
     trim(chain.start, false);
     trim(chain.end, true);
     std::vector<vec4> sections = reslice(slicer, rough, 0.25f * options.detail);
+    if (strays(rough, sections)) {
+      sections = rough;
+      smoothSections(sections, 12);
+    }
     if (sections.size() >= 2) {
       const float limit = 0.5f * chain.length + 4 * radius;
       if (ends[chain.end].size() == 1) extendToEnd(slicer, sections, limit);

@@ -16,10 +16,14 @@ float radiusAt(const AxisChain& chain, bool last) {
   return radii[radii.size() / 2];
 }
 
-double thickness(const AxisChain& chain) {
-  double sum = 0;
-  for (const vec4& p : chain.points) sum += p.w;
-  return sum / double(std::max<std::size_t>(1, chain.points.size()));
+// Contours where a level touches a bend are far too long, so a chain's thickness is a median.
+float medianRadius(const AxisChain& chain) {
+  std::vector<float> radii;
+  for (const vec4& p : chain.points) radii.push_back(p.w);
+  if (radii.empty()) return 0;
+  const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
 }
 
 // All of `chain` runs inside or close beside the other: strips of one torn tube.
@@ -53,7 +57,7 @@ bool pruneOne(AxisGraph& graph, float detail) {
       if (end.chain != i) parent = std::max(parent, radiusAt(graph.chains[end.chain], end.last));
     float ratio = chain.length / std::max({parent, detail, 1e-9f});
     for (const ChainEnd& end : fork)
-      if (end.chain != i && thickness(chain) <= thickness(graph.chains[end.chain]) && ratio >= 1 &&
+      if (end.chain != i && medianRadius(chain) <= medianRadius(graph.chains[end.chain]) && ratio >= 1 &&
           shadowed(chain, graph.chains[end.chain], detail))
         ratio = 0.999f;
     if (ratio < worst) worst = ratio, chosen = i;
@@ -68,9 +72,7 @@ bool pruneOne(AxisGraph& graph, float detail) {
 bool closeLoop(AxisGraph& graph, float detail) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> seen;
   const auto girth = [&](std::uint32_t i) {
-    float most = 0;
-    for (const vec4& p : graph.chains[i].points) most = std::max(most, p.w);
-    return std::max(2 * kPi * most, 4 * detail);
+    return std::max(2 * kPi * medianRadius(graph.chains[i]), 4 * detail);
   };
   for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
     const AxisChain& chain = graph.chains[i];
@@ -83,11 +85,11 @@ bool closeLoop(AxisGraph& graph, float detail) {
     const auto [found, fresh] = seen.emplace(std::minmax({chain.start, chain.end}), i);
     if (fresh) continue;
     const std::uint32_t other = found->second;
-    const bool small = chain.length + graph.chains[other].length <= 2 * std::max(girth(i), girth(other));
+    const bool small = chain.length + graph.chains[other].length <= std::max(girth(i), girth(other));
     if (!small && !shadowed(chain, graph.chains[other], detail) &&
         !shadowed(graph.chains[other], chain, detail))
       continue;
-    erase(graph, thickness(graph.chains[i]) <= thickness(graph.chains[other]) ? i : other);
+    erase(graph, medianRadius(graph.chains[i]) <= medianRadius(graph.chains[other]) ? i : other);
     compact(graph);
     return true;
   }
