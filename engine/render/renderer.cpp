@@ -124,7 +124,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (batches > 0) recordTessellation(commands, 0);
   {
     const auto scope = timer.scope(commands, kMeshes);
-    skinPass.record(commands, meshes, upload.joints(), upload.jointCount());
+    if (anyShown(meshes, input.look)) skinPass.record(commands, meshes, upload.joints(), upload.jointCount());
     gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
     target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
     surfacePass.recordOpaque(commands, push, meshes, input.look);

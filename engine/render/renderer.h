@@ -22,7 +22,7 @@ struct RenderOptions {
   SweepShape shape;                          ///< quads around and along every sweep
   /// Sweeps tessellated and drawn at a time. Two templates of that size are all the vertex memory that tubes
   /// take, however many sweeps there are.
-  std::uint32_t sweepsPerBatch = 512;
+  std::uint32_t sweepsPerBatch = 256;
   /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and keeps a
   /// device from writing one template while it draws the other; the pictures are the same.
   bool timed = true;

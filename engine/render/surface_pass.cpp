@@ -1,5 +1,6 @@
 #include "render/surface_pass.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -70,6 +71,11 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
 }
 
 }  // namespace
+
+bool anyShown(const MeshSet& meshes, const Look& look) {
+  return std::any_of(meshes.parts().begin(), meshes.parts().end(),
+                     [&](const MeshSet::Part& part) { return shown(part.role, look); });
+}
 
 shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size) {
   const float width = float(size.width), height = float(size.height);

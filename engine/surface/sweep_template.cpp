@@ -22,8 +22,12 @@ void addQuad(std::vector<uvec3>& triangles, std::uint32_t ring, std::uint32_t k,
 }  // namespace
 
 std::vector<vec2> ringDirections(std::uint32_t around) {
-  std::vector<vec2> directions;
-  for (std::uint32_t k = 0; k < around; ++k) directions.push_back(unitAt(2 * std::numbers::pi * k / around));
+  const vec2 step = unitAt(2 * std::numbers::pi / around);
+  std::vector<vec2> directions{{1, 0}};
+  while (directions.size() < around) {
+    const vec2 d = directions.back();
+    directions.push_back({d.x * step.x - d.y * step.y, d.x * step.y + d.y * step.x});
+  }
   return directions;
 }
 

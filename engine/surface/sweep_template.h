@@ -22,8 +22,10 @@ struct SweepShape {
   std::uint32_t capTriangles() const { return (2 * shared::kCapRings - 1) * around; }
 };
 
-/// (cos θ, sin θ) of the m directions around a section, θ = 2πk/m. Computed once on the CPU, in double, and
-/// handed to the shaders, which have no exact cosine.
+/// (cos θ, sin θ) of the m directions around a section, θ = 2πk/m: (1, 0) turned by the second direction again and
+/// again, in single precision (off by less than 2e-6), so that shaders, which have no exact cosine, find the
+/// same numbers from that one.
+/// @param around  at least 3
 std::vector<vec2> ringDirections(std::uint32_t around);
 
 /// (cos φ, sin φ) of a cap's rings, rim (1, 0) first, and of its pole (0, 1) last: kCapRings + 1 of them.

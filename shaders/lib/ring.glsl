@@ -17,7 +17,9 @@ Section ringSection(TessellatePush push, uint sweep, uint ring) {
   uint point = record.point + step, knot = record.knot + step;
   Bezier bezier = bezierOf(push.tables.spanClass[spanClass], push.points.point[point], push.points.point[point + 1],
                            push.points.point[point + 2], push.points.point[point + 3]);
-  vec3 chord = push.points.point[record.lastPoint].xyz - push.points.point[record.firstPoint].xyz;
+  vec3 chord = vec3(0), ownChord = bezier.b3.xyz - bezier.b0.xyz;
+  if (dotOf(ownChord, ownChord) <= kTiny2)  // otherwise the vessel's chord is never asked for
+    chord = push.points.point[record.lastPoint].xyz - push.points.point[record.firstPoint].xyz;
   return sectionAt(bezier, chord, push.knots.knot[knot], push.knots.knot[knot + 1], t);
 }
 

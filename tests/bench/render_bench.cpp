@@ -56,6 +56,19 @@ Camera turned(const Camera& camera, float angle) {
   return result;
 }
 
+// Without the timer's barriers and without the body: what a frame of tubes costs.
+void timeTubesAlone(Renderer& renderer, RenderInput input) {
+  const Camera camera = input.camera;
+  input.look.drawBones = input.look.drawHeart = input.look.drawSkin = input.look.drawOther = false;
+  std::vector<double> total;
+  for (int i = kWarmUp + kFrames; i-- > 0;) {
+    input.camera = turned(camera, 0.05f * float(i));
+    renderer.draw(input);
+    if (i < kFrames) total.push_back(renderer.times().total);
+  }
+  print("tubes alone", total);
+}
+
 void timeFrames(Renderer& renderer, RenderInput& input) {
   const Camera camera = input.camera;
   std::vector<double> upload, tessellate, draw, meshes, total;
@@ -94,6 +107,10 @@ int main(int argc, char** argv) {
   RenderInput input{network.points(), frames, joints, cameraFrom(arguments.view, box, aspect), {}};
   timeFrames(renderer, input);
   std::printf("  static draw  min %8.2f ms\n", renderer.staticDraw(input, 10));
+  RenderOptions untimed = arguments.options;
+  untimed.timed = false;
+  Renderer alone(device, network, body.meshes, untimed);
+  timeTubesAlone(alone, input);
   renderer.draw(input);
   const Image image = renderer.readBack();
   std::printf("  picture %016llx\n",
