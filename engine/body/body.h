@@ -17,8 +17,8 @@ struct SkinInfluence {
 
 /// A mesh that moves with the skeleton.
 struct SkinnedMesh {
-  std::string name;  ///< e.g. "skin", "bones", "heart"
-  TriangleMesh mesh;
+  std::string name;   ///< e.g. "skin", "bones", "heart"
+  TriangleMesh mesh;  ///< in the space of the inverse binds: as a rule model space at rest (see readBody)
   std::vector<vec3> normals;              ///< unit, one a vertex
   std::vector<SkinInfluence> influences;  ///< one a vertex
   vec4 colour{0.8f, 0.8f, 0.8f, 1};       ///< linear base colour and opacity

@@ -10,6 +10,13 @@
 namespace vasa {
 namespace {
 
+/// Strings of the file get into messages; they must not steer the terminal.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
 /// Loads a file, makes something of it, and turns what is thrown on the way into an Error that begins with
 /// the file's name.
 template <class T, class Maker>
@@ -18,7 +25,7 @@ Result<T> read(const std::filesystem::path& path, Maker make) {
   try {
     return make(gltf::loadAsset(path));
   } catch (const gltf::BrokenRule& broken) {
-    return badInput(file + broken.place + ": " + broken.rule + "; " + broken.remedy);
+    return badInput(file + printable(broken.place + ": " + broken.rule + "; " + broken.remedy));
   } catch (const Error& error) {
     return error.message.starts_with(file) ? error : Error{error.fault, file + error.message};
   } catch (const std::bad_alloc&) {

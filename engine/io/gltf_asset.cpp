@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
-#include "core/log.h"
 #include "io/gltf_buffers.h"
 #include "io/gltf_check.h"
 #include "io/gltf_container.h"

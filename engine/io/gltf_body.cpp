@@ -22,11 +22,15 @@ vec4 colourOf(const tinygltf::Model& model, int material) {
   return colour;
 }
 
-// Nearest joint above a node, or the node itself.
-JointId carrierOf(int node, const NodeTree& tree, const BodySkeleton& joints) {
-  for (; node >= 0; node = tree.parent[std::size_t(node)])
-    if (joints.jointOfNode[std::size_t(node)].valid()) return joints.jointOfNode[std::size_t(node)];
-  return {};
+// One a node: the nearest joint above it, or itself.
+std::vector<JointId> carriers(const NodeTree& tree, const BodySkeleton& joints) {
+  std::vector<JointId> carrier = joints.jointOfNode;
+  for (const int node : tree.order) {
+    const int parent = tree.parent[std::size_t(node)];
+    if (!carrier[std::size_t(node)].valid() && parent >= 0)
+      carrier[std::size_t(node)] = carrier[std::size_t(parent)];
+  }
+  return carrier;
 }
 
 bool canCarry(const Skeleton::Joint& joint) {
@@ -60,30 +64,38 @@ void warnOfMending(const Asset& asset, const std::string& mesh, const Geometry& 
                std::to_string(geometry.mendedWeights) + " vertices did not sum to 1; mended");
 }
 
-void addMeshesOfNode(const Asset& asset, int index, const NodeTree& tree, const BodySkeleton& joints,
-                     std::vector<SkinnedMesh>& meshes) {
-  const auto& node = asset.model.nodes[std::size_t(index)];
-  const std::string name = nameOf(asset.model.meshes[std::size_t(node.mesh)].name, node.name, index);
-  const JointId carrier = node.skin < 0 ? carrierOf(index, tree, joints) : JointId{};
-  if (node.skin < 0 && !carrier.valid()) {
-    logWarning(asset.name + ": nothing moves the mesh \"" + name + "\"; left out");
-    return;
-  }
-  if (carrier.valid() && !canCarry(joints.skeleton.joints[carrier.value])) {
-    logWarning(asset.name + ": the mesh \"" + name + "\" hangs on a joint without extent; left out");
-    return;
-  }
-  auto byMaterial = geometryByMaterial(asset, node);
+struct Source {
+  const Asset& asset;
+  const NodeTree& tree;
+  const BodySkeleton& joints;
+  std::vector<JointId> carrier;  // one a node
+};
+
+// Whether something moves the node's mesh; warns where nothing does.
+bool isMoved(const Source& from, int index, const std::string& name) {
+  if (from.asset.model.nodes[std::size_t(index)].skin >= 0) return true;
+  const JointId carrier = from.carrier[std::size_t(index)];
+  if (carrier.valid() && canCarry(from.joints.skeleton.joints[carrier.value])) return true;
+  logWarning(from.asset.name + ": " + (carrier.valid() ? "a joint without extent" : "nothing") +
+             " moves the mesh \"" + name + "\"; left out");
+  return false;
+}
+
+void addMeshesOfNode(const Source& from, int index, std::vector<SkinnedMesh>& meshes) {
+  const auto& model = from.asset.model;
+  const auto& node = model.nodes[std::size_t(index)];
+  const std::string name = nameOf(model.meshes[std::size_t(node.mesh)].name, node.name, index);
+  if (!isMoved(from, index, name)) return;
+  auto byMaterial = geometryByMaterial(from.asset, node);
   for (auto& [material, geometry] : byMaterial) {
     if (geometry.mesh.empty()) continue;
-    warnOfMending(asset, name, geometry);
-    SkinnedMesh mesh = node.skin >= 0 ? onSkin(std::move(geometry), joints.skins[std::size_t(node.skin)])
-                                      : onJoint(std::move(geometry), carrier, joints.skeleton,
-                                                tree.world[std::size_t(index)]);
-    mesh.name = name;
-    if (byMaterial.size() > 1 && material >= 0)
-      mesh.name += "/" + asset.model.materials[std::size_t(material)].name;
-    mesh.colour = colourOf(asset.model, material);
+    warnOfMending(from.asset, name, geometry);
+    SkinnedMesh mesh = node.skin >= 0 ? onSkin(std::move(geometry), from.joints.skins[std::size_t(node.skin)])
+                                      : onJoint(std::move(geometry), from.carrier[std::size_t(index)],
+                                                from.joints.skeleton, from.tree.world[std::size_t(index)]);
+    const bool parted = byMaterial.size() > 1 && material >= 0;
+    mesh.name = parted ? name + "/" + model.materials[std::size_t(material)].name : name;
+    mesh.colour = colourOf(model, material);
     mustBeFinite(mesh.mesh.positions, index);
     meshes.push_back(std::move(mesh));
   }
@@ -144,12 +156,13 @@ Body bodyOf(const Asset& asset) {
            "export the body with its armature");
   const NodeTree tree = resolveNodes(asset.model);
   BodySkeleton joints = buildSkeleton(asset, tree);
+  const Source from{asset, tree, joints, carriers(tree, joints)};
   Body body;
   body.name = asset.name;
   checkExpandedSize(asset.model, tree);
   for (int node = 0; node < int(asset.model.nodes.size()); ++node)
     if (asset.model.nodes[std::size_t(node)].mesh >= 0 && tree.inScene[std::size_t(node)])
-      addMeshesOfNode(asset, node, tree, joints, body.meshes);
+      addMeshesOfNode(from, node, body.meshes);
   body.clips = readClips(asset, joints.jointOfNode);
   body.skeleton = std::move(joints.skeleton);
   for (const auto& joint : body.skeleton.joints)

@@ -5,7 +5,6 @@
 
 #include "core/atomic_file.h"
 #include "io/gltf_container.h"
-#include "io/gltf_rule.h"
 #include "io/gltf_tinygltf.h"
 
 namespace vasa::gltf {

@@ -4,8 +4,6 @@
 #include <set>
 #include <string>
 
-#include "core/log.h"
-
 namespace vasa::gltf {
 namespace {
 

@@ -33,7 +33,7 @@ std::string_view asText(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::uint64_t checkHeader(std::span<const std::byte> bytes) {
+std::uint64_t checkHeader(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   if (bytes.size() < kHeaderBytes)
     breaks(atByte(bytes.size()), "the file ends inside the 12-byte header", kIncomplete);
   if (word(bytes, 0) != kMagic) breaks(atByte(0), "does not begin with \"glTF\"", "give a glTF 2.0 file");
@@ -48,7 +48,7 @@ std::uint64_t checkHeader(std::span<const std::byte> bytes) {
            "length " + std::to_string(length) + " is more than the file's " + std::to_string(bytes.size()) +
                " bytes",
            kIncomplete);
-  if (length < bytes.size()) logWarning("the GLB is followed by bytes that do not belong to it; ignored");
+  if (length < bytes.size()) logWarning(path.string() + ": bytes after the end of the GLB are ignored");
   return length;
 }
 
@@ -69,8 +69,8 @@ Chunk chunkAt(std::span<const std::byte> bytes, std::uint64_t offset) {
   return {word(bytes, offset + 4), bytes.subspan(offset + kChunkHeaderBytes, length)};
 }
 
-Container splitGlb(std::span<const std::byte> bytes) {
-  const std::uint64_t length = checkHeader(bytes);
+Container splitGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+  const std::uint64_t length = checkHeader(bytes, path);
   bytes = bytes.first(length);
   Container container;
   container.isGlb = true;
@@ -127,7 +127,7 @@ bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) 
 
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   const Container container =
-      isGlb(bytes, path) ? splitGlb(bytes) : Container{asText(bytes), std::nullopt, false};
+      isGlb(bytes, path) ? splitGlb(bytes, path) : Container{asText(bytes), std::nullopt, false};
   if (container.json.size() > kMaximumJsonBytes)
     breaks("JSON",
            std::to_string(container.json.size()) + " bytes are more than the " +
