@@ -10,13 +10,18 @@ namespace {
 
 constexpr float kDegree = kPi / 180;
 constexpr float kAngleWithoutClips = 100 * kDegree;
+constexpr float kStill = 5 * kDegree;  // a joint that bends less in all clips
 constexpr float kSmallestAngle = 40 * kDegree;
 constexpr float kLargestAngle = 150 * kDegree;
+constexpr float kLongestArc = 0.45f;  // of the way to a neighbouring joint
 constexpr float kAngleMargin = 1.1f;
 constexpr float kSteepestSlope = 1.5f * 1.1f;  // of smoothstep, and of how the way from a joint is measured
+constexpr float kOverallReach = 0.5f;          // of a vessel's distance from the link in any direction
 constexpr float kReachQuantile = 0.95f;
-constexpr float kBesideLink = 0.1f;        // of the link's length: another bone this near runs beside it
-constexpr float kShortestArcReach = 0.5f;  // of the body's height / 100
+constexpr float kBesideLink = 0.1f;      // of the link's length: another bone this near runs beside it
+constexpr float kNeighbourhood = 0.25f;  // of the shorter link: so far along the limb vessels are looked for
+constexpr float kShortestArcLinks = 0.4f;      // of the shorter link
+constexpr float kShortestArcHeights = 0.012f;  // of the body's height
 constexpr std::size_t kFrameStep = 2;
 constexpr std::size_t kPointsLookedAt = 4000;
 
@@ -30,6 +35,7 @@ float arcPerReach(float angle) {
 struct LargestBend {
   float angle = 0;
   vec3 axis{0};
+  bool moves = true;
 };
 
 std::vector<LargestBend> largestBends(const SpineSet& spines, const Body& body) {
@@ -44,6 +50,7 @@ std::vector<LargestBend> largestBends(const SpineSet& spines, const Body& body) 
       }
     }
   for (LargestBend& bend : bends) {
+    bend.moves = body.clips.empty() || bend.angle > kStill;
     if (body.clips.empty()) bend.angle = kAngleWithoutClips;
     bend.angle = std::clamp(bend.angle, kSmallestAngle, kLargestAngle);
   }
@@ -57,12 +64,12 @@ JointId boneBefore(const SpineSet& spines, std::span<const float> own, JointId j
   return at;
 }
 
-/// How far along the limb a joint's vessels are looked for: half the shorter of the links that meet there.
-float neighbourhood(const SpineSet& spines, std::size_t j) {
+/// The shorter of the links that meet at a joint.
+float shorterLink(const SpineSet& spines, std::size_t j) {
   const SpineJoint& joint = spines.joints[j];
   const float before = spines.joints[joint.parent.value].link;
   const float after = joint.link > 0 ? joint.link : before;
-  return 0.5f * (before > 0 ? std::min(before, after) : after);
+  return before > 0 ? std::min(before, after) : after;
 }
 
 /// How far the points around each joint lie from its link, in the plane of its largest bend.
@@ -82,11 +89,12 @@ std::vector<float> vesselReaches(const SpineSet& spines, const BoneField& bones,
         continue;
       const vec3 arm = p - joint.centre;
       const vec3 axis = joint.axis != vec3(0) ? joint.axis : spines.joints[joint.parent.value].axis;
-      if (std::abs(glm::dot(arm, axis)) > neighbourhood(spines, j)) continue;
+      if (std::abs(glm::dot(arm, axis)) > kNeighbourhood * shorterLink(spines, j)) continue;
       const vec3 across = arm - glm::dot(arm, axis) * axis;
       const vec3 inward = glm::cross(bends[j].axis, axis);
-      const float length = glm::length(inward);
-      found[j].push_back(length > 0 ? std::abs(glm::dot(across, inward)) / length : glm::length(across));
+      const float length = glm::length(inward), overall = kOverallReach * glm::length(across);
+      found[j].push_back(length > 0 ? std::max(std::abs(glm::dot(across, inward)) / length, overall)
+                                    : 2 * overall);
     }
   }
   std::vector<float> reach(count, 0.0f);
@@ -101,18 +109,20 @@ std::vector<float> vesselReaches(const SpineSet& spines, const BoneField& bones,
 
 /// Shortens arcs that would reach beyond the next joint of their limb, unless that is closer than the vessels
 /// are.
-void shortenArcs(SpineSet& spines, std::span<const float> reach) {
+void shortenArcs(SpineSet& spines, std::span<const float> reach, std::span<const LargestBend> bends) {
   std::vector<float> longest(spines.joints.size(), BoneField::kFar);
-  for (std::size_t j = 0; j < spines.joints.size(); ++j)
+  for (std::size_t j = 0; j < spines.joints.size(); ++j) {
+    if (!bends[j].moves) continue;
     for (JointId at = spines.joints[j].parent; at.valid(); at = spines.joints[at.value].parent) {
       const float apart = glm::distance(spines.joints[j].centre, spines.joints[at.value].centre);
       const std::size_t above = at.value;
-      if (apart < std::max(reach[j], reach[above])) continue;
-      longest[j] = std::min(longest[j], 2 * apart);
+      if (apart < std::max(reach[j], reach[above]) || !bends[above].moves) continue;
+      longest[j] = std::min(longest[j], kLongestArc * apart);
       if (spines.joints[above].next == JointId{std::uint32_t(j)})
-        longest[above] = std::min(longest[above], 2 * apart);
+        longest[above] = std::min(longest[above], kLongestArc * apart);
       break;
     }
+  }
   for (std::size_t j = 0; j < spines.joints.size(); ++j)
     spines.joints[j].arc = std::min(spines.joints[j].arc, longest[j]);
 }
@@ -151,10 +161,14 @@ void chooseArcs(SpineSet& spines, const Body& body, const BoneField& bones, std:
       spines.joints[j].spreadsTwist = spines.joints[j].spreadsTwist && boneRunsBeside(spines, bones, j);
   const std::vector<LargestBend> bends = largestBends(spines, body);
   const std::vector<float> reach = vesselReaches(spines, bones, points, bends);
-  const float shortest = kShortestArcReach * 0.01f * body.height();
-  for (std::size_t j = 0; j < spines.joints.size(); ++j)
-    spines.joints[j].arc = std::max(arcPerReach(bends[j].angle) * reach[j], shortest);
-  shortenArcs(spines, reach);
+  const float shortest = kShortestArcHeights * body.height();
+  for (std::size_t j = 0; j < spines.joints.size(); ++j) {
+    SpineJoint& joint = spines.joints[j];
+    joint.arc = std::max(arcPerReach(bends[j].angle) * reach[j], shortest);
+    if (joint.parent.valid() && !(joint.spreadsTwist && bones.fromMeshes()))
+      joint.arc = std::max(joint.arc, kShortestArcLinks * shorterLink(spines, j));
+  }
+  shortenArcs(spines, reach, bends);
 }
 
 }  // namespace vasa

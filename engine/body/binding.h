@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "body/body.h"
+#include "body/phases.h"
 #include "body/spine.h"
 #include "network/network.h"
 
@@ -41,22 +42,22 @@ struct Binding {
 
 /// Binds points of a body at rest, first choosing the length of every joint's arc from them.
 ///
-/// For each joint the points are told apart by how much nearer they are to the bones behind it than to those
-/// before it; the share of the joint's motion is a smoothstep of that difference over the arc's length
-/// L = max(1.8 · angle · R, 2 R tan(angle / 2)), with angle the largest in the body's clips (100° without
-/// clips) and R the distance of the joint's vessels from it. Arcs of joints farther apart than R are
-/// shortened so that they do not overlap; joints closer together act as one, their arcs in sequence. At a
-/// fork of limbs, limbs less than twice as far away as the nearest take part. The map from a rest point to
-/// its posed place is continuous.
+/// In what share a joint has set in at a point is measured from the bones before and behind it
+/// (body/phases.h), over an arc as long as the largest bend in the body's clips and the distance of the
+/// joint's vessels ask for (body/arcs.h). At a fork of limbs, those that are not much farther away than the
+/// nearest take part. The map from a rest point to its posed place is continuous, and along ties no steeper
+/// than the arcs need.
 ///
 /// Fails with badInput: no joints, a broken rest transform, no points, or points that do not belong to this
-/// body (checkBelongs, body/belonging.h).
+/// body (body/belonging.h).
 /// @param points  (x, y, z, r) [m]; r is not looked at
 /// @param name    of what the points are, for messages: the network's file
+/// @param ties    points that are next to each other along a vessel
 /// O(points · joints), in parallel; the result does not depend on the number of threads.
-Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name);
+Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
+                           std::span<const Tie> ties = {});
 
-/// Binds a network's de Boor points.
+/// Binds a network's de Boor points, with ties along its vessels and across its nodes.
 Result<Binding> bind(const Body& body, const Network& network, std::string_view name);
 
 }  // namespace vasa

@@ -66,7 +66,10 @@ void Deformer::run(const Network& network, const Pose& pose, std::span<vec4> out
 void Deformer::rotations(std::span<quat> out) const {
   assert(out.size() == binding_->pointCount);
   forEachPoint(*binding_, [&](std::size_t i, std::span<const BindingRecord> records) {
-    out[i] = pose_.rotation(records.front().station());
+    quat chained(1, 0, 0, 0);
+    std::size_t k = 0;
+    for (; records[k].share == 0; ++k) chained = pose_.turning(records[k].station()) * chained;
+    out[i] = pose_.rotation(records[k].station()) * chained;
   });
 }
 

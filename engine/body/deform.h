@@ -21,7 +21,7 @@ class Deformer {
   /// Moves plain points. @param rest  the bound points; @param out  of the same size
   void run(std::span<const vec4> rest, const Pose& pose, std::span<vec4> out);
 
-  /// Where a direction or frame at each point turns to: the rotation of the point's weightiest station. For
+  /// Where a direction or frame at each point turns to: the rotation of the limb with the largest share. For
   /// reference directions of frames. @param out  one a point
   void rotations(std::span<quat> out) const;
 

@@ -55,8 +55,12 @@ AngleAxis angleAxis(quat q) {
   return {v / sine, std::atan2(sine, q.w)};
 }
 
+/// The turn by 2 · half about an axis, |half| <= π / 2, from power series that are good to 6e-8 there.
 quat turnAbout(vec3 axis, float half) {
-  return {std::cos(half), axis * std::sin(half)};
+  const float x = half * half;
+  const float sine = half * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110)))));
+  const float cosine = 1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90 * (1 - x / 132)))));
+  return {cosine, axis * sine};
 }
 
 /// D = bend · twist, twist about `axis`.
@@ -232,8 +236,13 @@ vec3 bendOf(const SpineSet& spines, const Pose& pose, JointId id) {
   const quat own = similarityOf(pose.world[id.value] * joint.restInverse).rotation;
   const SpineJoint& parent = spines.joints[joint.parent.value];
   const quat before = similarityOf(pose.world[joint.parent.value] * parent.restInverse).rotation;
-  const AngleAxis bend = bendAndTwist(glm::conjugate(before) * own, joint).first;
-  return 2 * bend.half * bend.axis;
+  const quat turn = glm::conjugate(before) * own;
+  if (joint.axis == vec3(0)) {
+    const AngleAxis whole = angleAxis(turn);
+    return 2 * whole.half * whole.axis;
+  }
+  const vec3 bent = turn * joint.axis, axis = glm::cross(joint.axis, bent);
+  return std::atan2(glm::length(axis), glm::dot(joint.axis, bent)) * direction(axis);
 }
 
 }  // namespace vasa

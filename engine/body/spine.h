@@ -84,8 +84,8 @@ class SpinePose {
   std::vector<Motion> motions_;
 };
 
-/// Axis times angle [rad] of a joint's bend in a pose against rest, in rest directions, without the twist
-/// that is spread along the link.
+/// Axis times angle [rad] of the shortest turn that takes the joint's link from rest to where a pose has it,
+/// seen from the bone before it and in rest directions; at a tip, of the whole turn.
 vec3 bendOf(const SpineSet& spines, const Pose& pose, JointId joint);
 
 }  // namespace vasa

@@ -1,0 +1,200 @@
+#include "body/phases.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/arcs.h"
+#include "core/parallel.h"
+
+namespace vasa {
+namespace {
+
+constexpr float kSoftening = 0.2f;
+constexpr float kNarrowArc = 0.6f;      // of the way between the bones before and behind a joint
+constexpr float kNarrowestArc = 0.25f;  // of the arc
+constexpr float kNearness = 0.65f;  // a limb takes part if the nearest is nearer than it by no more than this
+constexpr float kLimbBlur = 0.02f;  // of the limbs' length, added to the distances that are compared
+constexpr float kTwistTilt = 8;     // largest ratio by which nearness to one bone tilts the spread of twist
+constexpr float kSlope = 1.5f * 1.25f;  // over an arc
+constexpr float kTwistSlope = 6;        // over a link
+constexpr int kMostSweeps = 100;
+constexpr std::size_t kBlock = 64;
+
+float smoothstep(float x) {
+  x = std::clamp(x, 0.0f, 1.0f);
+  return x * x * (3 - 2 * x);
+}
+
+/// How far [m] a place is beyond the plane of a joint, from its distances to the bones before and behind:
+/// where these are two straight links, before² − behind² is ± the square of that way. The softening keeps the
+/// slope finite between bones that face each other.
+float beyond(float before, float behind) {
+  const float squares = before * before - behind * behind, soft = kSoftening * (before + behind);
+  return squares / std::max(std::sqrt(std::abs(squares) + soft * soft), 1e-9f);
+}
+
+/// Length [m] of the longest way from each joint to a tip, the link that leads to the joint included.
+std::vector<float> limbLengths(const SpineSet& spines) {
+  std::vector<float> lengths(spines.joints.size(), 0.0f);
+  for (std::size_t j = lengths.size(); j-- > 0;) {
+    const JointId parent = spines.joints[j].parent;
+    if (!parent.valid()) continue;
+    lengths[j] += glm::distance(spines.joints[j].centre, spines.joints[parent.value].centre);
+    lengths[parent.value] = std::max(lengths[parent.value], lengths[j]);
+  }
+  return lengths;
+}
+
+/// For each joint, what is added to distances where its limb is compared with those beside it.
+std::vector<float> limbBlurs(const SpineSet& spines) {
+  const std::vector<float> lengths = limbLengths(spines);
+  std::vector<float> longest(lengths.size() + 1, 0.0f), blurs(lengths.size());
+  const auto fork = [&](std::size_t j) {
+    const JointId parent = spines.joints[j].parent;
+    return parent.valid() ? parent.value : lengths.size();
+  };
+  for (std::size_t j = 0; j < lengths.size(); ++j) longest[fork(j)] = std::max(longest[fork(j)], lengths[j]);
+  for (std::size_t j = 0; j < lengths.size(); ++j) blurs[j] = std::max(kLimbBlur * longest[fork(j)], 1e-6f);
+  return blurs;
+}
+
+/// Measures one point at a time; scratch is kept between them.
+class PhaseMeter {
+ public:
+  PhaseMeter(const SpineSet& spines, const BoneField& bones, std::span<const float> blurs)
+      : spines_(spines),
+        bones_(bones),
+        blurs_(blurs),
+        own_(spines.joints.size()),
+        behind_(own_),
+        before_(own_),
+        nearest_(own_.size() + 1) {}
+
+  void measure(vec3 p, std::size_t point, Phases& phases) {
+    bones_.distances(p, own_);
+    distancesAcrossJoints(spines_, own_, behind_, before_);
+    std::fill(nearest_.begin(), nearest_.end(), BoneField::kFar);
+    for (std::size_t j = 0; j < own_.size(); ++j) nearest_[fork(j)] = std::min(nearest_[fork(j)], behind_[j]);
+    for (std::size_t j = 0; j < own_.size(); ++j) {
+      const std::size_t at = phases.at(j, point);
+      phases.bend[at] = bend(j, p);
+      phases.twist[at] = twist(j, p);
+      phases.nearness[at] = nearness(j);
+    }
+  }
+
+ private:
+  std::size_t fork(std::size_t j) const {
+    const JointId parent = spines_.joints[j].parent;
+    return parent.valid() ? parent.value : own_.size();
+  }
+
+  float bend(std::size_t j, vec3 p) const {
+    if (behind_[j] >= BoneField::kFar) return 0;
+    if (!spines_.joints[j].parent.valid() || before_[j] >= BoneField::kFar) return 1;
+    return smoothstep(0.5f + beyond(before_[j], behind_[j]) / arcAt(j, p));
+  }
+
+  float arcAt(std::size_t j, vec3 p) const {
+    const SpineJoint& joint = spines_.joints[j];
+    const float between = before_[j] + behind_[j], away = glm::distance(p, joint.centre);
+    const float narrow = std::clamp(kNarrowArc * between, kNarrowestArc * joint.arc, joint.arc);
+    const float share =
+        smoothstep(2 * away / joint.arc - 1) * smoothstep(2 - 2 * between / std::max(away, 1e-6f));
+    return glm::mix(joint.arc, narrow, share);
+  }
+
+  float twist(std::size_t j, vec3 p) const {
+    const SpineJoint& joint = spines_.joints[j];
+    if (!joint.spreadsTwist) return 1;
+    const float way = smoothstep(glm::dot(p - joint.centre, joint.axis) / joint.link);
+    float tilt = 1;
+    if (bones_.fromMeshes())
+      tilt = std::clamp(behind_[j] / std::max(before_[j], 1e-6f), 1 / kTwistTilt, kTwistTilt);
+    return way / (way + tilt * (1 - way));
+  }
+
+  float nearness(std::size_t j) const {
+    if (behind_[j] >= BoneField::kFar) return 0;
+    const float ratio = (nearest_[fork(j)] + blurs_[j]) / (behind_[j] + blurs_[j]);
+    return smoothstep((ratio - kNearness) / (1 - kNearness));
+  }
+
+  const SpineSet& spines_;
+  const BoneField& bones_;
+  std::span<const float> blurs_;
+  std::vector<float> own_, behind_, before_, nearest_;
+};
+
+/// A tie and the most that a value may change along it.
+struct Limit {
+  std::uint32_t a, b;
+  float change;
+};
+
+/// Lowers values until none exceeds a neighbour's by more than allowed; raises them with sign = -1.
+void level(std::span<float> values, std::span<const Limit> limits, float sign) {
+  bool changed = true;
+  const auto relax = [&](const Limit& limit) {
+    float &a = values[limit.a], &b = values[limit.b];
+    const float difference = sign * (a - b);
+    if (difference > limit.change)
+      a = b + sign * limit.change;
+    else if (-difference > limit.change)
+      b = a + sign * limit.change;
+    else
+      return;
+    changed = true;
+  };
+  for (int sweep = 0; changed && sweep < kMostSweeps; ++sweep) {
+    changed = false;
+    for (const Limit& limit : limits) relax(limit);
+    for (auto limit = limits.rbegin(); limit != limits.rend(); ++limit) relax(*limit);
+  }
+}
+
+void limitSlope(std::span<float> values, float slope, std::span<const Tie> ties,
+                std::span<const float> lengths) {
+  std::vector<Limit> limits;
+  bool steep = false;
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    limits.push_back({ties[i].a, ties[i].b, slope * lengths[i]});
+    steep = steep || std::abs(values[ties[i].a] - values[ties[i].b]) > limits.back().change;
+  }
+  if (!steep) return;
+  std::vector<float> low(values.begin(), values.end());
+  level(values, limits, 1);
+  level(low, limits, -1);
+  for (std::size_t i = 0; i < low.size(); ++i) values[i] = 0.5f * (values[i] + low[i]);
+}
+
+}  // namespace
+
+Phases measurePhases(const SpineSet& spines, const BoneField& bones, std::span<const vec4> points) {
+  const std::size_t size = spines.joints.size() * points.size();
+  Phases phases{points.size(), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
+  const std::vector<float> blurs = limbBlurs(spines);
+  parallelFor((points.size() + kBlock - 1) / kBlock, 1, [&](std::size_t block) {
+    PhaseMeter meter(spines, bones, blurs);
+    const std::size_t end = std::min(points.size(), (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) meter.measure(vec3(points[i]), i, phases);
+  });
+  return phases;
+}
+
+void limitSlopes(Phases& phases, const SpineSet& spines, std::span<const vec4> points,
+                 std::span<const Tie> ties) {
+  std::vector<float> lengths;
+  for (const Tie& tie : ties) lengths.push_back(glm::distance(vec3(points[tie.a]), vec3(points[tie.b])));
+  parallelFor(spines.joints.size(), 1, [&](std::size_t j) {
+    const SpineJoint& joint = spines.joints[j];
+    const auto ofJoint = [&](std::vector<float>& table) {
+      return std::span(table).subspan(phases.at(j, 0), phases.pointCount);
+    };
+    limitSlope(ofJoint(phases.bend), kSlope / joint.arc, ties, lengths);
+    limitSlope(ofJoint(phases.nearness), kSlope / joint.arc, ties, lengths);
+    if (joint.spreadsTwist) limitSlope(ofJoint(phases.twist), kTwistSlope / joint.link, ties, lengths);
+  });
+}
+
+}  // namespace vasa
