@@ -90,6 +90,8 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options)
 
 Result<Job> prepare(const Options& options) {
   Job job;
+  // What is wrong with the words themselves is told before anything is loaded.
+  if (const auto pattern = FramePattern::parse(options.output, false); !pattern) return pattern.error();
   const auto size = parseSize(options.size);
   if (!size) return size.error();
   const auto quads = parseQuads(options.quads);

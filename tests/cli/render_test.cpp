@@ -19,7 +19,7 @@ std::string bytesOf(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> walk(const std::filesystem::path& folder, std::initializer_list<std::string> more) {
-  std::vector<std::string> arguments{"render", "--clip", "walk", "--size", "96x160", "--quads", "4x2", "-o", (folder / "{frame:03}.png").string()};
+  std::vector<std::string> arguments{"render", "--clip", "walk", "--size", "192x320", "--quads", "4x2", "-o", (folder / "{frame:03}.png").string()};
   arguments.insert(arguments.end(), more);
   return arguments;
 }
@@ -35,7 +35,7 @@ TEST_CASE("a clip becomes numbered pictures with vessels in them") {
   CHECK(outcome.json()["largest_step_m"].get<double>() > 0);
   const auto picture = readPng(folder.path() / "003.png");
   REQUIRE(picture.ok());
-  CHECK(picture->width == 96);
+  CHECK(picture->width == 192);
   int red = 0, blue = 0;
   for (std::size_t i = 0; i < picture->rgba.size(); i += 4) {
     red += picture->rgba[i] > picture->rgba[i + 2] + 60;
