@@ -1,0 +1,359 @@
+// Costs are gaps over what is allowed there, so 1 is the limit everywhere and joins of all sorts compare.
+// All candidates are collected first and then taken cheapest first; taking one changes the strands a little (a
+// tip is cut back or led on), so places are looked up again when a candidate is taken.
+#include "convert/attach.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "convert/vessel_names.h"
+#include "core/parallel.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kNone = StrandGraph::kNone;
+constexpr float kSnapRadii = 1.0f;       // a side place this near to an end is that end
+constexpr float kFacing = 0.2f;          // least -cos between outward directions for ends to meet as ends
+constexpr float kAligned = 0.82f;        // 35 degrees
+constexpr float kNamedAligned = 0.7f;    // 45 degrees: the names speak for it too
+constexpr float kNamedRatio = 3.5f;
+constexpr float kLargestRatio = 2.5f;    // of radii: a thick vessel does not go on in a thin one, nor hang on it
+constexpr float kAheadCost = 0.25f;      // straight-ahead joins cost this much more than touching ones
+constexpr int kAheadSteps = 12;
+constexpr float kTouchRadii = 0.15f;
+constexpr std::size_t kNoSection = std::size_t(-1);
+constexpr float kClosingCost = 0.6f;     // limit for joins that close a ring
+
+struct Candidate {
+  StrandEnd end;
+  std::uint32_t strand;             // to join to
+  std::optional<bool> otherLast;    // the other strand's end; none: its side
+  float cost;
+  float gap;
+  bool bridge = false;
+  std::size_t cutTo = 0;            // sections to take off the end first
+};
+
+struct Tip {
+  StrandEnd end;
+  vec3 place;
+  vec3 outward;
+  float radius;
+};
+
+class Attacher {
+ public:
+  Attacher(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight, const AttachOptions& options)
+      : graph_(graph), elements_(elements), bodyHeight_(bodyHeight), options_(options) {}
+
+  AttachReport run() {
+    // Joining opens no new ends, but a tip led on may come near something; two rounds settle that.
+    for (int round = 0; round < 2; ++round) {
+      collectTips();
+      std::vector<std::vector<Candidate>> found(tips_.size());
+      parallelFor(tips_.size(), 16, [&](std::size_t i) { found[i] = candidatesOf(tips_[i]); });
+      take(found);
+    }
+    collectTips();
+    std::vector<std::vector<Candidate>> touching(tips_.size());
+    parallelFor(tips_.size(), 16, [&](std::size_t i) { touching[i] = touchingCandidates(tips_[i]); });
+    take(touching);
+    if (options_.bridges) {
+      collectTips();
+      std::vector<std::vector<Candidate>> found(1);
+      found[0] = bridgeCandidates();
+      take(found);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void collectTips() {
+    tips_.clear();
+    boxes_.clear();
+    for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
+      const Strand& strand = graph_.strands[s];
+      Aabb box;
+      for (const vec4& section : strand.sections) box.add(vec3(section), section.w);
+      boxes_.push_back(box);
+      if (strand.dropped()) continue;
+      for (const bool last : {false, true})
+        if (graph_.isFree({s, last})) tips_.push_back(tipOf({s, last}));
+    }
+  }
+  Tip tipOf(StrandEnd end) const {
+    const Sections& sections = graph_.strands[end.strand].sections;
+    return {end, vec3(graph_.sectionAt(end)), outwardDirection(sections, end.last), endRadius(sections, end.last)};
+  }
+  bool mayJoin(std::uint32_t a, std::uint32_t b) const {
+    return a != b && !graph_.strands[b].dropped() && sameFamily(graph_.strands[a].kind, graph_.strands[b].kind);
+  }
+
+  std::vector<Candidate> candidatesOf(const Tip& tip) const {
+    std::vector<Candidate> found;
+    const float reach = std::max({options_.aheadMax, options_.nearMax});
+    for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
+      if (!mayJoin(tip.end.strand, s)) continue;
+      Aabb box = boxes_[s];
+      if (box.low -= reach, box.high += reach; !box.overlaps({tip.place, tip.place})) continue;
+      if (auto side = sideCandidate(tip, s)) found.push_back(*side);
+    }
+    for (const Tip& other : tips_)
+      if (mayJoin(tip.end.strand, other.end.strand))
+        if (auto facing = facingCandidate(tip, other)) found.push_back(*facing);
+    return found;
+  }
+
+  std::optional<Candidate> sideCandidate(const Tip& tip, std::uint32_t host) const {
+    const Sections& sections = graph_.strands[host].sections;
+    const Along at = nearestAlong(sections, tip.place);
+    const float gap = std::max(0.0f, at.distance - at.section.w);
+    const float near = std::clamp(options_.nearRadii * tip.radius, options_.nearMin, options_.nearMax);
+    const float ahead = std::clamp(options_.aheadRadii * tip.radius, options_.aheadMin, options_.aheadMax);
+    Candidate best{tip.end, host, std::nullopt, gap / near, gap};
+    // A thick vessel does not hang on a thin one's side.
+    if (tip.radius > kLargestRatio * at.section.w) best.cost = std::numeric_limits<float>::infinity();
+    for (int step = 1; step <= kAheadSteps && best.cost > kAheadCost; ++step) {
+      const float way = ahead * float(step) / kAheadSteps;
+      const Along there = nearestAlong(sections, tip.place + way * tip.outward);
+      if (there.distance > there.section.w || tip.radius > kLargestRatio * there.section.w) continue;
+      const float cost = kAheadCost + (1 - kAheadCost) * way / ahead;
+      if (cost < best.cost) best.cost = cost, best.gap = std::min(gap, way);
+      break;
+    }
+    if (!(best.cost <= 1)) return std::nullopt;
+    return best;
+  }
+
+  // Coarse meshes taper towards an end and miss their host, but the walls near the end still touch it.
+  std::vector<Candidate> touchingCandidates(const Tip& tip) const {
+    std::vector<Candidate> found;
+    for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
+      if (!mayJoin(tip.end.strand, s) || !boxes_[s].overlaps(boxes_[tip.end.strand])) continue;
+      const std::size_t section = touchingSection(tip, s);
+      if (section == kNoSection) continue;
+      Candidate candidate{tip.end, s, std::nullopt, 1, 0};
+      candidate.cutTo = section;
+      found.push_back(candidate);
+    }
+    return found;
+  }
+  // Counted from the tip: the section within two radii of the tip whose wall comes nearest to the host's, if
+  // they touch.
+  std::size_t touchingSection(const Tip& tip, std::uint32_t host) const {
+    const Sections& own = graph_.strands[tip.end.strand].sections;
+    std::size_t best = kNoSection;
+    float least = kTouchRadii * tip.radius;
+    for (std::size_t i = 0; i + 2 <= own.size(); ++i) {
+      const vec4 section = own[tip.end.last ? own.size() - 1 - i : i];
+      if (glm::distance(vec3(section), tip.place) > 2 * tip.radius) break;
+      const Along at = nearestAlong(graph_.strands[host].sections, vec3(section));
+      if (tip.radius > kLargestRatio * at.section.w) continue;
+      if (const float gap = at.distance - at.section.w - section.w; gap < least) least = gap, best = i;
+    }
+    return best;
+  }
+
+  std::optional<Candidate> facingCandidate(const Tip& tip, const Tip& other) const {
+    const vec3 between = other.place - tip.place;
+    const float gap = glm::length(between), large = std::max(tip.radius, other.radius);
+    const float far = std::clamp(options_.facingRadii * large, options_.facingMin, options_.facingMax);
+    if (gap > std::max(far, 1.2f * large) || glm::dot(tip.outward, other.outward) > -kFacing) return std::nullopt;
+    Candidate candidate{tip.end, other.end.strand, other.end.last, 0.5f * gap / (1.2f * large), gap};
+    if (large > kLargestRatio * std::min(tip.radius, other.radius)) return std::nullopt;
+    if (gap <= 1.2f * large) return candidate;
+    if (!aligned(tip, other, kAligned)) return std::nullopt;
+    candidate.cost = 0.5f + 0.5f * gap / far;
+    return candidate;
+  }
+  static bool aligned(const Tip& tip, const Tip& other, float least) {
+    const vec3 way = glm::normalize(other.place - tip.place);
+    return glm::dot(way, tip.outward) >= least && glm::dot(way, other.outward) <= -least;
+  }
+
+  std::vector<Candidate> bridgeCandidates() const {
+    std::vector<Candidate> found;
+    for (const Tip& tip : tips_)
+      for (const Tip& other : tips_) {
+        if (!mayJoin(tip.end.strand, other.end.strand) || tip.end.strand > other.end.strand) continue;
+        const float gap = glm::distance(tip.place, other.place), large = std::max(tip.radius, other.radius);
+        const float limit = std::min(options_.bridgeRadii * large, options_.bridgeBodyHeights * bodyHeight_);
+        if (gap > limit || large > kNamedRatio * std::min(tip.radius, other.radius) ||
+            !aligned(tip, other, kNamedAligned)) continue;
+        const std::uint32_t a = graph_.strands[tip.end.strand].element, b = graph_.strands[other.end.strand].element;
+        if (a != b && !namesContinue(elements_[a].label, elements_[b].label)) continue;
+        found.push_back({tip.end, other.end.strand, other.end.last, gap / limit, gap, true});
+      }
+    return found;
+  }
+
+  void take(std::vector<std::vector<Candidate>>& found) {
+    std::vector<Candidate> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    collectParts();
+    std::ranges::stable_sort(all, {}, &Candidate::cost);
+    for (const Candidate& candidate : all) {
+      if (!graph_.isFree(candidate.end) || !mayClose(candidate)) continue;
+      const bool joined = candidate.otherLast ? joinToEnd(candidate, {candidate.strand, *candidate.otherLast})
+                                              : joinToSide(candidate);
+      if (joined) unite(candidate.end.strand, candidate.strand);
+      if (joined && candidate.gap > kToldGap)
+        report_.gaps.push_back({graph_.strands[candidate.end.strand].element,
+                                graph_.strands[candidate.strand].element, candidate.gap, candidate.bridge});
+    }
+  }
+
+  // The lungs' arteries touch the body's here and there without meeting them. Anastomoses are real, but an element's own skeleton knows its rings, and between elements a ring wants ends
+  // that touch.
+  bool mayClose(const Candidate& candidate) {
+    const Circuit a = circuit_[root(candidate.end.strand)], b = circuit_[root(candidate.strand)];
+    if (a != b && a != Circuit::unknown && b != Circuit::unknown) return false;
+    if (root(candidate.end.strand) != root(candidate.strand)) return true;
+    const bool own = graph_.strands[candidate.end.strand].element == graph_.strands[candidate.strand].element;
+    return !own && candidate.cost <= kClosingCost;
+  }
+  void collectParts() {
+    parts_.resize(graph_.strands.size());
+    std::iota(parts_.begin(), parts_.end(), 0u);
+    circuit_.clear();
+    for (const Strand& strand : graph_.strands) circuit_.push_back(circuitOf(elements_[strand.element].label));
+    for (const Joint& joint : graph_.joints)
+      for (const StrandEnd& end : joint.ends) unite(end.strand, joint.host ? *joint.host : joint.ends.front().strand);
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    parts_[a] = b;
+    if (circuit_[b] == Circuit::unknown) circuit_[b] = circuit_[a];
+  }
+  std::uint32_t root(std::uint32_t strand) {
+    while (parts_[strand] != strand) strand = parts_[strand] = parts_[parts_[strand]];
+    return strand;
+  }
+
+  bool joinToSide(const Candidate& candidate) {
+    Sections& own = graph_.strands[candidate.end.strand].sections;
+    for (std::size_t i = 0; i < candidate.cutTo && own.size() > 2; ++i)
+      candidate.end.last ? own.pop_back() : void(own.erase(own.begin()));
+    const Tip tip = tipOf(candidate.end);
+    const Sections& host = graph_.strands[candidate.strand].sections;
+    const Along at = nearestAlong(host, tip.place);
+    // Near an end of the host that faces this one, or that has a joint, the end is meant.
+    const float length = lengthOf(host), snap = kSnapRadii * std::max(at.section.w, tip.radius);
+    if (std::min(at.arc, length - at.arc) < snap) {
+      const StrandEnd other{candidate.strand, at.arc > length - at.arc};
+      const bool facing = glm::dot(tip.outward, tipOf(other).outward) < -kFacing;
+      const bool hostedThere = !graph_.isFree(other) && graph_.joints[graph_.jointAt(other)].host;
+      if (facing || (!graph_.isFree(other) && !hostedThere)) return joinToEnd(candidate, other);
+    }
+    const vec3 place = placeOnHost(tip, host, at);
+    if (turnsBack(candidate.end, candidate.strand, place)) return false;
+    cutInside(candidate.end, host);
+    graph_.join(candidate.strand, place, std::span(&candidate.end, 1));
+    ++report_.endToSide;
+    return true;
+  }
+
+  // Ahead of the tip rather than square across, so that a branch keeps its slant into the host.
+  static vec3 placeOnHost(const Tip& tip, const Sections& host, const Along& at) {
+    return vec3(nearestAlong(host, tip.place + 0.7f * at.distance * tip.outward).section);
+  }
+
+  // Sections at the tip that the host's lumen swallows.
+  void cutInside(StrandEnd end, const Sections& host) {
+    Sections& sections = graph_.strands[end.strand].sections;
+    while (sections.size() > 2) {
+      const vec4 tip = graph_.sectionAt(end);
+      const Along at = nearestAlong(host, vec3(tip));
+      if (at.distance > 0.8f * at.section.w) return;
+      end.last ? sections.pop_back() : void(sections.erase(sections.begin()));
+    }
+  }
+
+  bool joinToEnd(const Candidate& candidate, StrandEnd other) {
+    const vec4 tip = graph_.sectionAt(candidate.end), target = graph_.sectionAt(other);
+    if (!graph_.isFree(other)) {
+      const std::uint32_t joint = graph_.jointAt(other);
+      const auto& ends = graph_.joints[joint].ends;
+      const bool sameHost = graph_.joints[joint].host == candidate.end.strand;
+      const bool already = std::ranges::any_of(ends, [&](const StrandEnd& e) { return e.strand == candidate.end.strand; });
+      if (sameHost || already || candidate.bridge) return false;
+      graph_.addEnd(joint, candidate.end);
+      ++report_.endToEnd;
+      return true;
+    }
+    if (turnsBack(candidate.end, other.strand, vec3(target))) return false;
+    const float gap = glm::distance(vec3(tip), vec3(target));
+    vec3 place = 0.5f * vec3(tip + target);
+    if (gap > 3 * std::max(tip.w, target.w)) {
+      lead(candidate.end, other);
+      place = vec3(target);
+    } else {
+      cutBeyond(candidate.end, place);
+      cutBeyond(other, place);
+    }
+    const StrandEnd ends[] = {candidate.end, other};
+    graph_.join(std::nullopt, place, ends);
+    ++report_.endToEnd;
+    return true;
+  }
+
+  // Overlapping ends: sections past the meeting place go.
+  void cutBeyond(StrandEnd end, vec3 place) {
+    Sections& sections = graph_.strands[end.strand].sections;
+    const vec3 outward = outwardDirection(sections, end.last);
+    while (sections.size() > 2) {
+      const vec4 tip = graph_.sectionAt(end);
+      if (glm::dot(vec3(tip) - place, outward) <= 0 || glm::distance(vec3(tip), place) > 4 * tip.w) return;
+      end.last ? sections.pop_back() : void(sections.erase(sections.begin()));
+    }
+  }
+
+  // Leads a strand across a long gap: a Hermite arc along both ends' directions.
+  void lead(StrandEnd end, StrandEnd to) {
+    const vec4 a = graph_.sectionAt(end), b = graph_.sectionAt(to);
+    const float gap = glm::distance(vec3(a), vec3(b));
+    const vec3 da = gap * outwardDirection(graph_.strands[end.strand].sections, end.last);
+    const vec3 db = -gap * outwardDirection(graph_.strands[to.strand].sections, to.last);
+    const int steps = std::clamp(int(gap / std::max(a.w, b.w)), 3, 24);
+    Sections& sections = graph_.strands[end.strand].sections;
+    for (int i = 1; i < steps; ++i) {
+      const float t = float(i) / float(steps), t2 = t * t, t3 = t2 * t;
+      const vec3 p = (2 * t3 - 3 * t2 + 1) * vec3(a) + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * vec3(b) +
+                     (t3 - t2) * db;
+      sections.insert(end.last ? sections.end() : sections.begin(), vec4(p, glm::mix(a.w, b.w, t)));
+    }
+  }
+
+  // Whether the strand's other end already hangs on `other` nearby: a twig bent back onto its own trunk.
+  bool turnsBack(StrandEnd end, std::uint32_t other, vec3 place) const {
+    const std::uint32_t joint = graph_.jointAt({end.strand, !end.last});
+    if (joint == kNone) return false;
+    const Joint& far = graph_.joints[joint];
+    const bool touches = far.host == other || std::ranges::any_of(far.ends, [&](const StrandEnd& e) { return e.strand == other; });
+    return touches && glm::distance(far.place, place) < 0.5f * lengthOf(graph_.strands[end.strand].sections);
+  }
+
+  StrandGraph& graph_;
+  std::span<const SourceElement> elements_;
+  float bodyHeight_;
+  AttachOptions options_;
+  std::vector<Tip> tips_;
+  std::vector<Aabb> boxes_;
+  std::vector<std::uint32_t> parts_;  // union-find over connected strands
+  std::vector<Circuit> circuit_;      // of a part, at its root
+  AttachReport report_;
+};
+
+}  // namespace
+
+AttachReport attachEnds(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight,
+                        const AttachOptions& options) {
+  return Attacher(graph, elements, bodyHeight, options).run();
+}
+
+}  // namespace vasa

@@ -1,0 +1,82 @@
+#include "convert/convert.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "convert/strokes.h"
+#include "core/log.h"
+#include "core/parallel.h"
+
+namespace vasa {
+namespace {
+
+bool stopped(const ConvertOptions& options) {
+  return options.stopRequested && options.stopRequested();
+}
+
+std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
+                                       std::span<const std::optional<std::uint32_t>> duplicateOf,
+                                       const ConvertOptions& options) {
+  std::vector<ElementSkeleton> result(elements.size());
+  ProgressLine progress("converting");
+  std::atomic<std::size_t> done{0};
+  parallelFor(elements.size(), 1, [&](std::size_t e) {
+    if (!duplicateOf[e] && !stopped(options)) result[e] = skeletonise(elements[e].element.mesh, options.element);
+    progress.update(++done, elements.size());
+  });
+  return result;
+}
+
+float heightOf(std::span<const SourceElement> elements) {
+  Aabb box;
+  for (const SourceElement& source : elements)
+    if (!source.element.mesh.empty()) box.add(source.element.mesh.bounds());
+  if (box.empty()) return 0;
+  const vec3 extent = box.extent();
+  return extent.y > 0 ? extent.y : std::max(extent.x, extent.z);
+}
+
+Error nothingFound(std::span<const SourceElement> elements, std::span<const ElementOutcome> outcomes) {
+  std::string why = "no element holds a tube";
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    if (!outcomes[e].reason.empty()) {
+      why = "'" + elements[e].element.name + "': " + outcomes[e].reason;
+      break;
+    }
+  return badInput("no vessel could be made of the input (" + why +
+                  "); give surfaces of tubes as triangles, and their unit with --scale");
+}
+
+}  // namespace
+
+Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options) {
+  const auto duplicateOf = findDuplicates(elements, options.duplicates);
+  const std::vector<ElementSkeleton> found = skeletons(elements, duplicateOf, options);
+  if (stopped(options)) return Error{Fault::interrupted, "stopped"};
+
+  StrandGraph graph;
+  std::vector<ElementOutcome> outcomes(elements.size());
+  for (std::uint32_t e = 0; e < elements.size(); ++e) {
+    outcomes[e] = {found[e].method, found[e].reason, {}};
+    if (duplicateOf[e]) outcomes[e].standIn.push_back(*duplicateOf[e]);
+    pruneSlivers(graph, addSkeleton(graph, found[e], e, elements[e].kind), options.slivers);
+  }
+  if (graph.strands.empty()) return nothingFound(elements, outcomes);
+  const float bodyHeight = options.bodyHeight > 0 ? options.bodyHeight : heightOf(elements);
+  for (const Absorbed& absorbed : removeOverlaps(graph, options.overlaps))
+    if (auto& standIn = outcomes[absorbed.element].standIn; std::ranges::find(standIn, absorbed.into) == standIn.end())
+      standIn.push_back(absorbed.into);
+  const AttachReport joins = attachEnds(graph, elements, bodyHeight, options.attach);
+  if (stopped(options)) return Error{Fault::interrupted, "stopped"};
+
+  auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
+  if (!assembly) return assembly.error();
+  std::vector<std::vector<std::uint32_t>> standIns;
+  for (const ElementOutcome& outcome : outcomes) standIns.push_back(outcome.standIn);
+  const auto errors = measureSurfaceErrors(*assembly, elements, standIns, options.error);
+  ConvertReport report = makeReport(*assembly, elements, outcomes, errors, joins);
+  return Conversion{std::move(assembly->network), std::move(report)};
+}
+
+}  // namespace vasa

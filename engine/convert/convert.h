@@ -1,0 +1,36 @@
+#pragma once
+#include <functional>
+
+#include "convert/attach.h"
+#include "convert/duplicates.h"
+#include "convert/element.h"
+#include "convert/overlap.h"
+#include "convert/report.h"
+#include "convert/slivers.h"
+
+namespace vasa {
+
+struct ConvertOptions {
+  ElementOptions element;
+  DuplicateOptions duplicates;
+  SliverOptions slivers;
+  OverlapOptions overlaps;
+  AttachOptions attach;
+  StrandFitOptions fit;
+  SurfaceErrorOptions error;
+  float bodyHeight = 0;  ///< [m]; 0: the vertical extent of the input
+  std::function<bool()> stopRequested;  ///< asked between elements, from any thread
+};
+
+struct Conversion {
+  Network network;
+  ConvertReport report;
+};
+
+/// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and
+/// separate elements, fit splines, measure. The result does not depend on the number of threads. Shows a
+/// progress line on a terminal.
+/// Fails with badInput where no element gives a vessel, and with interrupted where stopRequested answers true.
+Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options = {});
+
+}  // namespace vasa

@@ -1,0 +1,112 @@
+#include "convert/report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "convert/duplicates.h"
+
+namespace vasa {
+namespace {
+
+std::string percent(double share) {
+  return std::to_string(int(std::floor(100 * share))) + " %";
+}
+
+void append(std::string& reason, const std::string& more) {
+  if (more.empty()) return;
+  if (!reason.empty()) reason += "; ";
+  reason += more;
+}
+
+void judge(ElementReport& report, float meanRadius) {
+  const bool near = report.error.measured && report.error.p95 <= std::max(kOkError, 0.5f * meanRadius);
+  if (report.coverage >= kOkCoverage && near) {
+    report.status = ElementStatus::ok;
+    return;
+  }
+  report.status = report.coverage >= kPartialCoverage ? ElementStatus::partial : ElementStatus::failed;
+  if (!report.error.measured && report.reason.empty()) append(report.reason, "no vessel was found in the mesh");
+  else if (report.coverage < kOkCoverage) append(report.reason, "covers " + percent(report.coverage) + " of the surface");
+  else append(report.reason, "5 % of the surface lie more than " + std::to_string(1000 * report.error.p95).substr(0, 4) + " mm off");
+}
+
+ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,
+                            std::span<const SourceElement> elements, const ElementOutcome& outcome,
+                            const ElementError& error) {
+  ElementReport report;
+  report.name = source.element.name;
+  report.kind = source.kind;
+  report.ontologyId = source.element.ontologyId;
+  report.method = outcome.method;
+  report.reason = outcome.reason;
+  report.vessels = std::uint32_t(assembly.vesselsOf[index].size());
+  for (const std::uint32_t v : assembly.vesselsOf[index]) report.sweeps += assembly.network.vessels()[v].spanCount();
+  report.duplicate = report.vessels == 0 && !outcome.standIn.empty();
+  if (!outcome.standIn.empty())
+    append(report.reason, (report.duplicate ? "repeats '" : "in part repeats '") +
+                              elements[outcome.standIn.front()].element.name + "'");
+  report.triangles = std::uint32_t(source.element.mesh.triangles.size());
+  report.area = error.area;
+  report.coverage = error.coverage;
+  report.error = statisticsOf(std::span(&error.forward, 1));
+  report.backError = statisticsOf(std::span(&error.backward, 1));
+  judge(report, roughRadius(source.element.mesh));
+  return report;
+}
+
+void addLengths(const Network& network, ConvertSummary& summary) {
+  const std::vector<std::uint32_t> components = network.components();
+  std::vector<double> arterial(components.size() + 1, 0);
+  for (std::uint32_t v = 0; v < components.size(); ++v) {
+    const Vessel& vessel = network.vessels()[v];
+    const double length = lengthOf(network.pointsOf(vessel));
+    summary.length += length;
+    if (vessel.kind != VesselKind::artery) continue;
+    summary.arteryLength += length;
+    arterial[components[v]] += length;
+  }
+  summary.largestArterialTree = *std::ranges::max_element(arterial);
+}
+
+}  // namespace
+
+std::string_view statusName(ElementStatus status) {
+  return status == ElementStatus::ok ? "ok" : status == ElementStatus::partial ? "partial" : "failed";
+}
+
+ConvertReport makeReport(const Assembly& assembly, std::span<const SourceElement> elements,
+                         std::span<const ElementOutcome> outcomes, std::span<const ElementError> errors,
+                         const AttachReport& joins) {
+  ConvertReport report;
+  ConvertSummary& summary = report.summary;
+  std::vector<WeightedErrors> forward, backward;
+  double area = 0, covered = 0;
+  for (std::uint32_t e = 0; e < elements.size(); ++e) {
+    report.elements.push_back(reportElement(assembly, elements[e], e, elements, outcomes[e], errors[e]));
+    const ElementReport& own = report.elements.back();
+    summary.ok += own.status == ElementStatus::ok;
+    summary.partial += own.status == ElementStatus::partial;
+    summary.failed += own.status == ElementStatus::failed;
+    summary.duplicates += own.duplicate;
+    summary.meshBytes += elements[e].element.mesh.bytes();
+    area += own.area, covered += own.area * own.coverage;
+    forward.push_back(errors[e].forward);
+    backward.push_back(errors[e].backward);
+  }
+  const Network& network = assembly.network;
+  summary.elements = std::uint32_t(elements.size());
+  summary.vessels = std::uint32_t(network.vessels().size());
+  summary.sweeps = network.sweepCount();
+  summary.junctions = network.junctionCount();
+  summary.components = network.componentCount();
+  summary.coverage = area > 0 ? covered / area : 0;
+  summary.error = statisticsOf(forward);
+  summary.backError = statisticsOf(backward);
+  summary.bodyHeight = network.bodyHeight();
+  summary.joins = joins;
+  addLengths(network, summary);
+  return report;
+}
+
+}  // namespace vasa

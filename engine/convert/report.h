@@ -1,0 +1,56 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "convert/attach.h"
+#include "convert/surface_error.h"
+
+namespace vasa {
+
+/// ok: at least kOkCoverage of the mesh's area is covered and 95 % of it lies within kOkError, or within half
+/// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest.
+enum class ElementStatus { ok, partial, failed };
+constexpr double kOkCoverage = 0.9, kPartialCoverage = 0.25;
+constexpr float kOkError = 0.002f;  ///< [m]
+std::string_view statusName(ElementStatus status);
+
+struct ElementReport {
+  std::string name;  ///< as in the input
+  VesselKind kind = VesselKind::other;
+  std::string ontologyId;
+  ElementStatus status = ElementStatus::failed;
+  std::string reason;  ///< what is missing or was degraded, or what the element repeats; may be empty for ok
+  std::string method;  ///< of skeletonise
+  bool duplicate = false;  ///< told by other elements, which its coverage is measured against
+  std::uint32_t vessels = 0, sweeps = 0, triangles = 0;
+  double area = 0, coverage = 0;
+  ErrorStatistics error, backError;
+};
+
+struct ConvertSummary {
+  std::uint32_t elements = 0, ok = 0, partial = 0, failed = 0, duplicates = 0;
+  std::uint32_t vessels = 0, sweeps = 0, junctions = 0, components = 0;
+  double coverage = 0;               ///< share of the area of all elements, failed ones included
+  ErrorStatistics error, backError;  ///< over all elements that were measured
+  double length = 0, arteryLength = 0, largestArterialTree = 0;  ///< [m]
+  std::size_t meshBytes = 0;         ///< of all elements read
+  float bodyHeight = 0;              ///< [m]
+  AttachReport joins;
+};
+
+struct ConvertReport {
+  std::vector<ElementReport> elements;
+  ConvertSummary summary;
+};
+
+/// What is known of an element besides its measured errors.
+struct ElementOutcome {
+  std::string method, reason;
+  std::vector<std::uint32_t> standIn;  ///< elements that tell what this one does not
+};
+
+ConvertReport makeReport(const Assembly& assembly, std::span<const SourceElement> elements,
+                         std::span<const ElementOutcome> outcomes, std::span<const ElementError> errors,
+                         const AttachReport& joins);
+
+}  // namespace vasa

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/mesh_element.h"
+#include "network/network.h"
+
+namespace vasa {
+
+/// One element of the input with what is known about it.
+struct SourceElement {
+  MeshElement element;
+  VesselKind kind = VesselKind::other;
+  std::string label;  ///< the vessel's name: the element's without its leading catalogue number
+};
+
+/// The kind of vessel: by what the file says of the element, else by the file's name ("bp3d_arteries.glb"),
+/// else by words in the element's own name (aorta, vena cava, sinus ...). A vein whose name says "portal" is a
+/// portal vein. `other` where nothing tells.
+VesselKind kindOf(const MeshElement& element, std::string_view fileName);
+
+/// "FJ1654M left anterior cerebral artery" -> "left anterior cerebral artery"; other names stay as they are.
+std::string vesselLabel(std::string_view elementName);
+
+/// Vessels join their like only: arteries arteries, and veins veins, portal or not.
+bool sameFamily(VesselKind a, VesselKind b);
+
+/// Labels and kinds for the elements of one file.
+std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
+
+}  // namespace vasa

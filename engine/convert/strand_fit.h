@@ -1,0 +1,19 @@
+#pragma once
+#include "convert/strand.h"
+#include "curve/fit.h"
+
+namespace vasa {
+
+struct StrandFitOptions {
+  FitTolerance tolerance{0.25f, 2e-4f, 8e-4f};  ///< of centres and radii
+  /// No more than a span for so many mean radii of length: a strand that needs more tells its mesh's noise. The
+  /// tolerance is relaxed by this factor then.
+  float radiiPerSpan = 3.0f;
+  float relaxed = 2.0f;
+};
+
+/// A strand's spline: the fewest spans that meet the tolerance, or the relaxed one, within the budget of spans;
+/// else the best that the budget allows.
+std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& options = {});
+
+}  // namespace vasa

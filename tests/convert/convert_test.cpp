@@ -1,0 +1,87 @@
+#include "convert/convert.h"
+
+#include <doctest/doctest.h>
+
+#include "convert/sources.h"
+#include "core/parallel.h"
+#include "network/file.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+// A trunk, a branch on it, a continuation, a copy of the branch, a vein beside, and an empty element.
+std::vector<SourceElement> smallBody() {
+  return {source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
+          source("left renal artery", tubeBetween({0.007f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f)),
+          source("left renal artery, copy", tubeBetween({0.007f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f)),
+          source("arch", tubeBetween({0, 0.2f, 0}, {0.02f, 0.26f, 0}, 0.008f)),
+          source("vena cava", tubeBetween({-0.03f, 0, 0}, {-0.03f, 0.2f, 0}, 0.009f), VesselKind::vein),
+          source("empty", {})};
+}
+
+}  // namespace
+
+TEST_CASE("elements become one network with forks, told element by element") {
+  const auto conversion = convertElements(smallBody());
+  REQUIRE(conversion.ok());
+  const Network& network = conversion->network;
+  const ConvertSummary& s = conversion->report.summary;
+  CHECK(network.vessels().size() == 4);
+  CHECK(network.componentCount() == 2);
+  CHECK(network.junctionCount() == 1);
+  CHECK(network.bodyHeight() == doctest::Approx(0.26f).epsilon(0.05));
+  CHECK(s.elements == 6);
+  CHECK(s.ok == 5);
+  CHECK(s.failed == 1);
+  CHECK(s.duplicates == 1);
+  CHECK(s.joins.endToSide == 1);
+  CHECK(s.joins.endToEnd == 1);
+  CHECK(s.coverage > 0.95);
+  CHECK(s.error.p95 < 0.001f);
+  CHECK(s.largestArterialTree == doctest::Approx(s.arteryLength));
+  const auto& elements = conversion->report.elements;
+  CHECK(elements[2].duplicate);
+  CHECK(elements[2].reason == "repeats 'left renal artery'");
+  CHECK(elements[2].sweeps == 0);
+  CHECK(elements[5].status == ElementStatus::failed);
+  CHECK(!elements[5].reason.empty());
+}
+
+TEST_CASE("the network is the same for any number of threads") {
+  std::vector<std::byte> first;
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    setThreadCount(threads);
+    const auto conversion = convertElements(smallBody());
+    REQUIRE(conversion.ok());
+    const auto bytes = encodeNetwork(conversion->network);
+    if (first.empty()) first = bytes;
+    CHECK(bytes == first);
+  }
+  setThreadCount(0);
+}
+
+TEST_CASE("several vessels of one element are numbered, the longest first") {
+  TriangleMesh two = tubeBetween({0, 0, 0}, {0, 0.1f, 0}, 0.003f);
+  append(two, tubeBetween({0.1f, 0, 0}, {0.1f, 0.2f, 0}, 0.003f));
+  const std::vector<SourceElement> elements{source("digital arteries", two)};
+  const auto conversion = convertElements(elements);
+  REQUIRE(conversion.ok());
+  REQUIRE(conversion->network.vessels().size() == 2);
+  CHECK(conversion->network.vessels()[0].name == "digital arteries");
+  CHECK(conversion->network.vessels()[1].name == "digital arteries (2)");
+  CHECK(lengthOf(conversion->network.pointsOf(conversion->network.vessels()[0])) > 0.18f);
+}
+
+TEST_CASE("input without a vessel is refused with a remedy, a stop is obeyed") {
+  const auto nothing = convertElements(std::vector<SourceElement>{source("speck", {})});
+  REQUIRE(!nothing.ok());
+  CHECK(nothing.error().fault == Fault::badInput);
+  CHECK(nothing.error().message.find("give surfaces of tubes") != std::string::npos);
+  ConvertOptions options;
+  options.stopRequested = [] { return true; };
+  const auto stopped = convertElements(smallBody(), options);
+  REQUIRE(!stopped.ok());
+  CHECK(stopped.error().fault == Fault::interrupted);
+}
