@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   app.fallthrough();
   Command command;
   addGlobals(app, command.globals);
+  addConvert(app, command);
   addRender(app, command);
   addInfo(app, command);
   addProfile(app, command);

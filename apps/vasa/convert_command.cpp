@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "commands.h"
+#include "convert/convert.h"
+#include "convert_report.h"
+#include "core/log.h"
+#include "io/gltf.h"
+#include "io/obj.h"
+#include "io/stl.h"
+#include "network/file.h"
+
+// vasa convert: surfaces of vessels -> one network of sweeps.
+namespace vasa::cli {
+namespace {
+
+// Rounding is taken for granted where it is this small beside the fit's least tolerance.
+constexpr float kRoundingShare = 0.5f;
+
+struct Options {
+  std::vector<std::string> meshes;
+  std::string output;
+  std::string kind;
+  std::string up = "y";
+  float scale = 1;
+  float bodyHeight = 0;
+  float tolerance = 0;
+  bool exact = false, quantise = false, noBridges = false;
+};
+
+const std::map<std::string, VesselKind> kKinds{{"artery", VesselKind::artery},
+                                               {"vein", VesselKind::vein},
+                                               {"portal", VesselKind::portalVein},
+                                               {"lymphatic", VesselKind::lymphatic},
+                                               {"other", VesselKind::other}};
+
+std::string extensionOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+Result<std::vector<MeshElement>> readMeshes(const std::filesystem::path& path, const ImportFrame& frame) {
+  const std::string extension = extensionOf(path);
+  if (extension == ".glb" || extension == ".gltf") return readGltfElements(path);
+  if (extension == ".obj") return readObj(path, frame);
+  if (extension == ".stl") return readStl(path, frame);
+  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj and .stl"};
+}
+
+Result<std::vector<SourceElement>> readSources(const Options& options) {
+  const ImportFrame frame{options.scale, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y};
+  std::vector<SourceElement> sources;
+  for (const std::string& file : options.meshes) {
+    if (stopRequested()) return stopError();
+    auto elements = readMeshes(file, frame);
+    if (!elements) return elements.error();
+    const bool empty = std::ranges::all_of(*elements, [](const MeshElement& e) { return e.mesh.empty(); });
+    if (empty) return badInput(file + ": the file holds no triangles; export the vessels as surfaces");
+    for (SourceElement& source : describeElements(std::move(*elements), std::filesystem::path(file).stem().string())) {
+      if (!options.kind.empty()) source.kind = kKinds.at(options.kind);
+      sources.push_back(std::move(source));
+    }
+  }
+  return sources;
+}
+
+ConvertOptions convertOptions(const Options& options) {
+  ConvertOptions settings;
+  settings.bodyHeight = options.bodyHeight;
+  settings.attach.bridges = !options.noBridges;
+  if (options.tolerance > 0) {
+    const float tolerance = 1e-3f * options.tolerance;
+    settings.fit.tolerance = {settings.fit.tolerance.share, std::min(settings.fit.tolerance.least, tolerance), tolerance};
+  }
+  settings.stopRequested = stopRequested;
+  return settings;
+}
+
+// Rounded by default where that is far below the tolerance the sweeps were fitted to.
+Result<ConvertOutput> writeOutput(const Options& options, const ConvertOptions& settings, const Network& network) {
+  ConvertOutput output{.file = options.output};
+  const float rounding = quantisationError(network);
+  output.quantised = !options.exact && (options.quantise || rounding < kRoundingShare * settings.fit.tolerance.least);
+  output.quantisationError = output.quantised ? rounding : 0;
+  const auto written = writeNetwork(options.output, network, {.quantise = output.quantised});
+  if (!written) return written.error();
+  output.bytes = *written;
+  return output;
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto sources = readSources(options);
+  if (!sources) return sources.error();
+  const ConvertOptions settings = convertOptions(options);
+  const auto conversion = convertElements(*sources, settings);
+  if (stopRequested()) return stopError();
+  if (!conversion) return conversion.error();
+  auto output = writeOutput(options, settings, conversion->network);
+  if (!output) return output.error();
+  output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (globals.json) return printJson(convertJson(conversion->report, *output));
+  return printText(convertText(conversion->report, *output));
+}
+
+}  // namespace
+
+void addConvert(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("convert", "Turn surfaces of vessels into one network of sweeps");
+  sub->footer(
+      "Examples:\n"
+      "  vasa convert arteries.glb veins.glb -o body.vasa\n"
+      "  vasa convert aorta.stl --scale 0.001 --up z --kind artery -o aorta.vasa --json\n"
+      "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
+      "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.");
+  sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl")->required();
+  sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
+  sub->add_option("--kind", options->kind, "Kind of every vessel: artery, vein, portal, lymphatic or other")
+      ->check(CLI::IsMember({"artery", "vein", "portal", "lymphatic", "other"}));
+  sub->add_option("--scale", options->scale, "Metres a unit of OBJ and STL files (0.001: millimetres)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  sub->add_option("--up", options->up, "The axis that points up in OBJ and STL files")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  sub->add_option("--body-height", options->bodyHeight, "Height of the body [m] (default: of the input)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--tolerance", options->tolerance, "Largest distance of a sweep from the sections it fits [mm]")
+      ->check(CLI::PositiveNumber);
+  sub->add_flag("--no-bridges", options->noBridges, "Do not join vessels of one name across long gaps");
+  auto* exact = sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
+  sub->add_flag("--quantise", options->quantise,
+                "Write 16-bit numbers, 8 bytes a point (default where the rounding is far below the tolerance)")
+      ->excludes(exact);
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli
