@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collide/network_tubes.h"
+#include "collide/tube_detector.h"
 #include "human/made_human.h"
 #include "network/file.h"
 
@@ -43,6 +45,21 @@ constexpr Published kPublished[] = {
     {"left anterior tibial artery", 0.386f, 0.0013f, 0.0012f},   // ADAN56
     {"left posterior tibial artery", 0.383f, 0.0016f, 0.0014f},  // ADAN56 length, Reymond 2009 radii
 };
+
+/// Whether two vessels are the same or share a node, as ends or as its host.
+bool meetAtNode(const Network& network, VesselId a, VesselId b) {
+  if (a == b) return true;
+  for (const Node& node : network.nodes()) {
+    const auto there = [&](VesselId vessel) {
+      const auto ends = network.ends(node);
+      return (node.host && node.host->vessel == vessel) ||
+             std::any_of(ends.begin(), ends.end(),
+                         [&](const VesselEnd& end) { return end.vessel == vessel; });
+    };
+    if (there(a) && there(b)) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -119,6 +136,29 @@ TEST_CASE("a vessel's bends are wider than its radius") {
     }
     CHECK(worst < 1);
   }
+}
+
+TEST_CASE("at rest no vessel runs through another, but for those that meet at a fork") {
+  const Network& network = madeHuman().vessels;
+  const NetworkTubes layout(network);
+  std::vector<Bezier> tubes(layout.count());
+  layout.shape(network.points(), tubes);
+  TubeDetector detector(tubes, layout.neighbours().exclusions());
+  detector.update(tubes);
+  const std::span<const TubePair> pairs = detector.detect();
+  int strangers = 0, relatives = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const VesselId a = layout.address(pairs[k].i).vessel, b = layout.address(pairs[k].j).vessel;
+    if (meetAtNode(network, a, b)) {
+      ++relatives;
+      continue;
+    }
+    ++strangers;
+    MESSAGE(network.vessel(a).name << " and " << network.vessel(b).name << ": "
+                                   << -1e3f * detector.contacts()[k].f << " mm");
+  }
+  MESSAGE(relatives << " pairs of spans touch beside a fork that their vessels share");
+  CHECK(strangers == 0);
 }
 
 TEST_CASE("the network survives its file") {
