@@ -14,7 +14,7 @@ BoxTree::BoxTree(std::span<const Bezier> rest) : tubeCount(std::uint32_t(rest.si
        groups = groups > 1 ? (groups + kGroup - 1) / kGroup : 0)
     levelStart.push_back(levelStart.back() + groups);
   boxes.resize(levelStart.back());
-  capsules.resize(tubes.size() / kGroup);
+  capsules.resize(tubes.size());
 }
 
 }  // namespace vasa

@@ -14,11 +14,12 @@ struct alignas(64) BoxGroup {
   float high[3][kGroup];
 };
 
-/// Eight tubes' chord capsules, one a lane: start, chord, radius (largest radius + deviation from the chord).
-struct alignas(32) CapsuleGroup {
-  float start[3][kGroup];
-  float chord[3][kGroup];
-  float radius[kGroup];
+/// A tube's chord capsule: start, radius (largest radius + deviation from the chord), chord.
+struct alignas(32) ChordCapsule {
+  float start[3];
+  float radius;
+  float chord[3];
+  float unused;
 };
 
 /// What the kernels see of a BoxTree: raw arrays, because code compiled for one instruction set must not
@@ -28,7 +29,7 @@ struct BoxTreeView {
   const std::uint32_t* tubes;
   const std::uint32_t* levelStart;
   BoxGroup* boxes;
-  CapsuleGroup* capsules;
+  ChordCapsule* capsules;
 };
 
 /// The fast detector's tree: topology fixed at rest and implicit (group g of a level holds the boxes of
@@ -42,7 +43,7 @@ struct BoxTree {
   std::vector<std::uint32_t> tubes;       ///< slot -> tube, padded to whole groups by repeating the last
   std::vector<std::uint32_t> levelStart;  ///< first group of each level, and the end; at least level 0
   std::vector<BoxGroup> boxes;            ///< all levels
-  std::vector<CapsuleGroup> capsules;     ///< level 0
+  std::vector<ChordCapsule> capsules;     ///< a slot each
 
   std::uint32_t levels() const { return std::uint32_t(levelStart.size()) - 1; }
   std::uint32_t groups(std::uint32_t level) const { return levelStart[level + 1] - levelStart[level]; }
@@ -51,7 +52,7 @@ struct BoxTree {
   }
   std::size_t bytes() const {
     return tubes.size() * sizeof(std::uint32_t) + boxes.size() * sizeof(BoxGroup) +
-           capsules.size() * sizeof(CapsuleGroup);
+           capsules.size() * sizeof(ChordCapsule);
   }
 };
 

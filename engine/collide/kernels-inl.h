@@ -86,7 +86,7 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
   const V growth = hn::Set(d, grow), relative = hn::Set(d, 2 * kEpsilon), third = hn::Set(d, 1.0f / 3);
   for (std::uint32_t group = begin; group < end; ++group) {
     BoxGroup& box = tree.boxes[group];
-    CapsuleGroup& capsule = tree.capsules[group];
+    HWY_ALIGN float capsule[7][kGroup];  // start, radius, chord
     for (std::uint32_t lane = 0; lane < kGroup; lane += std::uint32_t(hn::Lanes(d))) {
       const std::uint32_t slot = group * kGroup + lane;
       const auto at =
@@ -110,8 +110,8 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
         e2 = hn::MulAdd(x2, x2, e2);
         first[axis] = p[0];
         last[axis] = p[3];
-        hn::Store(p[0], d, &capsule.start[axis][lane]);
-        hn::Store(chord, d, &capsule.chord[axis][lane]);
+        hn::Store(p[0], d, &capsule[axis][lane]);
+        hn::Store(chord, d, &capsule[4 + axis][lane]);
       }
       const V deviation = hn::Mul(hn::Set(d, 0.75f), hn::Sqrt(hn::Max(e1, e2)));
       const V reach = hn::Mul(hn::Add(radius, deviation), hn::Set(d, kReachSlack));
@@ -119,7 +119,7 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
       for (int axis = 0; axis < 3; ++axis)
         size = hn::Max(size, hn::Max(hn::Abs(first[axis]), hn::Abs(last[axis])));
       const V rounding = hn::Mul(relative, hn::Add(size, reach));
-      hn::Store(reach, d, &capsule.radius[lane]);
+      hn::Store(reach, d, &capsule[3][lane]);
       // Two boxes hold the tube: the hull's and the capsule's. Their intersection does too.
       for (int axis = 0; axis < 3; ++axis) {
         const V capsuleLow = hn::Sub(hn::Min(first[axis], last[axis]), reach);
@@ -128,6 +128,9 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
         hn::Store(hn::Add(hn::Min(high[axis], capsuleHigh), rounding), d, &box.high[axis][lane]);
       }
     }
+    float* out = tree.capsules[group * kGroup].start;
+    for (std::uint32_t lane = 0; lane < kGroup; ++lane)
+      for (std::uint32_t c = 0; c < 7; ++c) out[8 * lane + c] = capsule[c][lane];
   }
   if (end * kGroup > tree.tubeCount && begin < end) {
     for (std::uint32_t slot = tree.tubeCount; slot < end * kGroup; ++slot)
@@ -174,76 +177,61 @@ HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
   return bits[0] | std::uint32_t(bits[1]) << 8;
 }
 
-// Lanes of b whose boxes meet the one box lane i of a.
-HWY_INLINE std::uint32_t overlaps(const BoxGroup& a, std::uint32_t i, const BoxGroup& b) {
+// Which lanes of a and b have boxes that meet. No branches: all 64 pairs are tested.
+HWY_INLINE LanePairs overlaps(const BoxGroup& a, const BoxGroup& b) {
   const F8 d;
-  std::uint32_t bits = 0;
+  LanePairs pairs = 0;
   for (std::size_t k = 0; k < kGroup; k += hn::Lanes(d)) {
-    const auto meet = [&](int axis) HWY_ATTR {
-      return hn::And(hn::Le(hn::Set(d, a.low[axis][i]), hn::Load(d, b.high[axis] + k)),
-                     hn::Le(hn::Load(d, b.low[axis] + k), hn::Set(d, a.high[axis][i])));
-    };
-    bits |= bitsOf(d, hn::And(meet(0), hn::And(meet(1), meet(2)))) << k;
+    const auto lowX = hn::Load(d, b.low[0] + k), lowY = hn::Load(d, b.low[1] + k),
+               lowZ = hn::Load(d, b.low[2] + k);
+    const auto highX = hn::Load(d, b.high[0] + k), highY = hn::Load(d, b.high[1] + k),
+               highZ = hn::Load(d, b.high[2] + k);
+    std::uint8_t rows[kGroup + 8];
+    for (std::size_t i = 0; i < kGroup; ++i) {
+      const auto x = hn::And(hn::Le(hn::Set(d, a.low[0][i]), highX), hn::Le(lowX, hn::Set(d, a.high[0][i])));
+      const auto y = hn::And(hn::Le(hn::Set(d, a.low[1][i]), highY), hn::Le(lowY, hn::Set(d, a.high[1][i])));
+      const auto z = hn::And(hn::Le(hn::Set(d, a.low[2][i]), highZ), hn::Le(lowZ, hn::Set(d, a.high[2][i])));
+      hn::StoreMaskBits(d, hn::And(x, hn::And(y, z)), rows + i);
+    }
+    LanePairs part;
+    hwy::CopyBytes<8>(rows, &part);
+    pairs |= part << k;
   }
-  return bits;
+  return pairs;
 }
 
-// Lanes of b whose chord capsules meet that of lane i of a.
-HWY_INLINE std::uint32_t capsulesMeet(const CapsuleGroup& a, std::uint32_t i, const CapsuleGroup& b) {
-  const F8 d;
-  using V = hn::Vec<F8>;
-  const Vec3<V> startA = {hn::Set(d, a.start[0][i]), hn::Set(d, a.start[1][i]), hn::Set(d, a.start[2][i])};
-  const Vec3<V> u = {hn::Set(d, a.chord[0][i]), hn::Set(d, a.chord[1][i]), hn::Set(d, a.chord[2][i])};
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < kGroup; k += hn::Lanes(d)) {
-    const Vec3<V> startB = {hn::Load(d, b.start[0] + k), hn::Load(d, b.start[1] + k),
-                            hn::Load(d, b.start[2] + k)};
-    const Vec3<V> v = {hn::Load(d, b.chord[0] + k), hn::Load(d, b.chord[1] + k), hn::Load(d, b.chord[2] + k)};
-    const auto near = nearestOnSegments(d, startA - startB, u, v);
-    const V reach = hn::Add(hn::Set(d, a.radius[i]), hn::Load(d, b.radius + k));
-    bits |= bitsOf(d, hn::Le(hn::Sub(near.squared, near.slack), hn::Mul(reach, reach))) << k;
-  }
-  return bits;
-}
+// Of a group against itself: each pair once.
+constexpr LanePairs kUpper = 0x80c0e0f0f8fcfeull;          // q > p
+constexpr LanePairs kUpperOrSelf = 0x80c0e0f0f8fcfeffull;  // q >= p
 
 void meetGroups(Traversal& work, std::uint32_t ga, std::uint32_t gb) {
-  const BoxTreeView& tree = work.tree;
-  const BoxGroup &boxA = tree.boxes[ga], &boxB = tree.boxes[gb];
-  // Only lanes that meet the other group's box as a whole.
-  std::uint32_t rows = 0xff;
-  if (tree.levels > 1 && ga != gb)
-    rows = overlaps(tree.boxes[tree.levelStart[1] + gb / kGroup], gb % kGroup, boxA);
-  for (; rows; rows &= rows - 1) {
-    const std::uint32_t i = std::uint32_t(__builtin_ctz(rows)), slot = ga * kGroup + i;
-    std::uint32_t lanes = overlaps(boxA, i, boxB);
-    if (ga == gb) lanes &= ~((2u << i) - 1);
-    for (std::uint32_t e = work.firstExcluded[slot]; lanes && e < work.firstExcluded[slot + 1]; ++e)
-      if (work.excluded[e].group == gb) lanes &= ~work.excluded[e].lanes;
-    if (!lanes) continue;
-    lanes &= capsulesMeet(tree.capsules[ga], i, tree.capsules[gb]);
-    for (; lanes; lanes &= lanes - 1)
-      work.candidates[work.candidateCount++] = {
-          tree.tubes[slot], tree.tubes[gb * kGroup + std::uint32_t(__builtin_ctz(lanes))]};
+  LanePairs pairs = overlaps(work.tree.boxes[ga], work.tree.boxes[gb]);
+  if (ga == gb) pairs &= kUpper;
+  if (pairs == 0) return;
+  const ExcludedGroup* end = work.excluded + work.firstExcluded[ga + 1];
+  for (const ExcludedGroup* e = work.excluded + work.firstExcluded[ga]; e != end; ++e)
+    if (e->group == gb) pairs &= ~e->pairs;
+  for (; pairs; pairs &= pairs - 1) {
+    const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
+    work.candidates[work.candidateCount++] = {ga * kGroup + bit / kGroup, gb * kGroup + bit % kGroup};
   }
 }
 
-// Takes the pair on top of the stack and puts its children there.
 void openNode(Traversal& work) {
-  const BoxTreeView& tree = work.tree;
   const GroupPair top = work.stack[--work.stackSize];
-  const BoxGroup* boxes = &tree.boxes[tree.levelStart[top.level]];
-  for (std::uint32_t i = 0; i < kGroup; ++i) {
-    std::uint32_t lanes = overlaps(boxes[top.a], i, boxes[top.b]);
-    if (top.a == top.b) lanes &= ~((1u << i) - 1);
-    for (; lanes; lanes &= lanes - 1)
-      work.stack[work.stackSize++] = {top.level - 1, top.a * kGroup + i,
-                                      top.b * kGroup + std::uint32_t(__builtin_ctz(lanes))};
+  const BoxGroup* boxes = &work.tree.boxes[work.tree.levelStart[top.level]];
+  LanePairs pairs = overlaps(boxes[top.a], boxes[top.b]);
+  if (top.a == top.b) pairs &= kUpperOrSelf;
+  for (; pairs; pairs &= pairs - 1) {
+    const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
+    work.stack[work.stackSize++] = {top.level - 1, top.a * kGroup + bit / kGroup,
+                                    top.b * kGroup + bit % kGroup};
   }
 }
 
 void traverse(Traversal& work, std::size_t enough) {
   while (work.stackSize > 0 && work.candidateCount < enough) {
-    const GroupPair& top = work.stack[work.stackSize - 1];
+    const GroupPair top = work.stack[work.stackSize - 1];
     if (top.level > 0) {
       openNode(work);
     } else {
@@ -251,6 +239,43 @@ void traverse(Traversal& work, std::size_t enough) {
       meetGroups(work, top.a, top.b);
     }
   }
+}
+
+// ---- chord capsules: a lane is a candidate
+
+constexpr std::size_t kMaxLanes = 16;
+
+std::size_t meetCapsules(const BoxTreeView& tree, const TubePair* candidates, std::size_t count,
+                         PiecePair* pieces) {
+  const FN d;
+  const hn::RebindToSigned<FN> di;
+  using V = hn::Vec<FN>;
+  const float* base = tree.capsules[0].start;
+  std::size_t kept = 0;
+  HWY_ALIGN std::int32_t first[kMaxLanes], second[kMaxLanes];
+  for (std::size_t begin = 0; begin < count; begin += hn::Lanes(d)) {
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+      const TubePair& pair = candidates[begin + lane < count ? begin + lane : count - 1];
+      first[lane] = std::int32_t(pair.i * 8);
+      second[lane] = std::int32_t(pair.j * 8);
+    }
+    const auto at = hn::Load(di, first), bt = hn::Load(di, second);
+    const auto load = [&](decltype(at) index, int c) HWY_ATTR { return hn::GatherIndex(d, base + c, index); };
+    const Vec3<V> w = {hn::Sub(load(at, 0), load(bt, 0)), hn::Sub(load(at, 1), load(bt, 1)),
+                       hn::Sub(load(at, 2), load(bt, 2))};
+    const V reach = hn::Add(load(at, 3), load(bt, 3));
+    const Vec3<V> u = {load(at, 4), load(at, 5), load(at, 6)}, v = {load(bt, 4), load(bt, 5), load(bt, 6)};
+    const auto near = nearestOnSegments(d, w, u, v);
+    const std::uint32_t meet = bitsOf(d, hn::Le(hn::Sub(near.squared, near.slack), hn::Mul(reach, reach)));
+    const std::size_t used = count - begin < hn::Lanes(d) ? count - begin : hn::Lanes(d);
+    // Written always, kept if the bit is set: no branch to be guessed.
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      const TubePair& pair = candidates[begin + lane];
+      pieces[kept] = {tree.tubes[pair.i], tree.tubes[pair.j], 0, 0, std::uint32_t(kept)};
+      kept += meet >> lane & 1;
+    }
+  }
+  return kept;
 }
 
 // ---- narrow phase: a lane is a candidate
@@ -316,16 +341,17 @@ HWY_INLINE V largestCoordinate(D d, const TubeLanes<V>& tube) {
   return largest;
 }
 
-void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
-            std::uint8_t* verdicts) {
+std::size_t narrow(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
+                   std::uint8_t* settled, PiecePair* halves) {
   const FN d;
   const hn::RebindToSigned<FN> di;
   using V = hn::Vec<FN>;
-  constexpr std::size_t kMax = 16;
+  std::size_t open = 0;
   const std::size_t lanes = hn::Lanes(d);
-  HWY_ALIGN std::int32_t first[kMax], second[kMax];
-  HWY_ALIGN float fromS[kMax], fromT[kMax];
-  const V growth = hn::Set(d, grow), half = hn::Set(d, 0.5f / float(1 << level)),
+  HWY_ALIGN std::int32_t first[kMaxLanes], second[kMaxLanes];
+  HWY_ALIGN float fromS[kMaxLanes], fromT[kMaxLanes];
+  const float halfLength = 0.5f / float(1 << level);
+  const V growth = hn::Set(d, grow), half = hn::Set(d, halfLength),
           whole = hn::Set(d, 1.0f / float(1 << level));
   for (std::size_t begin = 0; begin < count; begin += lanes) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -348,7 +374,7 @@ void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, 
     const Ball<V> sampleB[3] = {ballAt(d, b, t0), ballAt(d, b, hn::Add(t0, half)),
                                 ballAt(d, b, hn::Add(t0, whole))};
     V bestGap = hn::Set(d, 3e38f), bestS = hn::Zero(d), bestT = hn::Zero(d);
-    std::uint32_t open[4];
+    std::uint32_t mayMeet[4];
     for (int child = 0; child < 4; ++child) {
       const int i = child / 2, j = child % 2;
       const auto near = nearestOnSegments(d, sampleA[i].centre - sampleB[j].centre,
@@ -357,7 +383,7 @@ void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, 
       const V radii = hn::Add(hn::Max(sampleA[i].radius, sampleA[i + 1].radius),
                               hn::Max(sampleB[j].radius, sampleB[j + 1].radius));
       const V reach = hn::Add(radii, slackReach);
-      open[child] = bitsOf(d, hn::Le(hn::Sub(near.squared, near.slack), hn::Mul(reach, reach)));
+      mayMeet[child] = bitsOf(d, hn::Le(hn::Sub(near.squared, near.slack), hn::Mul(reach, reach)));
       const V gap = hn::Sub(hn::Sqrt(near.squared), radii);
       const auto better = hn::Lt(gap, bestGap);
       bestGap = hn::Min(gap, bestGap);
@@ -368,12 +394,19 @@ void narrow(const float* tubes, float grow, int level, const PiecePair* pieces, 
     const Vec3<V> between = ballA.centre - ballB.centre;
     const V sure = hn::Max(hn::Sub(hn::Add(ballA.radius, ballB.radius), rounding), hn::Zero(d));
     const std::uint32_t meet = bitsOf(d, hn::Lt(dot(between, between), hn::Mul(sure, sure)));
-    for (std::size_t lane = 0; lane < lanes && begin + lane < count; ++lane) {
-      std::uint32_t verdict = (meet >> lane & 1) * kMeet;
-      for (int child = 0; child < 4; ++child) verdict |= (open[child] >> lane & 1) << child;
-      verdicts[begin + lane] = std::uint8_t(verdict);
+    const std::size_t used = count - begin < lanes ? count - begin : lanes;
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      const PiecePair& piece = pieces[begin + lane];
+      settled[piece.candidate] |= std::uint8_t(meet >> lane & 1);
+      const std::uint32_t still = settled[piece.candidate] ^ 1u;
+      for (std::uint32_t child = 0; child < 4; ++child) {
+        halves[open] = {piece.i, piece.j, piece.s + halfLength * float(child / 2),
+                        piece.t + halfLength * float(child % 2), piece.candidate};
+        open += mayMeet[child] >> lane & still;
+      }
     }
   }
+  return open;
 }
 
 }  // namespace

@@ -16,14 +16,15 @@ HWY_EXPORT(fitLeaves);
 HWY_EXPORT(fitLevel);
 HWY_EXPORT(openNode);
 HWY_EXPORT(traverse);
+HWY_EXPORT(meetCapsules);
 HWY_EXPORT(narrow);
 
 const Kernels& fastKernels() {
   static const Kernels kernels = [] {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return Kernels{&HWY_DYNAMIC_DISPATCH(fitLeaves), &HWY_DYNAMIC_DISPATCH(fitLevel),
-                   &HWY_DYNAMIC_DISPATCH(openNode), &HWY_DYNAMIC_DISPATCH(traverse),
-                   &HWY_DYNAMIC_DISPATCH(narrow)};
+    return Kernels{&HWY_DYNAMIC_DISPATCH(fitLeaves),    &HWY_DYNAMIC_DISPATCH(fitLevel),
+                   &HWY_DYNAMIC_DISPATCH(openNode),     &HWY_DYNAMIC_DISPATCH(traverse),
+                   &HWY_DYNAMIC_DISPATCH(meetCapsules), &HWY_DYNAMIC_DISPATCH(narrow)};
   }();
   return kernels;
 }

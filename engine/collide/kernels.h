@@ -10,29 +10,32 @@
 // own layout.
 namespace vasa {
 
-/// A group that holds excluded partners of a slot, and which lanes they are.
-struct ExcludedLanes {
+/// Pairs of lanes of two groups: bit 8 p + q stands for lane p of the first and lane q of the second.
+using LanePairs = std::uint64_t;
+
+/// A group that holds excluded partners of another group's tubes, and which they are.
+struct ExcludedGroup {
   std::uint32_t group;
-  std::uint32_t lanes;
+  LanePairs pairs;
 };
 
 /// Two groups of one level that are to be tested against one another, a <= b.
 struct GroupPair {
   std::uint32_t level, a, b;
 };
+constexpr std::size_t kGroupPairs = kGroup * kGroup;  ///< most pairs that two groups can add
 
 /// One traversal's input and working memory.
 struct Traversal {
   BoxTreeView tree;
   const std::uint32_t*
-      firstExcluded;              ///< a slot's entries are firstExcluded[slot] .. firstExcluded[slot + 1]
-  const ExcludedLanes* excluded;  ///< only groups that do not come before the slot's own
+      firstExcluded;              ///< a group's entries are firstExcluded[group] .. firstExcluded[group + 1]
+  const ExcludedGroup* excluded;  ///< only groups that do not come before the group itself
   GroupPair* stack;               ///< room for kGroupPairs more a level than is put there first
   std::size_t stackSize;
-  TubePair* candidates;  ///< pairs of tubes whose chord capsules meet; room for `enough` and a group more
+  TubePair* candidates;  ///< pairs of slots whose boxes meet; room for `enough` and kGroupPairs more
   std::size_t candidateCount;
 };
-constexpr std::size_t kGroupPairs = kGroup * kGroup;  ///< most pairs that two groups can add
 
 /// A piece of tube i from parameter s on against a piece of tube j from t on; both have length 2^-level.
 struct PiecePair {
@@ -41,24 +44,25 @@ struct PiecePair {
   std::uint32_t candidate;  ///< where it came from
 };
 
-/// What is known of a pair of pieces: kMeet where the tubes are sure to intersect; else bit 2p + q is set
-/// where half p of the first and half q of the second may still meet. No bit: apart.
-constexpr std::uint32_t kMeet = 0x10;
-
 struct Kernels {
   /// Fills boxes and capsules of the groups [begin, end) of level 0. Radii are grown by `grow`.
   void (*fitLeaves)(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin,
                     std::uint32_t end);
   /// Fills the boxes of the groups [begin, end) of a level above 0 from the level below.
   void (*fitLevel)(const BoxTreeView& tree, std::uint32_t level, std::uint32_t begin, std::uint32_t end);
-  /// Replaces the one pair on the stack, of a level above 0, by its children.
+  /// Replaces the pair on top of the stack, of a level above 0, by its children.
   void (*openNode)(Traversal& traversal);
   /// Takes pairs off the stack until it is empty or there are `enough` candidates.
   void (*traverse)(Traversal& traversal, std::size_t enough);
-  /// Halves both pieces and bounds the four pairs of halves by swept spheres; looks at the true curves at the
-  /// nearest parameters. verdicts has a place a pair.
-  void (*narrow)(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
-                 std::uint8_t* verdicts);
+  /// The candidates whose chord capsules meet, as whole tubes numbered from 0. @param pieces  room for count
+  /// + 1
+  std::size_t (*meetCapsules)(const BoxTreeView& tree, const TubePair* candidates, std::size_t count,
+                              PiecePair* pieces);
+  /// Halves both pieces, bounds the four pairs of halves by swept spheres, and looks at the true curves at
+  /// the nearest parameters. Sets settled[candidate] where two tubes are sure to intersect, and returns the
+  /// pairs of halves of the others that may still meet. @param halves  room for 4 count + 4
+  std::size_t (*narrow)(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
+                        std::uint8_t* settled, PiecePair* halves);
 };
 
 /// The best instruction set of this machine.

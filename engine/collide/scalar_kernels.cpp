@@ -10,8 +10,8 @@ namespace vasa {
 
 const Kernels& scalarKernels() {
   namespace scalar = HWY_NAMESPACE;
-  static const Kernels kernels{scalar::fitLeaves, scalar::fitLevel, scalar::openNode, scalar::traverse,
-                               scalar::narrow};
+  static const Kernels kernels{scalar::fitLeaves, scalar::fitLevel,     scalar::openNode,
+                               scalar::traverse,  scalar::meetCapsules, scalar::narrow};
   return kernels;
 }
 

@@ -18,15 +18,16 @@ namespace {
 
 constexpr std::size_t kChunk = 1024;       // candidates settled at once
 constexpr int kVectorLevels = 7;           // halvings in single precision
+constexpr std::size_t kMostPieces = 64;    // a candidate; beyond, the search in double takes over
 constexpr std::uint32_t kLeafBlock = 512;  // groups refitted by one task
 constexpr std::size_t kTasksPerThread = 16;
 
 struct Worker {
   std::vector<GroupPair> stack;
-  std::vector<TubePair> candidates;
+  std::vector<TubePair> candidates;  // slots
+  std::vector<TubePair> tubes;       // whose capsules meet
   std::vector<PiecePair> pieces, halves;
-  std::vector<std::uint8_t> verdicts;
-  std::vector<char> settled;  // by candidate
+  std::vector<std::uint8_t> settled;  // by candidate
   std::vector<TubePair> pairs;
   TubeDetector::Statistics statistics;
 };
@@ -34,6 +35,24 @@ struct Worker {
 static_assert(sizeof(Bezier) == 16 * sizeof(float));
 const float* floatsOf(std::span<const Bezier> tubes) {
   return reinterpret_cast<const float*>(tubes.data());
+}
+
+// Least significant digit first, as many digits as tube numbers have.
+void sortPairs(std::vector<TubePair>& pairs, std::vector<TubePair>& scratch, std::uint32_t tubes) {
+  constexpr int kDigit = 8;
+  scratch.resize(pairs.size());
+  const int bits = std::bit_width(tubes);
+  for (const bool high : {false, true})
+    for (int shift = 0; shift < bits; shift += kDigit) {
+      const auto digit = [high, shift](const TubePair& pair) {
+        return (high ? pair.i : pair.j) >> shift & 0xff;
+      };
+      std::array<std::uint32_t, (1 << kDigit) + 1> start{};
+      for (const TubePair& pair : pairs) ++start[digit(pair) + 1];
+      for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
+      for (const TubePair& pair : pairs) scratch[start[digit(pair)]++] = pair;
+      pairs.swap(scratch);
+    }
 }
 
 }  // namespace
@@ -54,34 +73,34 @@ struct TubeDetector::State {
   const Kernels& kernels;
   BoxTree tree;
   std::vector<std::uint32_t> firstExcluded;
-  std::vector<ExcludedLanes> excluded;
+  std::vector<ExcludedGroup> excluded;
   std::span<const Bezier> tubes;
   float margin = 0;
   std::vector<Worker> workers;
-  std::vector<TubePair> pairs;
+  std::vector<TubePair> pairs, sortScratch;
   std::vector<Contact> contacts;
 };
 
 void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
   std::vector<std::uint32_t> slotOf(tree.tubeCount);
   for (std::uint32_t slot = 0; slot < tree.tubeCount; ++slot) slotOf[tree.tubes[slot]] = slot;
-  firstExcluded.assign(tree.tubes.size() + 1, 0);
-  std::vector<std::uint32_t> partners;
-  for (std::uint32_t slot = 0; slot < tree.tubeCount; ++slot) {
+  const std::uint32_t groups = std::uint32_t(tree.tubes.size()) / kGroup;
+  firstExcluded.assign(groups + 1, 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> partners;  // slot of the partner, lane in this group
+  for (std::uint32_t group = 0; group < groups; ++group) {
     partners.clear();
-    for (const std::uint32_t tube : exclusions.partnersOf(tree.tubes[slot])) partners.push_back(slotOf[tube]);
+    for (std::uint32_t lane = 0; lane < kGroup && group * kGroup + lane < tree.tubeCount; ++lane)
+      for (const std::uint32_t tube : exclusions.partnersOf(tree.tubes[group * kGroup + lane]))
+        if (slotOf[tube] / kGroup >= group) partners.emplace_back(slotOf[tube], lane);
     std::sort(partners.begin(), partners.end());
     const std::size_t begin = excluded.size();
-    for (const std::uint32_t partner : partners) {
-      const std::uint32_t group = partner / kGroup;
-      if (group < slot / kGroup) continue;
-      if (excluded.size() == begin || excluded.back().group != group) excluded.push_back({group, 0});
-      excluded.back().lanes |= 1u << partner % kGroup;
+    for (const auto& [slot, lane] : partners) {
+      if (excluded.size() == begin || excluded.back().group != slot / kGroup)
+        excluded.push_back({slot / kGroup, 0});
+      excluded.back().pairs |= LanePairs(1) << (lane * kGroup + slot % kGroup);
     }
-    firstExcluded[slot + 1] = std::uint32_t(excluded.size());
+    firstExcluded[group + 1] = std::uint32_t(excluded.size());
   }
-  for (std::size_t slot = tree.tubeCount; slot < tree.tubes.size(); ++slot)
-    firstExcluded[slot + 1] = std::uint32_t(excluded.size());
 }
 
 void TubeDetector::State::update(std::span<const Bezier> shape, float wantedMargin) {
@@ -126,41 +145,31 @@ std::vector<GroupPair> TubeDetector::State::tasks() {
 
 // Breadth first: one level of all open pieces at a time, so that the vectors stay full.
 void TubeDetector::State::settle(Worker& worker, std::size_t count) {
-  worker.statistics.candidates += count;
-  worker.settled.assign(count, 0);
-  worker.pieces.clear();
-  for (std::uint32_t c = 0; c < count; ++c)
-    worker.pieces.push_back({worker.candidates[c].i, worker.candidates[c].j, 0, 0, c});
-  for (int level = 0; level < kVectorLevels && !worker.pieces.empty(); ++level) {
-    worker.verdicts.resize(std::max(worker.verdicts.size(), worker.pieces.size()));
-    kernels.narrow(floatsOf(tubes), 0.5f * margin, level, worker.pieces.data(), worker.pieces.size(),
-                   worker.verdicts.data());
-    worker.statistics.pieces[level] += worker.pieces.size();
-    for (std::size_t k = 0; k < worker.pieces.size(); ++k)
-      if (worker.verdicts[k] & kMeet) worker.settled[worker.pieces[k].candidate] = 1;
-    worker.halves.clear();
-    const float half = std::ldexp(0.5f, -level);
-    for (std::size_t k = 0; k < worker.pieces.size(); ++k) {
-      const PiecePair& piece = worker.pieces[k];
-      if (worker.settled[piece.candidate]) continue;
-      for (std::uint32_t open = worker.verdicts[k]; open; open &= open - 1) {
-        const int child = std::countr_zero(open);
-        worker.halves.push_back({piece.i, piece.j, piece.s + half * float(child / 2),
-                                 piece.t + half * float(child % 2), piece.candidate});
-      }
-    }
+  if (worker.pieces.size() < count + 1) worker.pieces.resize(count + 1);
+  const std::size_t candidates =
+      kernels.meetCapsules(tree.view(), worker.candidates.data(), count, worker.pieces.data());
+  worker.statistics.boxPairs += count;
+  worker.tubes.resize(candidates);
+  for (std::size_t c = 0; c < candidates; ++c) worker.tubes[c] = {worker.pieces[c].i, worker.pieces[c].j};
+  worker.settled.assign(candidates, 0);
+  std::size_t open = candidates;
+  for (int level = 0; level < kVectorLevels && open > 0 && open <= kMostPieces * candidates; ++level) {
+    worker.statistics.pieces[std::size_t(level)] += open;
+    if (worker.halves.size() < 4 * open + 4) worker.halves.resize(4 * open + 4);
+    open = kernels.narrow(floatsOf(tubes), 0.5f * margin, level, worker.pieces.data(), open,
+                          worker.settled.data(), worker.halves.data());
     worker.pieces.swap(worker.halves);
   }
-  for (const PiecePair& piece : worker.pieces) {
-    if (worker.settled[piece.candidate]) continue;
-    worker.settled[piece.candidate] = 2;
+  constexpr std::uint8_t kMeets = 1, kSearched = 2;
+  for (const PiecePair& piece : std::span(worker.pieces.data(), open)) {
+    std::uint8_t& settled = worker.settled[piece.candidate];
+    if (settled) continue;
     ++worker.statistics.searched;
-    if (tubesIntersect(tubes[piece.i], tubes[piece.j], options.tolerance, margin))
-      worker.settled[piece.candidate] = 1;
+    settled = tubesIntersect(tubes[piece.i], tubes[piece.j], options.tolerance, margin) ? kMeets : kSearched;
   }
-  for (std::uint32_t c = 0; c < count; ++c)
-    if (worker.settled[c] == 1)
-      worker.pairs.push_back(orderedPair(worker.candidates[c].i, worker.candidates[c].j));
+  for (std::size_t c = 0; c < candidates; ++c)
+    if (worker.settled[c] == kMeets)
+      worker.pairs.push_back(orderedPair(worker.tubes[c].i, worker.tubes[c].j));
 }
 
 void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
@@ -212,7 +221,7 @@ std::span<const TubePair> TubeDetector::detect() {
   state.workers.resize(blocks);
   for (const Worker& worker : state.workers)
     state.pairs.insert(state.pairs.end(), worker.pairs.begin(), worker.pairs.end());
-  std::sort(state.pairs.begin(), state.pairs.end());
+  sortPairs(state.pairs, state.sortScratch, state.tree.tubeCount);
   return state.pairs;
 }
 
@@ -232,7 +241,7 @@ std::span<const Contact> TubeDetector::contacts() {
 TubeDetector::Statistics TubeDetector::statistics() const {
   Statistics sum;
   for (const Worker& worker : state_->workers) {
-    sum.candidates += worker.statistics.candidates;
+    sum.boxPairs += worker.statistics.boxPairs;
     for (std::size_t level = 0; level < sum.pieces.size(); ++level)
       sum.pieces[level] += worker.statistics.pieces[level];
     sum.searched += worker.statistics.searched;
@@ -242,7 +251,7 @@ TubeDetector::Statistics TubeDetector::statistics() const {
 
 std::size_t TubeDetector::treeBytes() const {
   return state_->tree.bytes() + state_->firstExcluded.size() * sizeof(std::uint32_t) +
-         state_->excluded.size() * sizeof(ExcludedLanes);
+         state_->excluded.size() * sizeof(ExcludedGroup);
 }
 
 }  // namespace vasa

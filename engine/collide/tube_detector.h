@@ -52,9 +52,10 @@ class TubeDetector {
 
   /// What the last detect() did.
   struct Statistics {
-    std::size_t candidates = 0;           ///< pairs whose chord capsules meet
-    std::array<std::size_t, 8> pieces{};  ///< pairs of pieces of length 2^-level that were halved
-    std::size_t searched = 0;             ///< pairs left to the search in double precision
+    std::size_t boxPairs = 0;  ///< pairs whose boxes meet
+    std::array<std::size_t, 8>
+        pieces{};  ///< pairs of pieces of length 2^-level that were halved; [0]: chord capsules that meet
+    std::size_t searched = 0;  ///< pairs left to the search in double precision
   };
   Statistics statistics() const;
   /// Memory of boxes, capsules and order.
