@@ -15,6 +15,7 @@ BoxTree::BoxTree(std::span<const Bezier> rest) : tubeCount(std::uint32_t(rest.si
     levelStart.push_back(levelStart.back() + groups);
   boxes.resize(levelStart.back());
   capsules.resize(tubes.size());
+  shapes.resize(tubes.size());
 }
 
 }  // namespace vasa

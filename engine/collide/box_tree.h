@@ -30,6 +30,7 @@ struct BoxTreeView {
   const std::uint32_t* levelStart;
   BoxGroup* boxes;
   ChordCapsule* capsules;
+  Bezier* shapes;
 };
 
 /// The fast detector's tree: topology fixed at rest and implicit (group g of a level holds the boxes of
@@ -44,15 +45,18 @@ struct BoxTree {
   std::vector<std::uint32_t> levelStart;  ///< first group of each level, and the end; at least level 0
   std::vector<BoxGroup> boxes;            ///< all levels
   std::vector<ChordCapsule> capsules;     ///< a slot each
+  std::vector<Bezier>
+      shapes;  ///< the tubes' present shape, a slot each: neighbours in space are near in memory
 
   std::uint32_t levels() const { return std::uint32_t(levelStart.size()) - 1; }
   std::uint32_t groups(std::uint32_t level) const { return levelStart[level + 1] - levelStart[level]; }
   BoxTreeView view() {
-    return {tubeCount, levels(), tubes.data(), levelStart.data(), boxes.data(), capsules.data()};
+    return {tubeCount,    levels(),        tubes.data(), levelStart.data(),
+            boxes.data(), capsules.data(), shapes.data()};
   }
   std::size_t bytes() const {
     return tubes.size() * sizeof(std::uint32_t) + boxes.size() * sizeof(BoxGroup) +
-           capsules.size() * sizeof(ChordCapsule);
+           capsules.size() * sizeof(ChordCapsule) + shapes.size() * sizeof(Bezier);
   }
 };
 

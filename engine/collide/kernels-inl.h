@@ -1,4 +1,5 @@
 // Included once for each instruction set (no include guard: see kernels.cpp).
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -83,22 +84,34 @@ void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uin
   const F8 d;
   const hn::RebindToSigned<F8> di;
   using V = hn::Vec<F8>;
-  const V growth = hn::Set(d, grow), relative = hn::Set(d, 2 * kEpsilon), third = hn::Set(d, 1.0f / 3);
+  const hn::CappedTag<float, 16> whole;
+  const V relative = hn::Set(d, 2 * kEpsilon), third = hn::Set(d, 1.0f / 3);
+  HWY_ALIGN float growth[16] = {};
+  for (int k = 0; k < 4; ++k) growth[4 * k + 3] = grow;
+  constexpr std::uint32_t kAhead = 3 * kGroup;
   for (std::uint32_t group = begin; group < end; ++group) {
+    // In the caller's order a group's tubes lie anywhere: ask for those of later groups now.
+    float* own = &tree.shapes[group * kGroup].b[0].x;
+    for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
+      const std::uint32_t slot = group * kGroup + lane, later = slot + kAhead;
+      if (later < end * kGroup) hwy::Prefetch(tubes + std::size_t(16) * tree.tubes[later]);
+      const float* from = tubes + std::size_t(16) * tree.tubes[slot];
+      for (std::size_t k = 0; k < 16; k += hn::Lanes(whole))
+        hn::StoreU(hn::Add(hn::LoadU(whole, from + k), hn::Load(whole, growth + k)), whole,
+                   own + 16 * lane + k);
+    }
     BoxGroup& box = tree.boxes[group];
     HWY_ALIGN float capsule[7][kGroup];  // start, radius, chord
     for (std::uint32_t lane = 0; lane < kGroup; lane += std::uint32_t(hn::Lanes(d))) {
-      const std::uint32_t slot = group * kGroup + lane;
-      const auto at =
-          hn::ShiftLeft<4>(hn::Load(di, reinterpret_cast<const std::int32_t*>(&tree.tubes[slot])));
+      const auto at = hn::ShiftLeft<4>(hn::Iota(di, std::int32_t(lane)));
       V r[4];
-      for (int k = 0; k < 4; ++k) r[k] = hn::Add(component(d, tubes, at, 4 * k + 3), growth);
+      for (int k = 0; k < 4; ++k) r[k] = component(d, own, at, 4 * k + 3);
       const V radius = hn::Max(hn::Max(r[0], r[1]), hn::Max(r[2], r[3]));
       V low[3], high[3], first[3], last[3];
       V e1 = hn::Zero(d), e2 = hn::Zero(d);
       for (int axis = 0; axis < 3; ++axis) {
         V p[4];
-        for (int k = 0; k < 4; ++k) p[k] = component(d, tubes, at, 4 * k + axis);
+        for (int k = 0; k < 4; ++k) p[k] = component(d, own, at, 4 * k + axis);
         low[axis] = hn::Min(hn::Min(hn::Sub(p[0], r[0]), hn::Sub(p[1], r[1])),
                             hn::Min(hn::Sub(p[2], r[2]), hn::Sub(p[3], r[3])));
         high[axis] = hn::Max(hn::Max(hn::Add(p[0], r[0]), hn::Add(p[1], r[1])),
@@ -271,7 +284,7 @@ std::size_t meetCapsules(const BoxTreeView& tree, const TubePair* candidates, st
     // Written always, kept if the bit is set: no branch to be guessed.
     for (std::size_t lane = 0; lane < used; ++lane) {
       const TubePair& pair = candidates[begin + lane];
-      pieces[kept] = {tree.tubes[pair.i], tree.tubes[pair.j], 0, 0, std::uint32_t(kept)};
+      pieces[kept] = {pair.i, pair.j, 0, 0, std::uint32_t(kept)};
       kept += meet >> lane & 1;
     }
   }
@@ -287,12 +300,12 @@ struct TubeLanes {
 };
 
 template <class D, class VI, class V = hn::Vec<D>>
-HWY_INLINE TubeLanes<V> gatherTubes(D d, const float* base, VI at, V grow) {
+HWY_INLINE TubeLanes<V> gatherTubes(D d, const float* base, VI at) {
   TubeLanes<V> tube;
   for (int k = 0; k < 4; ++k) {
     tube.p[k] = {component(d, base, at, 4 * k), component(d, base, at, 4 * k + 1),
                  component(d, base, at, 4 * k + 2)};
-    tube.r[k] = hn::Add(component(d, base, at, 4 * k + 3), grow);
+    tube.r[k] = component(d, base, at, 4 * k + 3);
   }
   return tube;
 }
@@ -341,8 +354,9 @@ HWY_INLINE V largestCoordinate(D d, const TubeLanes<V>& tube) {
   return largest;
 }
 
-std::size_t narrow(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
+std::size_t narrow(const BoxTreeView& tree, int level, const PiecePair* pieces, std::size_t count,
                    std::uint8_t* settled, PiecePair* halves) {
+  const float* base = &tree.shapes[0].b[0].x;
   const FN d;
   const hn::RebindToSigned<FN> di;
   using V = hn::Vec<FN>;
@@ -351,8 +365,7 @@ std::size_t narrow(const float* tubes, float grow, int level, const PiecePair* p
   HWY_ALIGN std::int32_t first[kMaxLanes], second[kMaxLanes];
   HWY_ALIGN float fromS[kMaxLanes], fromT[kMaxLanes];
   const float halfLength = 0.5f / float(1 << level);
-  const V growth = hn::Set(d, grow), half = hn::Set(d, halfLength),
-          whole = hn::Set(d, 1.0f / float(1 << level));
+  const V half = hn::Set(d, halfLength), whole = hn::Set(d, 1.0f / float(1 << level));
   for (std::size_t begin = 0; begin < count; begin += lanes) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const PiecePair& pair = pieces[begin + lane < count ? begin + lane : count - 1];
@@ -361,8 +374,8 @@ std::size_t narrow(const float* tubes, float grow, int level, const PiecePair* p
       fromS[lane] = pair.s;
       fromT[lane] = pair.t;
     }
-    TubeLanes<V> a = gatherTubes(d, tubes, hn::Load(di, first), growth);
-    TubeLanes<V> b = gatherTubes(d, tubes, hn::Load(di, second), growth);
+    TubeLanes<V> a = gatherTubes(d, base, hn::Load(di, first));
+    TubeLanes<V> b = gatherTubes(d, base, hn::Load(di, second));
     const Vec3<V> origin = a.p[0];
     for (int k = 0; k < 4; ++k) a.p[k] = a.p[k] - origin, b.p[k] = b.p[k] - origin;
     const V rounding =

@@ -37,7 +37,8 @@ struct Traversal {
   std::size_t candidateCount;
 };
 
-/// A piece of tube i from parameter s on against a piece of tube j from t on; both have length 2^-level.
+/// A piece of the tube in slot i from parameter s on against a piece of that in slot j from t on; both have
+/// length 2^-level.
 struct PiecePair {
   std::uint32_t i, j;
   float s, t;
@@ -45,7 +46,8 @@ struct PiecePair {
 };
 
 struct Kernels {
-  /// Fills boxes and capsules of the groups [begin, end) of level 0. Radii are grown by `grow`.
+  /// Copies the tubes of the groups [begin, end) into the tree's order, radii grown by `grow`, and fills
+  /// their boxes and capsules.
   void (*fitLeaves)(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin,
                     std::uint32_t end);
   /// Fills the boxes of the groups [begin, end) of a level above 0 from the level below.
@@ -54,14 +56,14 @@ struct Kernels {
   void (*openNode)(Traversal& traversal);
   /// Takes pairs off the stack until it is empty or there are `enough` candidates.
   void (*traverse)(Traversal& traversal, std::size_t enough);
-  /// The candidates whose chord capsules meet, as whole tubes numbered from 0. @param pieces  room for count
+  /// The candidates whose chord capsules meet, as whole tubes, numbered from 0. @param pieces  room for count
   /// + 1
   std::size_t (*meetCapsules)(const BoxTreeView& tree, const TubePair* candidates, std::size_t count,
                               PiecePair* pieces);
   /// Halves both pieces, bounds the four pairs of halves by swept spheres, and looks at the true curves at
   /// the nearest parameters. Sets settled[candidate] where two tubes are sure to intersect, and returns the
   /// pairs of halves of the others that may still meet. @param halves  room for 4 count + 4
-  std::size_t (*narrow)(const float* tubes, float grow, int level, const PiecePair* pieces, std::size_t count,
+  std::size_t (*narrow)(const BoxTreeView& tree, int level, const PiecePair* pieces, std::size_t count,
                         std::uint8_t* settled, PiecePair* halves);
 };
 

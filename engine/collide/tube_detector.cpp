@@ -25,7 +25,7 @@ constexpr std::size_t kTasksPerThread = 16;
 struct Worker {
   std::vector<GroupPair> stack;
   std::vector<TubePair> candidates;  // slots
-  std::vector<TubePair> tubes;       // whose capsules meet
+  std::vector<TubePair> meeting;     // slots whose capsules meet
   std::vector<PiecePair> pieces, halves;
   std::vector<std::uint8_t> settled;  // by candidate
   std::vector<TubePair> pairs;
@@ -149,15 +149,15 @@ void TubeDetector::State::settle(Worker& worker, std::size_t count) {
   const std::size_t candidates =
       kernels.meetCapsules(tree.view(), worker.candidates.data(), count, worker.pieces.data());
   worker.statistics.boxPairs += count;
-  worker.tubes.resize(candidates);
-  for (std::size_t c = 0; c < candidates; ++c) worker.tubes[c] = {worker.pieces[c].i, worker.pieces[c].j};
+  worker.meeting.resize(candidates);
+  for (std::size_t c = 0; c < candidates; ++c) worker.meeting[c] = {worker.pieces[c].i, worker.pieces[c].j};
   worker.settled.assign(candidates, 0);
   std::size_t open = candidates;
   for (int level = 0; level < kVectorLevels && open > 0 && open <= kMostPieces * candidates; ++level) {
     worker.statistics.pieces[std::size_t(level)] += open;
     if (worker.halves.size() < 4 * open + 4) worker.halves.resize(4 * open + 4);
-    open = kernels.narrow(floatsOf(tubes), 0.5f * margin, level, worker.pieces.data(), open,
-                          worker.settled.data(), worker.halves.data());
+    open = kernels.narrow(tree.view(), level, worker.pieces.data(), open, worker.settled.data(),
+                          worker.halves.data());
     worker.pieces.swap(worker.halves);
   }
   constexpr std::uint8_t kMeets = 1, kSearched = 2;
@@ -165,11 +165,12 @@ void TubeDetector::State::settle(Worker& worker, std::size_t count) {
     std::uint8_t& settled = worker.settled[piece.candidate];
     if (settled) continue;
     ++worker.statistics.searched;
-    settled = tubesIntersect(tubes[piece.i], tubes[piece.j], options.tolerance, margin) ? kMeets : kSearched;
+    settled =
+        tubesIntersect(tree.shapes[piece.i], tree.shapes[piece.j], options.tolerance) ? kMeets : kSearched;
   }
   for (std::size_t c = 0; c < candidates; ++c)
     if (worker.settled[c] == kMeets)
-      worker.pairs.push_back(orderedPair(worker.tubes[c].i, worker.tubes[c].j));
+      worker.pairs.push_back(orderedPair(tree.tubes[worker.meeting[c].i], tree.tubes[worker.meeting[c].j]));
 }
 
 void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
