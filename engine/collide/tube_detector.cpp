@@ -1,13 +1,13 @@
 #include "collide/tube_detector.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
-#include <cmath>
 
-#include "collide/closest_tubes.h"
 #include "collide/contact_search.h"
 #include "collide/kernels.h"
+#include "collide/narrow_phase.h"
 #include "core/parallel.h"
 
 // Work is cut into tasks: group pairs of some level, found by opening the tree from its root until there are
@@ -17,19 +17,14 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kChunk = 1024;       // candidates settled at once
-constexpr int kVectorLevels = 7;           // halvings in single precision
-constexpr std::size_t kMostPieces = 64;    // a candidate; beyond, the search in double takes over
 constexpr std::uint32_t kLeafBlock = 512;  // groups refitted by one task
 constexpr std::size_t kTasksPerThread = 16;
 
 struct Worker {
   std::vector<GroupPair> stack;
   std::vector<TubePair> candidates;  // slots
-  std::vector<TubePair> meeting;     // slots whose capsules meet
-  std::vector<PiecePair> pieces, halves;
-  std::vector<std::uint8_t> settled;  // by candidate
+  NarrowPhase narrow;
   std::vector<TubePair> pairs;
-  TubeDetector::Statistics statistics;
 };
 
 static_assert(sizeof(Bezier) == 16 * sizeof(float));
@@ -65,9 +60,8 @@ struct TubeDetector::State {
 
   void groupExclusions(const Exclusions& exclusions);
   void update(std::span<const Bezier> shape, float margin);
-  std::vector<GroupPair> tasks();
+  void findTasks();
   void run(Worker& worker, std::span<const GroupPair> work);
-  void settle(Worker& worker, std::size_t count);
 
   DetectorOptions options;
   const Kernels& kernels;
@@ -76,7 +70,9 @@ struct TubeDetector::State {
   std::vector<ExcludedGroup> excluded;
   std::span<const Bezier> tubes;
   float margin = 0;
+  std::vector<GroupPair> tasks, nextTasks;
   std::vector<Worker> workers;
+  std::size_t workersUsed = 0;
   std::vector<TubePair> pairs, sortScratch;
   std::vector<Contact> contacts;
 };
@@ -124,58 +120,27 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float wantedMarg
     kernels.fitLevel(view, level, 0, tree.groups(level));
 }
 
-std::vector<GroupPair> TubeDetector::State::tasks() {
-  std::vector<GroupPair> open{{tree.levels() - 1, 0, 0}};
+void TubeDetector::State::findTasks() {
+  tasks.assign(1, {tree.levels() - 1, 0, 0});
   const std::size_t wanted = threadCount() > 1 ? kTasksPerThread * threadCount() : 1;
   Traversal work{tree.view(), firstExcluded.data(), excluded.data(), nullptr, 0, nullptr, 0};
-  while (open.size() < wanted && open.front().level > 0) {
-    std::vector<GroupPair> next;
-    for (const GroupPair& pair : open) {
+  while (tasks.size() < wanted && tasks.front().level > 0) {
+    nextTasks.clear();
+    for (const GroupPair& pair : tasks) {
       GroupPair stack[kGroupPairs + 1] = {pair};
       work.stack = stack;
       work.stackSize = 1;
       kernels.openNode(work);
-      next.insert(next.end(), stack, stack + work.stackSize);
+      nextTasks.insert(nextTasks.end(), stack, stack + work.stackSize);
     }
-    if (next.empty()) break;
-    open.swap(next);
+    tasks.swap(nextTasks);
+    if (tasks.empty()) return;
   }
-  return open;
-}
-
-// Breadth first: one level of all open pieces at a time, so that the vectors stay full.
-void TubeDetector::State::settle(Worker& worker, std::size_t count) {
-  if (worker.pieces.size() < count + 1) worker.pieces.resize(count + 1);
-  const std::size_t candidates =
-      kernels.meetCapsules(tree.view(), worker.candidates.data(), count, worker.pieces.data());
-  worker.statistics.boxPairs += count;
-  worker.meeting.resize(candidates);
-  for (std::size_t c = 0; c < candidates; ++c) worker.meeting[c] = {worker.pieces[c].i, worker.pieces[c].j};
-  worker.settled.assign(candidates, 0);
-  std::size_t open = candidates;
-  for (int level = 0; level < kVectorLevels && open > 0 && open <= kMostPieces * candidates; ++level) {
-    worker.statistics.pieces[std::size_t(level)] += open;
-    if (worker.halves.size() < 4 * open + 4) worker.halves.resize(4 * open + 4);
-    open = kernels.narrow(tree.view(), level, worker.pieces.data(), open, worker.settled.data(),
-                          worker.halves.data());
-    worker.pieces.swap(worker.halves);
-  }
-  constexpr std::uint8_t kMeets = 1, kSearched = 2;
-  for (const PiecePair& piece : std::span(worker.pieces.data(), open)) {
-    std::uint8_t& settled = worker.settled[piece.candidate];
-    if (settled) continue;
-    ++worker.statistics.searched;
-    settled =
-        tubesIntersect(tree.shapes[piece.i], tree.shapes[piece.j], options.tolerance) ? kMeets : kSearched;
-  }
-  for (std::size_t c = 0; c < candidates; ++c)
-    if (worker.settled[c] == kMeets)
-      worker.pairs.push_back(orderedPair(tree.tubes[worker.meeting[c].i], tree.tubes[worker.meeting[c].j]));
 }
 
 void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
   worker.pairs.clear();
-  worker.statistics = {};
+  worker.narrow.statistics = {};
   worker.stack.resize(work.size() + kGroupPairs * (tree.levels() + 1));
   worker.candidates.resize(kChunk + kGroupPairs);
   std::copy(work.begin(), work.end(), worker.stack.begin());
@@ -189,7 +154,8 @@ void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
   while (traversal.stackSize > 0) {
     traversal.candidateCount = 0;
     kernels.traverse(traversal, kChunk);
-    settle(worker, traversal.candidateCount);
+    worker.narrow.settle(kernels, tree.view(), {worker.candidates.data(), traversal.candidateCount},
+                         options.tolerance, worker.pairs);
   }
 }
 
@@ -207,20 +173,21 @@ std::span<const TubePair> TubeDetector::detect() {
   State& state = *state_;
   state.pairs.clear();
   if (state.tubes.empty()) return {};
-  const std::vector<GroupPair> tasks = state.tasks();
+  state.findTasks();
+  const std::span<const GroupPair> tasks = state.tasks;
   const std::size_t blocks = threadCount() > 1 ? std::min(tasks.size(), kTasksPerThread * threadCount()) : 1;
   if (state.workers.size() < blocks) state.workers.resize(blocks);
   const auto run = [&](std::size_t block) {
     const std::size_t begin = tasks.size() * block / blocks, end = tasks.size() * (block + 1) / blocks;
-    state.run(state.workers[block], std::span(tasks).subspan(begin, end - begin));
+    state.run(state.workers[block], tasks.subspan(begin, end - begin));
   };
   if (blocks > 1) {
     parallelFor(blocks, 1, run);
   } else {
     run(0);
   }
-  state.workers.resize(blocks);
-  for (const Worker& worker : state.workers)
+  state.workersUsed = blocks;
+  for (const Worker& worker : std::span(state.workers.data(), blocks))
     state.pairs.insert(state.pairs.end(), worker.pairs.begin(), worker.pairs.end());
   sortPairs(state.pairs, state.sortScratch, state.tree.tubeCount);
   return state.pairs;
@@ -241,11 +208,11 @@ std::span<const Contact> TubeDetector::contacts() {
 
 TubeDetector::Statistics TubeDetector::statistics() const {
   Statistics sum;
-  for (const Worker& worker : state_->workers) {
-    sum.boxPairs += worker.statistics.boxPairs;
-    for (std::size_t level = 0; level < sum.pieces.size(); ++level)
-      sum.pieces[level] += worker.statistics.pieces[level];
-    sum.searched += worker.statistics.searched;
+  for (const Worker& worker : std::span(state_->workers.data(), state_->workersUsed)) {
+    const Statistics& own = worker.narrow.statistics;
+    sum.boxPairs += own.boxPairs;
+    for (std::size_t level = 0; level < sum.pieces.size(); ++level) sum.pieces[level] += own.pieces[level];
+    sum.searched += own.searched;
   }
   return sum;
 }

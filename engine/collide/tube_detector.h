@@ -1,10 +1,10 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "collide/exclusions.h"
+#include "collide/narrow_phase.h"
 #include "curve/bezier.h"
 
 namespace vasa {
@@ -38,7 +38,7 @@ class TubeDetector {
 
   /// Refits the tree to the present shape.
   /// @param tubes   as many as at rest, in the same order, all numbers finite; must stay in place until
-  /// detect() is done
+  ///                detect() and contacts() are done
   /// @param margin  [m] >= 0; detect() then reports pairs with f < margin instead of f < 0
   void update(std::span<const Bezier> tubes, float margin = 0);
 
@@ -51,12 +51,7 @@ class TubeDetector {
   std::span<const Contact> contacts();
 
   /// What the last detect() did.
-  struct Statistics {
-    std::size_t boxPairs = 0;  ///< pairs whose boxes meet
-    std::array<std::size_t, 8>
-        pieces{};  ///< pairs of pieces of length 2^-level that were halved; [0]: chord capsules that meet
-    std::size_t searched = 0;  ///< pairs left to the search in double precision
-  };
+  using Statistics = NarrowPhase::Statistics;
   Statistics statistics() const;
   /// Memory of boxes, capsules and order.
   std::size_t treeBytes() const;

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "collide/closest_tubes.h"
+#include "collide/exclusions.h"
+#include "collide/narrow_phase.h"
 
 namespace vasa::bench {
 
@@ -13,7 +14,7 @@ class EmbreeDetector {
  public:
   EmbreeDetector(std::span<const Bezier> rest, const Exclusions& exclusions)
       : exclusions_(exclusions),
-        boxes_(rest.size()),
+        tree_(rest),
         device_(rtcNewDevice("threads=1")),
         scene_(rtcNewScene(device_)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
@@ -38,37 +39,49 @@ class EmbreeDetector {
     candidates_.clear();
     pairs_.clear();
     rtcCollide(scene_, scene_, collide, this);
-    std::sort(candidates_.begin(), candidates_.end());
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
-    for (const TubePair pair : candidates_)
-      if (!exclusions_.contains(pair.i, pair.j) && tubesIntersect(tubes[pair.i], tubes[pair.j], 5e-8))
-        pairs_.push_back(pair);
+    narrow_.settle(fastKernels(), tree_.view(), candidates_, 5e-8, pairs_);
+    std::sort(pairs_.begin(), pairs_.end());
     return pairs_;
   }
 
  private:
   void fit(std::span<const Bezier> tubes) {
-    for (std::size_t i = 0; i < tubes.size(); ++i) boxes_[i] = tubes[i].bounds();
+    fastKernels().fitLeaves(tree_.view(), &tubes[0].b[0].x, 0, 0, tree_.groups(0));
     rtcCommitGeometry(geometry_);
     rtcCommitScene(scene_);
   }
-  static void bounds(const RTCBoundsFunctionArguments* arguments) {
-    const Aabb& box = static_cast<EmbreeDetector*>(arguments->geometryUserPtr)->boxes_[arguments->primID];
-    RTCBounds& out = *arguments->bounds_o;
-    out.lower_x = box.low.x, out.lower_y = box.low.y, out.lower_z = box.low.z;
-    out.upper_x = box.high.x, out.upper_y = box.high.y, out.upper_z = box.high.z;
+  float edge(unsigned slot, int axis, bool high) const {
+    const BoxGroup& group = tree_.boxes[slot / kGroup];
+    return (high ? group.high : group.low)[axis][slot % kGroup];
   }
-  static void collide(void* self, RTCCollision* collisions, unsigned count) {
-    auto& detector = *static_cast<EmbreeDetector*>(self);
+  bool overlap(unsigned a, unsigned b) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (edge(a, axis, false) > edge(b, axis, true) || edge(b, axis, false) > edge(a, axis, true))
+        return false;
+    return true;
+  }
+  static void bounds(const RTCBoundsFunctionArguments* arguments) {
+    const auto& self = *static_cast<EmbreeDetector*>(arguments->geometryUserPtr);
+    const unsigned slot = arguments->primID;
+    RTCBounds& out = *arguments->bounds_o;
+    out.lower_x = self.edge(slot, 0, false), out.lower_y = self.edge(slot, 1, false),
+    out.lower_z = self.edge(slot, 2, false);
+    out.upper_x = self.edge(slot, 0, true), out.upper_y = self.edge(slot, 1, true),
+    out.upper_z = self.edge(slot, 2, true);
+  }
+  // Embree reports pairs of leaves' primitives in both orders and with boxes that need not meet.
+  static void collide(void* user, RTCCollision* collisions, unsigned count) {
+    auto& self = *static_cast<EmbreeDetector*>(user);
     for (unsigned k = 0; k < count; ++k) {
       const unsigned a = collisions[k].primID0, b = collisions[k].primID1;
-      if (a != b && detector.boxes_[a].overlaps(detector.boxes_[b]))
-        detector.candidates_.push_back(orderedPair(a, b));
+      if (a < b && self.overlap(a, b) && !self.exclusions_.contains(self.tree_.tubes[a], self.tree_.tubes[b]))
+        self.candidates_.push_back({a, b});
     }
   }
 
   const Exclusions& exclusions_;
-  std::vector<Aabb> boxes_;
+  BoxTree tree_;
+  NarrowPhase narrow_;
   RTCDevice device_;
   RTCScene scene_;
   RTCGeometry geometry_ = nullptr;

@@ -1,5 +1,4 @@
-// Times the renderer over a turning camera; prints minimum and median of each stage and the last picture's
-// hash.
+// Times the renderer over a turning camera; prints minimum and median of each stage and the last picture's hash.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -118,7 +117,6 @@ int main(int argc, char** argv) {
               static_cast<unsigned long long>(hashOf(std::span<const std::uint8_t>(image.rgba))));
   if (arguments.picture.empty()) return 0;
   const Result<void> written = writePng(arguments.picture, image);
-  if (!written)
-    return std::fprintf(stderr, "%s\n", written.error().message.c_str()), int(written.error().fault);
+  if (!written) return std::fprintf(stderr, "%s\n", written.error().message.c_str()), int(written.error().fault);
   return 0;
 }
