@@ -12,6 +12,8 @@ namespace {
 constexpr float kSoftening = 0.2f;
 constexpr float kNarrowArc = 0.6f;      // of the way between the bones before and behind a joint
 constexpr float kNarrowestArc = 0.25f;  // of the arc
+constexpr float kLimbFavour = 1.5f;     // a limb beside the body keeps vessels 1 + this times as far from it
+constexpr float kFavourReach = 0.3f;    // of the arc: if they are no farther from it than once to twice this
 constexpr float kNearness = 0.65f;  // a limb takes part if the nearest is nearer than it by no more than this
 constexpr float kLimbBlur = 0.02f;  // of the limbs' length, added to the distances that are compared
 constexpr float kTwistTilt = 8;     // largest ratio by which nearness to one bone tilts the spread of twist
@@ -92,16 +94,23 @@ class PhaseMeter {
   float bend(std::size_t j, vec3 p) const {
     if (behind_[j] >= BoneField::kFar) return 0;
     if (!spines_.joints[j].parent.valid() || before_[j] >= BoneField::kFar) return 1;
-    return smoothstep(0.5f + beyond(before_[j], behind_[j]) / arcAt(j, p));
+    const SpineJoint& joint = spines_.joints[j];
+    const float alongside = runsAlongside(j, p);
+    const float narrow =
+        std::clamp(kNarrowArc * (before_[j] + behind_[j]), kNarrowestArc * joint.arc, joint.arc);
+    const float onward = smoothstep(2 * glm::dot(p - joint.centre, joint.axis) / joint.arc);
+    const float near = smoothstep(2 - behind_[j] / (kFavourReach * joint.arc));
+    const float favour = joint.spreadsTwist ? 1.0f : 1 + kLimbFavour * alongside * onward * near;
+    return smoothstep(0.5f +
+                      beyond(favour * before_[j], behind_[j]) / glm::mix(joint.arc, narrow, alongside));
   }
 
-  float arcAt(std::size_t j, vec3 p) const {
+  /// 1 where the bones before and behind are close together away from the joint, as those of an arm beside
+  /// the chest; 0 around the joint itself. There the arc narrows, and what lies between goes with the limb.
+  float runsAlongside(std::size_t j, vec3 p) const {
     const SpineJoint& joint = spines_.joints[j];
     const float between = before_[j] + behind_[j], away = glm::distance(p, joint.centre);
-    const float narrow = std::clamp(kNarrowArc * between, kNarrowestArc * joint.arc, joint.arc);
-    const float share =
-        smoothstep(2 * away / joint.arc - 1) * smoothstep(2 - 2 * between / std::max(away, 1e-6f));
-    return glm::mix(joint.arc, narrow, share);
+    return smoothstep(2 * away / joint.arc - 1) * smoothstep(2 - 2 * between / std::max(away, 1e-6f));
   }
 
   float twist(std::size_t j, vec3 p) const {

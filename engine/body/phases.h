@@ -25,9 +25,9 @@ struct Phases {
 ///
 /// How far a point is beyond a joint's plane follows from its distances to the bones before and behind the
 /// joint; bend is a smoothstep of that over the joint's arc. Where those bones come close again away from the
-/// joint (an arm beside the chest) the arc narrows, so that each bone keeps what is on it. Twist grows along
-/// the link, sooner near the joint's own bone and later near the one that runs beside it. O(points · joints),
-/// in parallel.
+/// joint (an arm beside the chest) the arc narrows, so that each bone keeps what is on it, and what lies
+/// close to the limb goes with it. Twist grows along the link, sooner near the joint's own bone and later
+/// near the one that runs beside it. O(points · joints), in parallel.
 Phases measurePhases(const SpineSet& spines, const BoneField& bones, std::span<const vec4> points);
 
 /// Makes no phase change faster along a tie than the joint's arc does along a straight limb: a vessel that
