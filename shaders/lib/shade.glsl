@@ -19,7 +19,7 @@ float highlight(vec3 normal, vec3 eye, vec3 light) {
   float lobe = max(dot(normal, middle), 0.0);
   lobe *= lobe; lobe *= lobe; lobe *= lobe; lobe *= lobe; lobe *= lobe;  // to the 32nd
   float miss = 1 - max(dot(eye, middle), 0.0);
-  return lobe * (0.04 + 0.96 * miss * miss * miss * miss * miss) * 6.0;
+  return lobe * (0.04 + 0.96 * miss * miss * miss * miss * miss) * 8.0;
 }
 
 vec3 shade(vec3 base, vec3 normal, vec3 eye, vec3 worldUp) {
