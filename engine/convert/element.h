@@ -31,7 +31,7 @@ struct ElementSkeleton {
 struct ElementOptions {
   float weldTolerance = 1e-5f;  ///< [m] vertices nearer than this are one
   float minimumRadius = 5e-5f;  ///< [m] thinner sections are raised to this; components thinner are dropped
-  float detail = 1e-3f;         ///< [m] side branches and loops shorter than this are left out
+  float detail = 2e-3f;         ///< [m] side branches and loops shorter than this are left out
   float debrisShare = 0.002f;   ///< components with less than this share of the element's area are debris
   float bridgeRadii = 3.0f;     ///< ends facing one another within so many radii are joined across the gap
   bool useRings = true;         ///< trace the source's own rings where it has them

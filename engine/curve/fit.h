@@ -11,7 +11,7 @@ namespace vasa {
 /// [least, most].
 struct FitTolerance {
   float share = 0.15f;
-  float least = 4e-4f;  ///< [m]
+  float least = 5e-4f;  ///< [m]
   float most = 1e-3f;   ///< [m]
   float at(float radius) const { return glm::clamp(share * radius, least, most); }
 };
