@@ -76,7 +76,8 @@ ConvertOptions convertOptions(const Options& options) {
   settings.attach.bridges = !options.noBridges;
   if (options.tolerance > 0) {
     const float tolerance = 1e-3f * options.tolerance;
-    settings.fit.tolerance = {settings.fit.tolerance.share, std::min(settings.fit.tolerance.least, tolerance), tolerance};
+    for (FitTolerance* part : {&settings.fit.position, &settings.fit.radius})
+      *part = {part->share, std::min(part->least, tolerance), tolerance};
   }
   settings.stopRequested = stopRequested;
   return settings;
@@ -86,7 +87,7 @@ ConvertOptions convertOptions(const Options& options) {
 Result<ConvertOutput> writeOutput(const Options& options, const ConvertOptions& settings, const Network& network) {
   ConvertOutput output{.file = options.output};
   const float rounding = quantisationError(network);
-  output.quantised = !options.exact && (options.quantise || rounding < kRoundingShare * settings.fit.tolerance.least);
+  output.quantised = !options.exact && (options.quantise || rounding < kRoundingShare * settings.fit.position.least);
   output.quantisationError = output.quantised ? rounding : 0;
   const auto written = writeNetwork(options.output, network, {.quantise = output.quantised});
   if (!written) return written.error();

@@ -215,7 +215,7 @@ class Attacher {
     if (a != b && a != Circuit::unknown && b != Circuit::unknown) return false;
     if (root(candidate.end.strand) != root(candidate.strand)) return true;
     const bool own = graph_.strands[candidate.end.strand].element == graph_.strands[candidate.strand].element;
-    return !own && candidate.cost <= kClosingCost;
+    return !own && (candidate.bridge || candidate.cost <= kClosingCost);
   }
   void collectParts() {
     parts_.resize(graph_.strands.size());
@@ -253,6 +253,7 @@ class Attacher {
     const vec3 place = placeOnHost(tip, host, at);
     if (turnsBack(candidate.end, candidate.strand, place)) return false;
     cutInside(candidate.end, host);
+    trimTaper(graph_.strands[candidate.end.strand].sections, candidate.end.last);
     graph_.join(candidate.strand, place, std::span(&candidate.end, 1));
     ++report_.endToSide;
     return true;
@@ -293,8 +294,10 @@ class Attacher {
       lead(candidate.end, other);
       place = vec3(target);
     } else {
-      cutBeyond(candidate.end, place);
-      cutBeyond(other, place);
+      for (const StrandEnd& end : {candidate.end, other}) {
+        cutBeyond(end, place);
+        trimTaper(graph_.strands[end.strand].sections, end.last);
+      }
     }
     const StrandEnd ends[] = {candidate.end, other};
     graph_.join(std::nullopt, place, ends);

@@ -69,6 +69,10 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
       standIn.push_back(absorbed.into);
   const AttachReport joins = attachEnds(graph, elements, bodyHeight, options.attach);
   if (stopped(options)) return Error{Fault::interrupted, "stopped"};
+  for (std::uint32_t strand = 0; strand < graph.strands.size(); ++strand)
+    for (const bool last : {false, true})
+      if (!graph.strands[strand].dropped() && graph.isFree({strand, last}))
+        trimTaper(graph.strands[strand].sections, last);
 
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
   if (!assembly) return assembly.error();

@@ -4,7 +4,7 @@
 namespace vasa {
 
 struct OverlapOptions {
-  float axisRadii = 0.5f;     ///< an axis nearer than this share of the larger radius runs inside the other
+  float axisRadii = 0.9f;     ///< an axis nearer than this share of the larger radius runs inside the other
   float radiusRatio = 2.0f;   ///< ... if their radii differ by no more than this factor
   float straightness = 0.8f;  ///< ... and they run along one another: least |cos| of their directions
   float dropShare = 0.8f;     ///< a strand with this share of its length inside longer ones goes

@@ -59,6 +59,18 @@ vec3 outwardDirection(const Sections& sections, bool last) {
   return size > 0 ? away / size : vec3(0, 1, 0);
 }
 
+void trimTaper(Sections& sections, bool last) {
+  const float radius = endRadius(sections, last);
+  if (last) std::ranges::reverse(sections);
+  std::size_t cut = 0;
+  const vec3 tip(sections.front());
+  while (cut + 2 < sections.size() && sections[cut].w < 0.7f * radius &&
+         glm::distance(tip, vec3(sections[cut + 1])) <= radius)
+    ++cut;
+  sections.erase(sections.begin(), sections.begin() + std::ptrdiff_t(cut));
+  if (last) std::ranges::reverse(sections);
+}
+
 std::uint32_t StrandGraph::add(Strand strand) {
   strands.push_back(std::move(strand));
   return std::uint32_t(strands.size() - 1);

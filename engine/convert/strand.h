@@ -58,6 +58,10 @@ float endRadius(const Sections& sections, bool last);
 /// Unit direction in which the strand leaves its end, judged between about half and two and a half radii from it.
 vec3 outwardDirection(const Sections& sections, bool last);
 
+/// Takes sections off an end where the radius falls off because the surface is cut at a slant: those thinner than
+/// 70 % of the radius behind them, over one radius of length at most. A ball-shaped cap stands there anyway.
+void trimTaper(Sections& sections, bool last);
+
 class StrandGraph {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;

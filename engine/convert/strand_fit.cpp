@@ -21,6 +21,10 @@ Sections densified(const Sections& sections, float spacing) {
   return dense;
 }
 
+FitTolerance scaled(const FitTolerance& tolerance, float factor) {
+  return {factor * tolerance.share, factor * tolerance.least, factor * tolerance.most};
+}
+
 }  // namespace
 
 std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& options) {
@@ -32,8 +36,8 @@ std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& op
   fit.maxSpans = 2 + std::uint32_t(std::ceil(length / (options.radiiPerSpan * float(radius))));
   const Sections samples = densified(sections, length / (kSamplesPerSpan * float(fit.maxSpans)));
   const auto within = [&](float factor) {
-    const FitTolerance& tight = options.tolerance;
-    fit.position = fit.radius = {factor * tight.share, factor * tight.least, factor * tight.most};
+    fit.position = scaled(options.position, factor);
+    fit.radius = scaled(options.radius, factor);
     return fitSplineMeasured(samples, fit);
   };
   Fit tight = within(1);

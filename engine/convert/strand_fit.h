@@ -5,11 +5,12 @@
 namespace vasa {
 
 struct StrandFitOptions {
-  FitTolerance tolerance{0.25f, 2e-4f, 8e-4f};  ///< of centres and radii
+  FitTolerance position{0.3f, 3e-4f, 8e-4f};
+  FitTolerance radius{0.1f, 2e-4f, 3e-4f};
   /// No more than a span for so many mean radii of length: a strand that needs more tells its mesh's noise. The
   /// tolerance is relaxed by this factor then.
   float radiiPerSpan = 3.0f;
-  float relaxed = 2.0f;
+  float relaxed = 1.5f;
 };
 
 /// A strand's spline: the fewest spans that meet the tolerance, or the relaxed one, within the budget of spans;

@@ -48,6 +48,7 @@ Circuit circuitOf(std::string_view name) {
 bool namesContinue(std::string_view a, std::string_view b) {
   const NameWords first = wordsOf(a), second = wordsOf(b);
   if (first.left != second.left || first.right != second.right) return false;
+  if (!first.left && !first.right) return a == b;  // of the many in "set of digital arteries" any might share a word
   return std::ranges::any_of(first.telling, [&](const std::string& word) { return second.telling.contains(word); });
 }
 

@@ -38,6 +38,8 @@ TEST_CASE("names continue one another by side and a telling word") {
   CHECK(!namesContinue("right common carotid artery", "left internal carotid artery"));
   CHECK(!namesContinue("left common iliac artery", "left common carotid artery"));
   CHECK(!namesContinue("superior branch of artery", "inferior branch of artery"));
+  CHECK(!namesContinue("dorsal digital artery of foot", "set of plantar digital arteries"));
+  CHECK(namesContinue("splenic artery", "splenic artery"));
   CHECK(circuitOf("left pulmonary artery") == Circuit::pulmonary);
   CHECK(circuitOf("arch of aorta") == Circuit::systemic);
   CHECK(circuitOf("left renal artery") == Circuit::unknown);

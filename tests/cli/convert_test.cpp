@@ -1,0 +1,121 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "cli/program.h"
+#include "core/atomic_file.h"
+#include "network/file.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+// An OBJ of straight tubes along +Y, one object each.
+std::string tubesObj(const std::vector<std::pair<std::string, float>>& tubes) {
+  std::string text;
+  int base = 1;
+  for (const auto& [name, x] : tubes) {
+    text += "o " + name + "\n";
+    for (int ring = 0; ring <= 20; ++ring)
+      for (int k = 0; k < 12; ++k)
+        text += "v " + std::to_string(x + 0.004 * std::cos(k * 0.5235988)) + " " + std::to_string(0.01 * ring) + " " +
+                std::to_string(-0.004 * std::sin(k * 0.5235988)) + "\n";
+    for (int ring = 0; ring < 20; ++ring)
+      for (int k = 0; k < 12; ++k) {
+        const int a = base + ring * 12, b = a + 12, n = (k + 1) % 12;
+        for (const int index : {a + k, a + n, b + n, b + k}) text += (index == a + k ? "f " : " ") + std::to_string(index);
+        text += "\n";
+      }
+    base += 21 * 12;
+  }
+  return text;
+}
+
+struct Folder {
+  TemporaryFolder folder;
+  std::string path(const char* name) const { return (folder.path() / name).string(); }
+  std::string write(const char* name, const std::string& text) const {
+    REQUIRE(writeFileAtomically(folder.path() / name, text).ok());
+    return path(name);
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+}  // namespace
+
+TEST_CASE("convert writes a network and reports with the keys that tools rely on") {
+  const Folder folder;
+  const auto mesh = folder.write("arteries.obj", tubesObj({{"left", 0}, {"right", 0.1f}, {"copy", 0.1f}}));
+  const auto outcome = runProgram({"convert", mesh, "-o", folder.path("out.vasa"), "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto report = outcome.json();
+  REQUIRE(report["elements"].size() == 3);
+  for (const char* key : {"name", "kind", "status", "reason", "sweeps", "triangles", "coverage", "error_mm", "back_error_mm"})
+    CHECK(report["elements"][0].contains(key));
+  for (const char* key : {"elements", "ok", "partial", "failed", "vessels", "sweeps", "junctions", "components", "coverage",
+                          "error_mm", "back_error_mm", "mesh_bytes", "network_bytes", "seconds", "largest_arterial_tree_share",
+                          "bridges", "gaps"})
+    CHECK(report["summary"].contains(key));
+  for (const char* key : {"mean", "p95", "max"}) CHECK(report["summary"]["error_mm"].contains(key));
+  CHECK(report["elements"][0]["kind"] == "artery");
+  CHECK(report["summary"]["ok"] == 3);
+  CHECK(report["summary"]["duplicates"] == 1);
+  CHECK(report["summary"]["network_bytes"] == std::filesystem::file_size(folder.path("out.vasa")));
+  CHECK(report["summary"]["quantised"] == true);
+  const auto network = readNetwork(folder.path("out.vasa"));
+  REQUIRE(network.ok());
+  CHECK(network->vessels().size() == 2);
+  CHECK(network->bodyHeight() == doctest::Approx(0.2f));
+}
+
+TEST_CASE("convert: units, axis, kind, height, exact numbers") {
+  const Folder folder;
+  const auto mesh = folder.write("tube.obj", tubesObj({{"tube", 0}}));
+  const auto outcome = runProgram({"convert", mesh, "-o", folder.path("out.vasa"), "--scale", "2", "--up", "z", "--kind", "portal",
+                                   "--body-height", "1.8", "--exact"});
+  REQUIRE(outcome.exit == 0);
+  CHECK(contains(outcome.out, "1: 1 ok"));
+  const auto network = readNetwork(folder.path("out.vasa"));
+  REQUIRE(network.ok());
+  CHECK(network->vessels()[0].kind == VesselKind::portalVein);
+  CHECK(network->bodyHeight() == 1.8f);
+  const auto points = network->points();
+  CHECK(std::abs(points.front().z - points.back().z) == doctest::Approx(0.4f).epsilon(0.02));
+  CHECK(points[1].w == doctest::Approx(0.008f).epsilon(0.05));
+}
+
+TEST_CASE("convert tells what is wrong and leaves no file") {
+  const Folder folder;
+  const auto mesh = folder.write("tube.obj", tubesObj({{"tube", 0}}));
+  const auto out = folder.path("out.vasa");
+  const auto expect = [&](const std::vector<std::string>& arguments, int exit, const std::string& message) {
+    const auto outcome = runProgram(arguments);
+    CHECK(outcome.exit == exit);
+    INFO(outcome.err);
+    CHECK(contains(outcome.err, message));
+    CHECK(outcome.out.empty());
+    CHECK(!std::filesystem::exists(out));
+  };
+  expect({"convert", folder.path("absent.obj"), "-o", out}, 6, "absent.obj");
+  expect({"convert", folder.write("bad.obj", "v 0 0 x\n"), "-o", out}, 3, "bad.obj:1");
+  expect({"convert", folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n"), "-o", out}, 3, "export the surface");
+  expect({"convert", folder.write("mesh.ply", "ply\n"), "-o", out}, 2, "convert reads");
+  expect({"convert", mesh}, 2, "--output");
+  expect({"convert", mesh, "-o", out, "--up", "x"}, 2, "--up");
+  expect({"convert", mesh, "-o", out, "--scale", "-1"}, 2, "--scale");
+  expect({"convert", mesh, "-o", out, "--exact", "--quantise"}, 2, "--quantise");
+  expect({"convert", mesh, "-o", folder.path("no/such/folder.vasa")}, 6, "folder");
+}
+
+TEST_CASE("convert stops on SIGINT without a file") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  const Folder folder;
+  const auto outcome = runProgram({"convert", (data / "bp3d/bp3d_veins.glb").string(), "-o", folder.path("out.vasa")},
+                                  {.signalAfterMs = 400});
+  CHECK(outcome.exit == 130);
+  CHECK(listOf(folder.folder.path()).empty());
+}
