@@ -1,0 +1,46 @@
+#include "convert/strand_fit.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "convert/sources.h"
+#include "curve/bspline.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+TEST_CASE("a noisy tube costs no more spans than its budget and stays near its sections") {
+  Sections sections;
+  for (int i = 0; i <= 200; ++i) {
+    const float noise = 0.0008f * std::sin(12.9898f * float(i) * float(i));
+    sections.push_back(vec4(noise, 0.001f * float(i), 0, 0.002f + 0.3f * noise));
+  }
+  const auto points = fitStrand(sections);
+  CHECK(float(spanCount(points)) <= 3 + lengthOf(sections) / 0.006f);  // three radii a span
+  for (int i = 0; i <= 100; ++i) {
+    const vec4 at = evaluate(points, float(spanCount(points)) * float(i) / 100);
+    CHECK(std::abs(at.x) < 0.0015f);
+    CHECK(at.w == doctest::Approx(0.002f).epsilon(0.3));
+  }
+}
+
+TEST_CASE("widely spaced sections: the spline does not swing out between them") {
+  const Sections sections{{0, 0, 0, 0.001f}, {0, 0.05f, 0, 0.001f}, {0.02f, 0.06f, 0, 0.001f}, {0.02f, 0.2f, 0, 0.001f}};
+  const auto points = fitStrand(sections);
+  for (int i = 0; i <= 200; ++i) {
+    const vec4 at = evaluate(points, float(spanCount(points)) * float(i) / 200);
+    CHECK(nearestAlong(sections, vec3(at)).distance < 0.002f);
+  }
+}
+
+TEST_CASE("a slanted end loses its taper, a whole one nothing") {
+  Sections sections = sectionsBetween({0, 0, 0}, {0, 0.05f, 0}, 0.004f, 0.001f);
+  Sections whole = sections;
+  for (int i = 0; i < 3; ++i) sections[sections.size() - 1 - std::size_t(i)].w = 0.001f * float(i + 1) * 0.8f;
+  trimTaper(sections, true);
+  CHECK(sections.back().y == doctest::Approx(0.047f));
+  trimTaper(whole, true);
+  trimTaper(whole, false);
+  CHECK(whole.size() == 51);
+}
