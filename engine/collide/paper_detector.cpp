@@ -1,6 +1,7 @@
 #include "collide/paper_detector.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "math/segment_distance.h"
 
@@ -52,9 +53,23 @@ std::pair<Node, Node> open(const SweptTree& tree, const Node& node) {
           {middle, node.end, level, 2 * node.index + 1, epsilon, tree.radius(middle, node.end, level)}};
 }
 
+// Squared distance of two segments by the inner stationary point, kept inside the square, as usual for this
+// test (Ericson 2005, 5.1.9); less its slack, so that near-parallel segments are not missed.
+float squaredDistance(const vec3& p0, const vec3& p1, const vec3& q0, const vec3& q1) {
+  const vec3 u = p1 - p0, v = q1 - q0, w = p0 - q0;
+  const float uu = std::max(glm::dot(u, u), 1e-37f), vv = std::max(glm::dot(v, v), 1e-37f),
+              uv = glm::dot(u, v);
+  const float uw = glm::dot(u, w), vw = glm::dot(v, w), determinant = uu * vv - uv * uv;
+  float s = determinant > 0 ? glm::clamp((uv * vw - vv * uw) / determinant, 0.0f, 1.0f) : 0.0f;
+  const float t = glm::clamp((s * uv + vw) / vv, 0.0f, 1.0f);
+  s = glm::clamp((t * uv - uw) / uu, 0.0f, 1.0f);
+  const vec3 gap = w + s * u - t * v;
+  return glm::dot(gap, gap) - kSegmentSlack<float> * (uu + vv + glm::dot(w, w));
+}
+
 bool meet(const SweptTree& ta, const Node& a, const SweptTree& tb, const Node& b, float tolerance) {
-  const auto near = closestOnSegments(vec3(a.start), vec3(a.end), vec3(b.start), vec3(b.end));
-  if (near.distance > a.reach() + b.reach()) return false;
+  const float reach = a.reach() + b.reach();
+  if (squaredDistance(vec3(a.start), vec3(a.end), vec3(b.start), vec3(b.end)) > reach * reach) return false;
   if (a.epsilon + b.epsilon < tolerance) return true;
   const bool aCanOpen = a.level < kBernsteinLevels, bCanOpen = b.level < kBernsteinLevels;
   if (!aCanOpen && !bCanOpen) return true;
