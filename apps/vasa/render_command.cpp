@@ -161,7 +161,8 @@ class Film {
   }
 
   std::uint32_t drawn = 0, kept = 0, steps = 0;
-  float largestStep = 0;  // [m] of a control point between consecutive frames
+  float largestStep = 0;       // [m] of a control point between consecutive frames
+  float largestJointStep = 0;  // [m] of a joint: what the motion itself asks for
   std::uint32_t largestStepFrame = 0;
 
  private:
@@ -223,8 +224,11 @@ class Film {
         const float step = glm::distance(vec3(points[i]), vec3(previous_[i]));
         if (step > largestStep) largestStep = step, largestStepFrame = frame;
       }
+      for (std::size_t j = 0; j < previousPose_.world.size(); ++j)
+        largestJointStep = std::max(largestJointStep, glm::distance(vec3(maker_.pose().world[j][3]), vec3(previousPose_.world[j][3])));
     }
     previous_.assign(points.begin(), points.end());
+    previousPose_ = maker_.pose();
     previousFrame_ = frame;
   }
 
@@ -235,6 +239,7 @@ class Film {
   std::optional<VideoWriter> video_;
   std::future<Result<void>> writing_;
   std::vector<vec4> previous_;
+  Pose previousPose_;
   std::uint32_t previousFrame_ = 0;
 };
 
@@ -275,14 +280,15 @@ Result<void> run(const Globals& globals, const Options& options) {
                   {"seconds", seconds},
                   {"largest_step_m", work.largestStep},
                   {"largest_step_frame", work.largestStepFrame},
+                  {"largest_joint_step_m", work.largestJointStep},
                   {"device", device.adapter().name}};
   });
   if (!film) return film.error();
   if (!*film) return film->error();
   const Report& report = **film;
   if (globals.json) return printJson(report);
-  logInfo(fmt::format("{} frames in {:.1f} s; largest step of a control point between frames {:.1f} mm", report["frames"].get<int>(),
-                      report["seconds"].get<double>(), 1000 * report["largest_step_m"].get<double>()));
+  logInfo(fmt::format("{} frames in {:.1f} s; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint", report["frames"].get<int>(),
+                      report["seconds"].get<double>(), 1000 * report["largest_step_m"].get<double>(), 1000 * report["largest_joint_step_m"].get<double>()));
   return {};
 }
 
