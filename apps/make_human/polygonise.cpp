@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLevels = 3;  // coarse leaves are 2^kLevels units wide
 constexpr int kCoarse = 1 << kLevels;
-constexpr float kCertainty = 2.5f;  // the distance may be wrong by this factor
+constexpr float kCertainty = 20;  // the distance may be wrong by this factor: beside thin plates it is
 
 using ivec3 = glm::ivec3;
 

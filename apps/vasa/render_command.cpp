@@ -126,7 +126,7 @@ Result<Job> prepare(const Options& options) {
   if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
-  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}};
+  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .timed = false};
   job.range = *range;
   job.shard = *shard;
   job.runHash = *hash;

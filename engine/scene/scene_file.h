@@ -23,14 +23,14 @@ struct CameraChoice {
 struct LookChoice {
   std::optional<vec4> background;  ///< sRGB 0..1 and opacity
   bool skin = true, bones = true, organs = true, arteries = true, veins = true;
-  float skinOpacity = 0.14f;
+  float skinOpacity = 0.3f;
 };
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
-///               "skin_opacity": 0.14 } }
+///               "skin_opacity": 0.3 } }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
