@@ -144,7 +144,8 @@ void addBone(SkinnedMesh& to, Table& table, std::size_t row, const Rig& rig, Sid
 void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
   const TriangleMesh solid =
       polygonise({[&](vec3 p) { return shape.distance(p); },
-                  [&](vec3 p, float reach) { return shape.cellSize(p, reach); }, shape.bounds()},
+                  // Beside thin plates distances come out many times too long.
+                  [&](vec3 p, float reach) { return shape.cellSize(p, 25 * reach); }, shape.bounds()},
                  kCell);
   const std::uint32_t first = std::uint32_t(to.mesh.positions.size());
   to.mesh.positions.insert(to.mesh.positions.end(), solid.positions.begin(), solid.positions.end());

@@ -78,7 +78,7 @@ float Shape::cellSize(vec3 p, float reach) const {
   float size = 1;
   for (const Part& part : parts)
     if (part.cell < size && boxDistance(part.bounds, p) < reach &&
-        std::abs(part.distance(p)) < 20 * reach + 0.5f * part.cell)
+        std::abs(part.distance(p)) < 0.8f * reach + 0.5f * part.cell)
       size = part.cell;
   return size;
 }

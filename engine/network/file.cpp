@@ -18,6 +18,7 @@ constexpr char kMagic[4] = {'V', 'A', 'S', 'A'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 24;
 constexpr float kSteps = 65535;
+constexpr std::size_t kMaximumText = 4096;  // that a name may share with the one before: bounds what a file expands to
 
 class Writer {
  public:
@@ -32,6 +33,13 @@ class Writer {
   void text(const std::string& value) {
     number(value.size());
     append(std::as_bytes(std::span(value)));
+  }
+  /// The length of what is shared with the text before, and the rest: branches of one vessel have names alike.
+  void text(const std::string& value, const std::string& before) {
+    const auto ends = std::mismatch(value.begin(), value.end(), before.begin(), before.end());
+    const auto shared = std::min(std::size_t(ends.first - value.begin()), kMaximumText);
+    number(shared);
+    text(value.substr(shared));
   }
   void chunk(const char (&tag)[5], const Writer& payload) {
     for (int i = 0; i < 4; ++i) raw(tag[i]);
@@ -77,6 +85,12 @@ class Reader {
   std::string text() {
     const auto from = take(number());
     return {reinterpret_cast<const char*>(from.data()), from.size()};
+  }
+  std::string text(const std::string& before) {
+    const std::uint64_t shared = number();
+    if (shared > before.size() || shared > kMaximumText) ok_ = false;
+    if (!ok_) return {};
+    return before.substr(0, std::size_t(shared)) + text();
   }
   std::span<const std::byte> take(std::uint64_t size) {
     if (size > rest_.size()) ok_ = false;
@@ -162,13 +176,15 @@ struct Contents {
 };
 
 bool readVessels(Reader in, Contents& contents) {
-  for (std::size_t left = in.count(4); left && in.ok(); --left) {
+  NetworkBuilder::Label before;
+  for (std::size_t left = in.count(6); left && in.ok(); --left) {
     NetworkBuilder::Label label;
     const auto kind = in.raw<std::uint8_t>();
     if (kind > std::uint8_t(VesselKind::other)) return false;
     label.kind = VesselKind(kind);
-    label.name = in.text();
-    label.ontologyId = in.text();
+    label.name = in.text(before.name);
+    label.ontologyId = in.text(before.ontologyId);
+    before = label;
     const std::uint64_t points = in.number();
     if (points > 0x7fffffff) return false;
     contents.vessels.emplace_back(std::move(label), std::size_t(points));
@@ -256,11 +272,14 @@ std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions 
   Writer meta, vessels, nodes, body, file;
   meta.raw(network.bodyHeight());
   vessels.number(network.vessels().size());
+  const Vessel none;
+  const Vessel* before = &none;
   for (const Vessel& vessel : network.vessels()) {
     vessels.raw(std::uint8_t(vessel.kind));
-    vessels.text(vessel.name);
-    vessels.text(vessel.ontologyId);
+    vessels.text(vessel.name, before->name);
+    vessels.text(vessel.ontologyId, before->ontologyId);
     vessels.number(vessel.pointCount);
+    before = &vessel;
   }
   nodes.number(network.nodes().size());
   for (const Node& node : network.nodes()) {
