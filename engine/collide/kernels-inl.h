@@ -227,18 +227,26 @@ void meetGroups(Traversal& work, std::uint32_t ga, std::uint32_t gb) {
   for (; pairs; pairs &= pairs - 1) {
     const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
     work.candidates[work.candidateCount++] = {ga * kGroup + bit / kGroup, gb * kGroup + bit % kGroup};
+    // What is read next lies anywhere in memory once the tree is larger than the cache.
+    hwy::Prefetch(&work.tree.capsules[ga * kGroup + bit / kGroup]);
+    hwy::Prefetch(&work.tree.capsules[gb * kGroup + bit % kGroup]);
   }
 }
 
 void openNode(Traversal& work) {
   const GroupPair top = work.stack[--work.stackSize];
   const BoxGroup* boxes = &work.tree.boxes[work.tree.levelStart[top.level]];
+  const BoxGroup* below = &work.tree.boxes[work.tree.levelStart[top.level - 1]];
   LanePairs pairs = overlaps(boxes[top.a], boxes[top.b]);
   if (top.a == top.b) pairs &= kUpperOrSelf;
   for (; pairs; pairs &= pairs - 1) {
     const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
     work.stack[work.stackSize++] = {top.level - 1, top.a * kGroup + bit / kGroup,
                                     top.b * kGroup + bit % kGroup};
+    const BoxGroup* later = &below[top.b * kGroup + bit % kGroup];
+    hwy::Prefetch(&later->low[0]);
+    hwy::Prefetch(&later->low[2]);
+    hwy::Prefetch(&later->high[1]);
   }
 }
 
@@ -285,6 +293,8 @@ std::size_t meetCapsules(const BoxTreeView& tree, const TubePair* candidates, st
     for (std::size_t lane = 0; lane < used; ++lane) {
       const TubePair& pair = candidates[begin + lane];
       pieces[kept] = {pair.i, pair.j, 0, 0, std::uint32_t(kept)};
+      hwy::Prefetch(&tree.shapes[pair.i]);
+      hwy::Prefetch(&tree.shapes[pair.j]);
       kept += meet >> lane & 1;
     }
   }
