@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "body/bone_field.h"
+#include "body/skin_field.h"
 #include "math/closest_point.h"
 
 namespace vasa {
@@ -15,20 +15,6 @@ constexpr std::size_t kSamples = 400;
 constexpr float kOutsideHeights = 0.01f;
 constexpr float kFarHeights = 0.15f;
 constexpr float kMostOutside = 0.15f;
-
-/// The mesh that envelops the body: the largest one that is not moved by rigid parts.
-const TriangleMesh* skinOf(const Body& body) {
-  const TriangleMesh* skin = nullptr;
-  float largest = 0;
-  for (const SkinnedMesh& mesh : body.meshes) {
-    const vec3 extent = mesh.mesh.bounds().extent();
-    const float size = extent.x * extent.y * extent.z;
-    if (movesByRigidParts(mesh) || mesh.mesh.empty() || !(size > largest)) continue;
-    largest = size;
-    skin = &mesh.mesh;
-  }
-  return skin;
-}
 
 /// How often the mesh winds around p (van Oosterom and Strackee 1983): near 0 outside, also where it has
 /// holes.
@@ -67,12 +53,12 @@ bool farFromLinks(const SpineSet& spines, vec3 p, float margin) {
 Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<const vec4> points,
                           std::string_view name) {
   const float height = body.height();
-  const TriangleMesh* skin = skinOf(body);
+  const SkinnedMesh* skin = skinOf(body);
   const std::size_t samples = std::min(points.size(), kSamples);
   std::size_t outside = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const vec3 p(points[i * points.size() / samples]);
-    outside += skin ? outsideSkin(*skin, p, kOutsideHeights * height)
+    outside += skin ? outsideSkin(skin->mesh, p, kOutsideHeights * height)
                     : farFromLinks(spines, p, kFarHeights * height);
   }
   const float share = float(outside) / float(samples);

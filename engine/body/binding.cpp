@@ -172,7 +172,7 @@ Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::
   if (const Result<void> belongs = checkBelongs(body, binding.spines, points, name); !belongs)
     return belongs.error();
   chooseArcs(binding.spines, body, bones, points);
-  Phases phases = measurePhases(binding.spines, bones, points);
+  Phases phases = measurePhases(binding.spines, bones, SkinField(body), points);
   limitSlopes(phases, binding.spines, points, ties);
 
   PointBinder binder(binding.spines, phases);

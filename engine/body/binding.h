@@ -42,7 +42,7 @@ struct Binding {
 
 /// Binds points of a body at rest, first choosing the length of every joint's arc from them.
 ///
-/// In what share a joint has set in at a point is measured from the bones before and behind it
+/// In what share a joint has set in at a point is measured from the bones before and behind it and the skin
 /// (body/phases.h), over an arc as long as the largest bend in the body's clips and the distance of the
 /// joint's vessels ask for (body/arcs.h). At a fork of limbs, those that are not much farther away than the
 /// nearest take part. The map from a rest point to its posed place is continuous, and along ties no steeper

@@ -16,7 +16,14 @@ constexpr float kLimbFavour = 1.5f;     // a limb beside the body keeps vessels 
 constexpr float kFavourReach = 0.3f;    // of the arc: if they are no farther from it than once to twice this
 constexpr float kNearness = 0.65f;  // a limb takes part if the nearest is nearer than it by no more than this
 constexpr float kLimbBlur = 0.02f;  // of the limbs' length, added to the distances that are compared
-constexpr float kTwistTilt = 8;     // largest ratio by which nearness to one bone tilts the spread of twist
+constexpr float kSkinDoubt = 0.5f;  // weight of the distance to the skin against that to bones
+constexpr float kSkinReach = 0.6f;  // of the arc: skin is trusted so near a joint, not at all twice as far
+constexpr float kDecided = 0.15f;   // ratio of distances to bones below which they alone decide
+constexpr float kUndecided = 0.4f;  // above which they do not
+constexpr float kSkinTells = 0.3f;  // share of the skin from which limbs at a fork are told apart by it
+constexpr float kLeastShare = 0.02f;  // of the nearest limb, whatever the skin says
+constexpr float kSkinMargin = 0.08f;  // shares of the skin below this and above 1 - this are whole
+constexpr float kTwistTilt = 8;       // largest ratio by which nearness to one bone tilts the spread of twist
 constexpr float kSlope = 1.5f * 1.25f;  // over an arc
 constexpr float kTwistSlope = 6;        // over a link
 constexpr int kMostSweeps = 100;
@@ -63,20 +70,27 @@ std::vector<float> limbBlurs(const SpineSet& spines) {
 /// Measures one point at a time; scratch is kept between them.
 class PhaseMeter {
  public:
-  PhaseMeter(const SpineSet& spines, const BoneField& bones, std::span<const float> blurs)
+  PhaseMeter(const SpineSet& spines, const BoneField& bones, const SkinField& skin,
+             std::span<const float> blurs)
       : spines_(spines),
         bones_(bones),
+        skin_(skin),
         blurs_(blurs),
         own_(spines.joints.size()),
         behind_(own_),
         before_(own_),
-        nearest_(own_.size() + 1) {}
+        skinShares_(own_),
+        nearest_(own_.size() + 1),
+        skinOfLimbs_(nearest_) {}
 
   void measure(vec3 p, std::size_t point, Phases& phases) {
     bones_.distances(p, own_);
     distancesAcrossJoints(spines_, own_, behind_, before_);
+    skinDistance_ = skin_.shares(spines_, p, skinShares_);
     std::fill(nearest_.begin(), nearest_.end(), BoneField::kFar);
     for (std::size_t j = 0; j < own_.size(); ++j) nearest_[fork(j)] = std::min(nearest_[fork(j)], behind_[j]);
+    std::fill(skinOfLimbs_.begin(), skinOfLimbs_.end(), 0.0f);
+    for (std::size_t j = 0; j < own_.size(); ++j) skinOfLimbs_[fork(j)] += skinShares_[j];
     for (std::size_t j = 0; j < own_.size(); ++j) {
       const std::size_t at = phases.at(j, point);
       phases.bend[at] = bend(j, p);
@@ -100,9 +114,29 @@ class PhaseMeter {
         std::clamp(kNarrowArc * (before_[j] + behind_[j]), kNarrowestArc * joint.arc, joint.arc);
     const float onward = smoothstep(2 * glm::dot(p - joint.centre, joint.axis) / joint.arc);
     const float near = smoothstep(2 - behind_[j] / (kFavourReach * joint.arc));
-    const float favour = joint.spreadsTwist ? 1.0f : 1 + kLimbFavour * alongside * onward * near;
-    return smoothstep(0.5f +
-                      beyond(favour * before_[j], behind_[j]) / glm::mix(joint.arc, narrow, alongside));
+    const float flesh = skinDistance_ >= BoneField::kFar ? 1.0f : smoothstep(2 * skinShares_[j]);
+    const float favour = joint.spreadsTwist ? 1.0f : 1 + kLimbFavour * alongside * onward * near * flesh;
+    const float measured =
+        smoothstep(0.5f + beyond(favour * before_[j], behind_[j]) / glm::mix(joint.arc, narrow, alongside));
+    const float told = std::clamp((skinShares_[j] - kSkinMargin) / (1 - 2 * kSkinMargin), 0.0f, 1.0f);
+    return glm::mix(measured, told, trustInSkin(j, p));
+  }
+
+  /// Not so of bones that slide under the skin, as the knee cap does.
+  bool skinFollows(std::size_t j) const {
+    return spines_.joints[j].next.valid() || skin_.follows({std::uint32_t(j)});
+  }
+
+  /// What the skin tells counts where it is nearer than the bones before and behind the joint, and these are
+  /// about equally near.
+  float trustInSkin(std::size_t j, vec3 p) const {
+    if (skinDistance_ >= BoneField::kFar || spines_.joints[j].spreadsTwist || !skinFollows(j)) return 0;
+    const auto [bone, other] = std::minmax(before_[j], behind_[j]);
+    const float undecided = smoothstep((bone / std::max(other, 1e-6f) - kDecided) / (kUndecided - kDecided));
+    const float around = smoothstep(2 - glm::distance(p, spines_.joints[j].centre) /
+                                            std::max(kSkinReach * spines_.joints[j].arc, 1e-6f));
+    return around * undecided * bone * bone /
+           std::max(bone * bone + kSkinDoubt * skinDistance_ * skinDistance_, 1e-12f);
   }
 
   /// 1 where the bones before and behind are close together away from the joint, as those of an arm beside
@@ -126,13 +160,21 @@ class PhaseMeter {
   float nearness(std::size_t j) const {
     if (behind_[j] >= BoneField::kFar) return 0;
     const float ratio = (nearest_[fork(j)] + blurs_[j]) / (behind_[j] + blurs_[j]);
-    return smoothstep((ratio - kNearness) / (1 - kNearness));
+    const float near = smoothstep((ratio - kNearness) / (1 - kNearness));
+    const float told = skinOfLimbs_[fork(j)];
+    if (skinDistance_ >= BoneField::kFar || !(told > kSkinTells) || !skinFollows(j)) return near;
+    const float bone = nearest_[fork(j)], doubt = kSkinDoubt * skinDistance_ * skinDistance_;
+    const float trust = smoothstep((told - kSkinTells) / (1 - 2 * kSkinTells)) * bone * bone /
+                        std::max(bone * bone + doubt, 1e-12f);
+    return glm::mix(near, near * std::max(skinShares_[j] / told, kLeastShare), trust);
   }
 
   const SpineSet& spines_;
   const BoneField& bones_;
+  const SkinField& skin_;
   std::span<const float> blurs_;
-  std::vector<float> own_, behind_, before_, nearest_;
+  std::vector<float> own_, behind_, before_, skinShares_, nearest_, skinOfLimbs_;
+  float skinDistance_ = 0;
 };
 
 /// A tie and the most that a value may change along it.
@@ -179,12 +221,13 @@ void limitSlope(std::span<float> values, float slope, std::span<const Tie> ties,
 
 }  // namespace
 
-Phases measurePhases(const SpineSet& spines, const BoneField& bones, std::span<const vec4> points) {
+Phases measurePhases(const SpineSet& spines, const BoneField& bones, const SkinField& skin,
+                     std::span<const vec4> points) {
   const std::size_t size = spines.joints.size() * points.size();
   Phases phases{points.size(), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
   const std::vector<float> blurs = limbBlurs(spines);
   parallelFor((points.size() + kBlock - 1) / kBlock, 1, [&](std::size_t block) {
-    PhaseMeter meter(spines, bones, blurs);
+    PhaseMeter meter(spines, bones, skin, blurs);
     const std::size_t end = std::min(points.size(), (block + 1) * kBlock);
     for (std::size_t i = block * kBlock; i < end; ++i) meter.measure(vec3(points[i]), i, phases);
   });

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "body/bone_field.h"
+#include "body/skin_field.h"
 
 namespace vasa {
 
@@ -21,14 +22,20 @@ struct Phases {
   std::size_t at(std::size_t joint, std::size_t point) const { return joint * pointCount + point; }
 };
 
-/// Measures the phases from the bones.
+/// Measures the phases from the bones and the skin.
 ///
 /// How far a point is beyond a joint's plane follows from its distances to the bones before and behind the
 /// joint; bend is a smoothstep of that over the joint's arc. Where those bones come close again away from the
 /// joint (an arm beside the chest) the arc narrows, so that each bone keeps what is on it, and what lies
-/// close to the limb goes with it. Twist grows along the link, sooner near the joint's own bone and later
-/// near the one that runs beside it. O(points · joints), in parallel.
-Phases measurePhases(const SpineSet& spines, const BoneField& bones, std::span<const vec4> points);
+/// close to the limb goes with it. Around a joint, where the bones before and behind are about equally near
+/// (the hip bone reaches far beside the thigh's), the skin that is near decides with them: vessels must move
+/// as the flesh does, also where another bone is nearer. Where the skin around a point belongs to limbs, it
+/// also tells which of them take part, so that one leg has no share in the other. Twist grows along the link,
+/// sooner near the joint's own bone and later near the one that runs beside it. O(points · joints), in
+/// parallel.
+/// @param skin  of the same body; without one, bones alone decide
+Phases measurePhases(const SpineSet& spines, const BoneField& bones, const SkinField& skin,
+                     std::span<const vec4> points);
 
 /// Makes no phase change faster along a tie than the joint's arc does along a straight limb: a vessel that
 /// passes from one bone's neighbourhood to another's is not torn, however close the bones are. Method: mean

@@ -1,0 +1,109 @@
+#include "body/skin_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nanoflann.hpp>
+
+#include "body/bone_field.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kNearest = 48;
+constexpr float kFacing = 0.25f;  // smallest cosine between the way to a vertex and its normal
+constexpr float kBlur = 0.006f;   // of the body's height, added to distances before vertices are weighed
+
+struct Cloud {
+  std::vector<vec3> points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][int(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
+
+}  // namespace
+
+struct SkinField::Vertices {
+  explicit Vertices(const SkinnedMesh& skin, float blurLength)
+      : cloud{skin.mesh.positions},
+        tree(3, cloud),
+        normals(vertexNormals(skin.mesh)),
+        influences(skin.influences),
+        blur(blurLength) {
+    tree.buildIndex();
+    for (const SkinInfluence& influence : influences)
+      for (int i = 0; i < 4; ++i) {
+        if (!(influence.weights[i] > 0)) continue;
+        const std::size_t joint = influence.joints[std::size_t(i)];
+        if (joint >= followed.size()) followed.resize(joint + 1);
+        followed[joint] = true;
+      }
+  }
+
+  Cloud cloud;
+  Tree tree;
+  std::vector<vec3> normals;
+  std::vector<SkinInfluence> influences;
+  std::vector<bool> followed;
+  float blur;
+};
+
+const SkinnedMesh* skinOf(const Body& body) {
+  const SkinnedMesh* skin = nullptr;
+  float largest = 0;
+  for (const SkinnedMesh& mesh : body.meshes) {
+    const vec3 extent = mesh.mesh.bounds().extent();
+    const float size = extent.x * extent.y * extent.z;
+    if (movesByRigidParts(mesh) || mesh.mesh.empty() || !(size > largest)) continue;
+    largest = size;
+    skin = &mesh;
+  }
+  return skin;
+}
+
+SkinField::SkinField(const Body& body) {
+  const SkinnedMesh* skin = skinOf(body);
+  if (skin && skin->influences.size() == skin->mesh.positions.size())
+    vertices_ = std::make_unique<Vertices>(*skin, kBlur * body.height());
+}
+
+SkinField::~SkinField() = default;
+SkinField::SkinField(SkinField&&) noexcept = default;
+SkinField& SkinField::operator=(SkinField&&) noexcept = default;
+
+bool SkinField::follows(JointId joint) const {
+  return vertices_ && joint.value < vertices_->followed.size() && vertices_->followed[joint.value];
+}
+
+float SkinField::shares(const SpineSet& spines, vec3 p, std::span<float> shares) const {
+  std::fill(shares.begin(), shares.end(), 0.0f);
+  if (!vertices_) return BoneField::kFar;
+  std::array<std::uint32_t, kNearest> index{};
+  std::array<float, kNearest> squared{};
+  const std::size_t found = vertices_->tree.knnSearch(&p.x, kNearest, index.data(), squared.data());
+  float sum = 0, nearest = BoneField::kFar;
+  for (std::size_t k = 0; k < found; ++k) {
+    const float distance = std::sqrt(squared[k]);
+    const vec3 way = vertices_->cloud.points[index[k]] - p;
+    const float facing = distance > vertices_->blur
+                             ? glm::dot(way, vertices_->normals[index[k]]) / distance - kFacing
+                             : 1 - kFacing;
+    if (facing <= 0) continue;
+    const float far = distance + vertices_->blur, weight = facing / (far * far * far);
+    const SkinInfluence& influence = vertices_->influences[index[k]];
+    for (int i = 0; i < 4; ++i) shares[influence.joints[std::size_t(i)]] += weight * influence.weights[i];
+    sum += weight;
+    nearest = std::min(nearest, distance);
+  }
+  if (!(sum > 0)) return BoneField::kFar;
+  for (float& share : shares) share /= sum;
+  for (std::size_t j = shares.size(); j-- > 0;)
+    if (const JointId parent = spines.joints[j].parent; parent.valid()) shares[parent.value] += shares[j];
+  return nearest;
+}
+
+}  // namespace vasa
