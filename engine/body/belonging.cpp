@@ -64,11 +64,9 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
   const float share = float(outside) / float(samples);
   if (share <= kMostOutside) return {};
   return badInput(fmt::format(
-      "{}: these vessels do not belong to the body {}: {:.0f} % of them lie {} at rest. Choose the body they "
-      "were made "
-      "for, or fit them to this one first (vasa fit {} --from THEIR_BODY.glb --to {} -o FITTED.vasa)",
-      name, body.name, 100 * share, skin ? "outside its skin" : "far from all of its joints", name,
-      body.name));
+      "{}: these vessels do not belong to the body {}: {:.0f} % of them lie {} at rest. Choose the body that they "
+      "were made for, or bring the vessels into this body's rest pose and convert them again (metres, +Y up)",
+      name, body.name, 100 * share, skin ? "outside its skin" : "far from all of its joints"));
 }
 
 }  // namespace vasa

@@ -219,5 +219,5 @@ TEST_CASE("vessels of another body are refused") {
   CHECK(binding.error().message.find(
             "net.vasa: these vessels do not belong to the body chain.glb: 100 % of them lie "
             "far from all of its joints at rest") == 0);
-  CHECK(binding.error().message.find("vasa fit") != std::string::npos);
+  CHECK(binding.error().message.find("Choose the body that they were made for") != std::string::npos);
 }
