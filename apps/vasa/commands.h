@@ -26,6 +26,7 @@ struct Command {
 };
 
 void addBench(CLI::App& app, Command& command);
+void addCheck(CLI::App& app, Command& command);
 void addConvert(CLI::App& app, Command& command);
 void addDevices(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);

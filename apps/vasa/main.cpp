@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
   addConvert(app, command);
   addRender(app, command);
   addInfo(app, command);
+  addCheck(app, command);
   addProfile(app, command);
   addBench(app, command);
   addDevices(app, command);

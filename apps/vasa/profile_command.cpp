@@ -101,6 +101,9 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
     stages.add("pose_ms", cpu.poseMs);
     stages.add("deform_ms", cpu.deformMs);
     stages.add("volume_ms", cpu.volumeMs);
+    stages.add("detect_ms", cpu.avoid.detectMs);
+    stages.add("avoid_ms", cpu.avoid.solveMs);
+    stages.add("certify_ms", cpu.avoid.certifyMs);
     stages.add("knot_frames_ms", cpu.framesMs);
     stages.add("upload_ms", times.upload);
     stages.add("tessellate_ms", times.tessellate);

@@ -27,7 +27,7 @@ struct Options {
   CameraOptions camera;
   std::string frames, size = "1280x720", output, video, quads = "8x5", shard, hide;
   unsigned samples = 4;
-  bool resume = false, transparent = false, noVolume = false;
+  bool resume = false, transparent = false, noVolume = false, noAvoid = false, highlightContacts = false;
 };
 
 // What is to be drawn, settled before the first frame.
@@ -82,9 +82,9 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options)
     hash = hashBytes(*bytes, hash);
   }
   const std::string settings =
-      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
+      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, options.transparent,
-                  options.noVolume);
+                  options.noVolume, options.noAvoid, options.highlightContacts);
   return hashOf(std::span(settings), hash);
 }
 
@@ -139,7 +139,7 @@ class Film {
   Film(const Job& job, const Options& options, gpu::Device& device)
       : job_(job),
         options_(options),
-        maker_(job.scene, {.keepVolume = !options.noVolume}),
+        maker_(job.scene, {.keepVolume = !options.noVolume, .avoid = !options.noAvoid || options.highlightContacts}),
         renderer_(device, job.scene.network, job.scene.body.meshes, job.render) {}
 
   Result<void> run() {
@@ -314,6 +314,8 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
   sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");
+  sub->add_flag("--no-avoid", options->noAvoid, "Let vessels run through one another");
+  sub->add_flag("--highlight-contacts", options->highlightContacts, "Colour vessels that ran through one another before they were moved apart");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

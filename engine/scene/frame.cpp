@@ -28,10 +28,12 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       options_(options),
       deformer_(scene.binding),
       volume_(scene.network),
+      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network) : nullptr),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
       rotations_(scene.network.points().size()),
-      points_(scene.network.points().begin(), scene.network.points().end()),
+      posedPoints_(scene.network.points().begin(), scene.network.points().end()),
+      points_(posedPoints_),
       knotFrames_(scene.network.sectionCount()),
       jointMatrices_(scene.body.skeleton.joints.size()) {}
 
@@ -53,7 +55,8 @@ void FrameMaker::make(const Pose& pose) {
     jointMatrices_[j] = pose.world[j] * scene_->body.skeleton.joints[j].inverseBind;
   {
     StageClock clock(report_.deformMs);
-    deformer_.run(scene_->network, pose, points_);
+    deformer_.run(scene_->network, pose, posedPoints_);
+    points_ = posedPoints_;
     deformer_.rotations(rotations_);
     for (std::size_t v = 0; v < references_.size(); ++v)
       references_[v] = rotations_[scene_->network.vessels()[v].firstPoint] * restReferences_[v];
@@ -62,6 +65,8 @@ void FrameMaker::make(const Pose& pose) {
     StageClock clock(report_.volumeMs);
     report_.volume = volume_.run(points_);
   }
+  if (avoider_)
+    report_.avoid = avoider_->run({posedPoints_, rotations_}, options_.keepVolume ? &volume_ : nullptr, points_);
   StageClock clock(report_.framesMs);
   networkFrames(scene_->network, points_, references_, knotFrames_);
 }

@@ -1,4 +1,7 @@
 #pragma once
+#include <memory>
+
+#include "avoid/solver.h"
 #include "body/deform.h"
 #include "body/volume.h"
 #include "scene/scene.h"
@@ -11,15 +14,17 @@ struct FrameReport {
   double deformMs = 0;  ///< joints to control points
   double volumeMs = 0;  ///< radii
   double framesMs = 0;  ///< knot frames
-  VolumeKeeper::Outcome volume;
+  VolumeKeeper::Outcome volume;  ///< before vessels were moved apart
+  AvoidReport avoid;             ///< with the times of its own stages
 };
 
 struct FrameOptions {
   bool keepVolume = true;
+  bool avoid = true;  ///< move vessels apart that run through one another
 };
 
 /// Turns poses into everything a picture needs: control points, knot frames, joint matrices. A frame depends on the
-/// scene and the pose alone. Sized once; a frame allocates nothing. The scene must outlive it.
+/// scene and the pose alone. The scene must outlive it.
 class FrameMaker {
  public:
   explicit FrameMaker(const Scene& scene, FrameOptions options = {});
@@ -33,16 +38,21 @@ class FrameMaker {
   std::span<const quat> knotFrames() const { return knotFrames_; }
   std::span<const mat4> jointMatrices() const { return jointMatrices_; }  ///< world · inverse bind
   const FrameReport& report() const { return report_; }
+  /// The network as the body alone moves it, before vessels were moved apart.
+  std::span<const vec4> posedPoints() const { return posedPoints_; }
+  /// Where vessels interfered in the latest frame; null without FrameOptions::avoid.
+  const Avoider* avoider() const { return avoider_.get(); }
 
  private:
   const Scene* scene_;
   FrameOptions options_;
   Deformer deformer_;
   VolumeKeeper volume_;
+  std::unique_ptr<Avoider> avoider_;
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;
   Pose pose_;
-  std::vector<vec4> points_;
+  std::vector<vec4> posedPoints_, points_;
   std::vector<quat> knotFrames_;
   std::vector<mat4> jointMatrices_;
   FrameReport report_;

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands.h"
+#include "core/log.h"
+#include "frame_output.h"
+#include "network/measure.h"
+#include "report.h"
+#include "scene/frame.h"
+#include "scene_options.h"
+
+// vasa check: what is wrong with each frame of a clip, before vessels are moved apart and after.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string frames;
+  bool noVolume = false, places = false;
+};
+
+struct Setting {
+  Scene scene;
+  const Clip* clip = nullptr;
+  FrameRange range;
+};
+
+Result<Setting> prepare(const Options& options) {
+  const auto choice = chooseScene(options.scene);
+  if (!choice) return choice.error();
+  auto scene = loadScene(*choice);
+  if (!scene) return scene.error();
+  Setting setting{std::move(*scene)};
+  if (!choice->clip.empty()) {
+    const auto clip = findClip(setting.scene.body, choice->clip);
+    if (!clip) return clip.error();
+    setting.clip = *clip;
+  }
+  const auto range = parseFrameRange(options.frames, setting.clip ? setting.clip->frameCount() : 1);
+  if (!range) return range.error();
+  setting.range = *range;
+  return setting;
+}
+
+// Largest relative deviation of a vessel's volume from that at rest.
+double volumeError(const Network& network, std::span<const vec4> points) {
+  double largest = 0;
+  for (const Vessel& vessel : network.vessels()) {
+    const double rest = volumeOf(network.pointsOf(vessel));
+    if (rest > 0) largest = std::max(largest, std::abs(volumeOf(Network::pointsOf(vessel, points)) - rest) / rest);
+  }
+  return largest;
+}
+
+Report remainingPlaces(const Network& network, const Avoider& avoider) {
+  Report list = Report::array();
+  const auto nameOf = [&](std::uint32_t tube) { return network.vessel(avoider.layout().address(tube).vessel).name; };
+  for (const Interference::Place& place : avoider.remaining())
+    list.push_back({{"vessels", {nameOf(place.contact.i), nameOf(place.contact.j)}}, {"depth_m", place.excess()}});
+  return list;
+}
+
+Report frameReport(const Scene& scene, const FrameMaker& maker, std::uint32_t frame, const Options& options) {
+  const AvoidReport& avoid = maker.report().avoid;
+  Report row{{"frame", frame},
+             {"contacts_before", avoid.before.contacts},
+             {"contacts_after", avoid.after.contacts},
+             {"depth_before_m", avoid.before.depth},
+             {"depth_after_m", avoid.after.depth},
+             {"certified", avoid.after.holds()},
+             {"volume_error", volumeError(scene.network, maker.points())},
+             {"moved_max_m", avoid.movedMax},
+             {"moved_rms_m", avoid.movedRms},
+             {"kinks", kinkCount(scene.network, maker.points())},
+             {"rest_contacts", avoid.after.restContacts},
+             {"narrow_spans", avoid.narrowSpans},
+             {"least_lumen", avoid.leastLumen},
+             {"constraints", avoid.constraints},
+             {"rounds", avoid.rounds},
+             {"detect_ms", avoid.detectMs},
+             {"solve_ms", avoid.solveMs},
+             {"certify_ms", avoid.certifyMs}};
+  if (options.places) row["remaining"] = remainingPlaces(scene.network, *maker.avoider());
+  return row;
+}
+
+// The worst of each number over the frames.
+Report summaryOf(const Report& frames) {
+  Report summary;
+  std::uint32_t bad = 0, certified = 0;
+  for (const Report& frame : frames) {
+    certified += frame["certified"].get<bool>();
+    bad += frame["contacts_after"].get<std::uint32_t>() > 0;
+    for (const auto& [key, value] : frame.items()) {
+      if (!value.is_number() || key == "frame") continue;
+      const bool worse = !summary.contains(key) || (key == "least_lumen" ? value < summary[key] : value > summary[key]);
+      if (worse) summary[key] = value;
+    }
+  }
+  summary["certified"] = bad == 0;
+  summary["frames"] = frames.size();
+  summary["frames_certified"] = certified;
+  summary["frames_with_penetration_after"] = bad;
+  return summary;
+}
+
+std::string asText(const Report& report) {
+  const auto columns = {"frame", "contacts_before", "contacts_after", "depth_after_m", "moved_max_m", "volume_error", "kinks", "narrow_spans", "solve_ms"};
+  std::string text;
+  for (const char* name : columns) text += fmt::format("{:>17}", name);
+  text += "\n";
+  for (const Report& frame : report["frames"]) {
+    for (const char* name : columns)
+      text += frame[name].is_number_float() ? fmt::format("{:>17.6f}", frame[name].get<double>()) : fmt::format("{:>17}", frame[name].dump());
+    text += "\n";
+  }
+  text += "\n";
+  for (const auto& [name, value] : report["summary"].items()) text += fmt::format("{:<32}{}\n", name, value.dump());
+  return text;
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto setting = prepare(options);
+  if (!setting) return setting.error();
+  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume});
+  Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
+  ProgressLine progress("checking");
+  const auto [first, last] = setting->range;
+  for (std::uint32_t frame = first; frame <= last; ++frame) {
+    if (stopRequested()) return stopError();
+    maker.make(setting->clip, setting->clip ? setting->clip->timeOfFrame(frame) : 0);
+    report["frames"].push_back(frameReport(setting->scene, maker, frame, options));
+    progress.update(frame - first + 1, last - first + 1);
+  }
+  report["summary"] = summaryOf(report["frames"]);
+  report["summary"]["excluded_pairs"] = maker.avoider()->restPairCount();
+  return globals.json ? printJson(report) : printText(asText(report));
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("check", "Interference before and after, certificate, volume and kinks of each frame");
+  sub->footer(
+      "Examples:\n"
+      "  vasa check --clip walk --json\n"
+      "  vasa check --body b.glb --network b.vasa --clip fist --frames 20:40\n"
+      "A pair of tubes that overlaps at rest may stay as deep as it is there: excluded_pairs counts these.");
+  addSceneOptions(*sub, options->scene);
+  sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
+  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
+  sub->add_flag("--places", options->places, "Name the vessels that still interfere in each frame");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli

@@ -1,0 +1,21 @@
+#pragma once
+#include "avoid/interference.h"
+
+namespace vasa {
+
+/// What an exact query with zero margin over a shape says.
+struct Certificate {
+  std::uint32_t contacts = 0;      ///< pairs of tubes that interfere: overlap, and more than they do at rest
+  float depth = 0;                 ///< [m] the deepest: of overlap, or beyond the overlap at rest
+  std::uint32_t restContacts = 0;  ///< pairs left out of `contacts`, because they are no deeper than at rest
+  bool holds() const { return contacts == 0; }
+};
+
+/// A pair that overlaps at rest may be deeper by so much before it counts: rounding of coordinates [m].
+constexpr float kRestTolerance = 1e-6f;
+
+/// @param interfering  if given, receives the places that count, sorted by pair
+Certificate certify(Interference& interference, std::span<const vec4> points,
+                    std::vector<Interference::Place>* interfering = nullptr);
+
+}  // namespace vasa

@@ -1,0 +1,31 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "avoid/interference.h"
+
+namespace vasa {
+
+/// A stretch of a vessel that gave way because there was no room.
+struct NarrowPlace {
+  VesselId vessel;
+  std::uint32_t span = 0;
+  float factor = 1;  ///< the least radius there by that at rest
+  bool operator==(const NarrowPlace&) const = default;
+};
+
+/// How thin a vessel may become: a share of its radius at rest.
+constexpr float kLeastLumen = 0.5f;
+
+/// Makes both tubes of each place thinner, as far as the place asks for and kLeastLumen lets it. Points at nodes keep
+/// their radius. The volume is not made up for elsewhere.
+/// @param places  that interfere (avoid/certificate.h)
+/// @param shape   the tubes in which they were found
+/// @param points  the posed network; radii change
+void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
+            std::span<const Bezier> shape, std::span<vec4> points);
+
+/// Spans one of whose points is thinner than in `before`, in order.
+std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before, std::span<const vec4> points);
+
+}  // namespace vasa

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vasa {
+
+/// What a correction of one vessel's points costs: ½ zᵀ W z with W = I + β D2ᵀ D2 (D2: second differences along the
+/// vessel), so that a vessel is pushed aside in one smooth bow and not dented. A fixed end counts as z = 0 on and
+/// beyond it. Pentadiagonal, factored once (L D Lᵀ).
+class BendingMetric {
+ public:
+  /// @param count  points that may move, at least 0
+  /// @param beta   >= 0; a bow is about 3 β^¼ points long to either side
+  BendingMetric(std::uint32_t count, bool startFixed, bool endFixed, float beta);
+
+  std::uint32_t count() const { return std::uint32_t(pivot_.size()); }
+  /// Replaces the right-hand side by W⁻¹ times it. O(count).
+  void solve(std::span<float> x) const;
+  /// zᵀ W z of any z, for a given bending weight: what carrying a shape along costs.
+  static float energy(std::span<const float> z, float beta);
+
+ private:
+  std::vector<float> pivot_, lower1_, lower2_;  // 1/D, and L's two diagonals
+};
+
+}  // namespace vasa

@@ -1,0 +1,137 @@
+#include "avoid/motion_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kCarriedPoints = 8;  // over so many points φ falls to 0
+constexpr float kSmallestWeight = 1e-3f;     // what a place owes to hosts of hosts is followed down to this
+constexpr float kSmallestResponse = 1e-3f;
+
+float carriedShare(std::uint32_t steps, std::uint32_t points) {
+  const float reach = float(std::min(kCarriedPoints, points - 1));
+  const float x = std::min(float(steps) / reach, 1.0f);
+  return 1 - x * x * (3 - 2 * x);
+}
+
+}  // namespace
+
+MotionSpace::MotionSpace(const Network& network, float beta)
+    : network_(&network),
+      pointCount_(network.points().size()),
+      vesselOf_(pointCount_),
+      startShare_(pointCount_, 0),
+      endShare_(pointCount_, 0),
+      nodeWeight_(network.nodes().size(), 0) {
+  for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
+    const Vessel& vessel = network.vessels()[v];
+    const bool start = vessel.start.valid(), end = vessel.end.valid();
+    blocks_.push_back({vessel.firstPoint + (start ? 1u : 0u),
+                       BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta)});
+    const auto startShare = std::span(startShare_).subspan(vessel.firstPoint, vessel.pointCount);
+    const auto endShare = std::span(endShare_).subspan(vessel.firstPoint, vessel.pointCount);
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
+      vesselOf_[vessel.firstPoint + l] = v;
+      if (start) startShare[l] = carriedShare(l, vessel.pointCount);
+      if (end) endShare[l] = carriedShare(vessel.pointCount - 1 - l, vessel.pointCount);
+    }
+    if (start) nodeWeight_[vessel.start.value] += BendingMetric::energy(startShare, beta);
+    if (end) nodeWeight_[vessel.end.value] += BendingMetric::energy(endShare, beta);
+  }
+}
+
+void MotionSpace::addPlace(VesselId vessel, std::uint32_t span, float t, float weight, std::vector<Term>& terms) const {
+  const Vessel& own = network_->vessel(vessel);
+  const vec4 weights = deBoorWeights(span, own.spanCount(), t);
+  for (std::uint32_t l = 0; l < 4; ++l) addPoint(own, span + l, weight * weights[int(l)], terms);
+}
+
+void MotionSpace::addPoint(const Vessel& vessel, std::uint32_t local, float weight, std::vector<Term>& terms) const {
+  if (std::abs(weight) < kSmallestWeight) return;
+  const std::uint32_t point = vessel.firstPoint + local;
+  const bool fixed = (local == 0 && vessel.start.valid()) || (local + 1 == vessel.pointCount && vessel.end.valid());
+  if (!fixed) terms.push_back({point, weight});
+  if (startShare_[point] > 0) addNode(vessel.start, weight * startShare_[point], terms);
+  if (endShare_[point] > 0) addNode(vessel.end, weight * endShare_[point], terms);
+}
+
+void MotionSpace::addNode(NodeId node, float weight, std::vector<Term>& terms) const {
+  if (const auto& host = network_->node(node).host) {
+    const SpanParameter at = locate(host->parameter, network_->vessel(host->vessel).spanCount());
+    addPlace(host->vessel, at.span, at.t, weight, terms);
+  } else if (std::abs(weight) >= kSmallestWeight) {
+    terms.push_back({std::uint32_t(pointCount_) + node.value, weight});
+  }
+}
+
+void MotionSpace::finish(Row& row) const {
+  auto& terms = row.terms;
+  std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
+    return a.variable != b.variable ? a.variable < b.variable : a.weight < b.weight;
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    if (kept > 0 && terms[kept - 1].variable == terms[k].variable) terms[kept - 1].weight += terms[k].weight;
+    else terms[kept++] = terms[k];
+  }
+  terms.resize(kept);
+  std::vector<float> x;
+  for (std::size_t k = 0; k < terms.size();) {
+    if (terms[k].variable >= pointCount_) {
+      const float response = terms[k].weight / nodeWeight_[terms[k].variable - pointCount_];
+      row.runs.push_back({terms[k].variable, 1});
+      row.response.push_back(response);
+      row.diagonal += terms[k++].weight * response;
+      continue;
+    }
+    const std::uint32_t vessel = vesselOf_[terms[k].variable];
+    const Block& block = blocks_[vessel];
+    x.assign(block.metric.count(), 0);
+    const std::size_t begin = k;
+    for (; k < terms.size() && terms[k].variable < pointCount_ && vesselOf_[terms[k].variable] == vessel; ++k)
+      x[terms[k].variable - block.first] = terms[k].weight;
+    block.metric.solve(x);
+    for (std::size_t l = begin; l < k; ++l) row.diagonal += terms[l].weight * x[terms[l].variable - block.first];
+    float largest = 0;
+    for (const float value : x) largest = std::max(largest, std::abs(value));
+    const auto matters = [&](float value) { return std::abs(value) > kSmallestResponse * largest; };
+    const auto first = std::find_if(x.begin(), x.end(), matters);
+    const auto last = std::find_if(x.rbegin(), x.rend(), matters).base();
+    if (first >= last) continue;
+    row.runs.push_back({block.first + std::uint32_t(first - x.begin()), std::uint32_t(last - first)});
+    row.response.insert(row.response.end(), first, last);
+  }
+}
+
+vec3 MotionSpace::motionOf(const Vessel& vessel, std::uint32_t local, std::span<const vec3> z,
+                           std::span<const vec3> nodes) const {
+  const std::uint32_t point = vessel.firstPoint + local;
+  vec3 motion = z[point];
+  if (startShare_[point] > 0) motion += startShare_[point] * nodes[vessel.start.value];
+  if (endShare_[point] > 0) motion += endShare_[point] * nodes[vessel.end.value];
+  return motion;
+}
+
+void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) const {
+  std::vector<vec3> nodes(network_->nodes().size(), vec3(0));
+  for (const NodeId id : network_->pinOrder()) {
+    const auto& host = network_->node(id).host;
+    vec3& motion = nodes[id.value];
+    if (!host) {
+      motion = z[pointCount_ + id.value];
+      continue;
+    }
+    const Vessel& vessel = network_->vessel(host->vessel);
+    const SpanParameter at = locate(host->parameter, vessel.spanCount());
+    const vec4 weights = deBoorWeights(at.span, vessel.spanCount(), at.t);
+    for (std::uint32_t l = 0; l < 4; ++l) motion += weights[int(l)] * motionOf(vessel, at.span + l, z, nodes);
+  }
+  for (const Vessel& vessel : network_->vessels())
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
+      points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z, nodes), 0);
+  pinEnds(*network_, points);
+}
+
+}  // namespace vasa

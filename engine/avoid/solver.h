@@ -1,0 +1,77 @@
+#pragma once
+#include <memory>
+
+#include "avoid/certificate.h"
+#include "avoid/constraints.h"
+#include "avoid/lumen.h"
+#include "body/volume.h"
+
+namespace vasa {
+
+/// Fixed budgets: no frame takes more than these.
+struct AvoidOptions {
+  float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
+  unsigned rounds = 10;      ///< detections, each followed by sweeps
+  unsigned sweeps = 40;      ///< of dual ascent over all constraints, a round
+  unsigned projections = 2;  ///< plain projections at the end, where the rounds did not suffice
+  unsigned lumenRounds = 6;  ///< of making vessels thinner where there is no room
+};
+
+/// What was done for a frame.
+struct AvoidReport {
+  Certificate before, after;
+  std::uint32_t constraints = 0;  ///< in the pool at the end
+  std::uint32_t rounds = 0;       ///< detections that asked for a correction
+  float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
+  std::uint32_t narrowSpans = 0;     ///< spans whose lumen gave way
+  float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
+  double detectMs = 0, solveMs = 0, certifyMs = 0;
+};
+
+/// Moves vessels apart that run through one another in a pose: the nearest admissible shape,
+///   least ½ zᵀ W z  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
+/// with z and W as in avoid/motion_space.h, so that branches stay joined. Method: dual coordinate ascent (Hildreth 1957)
+/// over a pool of contacts that is detected anew each round and only grows, multipliers >= 0; then plain projections;
+/// then, where there is no room, thinner vessels; then a certificate by an exact query. Budgets are fixed and the order
+/// is that of the pairs: the result depends on the scene and the pose alone.
+class Avoider {
+ public:
+  /// @param network  must outlive this
+  explicit Avoider(const Network& network, AvoidOptions options = {});
+
+  /// @param posed   the posed network, before any correction
+  /// @param volume  keeps the vessels' volume while they are moved, or null
+  /// @param points  caller-owned; on entry posed.points with the radii they are to have, on return the result
+  AvoidReport run(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points);
+
+  /// Of the last run: where vessels interfere in spite of all, and where they gave way.
+  std::span<const Interference::Place> remaining() const { return remaining_; }
+  std::span<const NarrowPlace> narrowed() const { return narrowed_; }
+  /// Of the last run: where vessels interfered before.
+  std::span<const Interference::Place> found() const { return found_; }
+
+  const NetworkTubes& layout() const { return interference_.layout(); }
+  /// Pairs of tubes that overlap at rest.
+  std::size_t restPairCount() const { return interference_.restPairCount(); }
+
+ private:
+  void ascend();
+  void project();
+  void push(Constraint& constraint, float amount);
+  float presentOf(const Constraint& constraint) const;
+  float violation() const;
+  void place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points) const;
+  void separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void giveWay(std::span<vec4> points, AvoidReport& report);
+
+  const Network* network_;
+  AvoidOptions options_;
+  Interference interference_;
+  MotionSpace space_;
+  ConstraintPool pool_;
+  std::vector<vec3> z_;
+  std::vector<Interference::Place> found_, remaining_;
+  std::vector<NarrowPlace> narrowed_;
+};
+
+}  // namespace vasa
