@@ -133,13 +133,19 @@ Result<Job> prepare(const Options& options) {
   return job;
 }
 
+FrameOptions frameOptions(const Options& options) {
+  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = !options.noAvoid || options.highlightContacts};
+  if (options.noAvoid) frame.avoidance.rounds = frame.avoidance.projections = frame.avoidance.lumenRounds = 0;
+  return frame;
+}
+
 // Draws frames and hands each picture on; encoding and writing go on beside the next frame's drawing.
 class Film {
  public:
   Film(const Job& job, const Options& options, gpu::Device& device)
       : job_(job),
         options_(options),
-        maker_(job.scene, {.keepVolume = !options.noVolume, .avoid = !options.noAvoid || options.highlightContacts}),
+        maker_(job.scene, frameOptions(options)),
         renderer_(device, job.scene.network, job.scene.body.meshes, job.render) {}
 
   Result<void> run() {
@@ -180,6 +186,7 @@ class Film {
     }
     maker_.make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
     noteStep(frame);
+    if (options_.highlightContacts) highlightContacts();
     renderer_.draw({.points = maker_.points(),
                     .knotFrames = maker_.knotFrames(),
                     .jointMatrices = maker_.jointMatrices(),
@@ -189,6 +196,19 @@ class Film {
     if (auto written = finishWriting(); !written) return written;
     writing_ = std::async(std::launch::async, [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
     return {};
+  }
+
+  // Grey vessels; yellow where they ran through one another, red where they still do.
+  void highlightContacts() {
+    const Avoider& avoider = *maker_.avoider();
+    std::vector<std::uint32_t> colours(job_.scene.network.sweepCount(), packColour({0.5f, 0.5f, 0.55f, 1}));
+    const auto paint = [&](std::span<const Interference::Place> places, vec4 colour) {
+      for (const Interference::Place& place : places)
+        colours[place.contact.i] = colours[place.contact.j] = packColour(colour);
+    };
+    paint(avoider.found(), {1, 0.75f, 0, 1});
+    paint(avoider.remaining(), {1, 0, 0, 1});
+    renderer_.setSweepColours(colours);
   }
 
   // Whether this frame's picture is there already, from the same run.
@@ -315,7 +335,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
   sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");
   sub->add_flag("--no-avoid", options->noAvoid, "Let vessels run through one another");
-  sub->add_flag("--highlight-contacts", options->highlightContacts, "Colour vessels that ran through one another before they were moved apart");
+  sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -13,6 +13,7 @@ namespace {
 constexpr float kClearanceShare = 0.02f;   // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;   // [m]
 constexpr float kSameParameter = 0.04f;    // constraints of one pair closer than this in s and t are one
+constexpr float kSameOfNeighbours = 0.005f;  // ... of neighbours, whose nearest place may be on a slope of f
 constexpr float kNearAtRest = 4;           // sums of radii: nearer at rest than this, the rest pose says which side
 constexpr float kWrongSide = -0.25f;       // cosine below which two centre lines have changed sides
 constexpr float kCrossing = 0.3f;          // share of the radii below which the present direction is not to be trusted
@@ -124,7 +125,7 @@ void ConstraintPool::propose(const Interference::Place& place, std::span<const B
     const auto same = [&](const Constraint& other) {
       return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter;
     };
-    if (std::any_of(found.begin(), found.end(), same) || known(constraint)) continue;
+    if (std::any_of(found.begin(), found.end(), same) || known(constraint, place.neighbours ? kSameOfNeighbours : kSameParameter)) continue;
     const auto [vesselI, spanI] = interference_->layout().address(contact.i);
     const auto [vesselJ, spanJ] = interference_->layout().address(contact.j);
     space_->addPlace(vesselI, spanI, s, 1, constraint.row.terms);
@@ -134,11 +135,11 @@ void ConstraintPool::propose(const Interference::Place& place, std::span<const B
   }
 }
 
-bool ConstraintPool::known(const Constraint& wanted) const {
+bool ConstraintPool::known(const Constraint& wanted, float apart) const {
   auto own = std::lower_bound(constraints_.begin(), constraints_.end(), wanted.tubes,
                               [](const Constraint& a, TubePair b) { return a.tubes < b; });
   for (; own != constraints_.end() && own->tubes == wanted.tubes; ++own)
-    if (std::abs(own->s - wanted.s) < kSameParameter && std::abs(own->t - wanted.t) < kSameParameter &&
+    if (std::abs(own->s - wanted.s) < apart && std::abs(own->t - wanted.t) < apart &&
         glm::dot(own->normal, wanted.normal) > kSameDirection)
       return true;
   return false;

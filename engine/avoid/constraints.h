@@ -56,7 +56,7 @@ class ConstraintPool {
               const PosedNetwork& posed) const;
   void propose(const Interference::Place& place, std::span<const Bezier> shape, const PosedNetwork& posed,
                std::vector<Constraint>& found) const;
-  bool known(const Constraint& constraint) const;
+  bool known(const Constraint& wanted, float apart) const;
   quat rotationAt(std::uint32_t tube, float t, const PosedNetwork& posed) const;
   vec3 posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const;
 

@@ -28,7 +28,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       options_(options),
       deformer_(scene.binding),
       volume_(scene.network),
-      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network) : nullptr),
+      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, options.avoidance) : nullptr),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
       rotations_(scene.network.points().size()),

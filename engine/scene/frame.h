@@ -20,7 +20,8 @@ struct FrameReport {
 
 struct FrameOptions {
   bool keepVolume = true;
-  bool avoid = true;  ///< move vessels apart that run through one another
+  bool avoid = true;         ///< move vessels apart that run through one another
+  AvoidOptions avoidance;    ///< budgets; no rounds, projections and lumen rounds: only look
 };
 
 /// Turns poses into everything a picture needs: control points, knot frames, joint matrices. A frame depends on the
