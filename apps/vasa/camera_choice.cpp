@@ -74,6 +74,7 @@ Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& sce
     if (glm::distance(man.still_.position, man.still_.target) < 1e-4f)
       return Error{Fault::usage, "the camera stands on its target; move one of them"};
   } else if (choice.focus.empty()) {
+    man.goesAlong_ = true;
     man.still_ = focusOn(man.still_, all, aspect);
     man.still_.position = man.still_.target + choice.distanceFactor * (man.still_.position - man.still_.target);
   }
@@ -93,8 +94,12 @@ Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& sce
 }
 
 Camera CameraMan::at(const Scene& scene, const Pose& pose, std::span<const vec4> points) const {
-  if (!subject_) return still_;
   Camera camera = still_;
+  if (goesAlong_) {
+    camera.position += wayOverFloor(scene, pose);
+    camera.target += wayOverFloor(scene, pose);
+  }
+  if (!subject_) return camera;
   camera.target = subjectBounds(scene, *subject_, pose, points).centre();
   camera.position = camera.target + subjectOffset_;
   return camera;

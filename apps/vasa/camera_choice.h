@@ -14,7 +14,8 @@ struct CameraOptions {
 void addCameraOptions(CLI::App& sub, CameraOptions& options);
 Result<CameraChoice> chooseCamera(CameraChoice fromScene, const CameraOptions& options);
 
-/// Gives each frame its camera: one that stands still and holds the whole motion, or one that goes with a subject.
+/// Gives each frame its camera: one that stands still where it was put, one that goes along with the body and holds its
+/// whole motion, or one that goes with a subject.
 /// A function of the scene, the clip and the frame's pose.
 class CameraMan {
  public:
@@ -23,6 +24,7 @@ class CameraMan {
 
  private:
   Camera still_;
+  bool goesAlong_ = false;
   std::optional<Subject> subject_;
   vec3 subjectOffset_{0};  // from the subject's middle to the camera
 };

@@ -28,8 +28,8 @@ std::ptrdiff_t findByName(const Items& items, const std::string& wanted) {
   return partial;
 }
 
-void addJoints(Aabb& box, const Pose& pose) {
-  for (const mat4& world : pose.world) box.add(vec3(world[3]));
+void addJoints(Aabb& box, const Pose& pose, vec3 way = vec3(0)) {
+  for (const mat4& world : pose.world) box.add(vec3(world[3]) - way);
 }
 
 }  // namespace
@@ -89,13 +89,21 @@ Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose,
   return box;
 }
 
+vec3 wayOverFloor(const Scene& scene, const Pose& pose) {
+  if (pose.world.empty()) return vec3(0);
+  const vec3 way = vec3(pose.world[0][3]) - vec3(scene.body.skeleton.joints[0].restWorld[3]);
+  return {way.x, 0, way.z};
+}
+
 Aabb motionBounds(const Scene& scene, const Clip* clip) {
   Aabb rest, joints, moving;
   for (const SkinnedMesh& mesh : scene.body.meshes) rest.add(mesh.mesh.bounds());
   rest.add(measure(scene.network, scene.network.points()).bounds);
   addJoints(joints, restPose(scene.body.skeleton));
-  for (std::uint32_t frame = 0; clip && frame < clip->frameCount(); ++frame)
-    addJoints(moving, samplePose(scene.body.skeleton, *clip, clip->timeOfFrame(frame)));
+  for (std::uint32_t frame = 0; clip && frame < clip->frameCount(); ++frame) {
+    const Pose pose = samplePose(scene.body.skeleton, *clip, clip->timeOfFrame(frame));
+    addJoints(moving, pose, wayOverFloor(scene, pose));
+  }
   if (!clip) moving = joints;
   moving.low += glm::min(rest.low - joints.low, vec3(0));
   moving.high += glm::max(rest.high - joints.high, vec3(0));
