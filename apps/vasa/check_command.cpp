@@ -123,7 +123,7 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume});
+  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true});
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;

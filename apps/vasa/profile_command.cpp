@@ -29,7 +29,7 @@ struct Options {
   std::string quads = "4x5,4x10,8x5,8x10", size = "1280x720";
   std::uint32_t frames = 40;
   unsigned samples = 1;
-  bool body = false;
+  bool body = false, avoid = false;
 };
 
 struct Setting {
@@ -66,7 +66,7 @@ class Stages {
 // Draws the clip's poses one after the other and hands each frame's input to `each` once shaders are warm.
 void drawFrames(Renderer& renderer, const Setting& setting, const Options& options,
                 const std::function<void(const FrameMaker&, const RenderInput&, double frameMs)>& each) {
-  FrameMaker maker(setting.scene);
+  FrameMaker maker(setting.scene, {.avoid = options.avoid});
   const std::uint32_t clipFrames = setting.clip ? setting.clip->frameCount() : 1;
   for (std::uint32_t i = 0; i < kWarmUpFrames + options.frames && !stopRequested(); ++i) {
     const auto start = std::chrono::steady_clock::now();
@@ -101,9 +101,11 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
     stages.add("pose_ms", cpu.poseMs);
     stages.add("deform_ms", cpu.deformMs);
     stages.add("volume_ms", cpu.volumeMs);
-    stages.add("detect_ms", cpu.avoid.detectMs);
-    stages.add("avoid_ms", cpu.avoid.solveMs);
-    stages.add("certify_ms", cpu.avoid.certifyMs);
+    if (options.avoid) {
+      stages.add("detect_ms", cpu.avoid.detectMs);
+      stages.add("avoid_ms", cpu.avoid.solveMs);
+      stages.add("certify_ms", cpu.avoid.certifyMs);
+    }
     stages.add("knot_frames_ms", cpu.framesMs);
     stages.add("upload_ms", times.upload);
     stages.add("tessellate_ms", times.tessellate);
@@ -217,6 +219,7 @@ void addProfile(CLI::App& app, Command& command) {
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_flag("--avoid", options->avoid, "Move vessels apart, too (experimental)");
   sub->add_flag("--with-body", options->body, "Draw the body's meshes too");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -27,7 +27,7 @@ struct Options {
   CameraOptions camera;
   std::string frames, size = "1280x720", output, video, quads = "8x5", shard, hide;
   unsigned samples = 4;
-  bool resume = false, transparent = false, noVolume = false, noAvoid = false, highlightContacts = false;
+  bool resume = false, transparent = false, noVolume = false, avoid = false, highlightContacts = false;
 };
 
 // What is to be drawn, settled before the first frame.
@@ -84,7 +84,7 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options)
   const std::string settings =
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, options.transparent,
-                  options.noVolume, options.noAvoid, options.highlightContacts);
+                  options.noVolume, options.avoid, options.highlightContacts);
   return hashOf(std::span(settings), hash);
 }
 
@@ -134,8 +134,8 @@ Result<Job> prepare(const Options& options) {
 }
 
 FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = !options.noAvoid || options.highlightContacts};
-  if (options.noAvoid) frame.avoidance.rounds = frame.avoidance.projections = frame.avoidance.lumenRounds = 0;
+  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts};
+  if (!options.avoid) frame.avoidance.rounds = frame.avoidance.projections = frame.avoidance.lumenRounds = 0;
   return frame;
 }
 
@@ -334,7 +334,8 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
   sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");
-  sub->add_flag("--no-avoid", options->noAvoid, "Let vessels run through one another");
+  sub->add_flag("--avoid,!--no-avoid", options->avoid,
+                "Move vessels apart that run through one another (experimental, off by default)");
   sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });

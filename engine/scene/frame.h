@@ -20,7 +20,7 @@ struct FrameReport {
 
 struct FrameOptions {
   bool keepVolume = true;
-  bool avoid = true;         ///< move vessels apart that run through one another
+  bool avoid = false;        ///< move vessels apart that run through one another
   AvoidOptions avoidance;    ///< budgets; no rounds, projections and lumen rounds: only look
 };
 
