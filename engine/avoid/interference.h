@@ -28,7 +28,9 @@ class Interference {
 
   /// Every pair of tubes with f < margin in the given shape, sorted by pair; valid until the next call.
   /// @param points  as Network::points()
-  std::span<const Place> find(std::span<const vec4> points, float margin);
+  /// @param which   the neighbours to look at; they take longer than all other pairs together
+  enum class Watch { allNeighbours, neighboursThatMetLastTime };
+  std::span<const Place> find(std::span<const vec4> points, float margin, Watch which = Watch::allNeighbours);
 
   const NetworkTubes& layout() const { return layout_; }
   /// The shape of the last find(), and that at rest.
@@ -43,8 +45,8 @@ class Interference {
     TubePair tubes;
     float f;
   };
-  void search(float margin);
-  void searchNeighbours(float margin);
+  void search(float margin, Watch which);
+  void searchNeighbours(float margin, Watch which);
   float allowed(TubePair pair) const;
 
   NetworkTubes layout_;
@@ -54,6 +56,7 @@ class Interference {
   std::vector<NeighbourPair> watched_;  // neighbours that are apart at rest where points count
   std::size_t restNeighbours_ = 0;
   std::vector<char> meets_;      // one a watched pair
+  std::vector<std::uint32_t> met_;  // of the watched pairs, when all were looked at last
   std::vector<Place> places_;
 };
 

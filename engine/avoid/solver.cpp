@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kMargin = 5e-6f;      // [m] tubes nearer than this are still pushed
 constexpr float kCompliance = 1e-3f;  // α as a share of a·g
+constexpr unsigned kAllNeighboursEvery = 3;  // rounds
 constexpr float kSettled = 1e-6f;     // [m]
 
 class Timer {
@@ -101,16 +102,24 @@ void Avoider::place(const PosedNetwork& posed, const VolumeKeeper* volume, std::
 
 void Avoider::separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
   const unsigned last = options_.rounds + options_.projections;
+  // Neighbours seldom come to meet by being pushed: all of them are looked at now and then, and before it ends.
+  Interference::Watch watch = Interference::Watch::neighboursThatMetLastTime;
   for (unsigned round = 0; round < last; ++round) {
     std::span<const Interference::Place> places;
     {
       Timer timer(report.detectMs);
-      places = interference_.find(points, kMargin);
+      places = interference_.find(points, kMargin, watch);
     }
     Timer timer(report.solveMs);
     pool_.refresh(interference_.tubes());
     const std::size_t added = pool_.add(places, interference_.tubes(), posed);
-    if (added == 0 && violation() < kMargin) return;
+    if (added == 0 && violation() < kMargin) {
+      if (watch == Interference::Watch::allNeighbours) return;
+      watch = Interference::Watch::allNeighbours;
+      continue;
+    }
+    const bool all = round % kAllNeighboursEvery == 1 || round >= options_.rounds;
+    watch = all ? Interference::Watch::allNeighbours : Interference::Watch::neighboursThatMetLastTime;
     ++report.rounds;
     if (round < options_.rounds) ascend();
     else project();
