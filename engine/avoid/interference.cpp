@@ -8,8 +8,8 @@
 namespace vasa {
 namespace {
 
-constexpr double kTolerance = 1e-7;       // [m] of whether neighbours meet
-constexpr double kPlaceTolerance = 1e-5;  // [m] of how deep, which takes longer where the deepest place does not count
+// [m] Neighbours whose nearest points that count lie on the limit of what counts cost ever more the finer the question.
+constexpr double kTolerance = 1e-5;
 
 }  // namespace
 
@@ -20,8 +20,6 @@ Interference::Interference(const Network& network) : layout_(network), rest_(lay
   tubes_ = rest_;
   const auto overlapping = intersectingNeighbours(rest_, neighbours, kTolerance);
   restNeighbours_ = overlapping.size();
-  for (const NeighbourPair& pair : neighbours.pairs())
-    if (!std::binary_search(overlapping.begin(), overlapping.end(), pair.tubes)) watched_.push_back(pair);
   meets_.resize(watched_.size());
   search(0, Watch::allNeighbours);
   for (const Place& place : places_) restPairs_.push_back({{place.contact.i, place.contact.j}, place.contact.f});
@@ -75,7 +73,7 @@ void Interference::searchNeighbours(float margin, Watch which) {
   parallelFor(places_.size() - first, 4, [&](std::size_t k) {
     Contact& contact = places_[first + k].contact;
     const TubePair pair{contact.i, contact.j};
-    contact = closestOfNeighbours(tubes_[pair.i], tubes_[pair.j], neighbours, *neighbours.find(pair), kPlaceTolerance);
+    contact = closestOfNeighbours(tubes_[pair.i], tubes_[pair.j], neighbours, *neighbours.find(pair), kTolerance);
     contact.i = pair.i;
     contact.j = pair.j;
   });

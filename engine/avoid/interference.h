@@ -10,8 +10,8 @@ namespace vasa {
 
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///
-/// Tubes near one another along the network (collide/neighbours.h) count where they are far enough apart along it; those
-/// of them that overlap there at rest already are left out for good (the surroundings of a fork). Two other tubes that
+/// Tubes near one another along the network (collide/neighbours.h) are left out: the search between them has no bound
+/// on its memory where the nearest points lie on the limit of what counts. Two other tubes that
 /// overlap at rest may stay as deep as they are there, no deeper: `allowed` is their depth at rest.
 class Interference {
  public:
