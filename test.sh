@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 preset=${1:-release}
 [ $# -gt 0 ] && shift
 scripts/install-dependencies.sh
-cmake --preset "$preset" > /dev/null
+cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 select=()
 targets=()
 case "$preset" in
