@@ -14,7 +14,7 @@ echo
 "$vasa" info
 echo
 for clip in walk squat; do
-  "$vasa" render --clip "$clip" --size 1280x720 -o "$out/$clip/{frame:04}.png" --video "$out/$clip.mp4"
+  "$vasa" render --clip "$clip" --camera 2,1.1,2.4/0,0.85,0/36 --size 1280x720 -o "$out/$clip/{frame:04}.png" --video "$out/$clip.mp4"
 done
 "$vasa" render --clip fist --focus RightHand --camera front --distance 1.2 --size 1280x720 --video "$out/fist.mp4"
 "$vasa" render --size 900x1400 -o "$out/front.png"
