@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nanoflann.hpp>
 
+#include "body/point_tree.h"
 #include "math/aabb.h"
 #include "math/closest_point.h"
 
@@ -16,17 +16,6 @@ constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
 constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
-
-struct Cloud {
-  std::vector<vec3> points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][int(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
 
 using Links = std::vector<std::pair<vec3, vec3>>;
 
@@ -55,8 +44,8 @@ float distanceToLinks(const Links& links, vec3 p) {
 
 struct BoneField::Part {
   Links links;
-  std::unique_ptr<Cloud> cloud;
-  std::unique_ptr<Tree> tree;
+  std::unique_ptr<PointCloud> cloud;
+  std::unique_ptr<PointTree> tree;
   Aabb box;
 };
 
@@ -91,8 +80,8 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
     if (points[i].empty()) continue;
     Part& part = parts_[i];
     for (vec3 p : points[i]) part.box.add(p), bounds.add(p);
-    part.cloud = std::make_unique<Cloud>(Cloud{std::move(points[i])});
-    part.tree = std::make_unique<Tree>(3, *part.cloud);
+    part.cloud = std::make_unique<PointCloud>(PointCloud{std::move(points[i])});
+    part.tree = std::make_unique<PointTree>(3, *part.cloud);
     part.tree->buildIndex();
   }
   const vec3 extent = bounds.extent();

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nanoflann.hpp>
 
 #include "body/bone_field.h"
+#include "body/point_tree.h"
 
 namespace vasa {
 namespace {
@@ -13,17 +13,6 @@ namespace {
 constexpr std::size_t kNearest = 48;
 constexpr float kFacing = 0.25f;  // smallest cosine between the way to a vertex and its normal
 constexpr float kBlur = 0.006f;   // of the body's height, added to distances before vertices are weighed
-
-struct Cloud {
-  std::vector<vec3> points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][int(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
 
 }  // namespace
 
@@ -44,8 +33,8 @@ struct SkinField::Vertices {
       }
   }
 
-  Cloud cloud;
-  Tree tree;
+  PointCloud cloud;
+  PointTree tree;
   std::vector<vec3> normals;
   std::vector<SkinInfluence> influences;
   std::vector<bool> followed;
