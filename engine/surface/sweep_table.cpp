@@ -24,11 +24,15 @@ void addVessel(const Network& network, std::uint32_t index, SweepTable& table) {
   for (std::uint32_t span = 0; span < spans; ++span) {
     const std::uint32_t next = span + 1 < spans ? spanClass(span + 1, spans) : shared::kNoSpan;
     table.sweeps.push_back({vessel.firstPoint + span, table.knotCount + span, spanClass(span, spans), next,
-                            vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1});
+                            vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1, index, 0});
     table.vesselOfSweep.push_back(index);
   }
-  if (needsCap(network, vessel.start)) table.caps.push_back({first, false});
-  if (needsCap(network, vessel.end)) table.caps.push_back({first + spans - 1, true});
+  const auto cap = [&](std::uint32_t sweep, bool last) {
+    table.caps.push_back({sweep, last});
+    table.sweeps[sweep].caps |= last ? 2 : 1;
+  };
+  if (needsCap(network, vessel.start)) cap(first, false);
+  if (needsCap(network, vessel.end)) cap(first + spans - 1, true);
   table.knotCount += spans + 1;
 }
 

@@ -28,6 +28,8 @@ struct SweepRecord {
   uint spanClass;  // matrix from de Boor to Bézier points
   uint nextClass;  // of the span behind it, or kNoSpan
   uint firstPoint, lastPoint;  // of its vessel
+  uint vessel;
+  uint caps;  // bit 0: its first ring is closed by a cap, bit 1: its last one
 };
 
 /// A tessellated vertex: 16 bytes.
@@ -37,7 +39,7 @@ struct TubeVertex {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SweepRecord) == 24 && sizeof(TubeVertex) == 16);
+static_assert(sizeof(SweepRecord) == 32 && sizeof(TubeVertex) == 16);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -1,0 +1,43 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "shared/detail.h"
+#include "surface/tessellate.h"
+
+// How finely a network is cut for one picture. The rule on which everything that meets a ring relies:
+//
+//   m, the quads around, belongs to a vessel: all its rings have the same m, so neighbouring spans share their ring
+//     to the bit, whatever their n. What joins several vessels (a fork) takes each ring with its own vessel's m.
+//   n, the quads along, belongs to a sweep, as a ring at its end does not depend on it.
+//
+// With fixed quads both are the same everywhere; a sweep out of view has n = 0 and is not tessellated. With
+// --quads auto they are the least whose error on the picture stays below DetailView::tolerance:
+//   R (1 − cos(π/m)) <= tolerance    R: largest radius of the vessel's sweeps in view [pixels]
+//   E / n²           <= tolerance    E: height of an arc as bent as the sweep's most bent part, at its outer side
+// with m in [kMinAround, kMaxAround] and n in [1, kMaxAlong]. CPU reference of shaders/measure.comp and around.comp.
+namespace vasa {
+
+/// What a sweep is in a picture.
+struct SweepExtent {
+  bool inView = false;      ///< its hull is not wholly outside one side of the picture
+  float radiusPixels = 0;   ///< R: of the largest de Boor radius at the nearest depth
+  float bendPixels = 0;     ///< E
+};
+/// @param points  the span's four de Boor points. The tube and its round ends lie in the hull of their balls.
+SweepExtent sweepExtent(std::span<const vec4, 4> points, const Bezier& bezier, const shared::DetailView& view);
+
+/// Least m and n for an error in pixels.
+std::uint32_t aroundFor(float radiusPixels, float tolerance);
+std::uint32_t alongFor(float bendPixels, float tolerance);
+
+/// (1 − cos(π/m)) for m = 0 .. kMaxAround (m < 3 unused), as the shaders read it.
+std::span<const float> aroundErrors();
+
+/// m of every vessel (kMinAround for one out of view) and n of every sweep (0: out of view).
+struct NetworkDetail {
+  std::vector<std::uint32_t> around, along;
+};
+NetworkDetail networkDetail(const PosedNetwork& network, const shared::DetailView& view);
+
+}  // namespace vasa

@@ -1,0 +1,29 @@
+// Read by C++ and GLSL (scalar layout): what a frame's picture asks of the network's tessellation.
+#ifndef VASA_SHARED_DETAIL_H
+#define VASA_SHARED_DETAIL_H
+#include "shared/sweep.h"
+#ifdef __cplusplus
+#include <cstddef>
+namespace vasa::shared {
+#endif
+
+/// A picture's view of the network. Fixed m and n, or those that keep an error in pixels.
+struct DetailView {
+  mat4 viewProjection;
+  vec4 planes[5];    // left, right, bottom, top, near: dot(plane.xyz, p) + plane.w >= 0 in view; unit normals
+  vec4 depth;        // dot(depth.xyz, p) + depth.w: how far p lies before the eye [m]; (0, 0, 0, 1) orthographic
+  float nearest;     // [m] least depth that counts; 1 orthographic
+  float reach;       // share of a ball's radius that comes nearer: 1, or 0 orthographic
+  float focal;       // pixels a metre at depth 1
+  float tolerance;   // [pixels] between a sweep and its quads; used where around or along is 0
+  uint around, along;  // m and n of all sweeps; 0: by tolerance
+  uint hiddenKinds;    // bit k: sweeps of kind k (highest 8 bits of their colour) are not drawn
+  float width, height; // of the picture [pixels]
+  float gridScale;     // samples of the picture in a row of a pixel: 1, or 4 for four samples
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(DetailView) == 64 + 80 + 16 + 40);
+}  // namespace vasa::shared
+#endif
+#endif
