@@ -1,0 +1,19 @@
+#pragma once
+#include "surface/tessellate.h"
+
+namespace vasa {
+
+/// The whole drawn surface of a network as one indexed mesh: what `export` writes and what a picture shows.
+struct SurfaceMesh {
+  std::vector<vec3> positions, normals;        ///< one a vertex [m], unit
+  std::vector<uvec3> triangles;                ///< counter-clockwise seen from outside
+  std::vector<std::uint32_t> vesselOfVertex;   ///< index into Network::vessels(); a shared ring's is one of its vessels
+};
+
+/// @param points      de Boor points of the pose, as Network::points()
+/// @param knotFrames  networkFrames() of them (surface/sweep_table.h)
+/// O(vertices), parallel; the same for any number of threads.
+SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
+                        const SweepShape& shape);
+
+}  // namespace vasa
