@@ -7,12 +7,15 @@
 #include <map>
 
 #include "commands.h"
+#include "convert/centreline_report.h"
 #include "convert/convert.h"
 #include "convert_report.h"
 #include "core/log.h"
 #include "io/gltf.h"
 #include "io/obj.h"
 #include "io/stl.h"
+#include "io/swc.h"
+#include "io/vtp.h"
 #include "network/file.h"
 
 // vasa convert: surfaces of vessels -> one network of sweeps.
@@ -27,7 +30,7 @@ struct Options {
   std::string output;
   std::string kind;
   std::string up = "y";
-  float scale = 1;
+  double scale = 1;
   float bodyHeight = 0;
   float tolerance = 0;
   bool exact = false, quantise = false, noBridges = false;
@@ -50,11 +53,33 @@ Result<std::vector<MeshElement>> readMeshes(const std::filesystem::path& path, c
   if (extension == ".glb" || extension == ".gltf") return readGltfElements(path);
   if (extension == ".obj") return readObj(path, frame);
   if (extension == ".stl") return readStl(path, frame);
-  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj and .stl"};
+  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .swc and .vtp"};
+}
+
+bool holdsCentrelines(const std::filesystem::path& path) {
+  const std::string extension = extensionOf(path);
+  return extension == ".swc" || extension == ".vtp";
+}
+
+ImportFrame frameOf(const Options& options) {
+  return {options.scale, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y};
+}
+
+Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Options& options) {
+  const std::string name = path.stem().string();
+  const VesselKind kind = options.kind.empty() ? kindOf(MeshElement{name, {}, {}, {}}, name) : kKinds.at(options.kind);
+  if (extensionOf(path) == ".swc") {
+    const auto samples = readSwc(path, frameOf(options));
+    if (!samples) return samples.error();
+    return centrelinesOfSwc(*samples, name, kind);
+  }
+  const auto lines = readVtp(path, frameOf(options));
+  if (!lines) return lines.error();
+  return centrelinesOfVtp(*lines, name, kind);
 }
 
 Result<std::vector<SourceElement>> readSources(const Options& options) {
-  const ImportFrame frame{options.scale, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y};
+  const ImportFrame frame = frameOf(options);
   std::vector<SourceElement> sources;
   for (const std::string& file : options.meshes) {
     if (stopRequested()) return stopError();
@@ -95,13 +120,40 @@ Result<ConvertOutput> writeOutput(const Options& options, const ConvertOptions& 
   return output;
 }
 
-Result<void> run(const Globals& globals, const Options& options) {
-  const auto start = std::chrono::steady_clock::now();
+Result<Conversion> convertMeshes(const Options& options, const ConvertOptions& settings) {
   const auto sources = readSources(options);
   if (!sources) return sources.error();
-  const ConvertOptions settings = convertOptions(options);
-  const auto conversion = convertElements(*sources, settings);
+  auto conversion = convertElements(*sources, settings);
   if (stopRequested()) return stopError();
+  return conversion;
+}
+
+// All lines of all files, in one network.
+Result<Conversion> convertCentrelines(const Options& options) {
+  Centrelines all;
+  for (const std::string& file : options.meshes) {
+    if (!holdsCentrelines(file))
+      return Error{Fault::usage, file + ": surfaces and centre lines are converted apart; write two networks and give both to --network"};
+    auto lines = readCentrelines(file, options);
+    if (!lines) return lines.error();
+    if (lines->lines.empty()) return badInput(file + ": the file holds no line of two places or more");
+    all.append(std::move(*lines));
+  }
+  auto made = networkOfCentrelines(all, options.bodyHeight);
+  if (!made) return badInput(options.meshes.front() + ": " + made.error().message);
+  constexpr float kTall = 4;  // [m]
+  if (options.bodyHeight == 0 && made->network.bodyHeight() > kTall)
+    logWarning("the lines are " + std::to_string(int(made->network.bodyHeight())) + " m tall; --scale 0.001 reads millimetres");
+  ConvertReport report = reportOfCentrelines(all, *made);
+  return Conversion{std::move(made->network), std::move(report)};
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  ConvertOptions settings = convertOptions(options);
+  const bool lines = holdsCentrelines(options.meshes.front());
+  if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
+  const auto conversion = lines ? convertCentrelines(options) : convertMeshes(options, settings);
   if (!conversion) return conversion.error();
   auto output = writeOutput(options, settings, conversion->network);
   if (!output) return output.error();
@@ -114,21 +166,23 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addConvert(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("convert", "Turn surfaces of vessels into one network of sweeps");
+  CLI::App* sub = app.add_subcommand("convert", "Turn surfaces or centre lines of vessels into one network of sweeps");
   sub->footer(
       "Examples:\n"
       "  vasa convert arteries.glb veins.glb -o body.vasa\n"
       "  vasa convert aorta.stl --scale 0.001 --up z --kind artery -o aorta.vasa --json\n"
+      "  vasa convert brain.swc --scale 0.001 --kind artery -o brain.vasa\n"
+      "  vasa convert centerlines.vtp --scale 0.001 -o aorta.vasa\n"
       "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.");
-  sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl")->required();
+  sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl; or centre lines with radii: .swc, .vtp")->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--kind", options->kind, "Kind of every vessel: artery, vein, portal, lymphatic or other")
       ->check(CLI::IsMember({"artery", "vein", "portal", "lymphatic", "other"}));
-  sub->add_option("--scale", options->scale, "Metres a unit of OBJ and STL files (0.001: millimetres)")
+  sub->add_option("--scale", options->scale, "Metres a unit of all but glTF files (0.001: millimetres)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  sub->add_option("--up", options->up, "The axis that points up in OBJ and STL files")
+  sub->add_option("--up", options->up, "The axis that points up in all but glTF files")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
   sub->add_option("--body-height", options->bodyHeight, "Height of the body [m] (default: of the input)")

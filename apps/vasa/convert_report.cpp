@@ -105,10 +105,13 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
                       s.joins.endToEnd, s.joins.gaps.size());
   text += fmt::format("{:<22} {:.2f} m; largest arterial tree {:.0f} % of the arteries\n", "length", s.length,
                       100 * share(s.largestArterialTree, s.arteryLength));
-  text += fmt::format("{:<22} {:.1f} % of the surface\n", "coverage", 100 * s.coverage);
-  text += errorText("mesh to sweeps", s.error) + errorText("sweeps to mesh", s.backError);
-  text += fmt::format("{:<22} {}: {} bytes, {:.0f} times smaller than the meshes{}\n", "written", output.file,
-                      output.bytes, output.bytes ? double(s.meshBytes) / double(output.bytes) : 0,
+  if (s.meshBytes > 0) text += fmt::format("{:<22} {:.1f} % of the surface\n", "coverage", 100 * s.coverage);
+  text += errorText(s.meshBytes > 0 ? "mesh to sweeps" : "samples to sweeps", s.error);
+  if (s.backError.measured) text += errorText("sweeps to mesh", s.backError);
+  text += fmt::format("{:<22} {}: {} bytes{}{}\n", "written", output.file, output.bytes,
+                      s.meshBytes > 0 && output.bytes > 0
+                          ? fmt::format(", {:.0f} times smaller than the meshes", double(s.meshBytes) / double(output.bytes))
+                          : std::string{},
                       output.quantised ? fmt::format("; rounded by at most {:.3f} mm", 1e3 * output.quantisationError)
                                        : std::string{});
   return text;

@@ -3,16 +3,21 @@
 
 namespace vasa {
 
-/// How a file without units of its own (OBJ, STL) lies in the world: house units are metres, +Y up.
+/// How a file without units of its own (OBJ, STL, SWC, VTP) lies in the world: house units are metres, +Y up.
 struct ImportFrame {
   enum class Up { y, z };
-  float metresPerUnit = 1;  ///< > 0; 0.001 for millimetres
+  double metresPerUnit = 1;  ///< > 0; 0.001 for millimetres
   Up up = Up::y;
 
   /// Z up, facing -Y, becomes Y up, facing +Z.
   vec3 toHouse(dvec3 p) const {
     const dvec3 turned = up == Up::z ? dvec3(p.x, p.z, -p.y) : p;
-    return vec3(turned * double(metresPerUnit));
+    return vec3(turned * metresPerUnit);
+  }
+  /// The other way.
+  dvec3 toFile(vec3 p) const {
+    const dvec3 q = dvec3(p) / metresPerUnit;
+    return up == Up::z ? dvec3(q.x, -q.z, q.y) : q;
   }
 };
 

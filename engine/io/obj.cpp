@@ -4,32 +4,13 @@
 
 #include <tiny_obj_loader.h>
 
-#include <charconv>
-#include <cmath>
-#include <string_view>
 #include <unordered_map>
 
 #include "core/atomic_file.h"
+#include "io/words.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view nextWord(std::string_view& line) {
-  const std::size_t start = line.find_first_not_of(kBlanks);
-  if (start == line.npos) return line = {}, std::string_view{};
-  const std::size_t stop = std::min(line.find_first_of(kBlanks, start), line.size());
-  const std::string_view word = line.substr(start, stop - start);
-  line.remove_prefix(stop);
-  return word;
-}
-
-bool parseNumber(std::string_view word, double& value) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return fault == std::errc{} && stop == word.data() + word.size() && std::isfinite(value);
-}
 
 struct FaceCorner {
   long long index;
@@ -43,9 +24,7 @@ class LineCheck {
   Result<void> run(std::string_view text) {
     while (!text.empty()) {
       ++line_;
-      const std::size_t stop = text.find('\n');
-      std::string_view line = text.substr(0, stop);
-      text.remove_prefix(stop == text.npos ? text.size() : stop + 1);
+      std::string_view line = nextLine(text);
       const std::string_view keyword = nextWord(line);
       if (keyword == "v") {
         if (auto checked = vertex(line); !checked) return checked;

@@ -119,3 +119,42 @@ TEST_CASE("convert stops on SIGINT without a file") {
   CHECK(outcome.exit == 130);
   CHECK(listOf(folder.folder.path()).empty());
 }
+
+TEST_CASE("convert reads centre lines: an element a line, radii as told") {
+  const Folder folder;
+  const auto swc = folder.write("brain artery.swc", "1 1 0 0 0 2 -1\n2 3 0 10 0 2 1\n3 3 0 20 0 1.5 2\n4 3 5 15 0 1 2\n5 3 9 18 0 1 4\n");
+  const auto outcome = runProgram({"convert", swc, "--scale", "0.001", "-o", folder.path("out.vasa"), "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto report = outcome.json();
+  REQUIRE(report["elements"].size() == 2);
+  CHECK(report["elements"][0]["name"] == "brain artery 1");
+  CHECK(report["elements"][0]["kind"] == "artery");
+  CHECK(report["elements"][0]["status"] == "ok");
+  CHECK(report["elements"][0]["method"] == "centre line");
+  CHECK(report["summary"]["junctions"] == 1);
+  CHECK(report["summary"]["quantised"] == false);
+  CHECK(report["summary"]["error_mm"]["max"].get<double>() < 0.1);
+  const auto network = readNetwork(folder.path("out.vasa"));
+  REQUIRE(network.ok());
+  CHECK(network->points().front() == vec4(0, 0, 0, 0.002f));
+}
+
+TEST_CASE("convert refuses centre lines that it cannot read, and surfaces and lines at once") {
+  const Folder folder;
+  const auto out = folder.path("out.vasa");
+  const auto expect = [&](const std::vector<std::string>& files, int exit, const std::string& message) {
+    std::vector<std::string> arguments{"convert", "-o", out};
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    const auto outcome = runProgram(arguments);
+    CHECK(outcome.exit == exit);
+    INFO(outcome.err);
+    CHECK(contains(outcome.err, message));
+    CHECK(!std::filesystem::exists(out));
+  };
+  const auto good = folder.write("good.swc", "1 1 0 0 0 2 -1\n2 3 0 10 0 2 1\n");
+  expect({folder.write("bad.swc", "1 1 0 0 0 -2 -1\n")}, 3, "bad.swc:1: radius -2 must be positive");
+  expect({folder.write("dot.swc", "1 1 0 0 0 2 -1\n")}, 3, "no line of two places");
+  expect({folder.write("bad.vtp", "<VTKFile/>")}, 3, "bad.vtp: /VTKFile");
+  expect({good, folder.write("tube.obj", tubesObj({{"tube", 0}}))}, 2, "converted apart");
+  expect({folder.path("absent.swc")}, 6, "absent.swc");
+}

@@ -1,0 +1,162 @@
+#include "io/swc.h"
+
+#include <unordered_map>
+
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "io/words.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kMaximumBytes = std::size_t(1) << 30;
+
+struct Row {
+  SwcSample sample;
+  std::int64_t parentId = -1;
+  std::size_t line = 0;
+};
+
+class Reader {
+ public:
+  Reader(const std::string& name, const ImportFrame& frame) : name_(name), frame_(frame) {}
+
+  Result<std::vector<SwcSample>> run(std::string_view text) {
+    for (std::size_t line = 1; !text.empty(); ++line)
+      if (auto read = readLine(nextLine(text), line); !read) return read.error();
+    if (rows_.empty())
+      return badInput(name_ + ": the file has no samples; an SWC line is: id type x y z radius parent");
+    if (auto linked = linkParents(); !linked) return linked.error();
+    if (auto checked = checkCircles(); !checked) return checked.error();
+    mendRadii();
+    std::vector<SwcSample> samples;
+    for (const Row& row : rows_) samples.push_back(row.sample);
+    return samples;
+  }
+
+ private:
+  Error fail(std::size_t line, const std::string& what) const {
+    return badInput(name_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  Result<void> readLine(std::string_view text, std::size_t line) {
+    static constexpr const char* kColumns[] = {"id", "type", "x", "y", "z", "radius", "parent"};
+    text = text.substr(0, text.find('#'));
+    double value[7];
+    for (int column = 0; column < 7; ++column) {
+      const std::string_view word = nextWord(text);
+      if (column == 0 && word.empty()) return {};
+      if (word.empty())
+        return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: id type x y z radius parent");
+      if (!parseNumber(word, value[column]))
+        return fail(line, std::string("the ") + kColumns[column] + " must be a finite number, found '" +
+                              std::string(word.substr(0, 40)) + "'");
+    }
+    for (const int column : {0, 1, 6})
+      if (value[column] != std::floor(value[column]) || std::abs(value[column]) > 1e15)
+        return fail(line, std::string("the ") + kColumns[column] + " must be a whole number, found " + numberText(value[column]));
+    const dvec3 place(value[2], value[3], value[4]);
+    if (std::max(glm::length(place), std::abs(value[5])) * frame_.metresPerUnit > kLargestCoordinate)
+      return fail(line, "lies farther than 1000 km away; give the file's unit with --scale");
+    if (value[5] < 0) return fail(line, "radius " + numberText(value[5]) + " must be positive; mend or remove the sample");
+    Row row{{std::int64_t(value[0]), std::int64_t(value[1]), frame_.toHouse(place),
+             float(value[5] * frame_.metresPerUnit)},
+            std::int64_t(value[6]),
+            line};
+    const auto [found, fresh] = numbers_.emplace(row.sample.id, std::uint32_t(rows_.size()));
+    if (!fresh)
+      return fail(line, "id " + std::to_string(row.sample.id) + " is that of line " +
+                            std::to_string(rows_[found->second].line) + " already; number the samples anew");
+    rows_.push_back(row);
+    return {};
+  }
+
+  Result<void> linkParents() {
+    for (Row& row : rows_) {
+      if (row.parentId < 0) continue;
+      const auto found = numbers_.find(row.parentId);
+      if (found == numbers_.end())
+        return fail(row.line, "parent " + std::to_string(row.parentId) + " does not exist; give -1 to a root");
+      row.sample.parent = found->second;
+    }
+    return {};
+  }
+
+  // Walks towards the root from every sample that no walk has passed yet.
+  Result<void> checkCircles() {
+    std::vector<std::uint32_t> walk(rows_.size(), 0);
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+      std::uint32_t at = i;
+      while (at != SwcSample::kRoot && walk[at] == 0) walk[at] = i + 1, at = rows_[at].sample.parent;
+      if (at != SwcSample::kRoot && walk[at] == i + 1)
+        return fail(rows_[at].line, "its parents lead back to itself; give -1 to one of them");
+    }
+    return {};
+  }
+
+  void mendRadii() {
+    std::vector<std::uint32_t> bare;
+    for (std::uint32_t i = 0; i < rows_.size(); ++i)
+      if (!(rows_[i].sample.radius > 0)) bare.push_back(i);
+    if (bare.empty()) return;
+    logWarning(name_ + ": " + std::to_string(bare.size()) + " samples without a radius (first: line " +
+               std::to_string(rows_[bare.front()].line) + ") take a neighbour's");
+    // Known radii spread from parents to children, then the other way, then whatever is left takes the mean.
+    spread(bare, [this](std::uint32_t i) { return rows_[i].sample.parent; });
+    std::vector<std::uint32_t> child(rows_.size(), SwcSample::kRoot);
+    for (auto i = std::uint32_t(rows_.size()); i-- > 0;)
+      if (const std::uint32_t parent = rows_[i].sample.parent; parent != SwcSample::kRoot) child[parent] = i;
+    spread(bare, [&child](std::uint32_t i) { return child[i]; });
+    double sum = 0;
+    std::size_t known = 0;
+    for (const Row& row : rows_)
+      if (row.sample.radius > 0) sum += row.sample.radius, ++known;
+    for (const std::uint32_t i : bare)
+      if (!(rows_[i].sample.radius > 0)) rows_[i].sample.radius = known ? float(sum / double(known)) : 1e-4f;
+  }
+
+  template <class Next>
+  void spread(const std::vector<std::uint32_t>& bare, Next next) {
+    std::vector<std::uint32_t> trail;
+    for (const std::uint32_t first : bare) {
+      trail.clear();
+      std::uint32_t at = first;
+      while (at != SwcSample::kRoot && rows_[at].sample.radius == 0) trail.push_back(at), at = next(at);
+      // A trail that ends without a radius is marked, so that it is walked once only.
+      const float radius = at == SwcSample::kRoot ? -1 : rows_[at].sample.radius;
+      for (const std::uint32_t i : trail) rows_[i].sample.radius = radius;
+    }
+    for (const std::uint32_t i : bare) rows_[i].sample.radius = std::max(rows_[i].sample.radius, 0.0f);
+  }
+
+  std::string name_;
+  ImportFrame frame_;
+  std::vector<Row> rows_;
+  std::unordered_map<std::int64_t, std::uint32_t> numbers_;
+};
+
+}  // namespace
+
+Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name, const ImportFrame& frame) {
+  return Reader(name, frame).run(text);
+}
+
+Result<std::vector<SwcSample>> readSwc(const std::filesystem::path& path, const ImportFrame& frame) {
+  const auto bytes = readFile(path, kMaximumBytes);
+  if (!bytes) return bytes.error();
+  return parseSwc({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), frame);
+}
+
+std::string encodeSwc(std::span<const SwcSample> samples, const ImportFrame& frame) {
+  std::string text = "# id type x y z radius parent\n";
+  for (const SwcSample& sample : samples) {
+    const dvec3 place = frame.toFile(sample.position);
+    text += std::to_string(sample.id) + ' ' + std::to_string(sample.type);
+    for (const double value : {place.x, place.y, place.z, double(sample.radius) / frame.metresPerUnit})
+      text += ' ' + numberText(value + 0.0);
+    text += ' ' + (sample.parent == SwcSample::kRoot ? std::string("-1") : std::to_string(samples[sample.parent].id)) + '\n';
+  }
+  return text;
+}
+
+}  // namespace vasa

@@ -1,0 +1,303 @@
+#include "io/vtp.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "io/vtp_data.h"
+#include "io/words.h"
+
+namespace vasa {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr std::size_t kMaximumBytes = std::size_t(1) << 28;
+constexpr std::int64_t kMostItems = 1 << 26;
+constexpr const char* kExportAgain = "; write the file again";
+
+// The first rule that reading finds broken.
+struct BrokenRule {
+  std::string place, rule;
+};
+[[noreturn]] void breaks(std::string place, std::string rule) {
+  throw BrokenRule{std::move(place), std::move(rule)};
+}
+
+std::string_view attribute(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value ? value : "";
+}
+
+class Reader {
+ public:
+  Reader(std::span<const std::byte> bytes, const ImportFrame& frame) : frame_(frame) {
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string xml(takeAppended(text));
+    if (document_.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
+      breaks("line " + std::to_string(document_.ErrorLineNum()), std::string("is not valid XML: ") + document_.ErrorName());
+  }
+
+  VtpLines run() {
+    const XMLElement* root = document_.RootElement();
+    if (!root || std::strcmp(root->Name(), "VTKFile") != 0) breaks("/", "is no VTK XML file");
+    readEncoding(*root);
+    const XMLElement* data = root->FirstChildElement("PolyData");
+    if (!data) breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) + ", not PolyData; save it as .vtp");
+    if (const XMLElement* fields = data->FirstChildElement("FieldData")) readNames(*fields);
+    int number = 0;
+    for (const XMLElement* piece = data->FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
+      readPiece(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]");
+    if (out_.lines.empty()) breaks("/VTKFile/PolyData", "has no lines of two points or more; give centre lines");
+    mendRadii();
+    return std::move(out_);
+  }
+  std::size_t mended = 0;
+
+ private:
+  // Appended data may be raw bytes, which no XML parser takes: cut out before it sees the file.
+  std::string takeAppended(std::string_view text) {
+    const std::size_t tag = text.rfind("<AppendedData");
+    if (tag == text.npos) return std::string(text);
+    const std::size_t start = text.find('_', tag), stop = text.rfind("</AppendedData>");
+    if (start == text.npos || stop == text.npos || stop <= start) breaks("/VTKFile/AppendedData", "is cut short");
+    appendedRaw_ = text.substr(tag, start - tag).find("raw") != text.npos;
+    appended_ = text.substr(start + 1, stop - start - 1);
+    return std::string(text.substr(0, start)) + std::string(text.substr(stop));
+  }
+
+  void readEncoding(const XMLElement& root) {
+    encoding_.bigEndian = attribute(root, "byte_order") == "BigEndian";
+    encoding_.wideHeader = attribute(root, "header_type") == "UInt64";
+    const std::string_view compressor = attribute(root, "compressor");
+    encoding_.zlib = compressor == "vtkZLibDataCompressor";
+    if (!compressor.empty() && !encoding_.zlib)
+      breaks("/VTKFile/compressor", "is " + std::string(compressor) + "; save the file with zlib or without compression");
+  }
+
+  std::int64_t count(const XMLElement& piece, const char* name, const std::string& place) {
+    std::int64_t value = 0;
+    const std::string_view text = attribute(piece, name);
+    if (!text.empty() && !parseInteger(text, value)) breaks(place + "/" + name, "must be a whole number");
+    if (value < 0 || value > kMostItems) breaks(place + "/" + name, "must lie between 0 and " + std::to_string(kMostItems));
+    return value;
+  }
+
+  std::vector<double> numbers(const XMLElement& array, const std::string& place) {
+    const auto scalar = vtp::scalarNamed(attribute(array, "type"));
+    if (!scalar) breaks(place + "/type", "is not a number type that VTK has");
+    const std::string_view format = attribute(array, "format");
+    const char* text = array.GetText();
+    if (format == "ascii") return asciiNumbers(text ? text : "", place);
+    std::vector<std::byte> content;
+    if (format == "appended") content = appendedBlock(array, place);
+    else if (format == "binary") content = block(text ? text : "", place);
+    else breaks(place + "/format", "must be ascii, binary or appended");
+    if (content.size() % vtp::sizeOf(*scalar) != 0) breaks(place, "is no whole number of values");
+    return vtp::numbersOf(content, *scalar, encoding_.bigEndian);
+  }
+
+  static std::vector<double> asciiNumbers(std::string_view text, const std::string& place) {
+    std::vector<double> values;
+    for (std::string_view word = nextWord(text, " \t\r\n"); !word.empty(); word = nextWord(text, " \t\r\n"))
+      if (!parseNumber(word, values.emplace_back()))
+        breaks(place, "value " + std::to_string(values.size() - 1) + " is no finite number: '" + std::string(word.substr(0, 40)) + "'");
+    return values;
+  }
+
+  std::vector<std::byte> block(std::string_view text, const std::string& place) {
+    const auto bytes = vtp::decodeBase64(text);
+    if (!bytes) breaks(place, std::string("is not base64") + kExportAgain);
+    return unpacked(*bytes, place);
+  }
+  std::vector<std::byte> unpacked(std::span<const std::byte> bytes, const std::string& place) {
+    std::string fault;
+    auto content = vtp::unpack(bytes, encoding_, fault);
+    if (!content) breaks(place, fault + kExportAgain);
+    return std::move(*content);
+  }
+  std::vector<std::byte> appendedBlock(const XMLElement& array, const std::string& place) {
+    std::int64_t offset = -1;
+    if (!parseInteger(attribute(array, "offset"), offset) || offset < 0 || std::size_t(offset) > appended_.size())
+      breaks(place + "/offset", "must lie inside the appended data");
+    const std::string_view from = appended_.substr(std::size_t(offset));
+    if (appendedRaw_) return unpacked(std::as_bytes(std::span(from)), place);
+    return block(firstBlock(from), place);
+  }
+  // Blocks of base64 follow one another without a mark: as much of it as the block needs, read from its own header.
+  std::string_view firstBlock(std::string_view text) const {
+    const std::size_t word = encoding_.wideHeader ? 8 : 4;
+    const auto lengths = [&](std::size_t count) -> std::vector<double> {
+      const auto bytes = vtp::decodeBase64(text.substr(0, std::min(text.size(), (count * word + 2) / 3 * 4)));
+      if (!bytes || bytes->size() < count * word) return {};
+      return vtp::numbersOf(std::span(*bytes).first(count * word), encoding_.wideHeader ? vtp::Scalar::uint64 : vtp::Scalar::uint32,
+                            encoding_.bigEndian);
+    };
+    const auto letters = [](double bytes) { return std::ceil(bytes / 3) * 4; };
+    double length = 0;
+    if (const auto first = lengths(1); first.empty() || first[0] > double(text.size())) return text;
+    else if (!encoding_.zlib) length = letters(double(word) + first[0]);
+    else if (const auto all = lengths(3 + std::size_t(first[0])); !all.empty()) {
+      double packed = 0;
+      for (std::size_t i = 3; i < all.size(); ++i) packed += all[i];
+      length = letters(double(all.size() * word)) + letters(packed);
+    }
+    return length > 0 && length < double(text.size()) ? text.substr(0, std::size_t(length)) : text;
+  }
+
+  static const XMLElement* arrayNamed(const XMLElement* parent, std::string_view name) {
+    if (!parent) return nullptr;
+    for (const XMLElement* e = parent->FirstChildElement("DataArray"); e; e = e->NextSiblingElement("DataArray"))
+      if (attribute(*e, "Name") == name) return e;
+    return nullptr;
+  }
+
+  void readNames(const XMLElement& fields) {
+    for (const XMLElement* name : {arrayNamed(&fields, "VesselNames")}) {
+      if (!name || attribute(*name, "type") != "String" || attribute(*name, "format") != "ascii") continue;
+      std::string text;
+      for (const double value : asciiNumbers(name->GetText() ? name->GetText() : "", "/VTKFile/PolyData/FieldData/VesselNames")) {
+        if (value == 0) out_.names.push_back(std::exchange(text, {}));
+        else if (value > 0 && value < 256) text += char(static_cast<unsigned char>(value));
+      }
+    }
+  }
+
+  void readPiece(const XMLElement& piece, const std::string& place) {
+    const std::int64_t points = count(piece, "NumberOfPoints", place), lines = count(piece, "NumberOfLines", place);
+    if (lines == 0) return;
+    const auto base = std::uint32_t(out_.points.size());
+    readPoints(piece, std::size_t(points), place);
+    const std::vector<bool> kept = readLines(piece, std::size_t(points), std::size_t(lines), base, place);
+    readCells(piece, kept, std::size_t(count(piece, "NumberOfVerts", place)), place);
+  }
+
+  void readPoints(const XMLElement& piece, std::size_t count, const std::string& place) {
+    const XMLElement* points = piece.FirstChildElement("Points");
+    const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
+    if (!array) breaks(place + "/Points", "is missing");
+    const std::vector<double> xyz = numbers(*array, place + "/Points");
+    if (xyz.size() != 3 * count)
+      breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " + std::to_string(count) + " points");
+    const XMLElement* data = piece.FirstChildElement("PointData");
+    const XMLElement* radiusArray = arrayNamed(data, "MaximumInscribedSphereRadius");
+    for (const char* name : {"Radius", "radius"})
+      if (!radiusArray) radiusArray = arrayNamed(data, name);
+    if (!radiusArray)
+      breaks(place + "/PointData", "has no array MaximumInscribedSphereRadius or Radius; add one (vmtkcenterlines does)");
+    const std::string radiusPlace = place + "/PointData/" + std::string(attribute(*radiusArray, "Name"));
+    const std::vector<double> radius = numbers(*radiusArray, radiusPlace);
+    if (radius.size() != count)
+      breaks(radiusPlace, "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
+    for (std::size_t i = 0; i < count; ++i) {
+      const dvec3 p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+      if (!(std::max(glm::length(p), std::abs(radius[i])) * frame_.metresPerUnit <= kLargestCoordinate))
+        breaks(place + "/Points", "point " + std::to_string(i) + " is not finite or farther than 1000 km away; give the file's unit with --scale");
+      if (!(radius[i] >= 0))
+        breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) + " must be positive");
+      out_.points.push_back(vec4(frame_.toHouse(p), float(radius[i] * frame_.metresPerUnit)));
+    }
+  }
+
+  std::vector<bool> readLines(const XMLElement& piece, std::size_t points, std::size_t lines, std::uint32_t base,
+                              const std::string& piecePlace) {
+    const std::string place = piecePlace + "/Lines";
+    const XMLElement* element = piece.FirstChildElement("Lines");
+    const XMLElement *connectivity = arrayNamed(element, "connectivity"), *offsets = arrayNamed(element, "offsets");
+    if (!connectivity || !offsets) breaks(place, "needs the arrays connectivity and offsets");
+    const std::vector<double> numbersOfPoints = numbers(*connectivity, place + "/connectivity");
+    const std::vector<double> ends = numbers(*offsets, place + "/offsets");
+    if (ends.size() != lines)
+      breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " + std::to_string(lines) + " lines");
+    std::vector<bool> kept;
+    double start = 0;
+    for (std::size_t i = 0; i < lines; ++i) {
+      if (!(ends[i] >= start && ends[i] <= double(numbersOfPoints.size())))
+        breaks(place + "/offsets", "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
+      std::vector<std::uint32_t> line;
+      for (auto k = std::size_t(start); k < std::size_t(ends[i]); ++k) {
+        const double point = numbersOfPoints[k];
+        if (!(point >= 0 && point < double(points)))
+          breaks(place + "/connectivity", "value " + std::to_string(k) + " lies outside the " + std::to_string(points) + " points");
+        line.push_back(base + std::uint32_t(point));
+      }
+      start = ends[i];
+      kept.push_back(line.size() > 1);
+      if (kept.back()) out_.lines.push_back(std::move(line));
+    }
+    return kept;
+  }
+
+  // Whole numbers a line; cells are counted verts first.
+  void readCells(const XMLElement& piece, const std::vector<bool>& kept, std::size_t verts, const std::string& place) {
+    const XMLElement* data = piece.FirstChildElement("CellData");
+    const std::size_t before = out_.lines.size() - std::size_t(std::ranges::count(kept, true));
+    for (const XMLElement* e = data ? data->FirstChildElement("DataArray") : nullptr; e; e = e->NextSiblingElement("DataArray")) {
+      const auto scalar = vtp::scalarNamed(attribute(*e, "type"));
+      const std::string name(attribute(*e, "Name"));
+      const std::string_view components = attribute(*e, "NumberOfComponents");
+      if (!scalar || *scalar >= vtp::Scalar::float32 || name.empty() || !(components.empty() || components == "1")) continue;
+      const std::vector<double> values = numbers(*e, place + "/CellData/" + name);
+      if (values.size() < verts + kept.size()) breaks(place + "/CellData/" + name, "has fewer numbers than there are cells");
+      auto array = std::ranges::find(out_.cellArrays, name, &VtpLines::CellArray::name);
+      if (array == out_.cellArrays.end()) array = out_.cellArrays.insert(array, {name, {}});
+      array->values.resize(before, 0);
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        if (kept[i]) array->values.push_back(std::int32_t(std::clamp(values[verts + i], -2147483648.0, 2147483647.0)));
+    }
+    for (auto& array : out_.cellArrays) array.values.resize(out_.lines.size(), 0);
+  }
+
+  void mendRadii() {
+    for (const auto& line : out_.lines)
+      for (int pass = 0; pass < 2; ++pass)
+        for (std::size_t i = 1; i < line.size(); ++i) {
+          const std::size_t at = pass == 0 ? i : line.size() - 1 - i, from = pass == 0 ? i - 1 : line.size() - i;
+          float& radius = out_.points[line[at]].w;
+          if (radius > 0 || !(out_.points[line[from]].w > 0)) continue;
+          radius = out_.points[line[from]].w;
+          ++mended;
+        }
+    for (const auto& line : out_.lines)
+      for (const std::uint32_t point : line)
+        if (!(out_.points[point].w > 0)) breaks("/VTKFile/PolyData", "a line has no radius above zero");
+  }
+
+  tinyxml2::XMLDocument document_;
+  ImportFrame frame_;
+  vtp::Encoding encoding_;
+  std::string_view appended_;
+  bool appendedRaw_ = false;
+  VtpLines out_;
+};
+
+}  // namespace
+
+const VtpLines::CellArray* VtpLines::find(std::string_view name) const {
+  const auto found = std::ranges::find(cellArrays, name, &CellArray::name);
+  return found == cellArrays.end() ? nullptr : &*found;
+}
+
+Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame) {
+  try {
+    Reader reader(bytes, frame);
+    VtpLines lines = reader.run();
+    if (reader.mended > 0)
+      logWarning(name + ": " + std::to_string(reader.mended) + " points without a radius take a neighbour's");
+    return lines;
+  } catch (const BrokenRule& broken) {
+    return badInput(name + ": " + broken.place + ": " + broken.rule);
+  }
+}
+
+Result<VtpLines> readVtp(const std::filesystem::path& path, const ImportFrame& frame) {
+  const auto bytes = readFile(path, kMaximumBytes);
+  if (!bytes) return bytes.error();
+  return parseVtp(*bytes, path.string(), frame);
+}
+
+}  // namespace vasa

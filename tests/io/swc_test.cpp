@@ -1,0 +1,125 @@
+#include "io/swc.h"
+
+#include <doctest/doctest.h>
+
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+const ImportFrame kMillimetres{0.001, ImportFrame::Up::y};
+
+void expectFault(const char* text, const char* message) {
+  const auto read = parseSwc(text, "a.swc");
+  INFO(text);
+  REQUIRE(!read.ok());
+  CHECK(read.error().fault == Fault::badInput);
+  INFO(read.error().message);
+  CHECK(read.error().message.find(message) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("an SWC tree: units, comments, a parent further down, a fork") {
+  const auto samples = parseSwc("# a comment\n2 3 0 10 0 2 1\r\n1 1 0 0 0 2 -1 # root\n\n3 3 0 20 0 2 2\n4 3 5 15 0 1 2 99\n", "a.swc", kMillimetres);
+  REQUIRE(samples.ok());
+  REQUIRE(samples->size() == 4);
+  CHECK((*samples)[0].position == vec3(0, 0.01f, 0));
+  CHECK((*samples)[0].radius == 0.002f);
+  CHECK((*samples)[0].parent == 1);
+  CHECK((*samples)[1].parent == SwcSample::kRoot);
+  const Centrelines lines = centrelinesOfSwc(*samples, "a", VesselKind::artery);
+  REQUIRE(lines.lines.size() == 2);
+  CHECK(lines.lines[0].samples.size() == 3);
+  CHECK(lines.lines[0].samples.back() == vec4(0, 0.02f, 0, 0.002f));
+  CHECK(lines.lines[1].samples.front() == vec4(0, 0.01f, 0, 0.001f));
+  REQUIRE(lines.joints.size() == 1);
+  CHECK(lines.joints[0].host->line == 0);
+  CHECK(lines.joints[0].host->sample == 1);
+}
+
+TEST_CASE("a sample without a radius takes its parent's, a root its child's") {
+  const auto samples = parseSwc("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n3 3 0 2 0 0.5 2\n4 3 0 3 0 0 3\n", "a.swc");
+  REQUIRE(samples.ok());
+  for (const SwcSample& s : *samples) CHECK(s.radius == 0.5f);
+  const auto bare = parseSwc("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n", "a.swc");
+  REQUIRE(bare.ok());
+  CHECK((*bare)[0].radius > 0);
+}
+
+TEST_CASE("what is wrong with an SWC file is told with its line") {
+  expectFault("", "no samples");
+  expectFault("# only this\n", "no samples");
+  expectFault("1 1 0 0 0 1 -1\n2 1 0 0 x 1 1\n", "a.swc:2: the z must be a finite number, found 'x'");
+  expectFault("1 1 0 0 0\n", "a.swc:1: the radius is missing");
+  expectFault("1 1 0 0 0 inf -1\n", "the radius must be a finite number");
+  expectFault("1 1 0 0 0 -0.2 -1\n", "a.swc:1: radius -0.2 must be positive");
+  expectFault("1 1 0 0 0 1 -1\n1 1 0 0 1 1 -1\n", "a.swc:2: id 1 is that of line 1 already");
+  expectFault("1 1 0 0 0 1 7\n", "a.swc:1: parent 7 does not exist");
+  expectFault("1 1 0 0 0 1 2\n2 1 0 0 1 1 1\n", "lead back to itself");
+  expectFault("1 1 0 0 0 1 1\n", "lead back to itself");
+  expectFault("1.5 1 0 0 0 1 -1\n", "the id must be a whole number");
+  expectFault("1 1 1e12 0 0 1 -1\n", "--scale");
+  CHECK(readSwc("/nowhere/a.swc").error().fault == Fault::io);
+}
+
+TEST_CASE("SWC written is read back the same, byte for byte") {
+  const auto samples = parseSwc("7 1 0.1 -0.2 0.3 0.77 -1\n9 3 1.23456 10 0 2 7\n8 3 0 20 1e-3 2 9\n", "a.swc", kMillimetres);
+  REQUIRE(samples.ok());
+  const std::string text = encodeSwc(*samples, kMillimetres);
+  const auto again = parseSwc(text, "b.swc", kMillimetres);
+  REQUIRE(again.ok());
+  for (std::size_t i = 0; i < samples->size(); ++i) {
+    CHECK((*again)[i].position == (*samples)[i].position);
+    CHECK((*again)[i].radius == (*samples)[i].radius);
+    CHECK((*again)[i].parent == (*samples)[i].parent);
+  }
+  CHECK(encodeSwc(*again, kMillimetres) == text);
+}
+
+TEST_CASE("a network of lines with a loop becomes a forest of all its samples") {
+  Centrelines lines;
+  lines.lines.push_back({"a", {}, VesselKind::artery, {{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 2, 0, 1}, {0, 3, 0, 1}}});
+  lines.lines.push_back({"b", {}, VesselKind::artery, {{0, 1, 0, 1}, {1, 1, 0, 1}, {1, 2, 0, 1}, {0, 2, 0, 1}}});
+  lines.joints = {{Centrelines::Place{0, 1}, {{1, false}}}, {Centrelines::Place{0, 2}, {{1, true}}}};
+  const auto samples = swcOfCentrelines(lines);
+  CHECK(samples.size() == 7);  // six places, and the loop's end once more
+  const auto read = parseSwc(encodeSwc(samples), "loop.swc");
+  REQUIRE(read.ok());
+  CHECK(read->size() == 7);
+}
+
+TEST_CASE("traced brain arteries: every sample is met within 1 % of its radius") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  for (const auto& entry : std::filesystem::directory_iterator(data / "centerlines/brava")) {
+    if (entry.path().extension() != ".swc") continue;
+    const auto samples = readSwc(entry.path(), kMillimetres);
+    REQUIRE(samples.ok());
+    const Centrelines lines = centrelinesOfSwc(*samples, "brain", VesselKind::artery);
+    const auto made = networkOfCentrelines(lines);
+    REQUIRE(made.ok());
+    CHECK(made->network.componentCount() == 1);
+    // A branch's first sample is its own, besides the one it leaves.
+    CHECK(lines.sampleCount() == samples->size() + lines.lines.size() - 1);
+    float worst = 0, miss = 0;
+    for (std::size_t i = 0; i < lines.lines.size(); ++i)
+      for (std::size_t s = 0; s < lines.lines[i].samples.size(); ++s) {
+        const vec4 wanted = lines.lines[i].samples[s];
+        const vec4 at = evaluate(made->network.pointsOf(made->network.vessels()[i]), made->parameters[i][s]);
+        worst = std::max(worst, std::abs(at.w - wanted.w) / wanted.w);
+        miss = std::max(miss, glm::distance(vec3(at), vec3(wanted)) / wanted.w);
+      }
+    CHECK(worst < 0.01f);
+    CHECK(miss < 0.06f);
+    MESSAGE(entry.path().filename().string() << ": " << samples->size() << " samples, " << made->network.vessels().size() << " vessels, "
+                               << made->network.sweepCount() << " sweeps, radius within " << 100 * worst << " %");
+    const auto written = swcOfCentrelines(lines);
+    CHECK(written.size() == samples->size());
+    const std::string text = encodeSwc(written, kMillimetres);
+    const auto again = parseSwc(text, "again", kMillimetres);
+    REQUIRE(again.ok());
+    CHECK(encodeSwc(*again, kMillimetres) == text);
+  }
+}

@@ -1,0 +1,164 @@
+#include "io/vtp.h"
+
+#include <doctest/doctest.h>
+
+#include <zlib.h>
+
+#include "io/vtp_data.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+const ImportFrame kMillimetres{0.001, ImportFrame::Up::y};
+
+std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+// Three points in one line, every array in its own encoding.
+std::string file(const std::string& points, const std::string& radius, const std::string& connectivity, const std::string& head = "",
+                 const std::string& tail = "") {
+  return "<?xml version=\"1.0\"?><VTKFile type=\"PolyData\" version=\"0.1\" " + head +
+         "><PolyData><Piece NumberOfPoints=\"3\" NumberOfLines=\"1\"><PointData>" + radius + "</PointData><Points>" + points +
+         "</Points><Lines>" + connectivity + "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray></Lines></Piece></PolyData>" +
+         tail + "</VTKFile>";
+}
+const std::string kPoints = "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0\n2 0 0</DataArray>";
+const std::string kRadius = "<DataArray type=\"Float64\" Name=\"MaximumInscribedSphereRadius\" format=\"ascii\">1 2 3</DataArray>";
+const std::string kLine = "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>";
+
+template <class T>
+std::vector<std::byte> packed(const std::vector<T>& values, bool bigEndian = false) {
+  std::vector<std::byte> bytes;
+  for (const T& value : values) {
+    const auto one = std::as_bytes(std::span(&value, 1));
+    if (bigEndian) bytes.insert(bytes.end(), one.rbegin(), one.rend());
+    else bytes.insert(bytes.end(), one.begin(), one.end());
+  }
+  return bytes;
+}
+std::vector<std::byte> operator+(std::vector<std::byte> a, const std::vector<std::byte>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+void expectRead(const std::string& text) {
+  const auto read = parseVtp(bytesOf(text), "a.vtp");
+  if (!read.ok()) FAIL(read.error().message);
+  REQUIRE(read->points.size() == 3);
+  CHECK(read->points[2] == vec4(2, 0, 0, 3));
+  CHECK(read->lines == std::vector<std::vector<std::uint32_t>>{{0, 1, 2}});
+}
+void expectFault(const std::string& text, const char* message) {
+  const auto read = parseVtp(bytesOf(text), "a.vtp");
+  REQUIRE(!read.ok());
+  CHECK(read.error().fault == Fault::badInput);
+  INFO(read.error().message);
+  CHECK(read.error().message.find(message) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("VTP data in every encoding") {
+  const std::vector<float> radii{1, 2, 3};
+  const auto radius = [](const std::string& format, const std::string& content) {
+    return "<DataArray type=\"Float32\" Name=\"Radius\" " + format + ">" + content + "</DataArray>";
+  };
+  expectRead(file(kPoints, kRadius, kLine));
+  const auto plain = packed<std::uint32_t>({12}) + packed(radii);
+  expectRead(file(kPoints, radius("format=\"binary\"", "\n  " + vtp::encodeBase64(plain) + "\n"), kLine));
+  const auto big = packed<std::uint64_t>({12}, true) + packed(radii, true);
+  expectRead(file(kPoints, radius("format=\"binary\"", vtp::encodeBase64(big)), kLine, "byte_order=\"BigEndian\" header_type=\"UInt64\""));
+  std::vector<std::byte> squeezed(100);
+  uLongf length = 100;
+  REQUIRE(compress(reinterpret_cast<Bytef*>(squeezed.data()), &length, reinterpret_cast<const Bytef*>(radii.data()), 12) == Z_OK);
+  squeezed.resize(length);
+  const auto header = packed<std::uint32_t>({1, 32768, 12, std::uint32_t(length)});
+  const std::string zlib = "compressor=\"vtkZLibDataCompressor\"";
+  expectRead(file(kPoints, radius("format=\"binary\"", vtp::encodeBase64(header) + vtp::encodeBase64(squeezed)), kLine, zlib));
+  const auto raw = header + squeezed;
+  const std::string rawText(reinterpret_cast<const char*>(raw.data()), raw.size());
+  expectRead(file(kPoints, radius("format=\"appended\" offset=\"2\"", ""), kLine, zlib, "<AppendedData encoding=\"raw\">_\x01<" + rawText + "</AppendedData>"));
+  expectRead(file(kPoints, radius("format=\"appended\" offset=\"4\"", ""), kLine, zlib,
+                  "<AppendedData encoding=\"base64\">_AAAA" + vtp::encodeBase64(header) + vtp::encodeBase64(squeezed) + vtp::encodeBase64(header) + "</AppendedData>"));
+}
+
+TEST_CASE("what is wrong with a VTP file is told with its place") {
+  const auto array = [](const char* type, const char* name, const char* content, const char* format = "ascii") {
+    return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" format=\"" + format + "\">" + content + "</DataArray>";
+  };
+  const char* r = "MaximumInscribedSphereRadius";
+  expectFault("", "not valid XML");
+  expectFault("<VTKFile><PolyData></VTKFile>", "line 1: is not valid XML");
+  expectFault("<html/>", "no VTK XML file");
+  expectFault("<VTKFile type=\"ImageData\"/>", "holds ImageData, not PolyData");
+  expectFault("<VTKFile compressor=\"vtkLZ4DataCompressor\"/>", "save the file with zlib");
+  expectFault("<VTKFile><PolyData/></VTKFile>", "no lines");
+  expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"x\" NumberOfLines=\"1\"/></PolyData></VTKFile>", "Piece[0]/NumberOfPoints: must be a whole number");
+  expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"99999999999\"/></PolyData></VTKFile>", "must lie between");
+  expectFault(file("", kRadius, kLine), "Points: is missing");
+  expectFault(file(kPoints, "", kLine), "has no array MaximumInscribedSphereRadius");
+  expectFault(file(kPoints, array("Float64", r, "1 2"), kLine), "holds 2 numbers for 3 points");
+  expectFault(file(kPoints, array("Float64", r, "1 -2 3"), kLine), "radius -2 of point 1 must be positive");
+  expectFault(file(kPoints, array("Float64", r, "1 nan 3"), kLine), "no finite number: 'nan'");
+  expectFault(file(kPoints, array("Float64", r, "0 0 0"), kLine), "no radius above zero");
+  expectFault(file(kPoints, array("Float80", r, "1 2 3"), kLine), "not a number type");
+  expectFault(file(kPoints, array("Float64", r, "1 2 3", "hex"), kLine), "must be ascii, binary or appended");
+  expectFault(file(kPoints, array("Float64", r, "###", "binary"), kLine), "is not base64");
+  expectFault(file(kPoints, array("Float64", r, "//8AAAAA", "binary"), kLine), "is cut short");
+  expectFault(file(kPoints, kRadius, array("Int64", "connectivity", "0 1 3")), "value 2 lies outside the 3 points");
+  expectFault(file(kPoints, kRadius, array("Int64", "connectivity", "0 1")), "must not fall and not exceed");
+  CHECK(readVtp("/nowhere/a.vtp").error().fault == Fault::io);
+}
+
+TEST_CASE("VTP written is read back the same, byte for byte") {
+  Centrelines lines;
+  lines.lines.push_back({"left \xc3\xa4orta & <co>", {}, VesselKind::vein, {{0, 0, 0, 0.01f}, {0.1f, 0.2f, 0.3f, 0.02f}, {0.7f, 0, 0, 0.03f}}});
+  lines.lines.push_back({"branch", {}, VesselKind::artery, {{0.1f, 0.2f, 0.3f, 0.001f}, {0.1f, 0.5f, 0.3f, 0.002f}}});
+  lines.joints = {{Centrelines::Place{0, 1}, {{1, false}}}};
+  const std::string text = encodeVtp(vtpOfCentrelines(lines), kMillimetres);
+  const auto read = parseVtp(bytesOf(text), "a.vtp", kMillimetres);
+  if (!read.ok()) FAIL(read.error().message);
+  CHECK(encodeVtp(*read, kMillimetres) == text);
+  const Centrelines again = centrelinesOfVtp(*read, "a", VesselKind::other);
+  REQUIRE(again.lines.size() == 2);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(again.lines[i].name == lines.lines[i].name);
+    CHECK(again.lines[i].kind == lines.lines[i].kind);
+    CHECK(again.lines[i].samples == lines.lines[i].samples);
+  }
+  REQUIRE(again.joints.size() == 1);
+  CHECK(again.joints[0].host->sample == 1);
+  CHECK(encodeVtp(vtpOfCentrelines(again), kMillimetres) == text);
+}
+
+TEST_CASE("VMTK's aorta: one tree, radii within 1 % of the source's at every sample") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  for (const char* name : {"aorta-centerline.vtp", "aorta-centerline-branches.vtp"}) {
+    const auto source = readVtp(data / "centerlines/vmtk" / name, kMillimetres);
+    if (!source.ok()) FAIL(source.error().message);
+    const Centrelines lines = centrelinesOfVtp(*source, "aorta", VesselKind::artery);
+    const auto made = networkOfCentrelines(lines);
+    if (!made.ok()) FAIL(made.error().message);
+    CHECK(made->network.vessels().size() == 2);
+    CHECK(made->network.componentCount() == 1);
+    // Against the source's own points, wherever the network passes nearest.
+    float worst = 0, farthest = 0;
+    for (const vec4& wanted : source->points) {
+      vec4 best(0);
+      float least = 1e9f;
+      for (const Vessel& vessel : made->network.vessels())
+        for (std::uint32_t i = 0; i <= 64 * vessel.spanCount(); ++i) {
+          const vec4 at = evaluate(made->network.pointsOf(vessel), float(i) / 64);
+          const float distance = glm::distance(at, wanted);
+          if (distance < least) least = distance, best = at;
+        }
+      worst = std::max(worst, std::abs(best.w - wanted.w) / wanted.w);
+      farthest = std::max(farthest, glm::distance(vec3(best), vec3(wanted)));
+    }
+    CHECK(worst < 0.01f);
+    CHECK(farthest < 5e-4f);
+    MESSAGE(std::string(name) << ": " << made->network.sweepCount() << " sweeps, radius within " << 100 * worst << " %, centre within " << 1000 * farthest << " mm");
+  }
+}
