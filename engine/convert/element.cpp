@@ -128,7 +128,7 @@ PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
     }
     result.sections.push_back(std::move(sections));
   }
-  connectForks(result.graph, result.sections);
+  connectForks(result.graph, result.sections, tree);
   return result;
 }
 

@@ -60,7 +60,7 @@ vec3 placeNode(const std::vector<Arm>& arms, vec3 rough) {
 }
 
 // Sections from an arm's end to the node, without the first and with the last.
-std::vector<vec4> lead(const Arm& arm, vec3 node) {
+std::vector<vec4> lead(const Arm& arm, vec3 node, float widest, const TriangleTree& surface) {
   const float length = glm::distance(arm.position, node);
   const int count = std::clamp(int(length / std::max(0.6f * arm.radius, 1e-9f)), 1, 8);
   std::vector<vec4> sections;
@@ -72,7 +72,8 @@ std::vector<vec4> lead(const Arm& arm, vec3 node) {
     const vec3 p =
         i == count ? node
                    : s * s * s * arm.position + 3 * s * s * t * b1 + 3 * s * t * t * b2 + t * t * t * node;
-    sections.push_back(vec4(p, arm.radius));
+    const float clearance = std::min(surface.nearest(p, widest).distance, widest);
+    sections.push_back(vec4(p, std::max(arm.radius, clearance)));
   }
   return sections;
 }
@@ -87,7 +88,7 @@ float medianOf(std::vector<vec4> points) {
 
 }  // namespace
 
-void connectForks(AxisGraph& graph, std::vector<std::vector<vec4>>& sections) {
+void connectForks(AxisGraph& graph, std::vector<std::vector<vec4>>& sections, const TriangleTree& surface) {
   const auto ends = chainEnds(graph);
   const auto trimmed = sections;
   for (std::uint32_t node = 0; node < graph.nodes.size(); ++node) {
@@ -99,9 +100,11 @@ void connectForks(AxisGraph& graph, std::vector<std::vector<vec4>>& sections) {
     else if (!arms.empty())
       graph.nodes[node] = arms[0].position;
     if (ends[node].size() < 2) continue;
+    float widest = 0;
+    for (const Arm& arm : arms) widest = std::max(widest, arm.radius);
     for (const Arm& arm : arms) {
       auto& list = sections[arm.end.chain];
-      const auto added = lead(arm, graph.nodes[node]);
+      const auto added = lead(arm, graph.nodes[node], widest, surface);
       if (arm.end.last)
         list.insert(list.end(), added.begin(), added.end());
       else

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "convert/convert.h"
 #include "convert/element.h"
 #include "curve/bspline.h"
 #include "curve/fit.h"
 #include "io/gltf.h"
+#include "io/stl.h"
+#include "io/vtp.h"
 #include "math/closest_point.h"
 #include "support/shared_data.h"
 
@@ -69,4 +72,33 @@ TEST_CASE("every seventh artery and vein of a real body: a branch each, and its 
   }
   CHECK(sum.covered / sum.area > 0.98);
   CHECK(poor <= count / 50);
+}
+
+TEST_CASE("VMTK's aorta: radii made of the surface agree with the reference centre lines in the median") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  const ImportFrame millimetres{0.001, ImportFrame::Up::y};
+  auto mesh = readStl(data / "centerlines/vmtk/aorta-surface.stl", millimetres);
+  REQUIRE(mesh.ok());
+  const auto made = convertElements(describeElements(std::move(*mesh), "aorta"));
+  REQUIRE(made.ok());
+  CHECK(made->report.summary.coverage > 0.98);
+  const auto reference = readVtp(data / "centerlines/vmtk/aorta-centerline.vtp", millimetres);
+  REQUIRE(reference.ok());
+  std::vector<float> differences;
+  for (const vec4& wanted : reference->points) {
+    vec4 nearest(0);
+    float least = 1;
+    for (const Vessel& vessel : made->network.vessels())
+      for (std::uint32_t i = 0; i <= 32 * vessel.spanCount(); ++i) {
+        const vec4 at = evaluate(made->network.pointsOf(vessel), float(i) / 32);
+        if (const float distance = glm::distance(vec3(at), vec3(wanted)); distance < least) least = distance, nearest = at;
+      }
+    differences.push_back(std::abs(nearest.w / wanted.w - 1));
+  }
+  std::ranges::sort(differences);
+  MESSAGE("radii differ by " << 100 * differences[differences.size() / 2] << " % in the median, 95 % of them by less than "
+                             << 100 * differences[differences.size() * 95 / 100] << " %");
+  CHECK(differences[differences.size() / 2] <= 0.05f);
+  // Legs that start in the fork fill what they share of its lumen: no radius falls far short of the inscribed sphere's.
+  CHECK(differences[differences.size() * 95 / 100] < 0.15f);
 }
