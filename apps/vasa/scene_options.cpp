@@ -27,7 +27,9 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option("--network", options.networks, "Vessels (.vasa); may be given several times")
       ->take_all()
       ->allow_extra_args(false);
-  sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it");
+  sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it, or a .bvh file");
+  sub.add_option("--joint-map", options.jointMap,
+                 "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
 }
 
 Result<SceneFile> chooseScene(const SceneOptions& options) {
@@ -40,6 +42,9 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
   if (!options.body.empty()) scene.body = options.body;
   if (!options.networks.empty()) scene.networks.assign(options.networks.begin(), options.networks.end());
   if (!options.clip.empty()) scene.clip = options.clip;
+  if (!options.jointMap.empty()) scene.jointMap = options.jointMap;
+  if (!scene.jointMap.empty() && !isMotionFile(scene.clip))
+    return Error{Fault::usage, "a joint map belongs to a .bvh file; give one with --clip FILE.bvh"};
   if (scene.body.empty() != scene.networks.empty())
     return Error{Fault::usage, scene.body.empty() ? "vessels are given but no body; add --body FILE.glb"
                                                   : "a body is given but no vessels; add --network FILE.vasa"};

@@ -14,9 +14,10 @@ struct SceneOptions {
   std::string body;
   std::vector<std::string> networks;
   std::string clip;
+  std::string jointMap;
 };
 
-/// Declares SCENE, --body, --network and --clip.
+/// Declares SCENE, --body, --network, --clip and --joint-map.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 
 /// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes from the

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "body/retarget.h"
+#include "io/bvh.h"
 #include "io/gltf.h"
 #include "network/file.h"
 #include "network/measure.h"
@@ -32,10 +34,33 @@ void addJoints(Aabb& box, const Pose& pose, vec3 way = vec3(0)) {
   for (const mat4& world : pose.world) box.add(vec3(world[3]) - way);
 }
 
+// A motion file's clip bears the file's name as it was given.
+Result<void> addMotion(const SceneFile& file, Body& body) {
+  const auto motion = readBvh(file.clip);
+  if (!motion) return motion.error();
+  JointMap map;
+  if (!file.jointMap.empty()) {
+    auto read = readJointMap(file.jointMap);
+    if (!read) return read.error();
+    map = std::move(*read);
+  }
+  auto clip = retarget(*motion, body, map);
+  if (!clip) return clip.error();
+  body.clips.push_back(std::move(*clip));
+  return {};
+}
+
 }  // namespace
 
-Result<Scene> loadScene(const SceneFile& file) {
+Result<Body> loadBody(const SceneFile& file) {
   auto body = readBody(file.body);
+  if (!body || !isMotionFile(file.clip)) return body;
+  if (auto added = addMotion(file, *body); !added) return added.error();
+  return body;
+}
+
+Result<Scene> loadScene(const SceneFile& file) {
+  auto body = loadBody(file);
   if (!body) return body.error();
   std::vector<Network> networks;
   for (const auto& path : file.networks) {

@@ -13,6 +13,9 @@ struct Scene {
   Binding binding;
 };
 
+/// The body alone; where the clip is a .bvh file, with that motion carried to it (body/retarget.h) among its clips.
+Result<Body> loadBody(const SceneFile& file);
+
 /// Reads what a scene file names and binds the vessels to the body. Fails as readers, merging and binding do;
 /// vessels that do not lie in the body are refused.
 Result<Scene> loadScene(const SceneFile& file);

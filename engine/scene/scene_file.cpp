@@ -121,6 +121,10 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
 
 }  // namespace
 
+bool isMotionFile(std::string_view clip) {
+  return clip.ends_with(".bvh") || clip.ends_with(".BVH");
+}
+
 Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name) {
   Json json;
   try {
@@ -137,10 +141,12 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
                 {{"body", reader.path(scene.body)},
                  {"networks", reader.paths(scene.networks)},
                  {"clip", reader.text(scene.clip)},
+                 {"joint_map", reader.path(scene.jointMap)},
                  {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
                  {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }}});
   if (reader.fault)
     return badInput(name + ": " + (reader.fault->place.empty() ? "/" : reader.fault->place) + " " + reader.fault->rule);
+  if (isMotionFile(scene.clip)) scene.clip = (folder / scene.clip).string();
   return scene;
 }
 

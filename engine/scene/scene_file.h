@@ -27,17 +27,21 @@ struct LookChoice {
 };
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
-///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk",
+///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
 ///               "skin_opacity": 0.3 } }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
-  std::string clip;
+  std::string clip;                ///< a clip's name or the beginning of it, or a .bvh file
+  std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
   CameraChoice camera;
   LookChoice look;
 };
+
+/// Whether a clip is meant that a file of its own holds.
+bool isMotionFile(std::string_view clip);
 
 /// Reads a scene file. badInput names the JSON place and the rule: malformed JSON, an unknown key, a wrong type, a
 /// number that is not finite or out of range.

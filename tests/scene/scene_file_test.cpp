@@ -37,6 +37,15 @@ TEST_CASE("a full scene is read, paths relative to the file") {
   CHECK(scene->look.background->w == 0);
 }
 
+TEST_CASE("a motion file's path is relative to the scene, a clip's name is no path") {
+  const auto scene = parseScene(R"({"clip": "walk.bvh", "joint_map": "map.txt"})", "/here", "x.json");
+  REQUIRE(scene.ok());
+  CHECK(scene->clip == "/here/walk.bvh");
+  CHECK(scene->jointMap == "/here/map.txt");
+  CHECK(isMotionFile(scene->clip));
+  CHECK(!isMotionFile("walk"));
+}
+
 TEST_CASE("an empty scene is the default one") {
   const auto scene = parseScene("{}", "", "x.json");
   REQUIRE(scene.ok());
@@ -47,7 +56,7 @@ TEST_CASE("an empty scene is the default one") {
 TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("{").find("x.json: is not valid JSON") == 0);
   CHECK(messageOf("[1]") == "x.json: / must be an object");
-  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, clip, look, networks");
+  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, clip, joint_map, look, networks");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");

@@ -1,0 +1,112 @@
+#include "body/humanoid.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kFamilies = 6;
+constexpr std::array<std::string_view, kFamilies> kFamilyNames{"cmu", "mixamo", "makehuman game", "makehuman", "vrm", "vroid"};
+constexpr int kLeastKnown = 8;
+
+// A row for each part of the body, a column for each family. @ stands for the side: "left" or "l" as the column's
+// names have it.
+struct Row {
+  std::string_view part;
+  std::array<std::string_view, kFamilies> names;
+};
+constexpr Row kMiddle[] = {
+    {"hips", {"hips", "hips", "pelvis", "root", "hips", "jbipchips"}},
+    {"spine", {"lowerback", "spine", "spine01", "spine05", "spine", "jbipcspine"}},
+    {"chest", {"spine", "spine1", "spine02", "spine03", "chest", "jbipcchest"}},
+    {"upperChest", {"spine1", "spine2", "spine03", "spine01", "upperchest", "jbipcupperchest"}},
+    {"neck", {"neck", "neck", "neck01", "neck01", "neck", "jbipcneck"}},
+    {"head", {"head", "head", "head", "head", "head", "jbipchead"}},
+};
+constexpr Row kSide[] = {
+    {"Shoulder", {"@shoulder", "@shoulder", "clavicle@", "clavicle@", "@shoulder", "jbip@shoulder"}},
+    {"UpperArm", {"@arm", "@arm", "upperarm@", "upperarm01@", "@upperarm", "jbip@upperarm"}},
+    {"LowerArm", {"@forearm", "@forearm", "lowerarm@", "lowerarm01@", "@lowerarm", "jbip@lowerarm"}},
+    {"Hand", {"@hand", "@hand", "hand@", "wrist@", "@hand", "jbip@hand"}},
+    {"UpperLeg", {"@upleg", "@upleg", "thigh@", "upperleg01@", "@upperleg", "jbip@upperleg"}},
+    {"LowerLeg", {"@leg", "@leg", "calf@", "lowerleg01@", "@lowerleg", "jbip@lowerleg"}},
+    {"Foot", {"@foot", "@foot", "foot@", "foot@", "@foot", "jbip@foot"}},
+    {"Toes", {"@toebase", "@toebase", "ball@", "toe11@", "@toes", "jbip@toebase"}},
+    {"ThumbProximal", {"#thumb", "@handthumb1", "thumb01@", "finger11@", "@thumbproximal", "jbip@thumb1"}},
+    {"IndexProximal", {"@handindex1", "@handindex1", "index01@", "finger21@", "@indexproximal", "jbip@index1"}},
+    {"MiddleProximal", {"@fingerbase", "@handmiddle1", "middle01@", "finger31@", "@middleproximal", "jbip@middle1"}},
+};
+// Whether a family writes sides out.
+constexpr std::array<bool, kFamilies> kWholeSides{true, true, false, false, true, false};
+
+std::string withSide(std::string_view pattern, bool left, bool whole) {
+  std::string name;
+  for (const char c : pattern) {
+    if (c == '@') name += whole ? (left ? "left" : "right") : (left ? "l" : "r");
+    else if (c == '#') name += left ? "l" : "r";
+    else name += c;
+  }
+  return name;
+}
+
+// The parts' names with sides, as string_views that live for ever.
+struct Part {
+  std::string name;
+  std::array<std::string, kFamilies> joints;
+};
+const std::vector<Part>& parts() {
+  static const std::vector<Part> list = [] {
+    std::vector<Part> all;
+    for (const Row& row : kMiddle) {
+      Part part{std::string(row.part), {}};
+      for (std::size_t f = 0; f < kFamilies; ++f) part.joints[f] = row.names[f];
+      all.push_back(std::move(part));
+    }
+    for (const bool left : {true, false})
+      for (const Row& row : kSide) {
+        Part part{(left ? "left" : "right") + std::string(row.part), {}};
+        for (std::size_t f = 0; f < kFamilies; ++f) part.joints[f] = withSide(row.names[f], left, kWholeSides[f]);
+        all.push_back(std::move(part));
+      }
+    return all;
+  }();
+  return list;
+}
+
+}  // namespace
+
+std::string plainName(std::string_view name) {
+  if (const std::size_t colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
+  std::string plain;
+  for (const unsigned char c : name)
+    if (std::isalnum(c)) plain += char(std::tolower(c));
+  constexpr std::string_view kPrefix = "mixamorig";
+  if (plain.starts_with(kPrefix)) plain.erase(0, kPrefix.size());
+  return plain;
+}
+
+HumanoidNames humanoidNames(const std::vector<std::string>& joints) {
+  std::vector<std::string> plain;
+  for (const std::string& joint : joints) plain.push_back(plainName(joint));
+  HumanoidNames best{{}, std::vector<std::string_view>(joints.size())};
+  int most = kLeastKnown - 1;
+  for (std::size_t f = 0; f < kFamilies; ++f) {
+    std::vector<std::string_view> known(joints.size());
+    int count = 0;
+    for (const Part& part : parts()) {
+      const auto found = std::ranges::find(plain, part.joints[f]);
+      if (found == plain.end()) continue;
+      known[std::size_t(found - plain.begin())] = part.name;
+      ++count;
+    }
+    if (count <= most) continue;
+    most = count;
+    best = {kFamilyNames[f], std::move(known)};
+  }
+  return best;
+}
+
+}  // namespace vasa

@@ -1,0 +1,24 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+
+#include "body/humanoid.h"
+#include "body/motion.h"
+#include "core/result.h"
+
+namespace vasa {
+
+/// A motion from a Biovision hierarchy file. Rotations may come in any order of axes; scale channels are refused.
+/// Fails with badInput, naming file and line: a word out of place, an offset or value that is not a finite
+/// number, a channel of unknown kind, nesting beyond 256 or more than 4096 joints, fewer values than frames
+/// times channels, no frames, a frame time that is not above zero.
+Result<Motion> readBvh(const std::filesystem::path& path);
+
+/// The same from text. @param name  for messages, and the motion's
+Result<Motion> parseBvh(std::string_view text, const std::string& name);
+
+/// Pairs of joints, a line each: `motion's joint = body's joint`; nothing on the right leaves the joint out; what
+/// follows a # is a comment. Fails with badInput, naming file and line.
+Result<JointMap> readJointMap(const std::filesystem::path& path);
+
+}  // namespace vasa

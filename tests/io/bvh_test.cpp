@@ -1,0 +1,78 @@
+#include "io/bvh.h"
+
+#include <doctest/doctest.h>
+
+#include "core/atomic_file.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+const std::string kHierarchy =
+    "HIERARCHY\nROOT Hips\n{\n OFFSET 0 1 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+    " JOINT Left Leg \n {\n  OFFSET 0 -1 0\n  CHANNELS 3 Zrotation Xrotation Yrotation\n  End Site\n  {\n   OFFSET 0 -2 0\n  }\n }\n}\n";
+
+void expectFault(const std::string& text, const char* message) {
+  const auto read = parseBvh(text, "a.bvh");
+  REQUIRE(!read.ok());
+  CHECK(read.error().fault == Fault::badInput);
+  INFO(read.error().message);
+  CHECK(read.error().message.find(message) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("BVH: hierarchy, places, rotations in the order of the channels") {
+  const auto motion = parseBvh(kHierarchy + "MOTION\r\nFrames: 2\nFrame Time: .0333333\n1 2 3 0 0 0 0 0 0\n1 2 3 90 0 0 0 90 90\n", "a.bvh");
+  if (!motion.ok()) FAIL(motion.error().message);
+  REQUIRE(motion->joints.size() == 2);
+  CHECK(motion->joints[0].name == "Hips");
+  CHECK(motion->joints[1].name == "Left Leg");
+  CHECK(motion->joints[1].parent.value == 0);
+  CHECK(motion->joints[1].endOffset == vec3(0, -2, 0));
+  CHECK(motion->joints[0].moves);
+  CHECK(!motion->joints[1].moves);
+  CHECK(motion->frameCount == 2);
+  CHECK(motion->framesPerSecond == 30);
+  CHECK(motion->translation(1, 0) == vec3(1, 2, 3));
+  CHECK(motion->translation(1, 1) == vec3(0, -1, 0));
+  CHECK(glm::distance(motion->rotation(1, 0) * vec3(1, 0, 0), vec3(0, 1, 0)) < 1e-6f);
+  // First about y, then about x as the file writes it: z -> x -> x.
+  CHECK(glm::distance(motion->rotation(1, 1) * vec3(0, 0, 1), vec3(1, 0, 0)) < 1e-6f);
+}
+
+TEST_CASE("what is wrong with a BVH file is told with its line") {
+  const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
+  expectFault("", "a.bvh:1: expected HIERARCHY, found the file's end");
+  expectFault("HIERARCHY\nJOINT a\n", "a.bvh:2: expected ROOT, found 'JOINT'");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 nan 0\n", "a.bvh:4: an offset must be a finite number, found 'nan'");
+  expectFault("HIERARCHY\nROOT\n{\n", "needs a name");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 1 Xscale\n", "a.bvh:5: a channel must be a position or rotation such as Xrotation, found 'Xscale'");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 9 Xrotation\n", "from 0 to 6");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n BONE b\n", "expected JOINT, End Site or }, found 'BONE'");
+  expectFault(kHierarchy, "expected MOTION");
+  expectFault(kHierarchy + "MOTION\nFrames: 0\n", "there are no frames");
+  expectFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 0\n", "must be above zero");
+  expectFault(kHierarchy + "MOTION\nFrames: 9999999\nFrame Time: 0.1\n", "fewer values");
+  expectFault(kHierarchy + motion + "1 2 3 4 5 6 7 8 x         \n", "found 'x'");
+  expectFault(kHierarchy + motion + "1 2 3 4 5 6 7 8           \n", "found the file's end");
+  std::string deep = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n";
+  for (int i = 0; i < 400; ++i) deep += "JOINT b\n{\nOFFSET 0 0 0\n";
+  expectFault(deep, "nested deeper than 256");
+  CHECK(readBvh("/nowhere/a.bvh").error().fault == Fault::io);
+}
+
+TEST_CASE("joint maps: pairs, comments, joints left out; a bad line is named") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "map.txt";
+  REQUIRE(writeFileAtomically(path, std::string("# pairs\nLeft Leg = thigh.L # here\n\n Extra =\n")).ok());
+  const auto map = readJointMap(path);
+  REQUIRE(map.ok());
+  CHECK(*map == JointMap{{"Left Leg", "thigh.L"}, {"Extra", ""}});
+  REQUIRE(writeFileAtomically(path, std::string("a = b\nc\n")).ok());
+  const auto bad = readJointMap(path);
+  REQUIRE(!bad.ok());
+  CHECK(bad.error().message.find("map.txt:2: a line must be") != std::string::npos);
+}
