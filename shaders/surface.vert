@@ -16,7 +16,7 @@ invariant gl_Position;
 vec3 linearOf(vec3 srgb) { return srgb * (srgb * (srgb * 0.305306011 + 0.682171111) + 0.012522878); }
 
 void main() {
-  uint item = push.colours.colour[push.firstItem + uint(gl_VertexIndex) / push.verticesPerItem];
+  uint item = push.colours.colour[push.firstItem + (uint(gl_VertexIndex) >> push.itemShift)];
   bool hidden = (push.hiddenKinds >> (item >> 24) & 1u) != 0u;
   gl_Position = hidden ? vec4(2, 2, 2, 1) : push.viewProjection * vec4(position, 1);  // outside the picture
   vec3 world = unpackOctahedral(foldedNormal);

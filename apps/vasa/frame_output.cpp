@@ -5,6 +5,8 @@
 #include <charconv>
 #include <optional>
 
+#include "render/renderer.h"
+
 namespace vasa::cli {
 namespace {
 
@@ -66,8 +68,9 @@ Result<PictureSize> parseSize(const std::string& text) {
 }
 
 Result<Quads> parseQuads(const std::string& text) {
+  if (text == "auto") return Quads{.pixelError = kAutoPixelError};
   if (const auto quads = product(text, {3, 16}, {2, 20})) return Quads{quads->first, quads->second};
-  return usage("--quads " + text + ": give MxN with M from 3 to 16 around and N from 2 to 20 along, for example 8x5");
+  return usage("--quads " + text + ": give MxN with M from 3 to 16 around and N from 2 to 20 along, for example 8x5, or auto");
 }
 
 Result<FramePattern> FramePattern::parse(const std::string& text, bool several) {

@@ -26,9 +26,10 @@ struct PictureSize {
 };
 Result<PictureSize> parseSize(const std::string& text);
 
-/// "8x5": m in 3..16 around, n in 2..20 along.
+/// "8x5": m in 3..16 around, n in 2..20 along; "auto": by size on the picture, pixelError > 0.
 struct Quads {
   std::uint32_t around = 8, along = 5;
+  float pixelError = 0;  ///< of "auto" (RenderOptions::pixelError)
 };
 Result<Quads> parseQuads(const std::string& text);
 

@@ -82,11 +82,15 @@ void drawFrames(Renderer& renderer, const Setting& setting, const Options& optio
   }
 }
 
+std::string nameOf(Quads quads) {
+  return quads.pixelError > 0 ? "auto" : fmt::format("{}x{}", quads.around, quads.along);
+}
+
 // Stages are timed in one run, whole frames in another: taking the stages' times puts barriers between them.
 Report profileRow(gpu::Device& device, const Setting& setting, const Options& options, Quads quads) {
   const auto meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>();
   RenderOptions render{.width = setting.size.width, .height = setting.size.height, .samples = options.samples,
-                       .shape = {quads.around, quads.along}, .timed = false};
+                       .shape = {quads.around, quads.along}, .pixelError = quads.pixelError, .timed = false};
   Stages stages;
   {
     Renderer renderer(device, setting.scene.network, meshes, render);
@@ -111,12 +115,12 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
     stages.add("tessellate_ms", times.tessellate);
     stages.add("draw_ms", times.draw);
     stages.add("meshes_ms", times.meshes);
+    stages.add("triangles_drawn", double(renderer.drawnTriangleCount()));
     if (drawn++ % 8 == 0) stages.add("static_draw_ms", renderer.staticDraw(input, 1));
   });
-  Report row{{"quads", fmt::format("{}x{}", quads.around, quads.along)},
-             {"sweeps", renderer.sweepCount()},
-             {"triangles", renderer.triangleCount()}};
+  Report row{{"quads", nameOf(quads)}, {"sweeps", renderer.sweepCount()}, {"triangles", renderer.triangleCount()}};
   stages.report(row);
+  if (quads.pixelError > 0) row["triangles"] = row["triangles_drawn"];  // the picture decides, and leaves no others
   row["fps"] = 1000 / row.value("frame_ms", 1e9);
   row["template_bytes"] = renderer.templateBytes();
   return row;
@@ -215,7 +219,7 @@ void addProfile(CLI::App& app, Command& command) {
   sub->footer("Examples:\n  vasa profile\n  vasa profile --body b.glb --network b.vasa --clip walk --quads 4x5,8x10 --json");
   addSceneOptions(*sub, options->scene);
   addCameraOptions(*sub, options->camera);
-  sub->add_option("--quads", options->quads, "Tessellations, MxN with commas between")->capture_default_str();
+  sub->add_option("--quads", options->quads, "Tessellations, MxN or auto, with commas between")->capture_default_str();
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();

@@ -15,7 +15,7 @@
 #include "render/static_tubes.h"
 
 // A frame:
-//   copy the frame's points, knot frames and joints; pose the meshes; write template 0
+//   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
 //   picture, first stretch: clear, bones and heart
 //   for each batch k: write batch k+1 into the other template; stretch: draw batch k; barrier
 //   picture, last stretch: skin; resolve
@@ -24,9 +24,10 @@
 namespace vasa {
 namespace {
 
-constexpr VkPipelineStageFlags2 kTemplateStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                                                  VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT |
-                                                  VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages;
+constexpr VkPipelineStageFlags2 kTemplateStages =
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+    VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
+    VK_PIPELINE_STAGE_2_TRANSFER_BIT;
 constexpr const char* kTessellate = "tessellate";
 constexpr const char* kDraw = "draw tubes";
 constexpr const char* kMeshes = "meshes";
@@ -47,8 +48,8 @@ bool anyVessels(const Look& look) {
   return look.drawArteries || look.drawVeins || look.drawOtherVessels;
 }
 
-gpu::Buffer templateBuffer(gpu::Device& device, const TubeSet& tubes) {
-  return {device, {.name = "template", .bytes = tubes.templateBytes(), .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}};
+TubeDraws drawsFor(gpu::Device& device, const TubeSet& tubes) {
+  return {device, tubes.room(), tubes.groupsPerBatch()};
 }
 
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
@@ -66,18 +67,21 @@ struct Renderer::State {
 
   void record(VkCommandBuffer commands, const RenderInput& input);
   double timeStatic(const StaticTubes& tubes, const RenderInput& input);
+  shared::DetailView viewOf(const RenderInput& input) const;
 
   gpu::Device& device;
   RenderOptions options;
   TubeSet tubes;
   MeshSet meshes;
   FrameUpload upload;
-  TessellatePass tessellatePass;
+  DetailPass detailPass;
+  TubePass tubePass;
   SkinPass skinPass;
   gpu::Target target;
   SurfacePass surfacePass;
-  std::array<gpu::Buffer, 2> templates;  // two buffers: validation takes a vertex fetch to reach a buffer's end
+  std::array<TubeDraws, 2> templates;
   gpu::Buffer readBack;
+  gpu::Buffer drawn;  // every group's draw of the latest frame, where frames are timed
   gpu::GpuTimer timer, staticTimer;
   FrameTimes times;
   bool transparent = false;
@@ -91,29 +95,42 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
                        const RenderOptions& chosen)
     : device(dev),
       options(chosen),
-      tubes(device, network, chosen.shape, std::max(chosen.sweepsPerBatch, 1u)),
+      tubes(device, network, {chosen.shape, chosen.pixelError}, chosen.sweepsPerBatch),
       meshes(device, skinned),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
-      tessellatePass(device),
+      detailPass(device, tubes),
+      tubePass(device),
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
-      templates{templateBuffer(device, tubes), templateBuffer(device, tubes)},
+      templates{drawsFor(device, tubes), drawsFor(device, tubes)},
       readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
-      timer(device, chosen.timed ? std::uint32_t(2 * tubes.batches().size() + 2) : 0),
+      drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? tubes.groupCount() : 0),
+                     gpu::MemoryRole::readBack}),
+      timer(device, chosen.timed ? std::uint32_t(2 * tubes.batches().size() + 3) : 0),
       staticTimer(device, 1) {}
 
 void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
   const auto scope = timer.scope(commands, kTessellate);
-  tessellatePass.record(commands, {tubes, tubes.batches()[batch], upload.points(), upload.knots(),
-                                   templates[batch % 2].address()});
+  tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
+                             templates[batch % 2], options.cull});
 }
 
 void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch) {
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
-  surfacePass.recordTubes(commands, push, tubes, tubes.batches()[batch], templates[batch % 2], 0);
+  surfacePass.recordTubes(commands, push, tubes, tubes.batches()[batch], templates[batch % 2]);
   target.pause(commands);
+  if (drawn.bytes() == 0) return;
+  constexpr VkDeviceSize each = sizeof(shared::DrawCommand);
+  const TubeBatch& range = tubes.batches()[batch];
+  const VkBufferCopy copy{0, each * (range.firstSweep / shared::kGroupSweeps), each * range.groups()};
+  vkCmdCopyBuffer(commands, templates[batch % 2].draws.handle(), drawn.handle(), 1, &copy);
+}
+
+shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
+  return detailView(input.camera, input.look, target.spec().size, options.samples, tubes.detail(),
+                    detailSnap(device, target.spec().size));
 }
 
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
@@ -121,6 +138,10 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   const std::size_t batches = anyVessels(input.look) ? tubes.batches().size() : 0;
   timer.begin(commands);
   upload.record(commands);
+  if (batches > 0) {
+    const auto scope = timer.scope(commands, kTessellate);
+    detailPass.record(commands, tubes, upload.points(), viewOf(input));
+  }
   if (batches > 0) recordTessellation(commands, 0);
   {
     const auto scope = timer.scope(commands, kMeshes);
@@ -209,7 +230,8 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);
   gpu::Commands commands = s.device.queue().begin("static vertices");
   s.upload.record(commands);
-  tubes.recordVertices(commands, s.tessellatePass, s.upload.points(), s.upload.knots());
+  s.detailPass.record(commands, s.tubes, s.upload.points(), s.viewOf(input));
+  tubes.recordVertices(commands, s.tubePass, s.detailPass, s.upload.points(), s.upload.knots());
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
   for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));
@@ -218,6 +240,13 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
 
 std::uint64_t Renderer::triangleCount() const {
   return state_->tubes.triangleCount();
+}
+
+std::uint64_t Renderer::drawnTriangleCount() const {
+  state_->drawn.invalidate();
+  std::uint64_t indices = 0;
+  for (const shared::DrawCommand& draw : state_->drawn.mapped<const shared::DrawCommand>()) indices += draw.indexCount;
+  return indices / 3;
 }
 
 std::uint32_t Renderer::sweepCount() const {

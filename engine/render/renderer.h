@@ -15,14 +15,20 @@ class Device;
 
 namespace vasa {
 
+/// [pixels] error of `--quads auto`: RenderOptions::pixelError.
+constexpr float kAutoPixelError = 0.15f;
+
 /// What is settled for a renderer's life.
 struct RenderOptions {
   std::uint32_t width = 1280, height = 720;  ///< [pixels] 1 to the device's limit
   std::uint32_t samples = 4;                 ///< a pixel: 1 or 4
   SweepShape shape;                          ///< quads around and along every sweep
-  /// Sweeps tessellated and drawn at a time. Two templates of that size are all the vertex memory that tubes
-  /// take, however many sweeps there are.
-  std::uint32_t sweepsPerBatch = 256;
+  /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
+  float pixelError = 0;
+  bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
+  /// Sweeps tessellated and drawn at a time, rounded up to whole groups. Two batches are all the vertex memory that
+  /// tubes take, however many sweeps there are.
+  std::uint32_t sweepsPerBatch = 1024;
   /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and keeps a
   /// device from writing one template while it draws the other; the pictures are the same.
   bool timed = true;
@@ -77,9 +83,10 @@ class Renderer {
   /// Takes memory for every vertex. 0 without a clock on the device.
   double staticDraw(const RenderInput& input, unsigned repeats);
 
-  std::uint64_t triangleCount() const;     ///< of tubes and caps
+  std::uint64_t triangleCount() const;     ///< of tubes and caps, seen or not; 0 if the picture decides
+  std::uint64_t drawnTriangleCount() const;  ///< of the latest frame's, those that may be seen; 0 unless timed
   std::uint32_t sweepCount() const;
-  std::uint64_t templateBytes() const;     ///< device memory for vertices of tubes and caps
+  std::uint64_t templateBytes() const;     ///< device memory for all that batches of tubes write
   const RenderOptions& options() const;
 
  private:

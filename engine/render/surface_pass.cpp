@@ -38,15 +38,6 @@ bool shown(MeshRole role, const Look& look) {
   return false;
 }
 
-std::uint32_t hiddenKinds(const Look& look) {
-  const auto bit = [](VesselKind kind) { return 1u << std::uint32_t(kind); };
-  std::uint32_t hidden = 1u << kHiddenKind;
-  if (!look.drawArteries) hidden |= bit(VesselKind::artery);
-  if (!look.drawVeins) hidden |= bit(VesselKind::vein) | bit(VesselKind::portalVein);
-  if (!look.drawOtherVessels) hidden |= bit(VesselKind::lymphatic) | bit(VesselKind::other);
-  return hidden;
-}
-
 void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDeviceSize offset) {
   const VkBuffer buffer = vertices.handle();
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
@@ -59,7 +50,7 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
   bindVertices(commands, meshes.posed(), 0);
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
   push.colours = meshes.colours();
-  push.verticesPerItem = ~0u;  // a part is one item
+  push.itemShift = 31;  // a part is one item
   push.hiddenKinds = 0;
   for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
     const MeshSet::Part& part = meshes.parts()[i];
@@ -71,6 +62,15 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
 }
 
 }  // namespace
+
+std::uint32_t hiddenKinds(const Look& look) {
+  const auto bit = [](VesselKind kind) { return 1u << std::uint32_t(kind); };
+  std::uint32_t hidden = 1u << kHiddenKind;
+  if (!look.drawArteries) hidden |= bit(VesselKind::artery);
+  if (!look.drawVeins) hidden |= bit(VesselKind::vein) | bit(VesselKind::portalVein);
+  if (!look.drawOtherVessels) hidden |= bit(VesselKind::lymphatic) | bit(VesselKind::other);
+  return hidden;
+}
 
 bool anyShown(const MeshSet& meshes, const Look& look) {
   return std::any_of(meshes.parts().begin(), meshes.parts().end(),
@@ -123,13 +123,14 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
 }
 
 void SurfacePass::recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes,
-                              const TubeBatch& batch, const gpu::Buffer& vertices, VkDeviceSize offset) const {
+                              const TubeBatch& batch, const TubeDraws& draws) const {
   push.colours = tubes.colours();
-  push.firstItem = tubes.firstColour(batch);
-  push.verticesPerItem = tubes.verticesPerItem(batch);
+  push.firstItem = batch.firstSweep;
+  push.itemShift = tubes.room().vertexShift;
   tubes_.bind(commands, push);
-  bindVertices(commands, vertices, offset);
-  tubes.drawBatch(commands, batch);
+  bindVertices(commands, draws.vertices, 0);
+  vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+  vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,

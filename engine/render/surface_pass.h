@@ -3,10 +3,13 @@
 #include "gpu/target.h"
 #include "render/camera.h"
 #include "render/mesh_set.h"
-#include "render/tube_set.h"
+#include "render/tube_pass.h"
 #include "shared/draw.h"
 
 namespace vasa {
+
+/// Bit k: vessels of kind k (VesselKind, kHiddenKind) are not drawn.
+std::uint32_t hiddenKinds(const Look& look);
 
 /// The push constants that all draws of a frame share: the camera's, and which vessels are hidden.
 shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size);
@@ -20,9 +23,8 @@ class SurfacePass {
  public:
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
-  /// @param vertices  the batch's, from `offset` on
   void recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes, const TubeBatch& batch,
-                   const gpu::Buffer& vertices, VkDeviceSize offset) const;
+                   const TubeDraws& draws) const;
   /// Bones, heart and others.
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
   /// The skin: the depth of its nearest side first, then that side's colour over what lies behind.

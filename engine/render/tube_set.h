@@ -1,56 +1,73 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "shared/tubes.h"
 #include "surface/sweep_table.h"
 #include "surface/sweep_template.h"
 
 namespace vasa {
 
-/// Sweeps or caps that are tessellated into one template buffer and drawn together.
-struct TubeBatch {
-  bool caps = false;
-  std::uint32_t first = 0, count = 0;  ///< into SweepTable::sweeps or ::caps
+/// How finely tubes are cut (surface/detail.h): everywhere alike, or by their size on the picture.
+struct TubeDetail {
+  SweepShape shape;
+  float pixelError = 0;  ///< [pixels] > 0: m and n are the least that keep it, and `shape` is not used
+
+  bool automatic() const { return pixelError > 0; }
+  std::uint32_t mostAround() const { return automatic() ? shared::kMaxAround : shape.around; }
+  std::uint32_t mostAlong() const { return automatic() ? shared::kMaxAlong : shape.along; }
 };
 
 /// Kind of an item that is never drawn; the others are VesselKind's values.
 constexpr std::uint32_t kHiddenKind = 31;
 
+/// Room for what a group of sweeps writes. A sweep's vertices start at a multiple of a power of two, so that a vertex
+/// tells its sweep.
+struct GroupRoom {
+  std::uint32_t vertexShift = 0, indices = 0;
+  std::uint32_t vertices() const { return shared::kGroupSweeps << vertexShift; }
+};
+
+/// Groups of kGroupSweeps sweeps, the last one maybe of fewer, that are tessellated and drawn together.
+struct TubeBatch {
+  std::uint32_t firstSweep = 0, sweeps = 0;
+  std::uint32_t groups() const { return (sweeps + shared::kGroupSweeps - 1) / shared::kGroupSweeps; }
+};
+
 /// What of a network stays the same from frame to frame, in device memory.
 class TubeSet {
  public:
-  /// @param batchSweeps  most sweeps (or caps) in a batch, at least 1
-  TubeSet(gpu::Device& device, const Network& network, const SweepShape& shape, std::uint32_t batchSweeps);
+  /// @param batchSweeps  most sweeps in a batch, rounded up to whole groups
+  TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t batchSweeps);
 
   const SweepTable& table() const { return table_; }
-  const SweepShape& shape() const { return shape_; }
+  const TubeDetail& detail() const { return detail_; }
   std::span<const TubeBatch> batches() const { return batches_; }
-  VkDeviceSize templateBytes() const { return templateBytes_; }  ///< vertices of the largest batch
+  const GroupRoom& room() const { return room_; }
+  std::uint32_t groupsPerBatch() const { return batches_.empty() ? 0 : batches_.front().groups(); }
+  std::uint32_t groupCount() const { return TubeBatch{0, std::uint32_t(table_.sweeps.size())}.groups(); }
+  std::uint32_t vesselCount() const { return vesselCount_; }
+  /// Of tubes and caps at fixed quads, seen or not; 0 if the picture decides.
   std::uint64_t triangleCount() const;
 
   VkDeviceAddress sweeps() const { return sweeps_.address(); }
-  VkDeviceAddress caps() const { return caps_.address(); }
   VkDeviceAddress tables() const { return tables_.address(); }
-  VkDeviceAddress colours() const { return colours_.address(); }
-  std::uint32_t verticesPerItem(const TubeBatch& batch) const;
-  /// Place of the batch's first item in colours(): sweeps first, then caps.
-  std::uint32_t firstColour(const TubeBatch& batch) const;
-  /// Indexed triangles of a batch whose vertices are bound at its first.
-  void drawBatch(VkCommandBuffer commands, const TubeBatch& batch) const;
+  VkDeviceAddress colours() const { return colours_.address(); }  ///< one a sweep, kind in the highest 8 bits
 
   /// Waits for the device. Empty: the colours of the vessels' kinds.
   void setSweepColours(gpu::Device& device, std::span<const std::uint32_t> colours);
 
  private:
   void makeBatches(std::uint32_t batchSweeps);
-  void makeIndices(gpu::Device& device, std::uint32_t batchSweeps);
 
   SweepTable table_;
-  SweepShape shape_;
+  TubeDetail detail_;
   std::vector<TubeBatch> batches_;
+  GroupRoom room_;
+  std::uint32_t vesselCount_ = 0;
   std::vector<std::uint32_t> kindColours_;  // one a sweep, kind in the highest 8 bits
-  VkDeviceSize templateBytes_ = 0;
-  gpu::Buffer sweeps_, caps_, tables_, colours_, sweepIndices_, capIndices_;
+  gpu::Buffer sweeps_, tables_, colours_;
 };
 
 }  // namespace vasa

@@ -3,24 +3,45 @@
 #define VASA_RING
 #include "lib/octahedral.glsl"
 #include "lib/section.glsl"
-#include "shared/tessellate.h"
+#include "shared/tubes.h"
 
-Section ringSection(TessellatePush push, uint sweep, uint ring) {
-  SweepRecord record = push.sweeps.sweep[sweep];
-  precise float t = float(ring) / float(push.along);
-  uint spanClass = record.spanClass, step = 0;
-  if (ring == push.along && record.nextClass != kNoSpan) {  // the next span's first ring, bit for bit
-    spanClass = record.nextClass;
-    step = 1;
-    t = 0;
+// What all rings of a sweep share. The last ring is the first one of the span behind it, bit for bit.
+struct SweepCurve {
+  Bezier own, next;
+  vec4 knots[4];  // at t = 0 and 1 of this span, then of the span behind it
+  vec3 chord, nextChord;  // the vessel's where the span has none of its own
+  bool hasNext;
+};
+
+vec3 vesselChord(Points points, SweepRecord record, Bezier bezier) {
+  vec3 ownChord = bezier.b3.xyz - bezier.b0.xyz;
+  if (dotOf(ownChord, ownChord) > kTiny2) return vec3(0);  // the vessel's chord is never asked for
+  return points.point[record.lastPoint].xyz - points.point[record.firstPoint].xyz;
+}
+
+SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord record) {
+  SweepCurve curve;
+  vec4 d1 = points.point[record.point + 1], d2 = points.point[record.point + 2], d3 = points.point[record.point + 3];
+  curve.own = bezierOf(tables.tables.spanClass[record.spanClass], points.point[record.point], d1, d2, d3);
+  curve.chord = vesselChord(points, record, curve.own);
+  vec4 end = knots.knot[record.knot + 1];
+  curve.knots[0] = knots.knot[record.knot];
+  curve.knots[1] = curve.knots[2] = curve.knots[3] = end;
+  curve.next = curve.own;
+  curve.nextChord = curve.chord;
+  curve.hasNext = record.nextClass != kNoSpan;
+  if (curve.hasNext) {
+    curve.next = bezierOf(tables.tables.spanClass[record.nextClass], d1, d2, d3, points.point[record.point + 4]);
+    curve.nextChord = vesselChord(points, record, curve.next);
+    curve.knots[3] = knots.knot[record.knot + 2];
   }
-  uint point = record.point + step, knot = record.knot + step;
-  Bezier bezier = bezierOf(push.tables.spanClass[spanClass], push.points.point[point], push.points.point[point + 1],
-                           push.points.point[point + 2], push.points.point[point + 3]);
-  vec3 chord = vec3(0), ownChord = bezier.b3.xyz - bezier.b0.xyz;
-  if (dotOf(ownChord, ownChord) <= kTiny2)  // otherwise the vessel's chord is never asked for
-    chord = push.points.point[record.lastPoint].xyz - push.points.point[record.firstPoint].xyz;
-  return sectionAt(bezier, chord, push.knots.knot[knot], push.knots.knot[knot + 1], t);
+  return curve;
+}
+
+Section ringSection(SweepCurve curve, uint ring, uint along) {
+  precise float t = float(ring) / float(along);
+  if (ring == along && curve.hasNext) return sectionAt(curve.next, curve.nextChord, curve.knots[2], curve.knots[3], 0);
+  return sectionAt(curve.own, curve.chord, curve.knots[0], curve.knots[1], t);
 }
 
 TubeVertex packVertex(SurfacePoint point) {

@@ -134,11 +134,14 @@ SurfacePoint surfacePoint(Section section, vec2 direction) {
   return SurfacePoint(position, unitOf(normal));
 }
 
+// One of a cap's points, or with polar (1, 0) the tube's own.
 SurfacePoint capPoint(Section section, vec2 direction, vec2 polar, float outward) {
-  if (polar.y == 0) return surfacePoint(section, direction);
   vec3 d = ringDirection(section, direction);
-  precise vec3 normal = polar.x * d + (outward * polar.y) * section.tangent;
-  precise vec3 position = section.centre + section.radius * normal;
+  precise float fold = max(1.0 - section.radius * dotOf(section.curvature, d), kFoldGuard);
+  precise float along = polar.y == 0 ? -(section.slope / fold) : outward * polar.y;
+  precise vec3 normal = polar.x * d + along * section.tangent;
+  precise vec3 reach = polar.y == 0 ? d : normal;
+  precise vec3 position = section.centre + section.radius * reach;
   return SurfacePoint(position, unitOf(normal));
 }
 

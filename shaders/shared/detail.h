@@ -18,8 +18,8 @@ struct DetailView {
   float tolerance;   // [pixels] between a sweep and its quads; used where around or along is 0
   uint around, along;  // m and n of all sweeps; 0: by tolerance
   uint hiddenKinds;    // bit k: sweeps of kind k (highest 8 bits of their colour) are not drawn
-  float width, height; // of the picture [pixels]
-  float gridScale;     // samples of the picture in a row of a pixel: 1, or 4 for four samples
+  float columns, rows; // samples of the picture; with four a pixel, all columns and rows of any of them
+  float snap;          // [samples] how far a rasteriser may move a corner
 };
 
 #ifdef __cplusplus

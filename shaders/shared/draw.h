@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Col
 #define VASA_ADDRESS(Block) Block
 #endif
 
-/// Vertex v of a draw belongs to item firstItem + v / verticesPerItem, which has one colour: sRGB, 8 bits each,
+/// Vertex v of a draw belongs to item firstItem + (v >> itemShift), which has one colour: sRGB, 8 bits each,
 /// red lowest; the highest 8 bits are the item's kind (below 32).
 struct DrawPush {
   mat4 viewProjection;
@@ -23,7 +23,7 @@ struct DrawPush {
   vec2 eyeCorner, eyeStep;  // towards the eye, in the camera's axes, at pixel p: (eyeCorner + p * eyeStep, 1)
   VASA_ADDRESS(Colours) colours;
   uint firstItem;
-  uint verticesPerItem;
+  uint itemShift;
   float opacity;
   uint hiddenKinds;  // bit k: items of kind k are not drawn
 };

@@ -17,9 +17,9 @@ using namespace vasa;
 
 namespace {
 
-constexpr int kWarmUp = 5, kFrames = 15;
+constexpr int kWarmUp = 5, kFrames = 40;
 constexpr const char* kUsage =
-    "usage: bench_render BODY.glb NETWORK.vasa [MxN [BATCH [SAMPLES [WxH [VIEW [OUT.png]]]]]]\n";
+    "usage: bench_render BODY.glb NETWORK.vasa [MxN|auto[:PIXELS][/all] [BATCH [SAMPLES [WxH [VIEW [OUT.png]]]]]]\n";
 
 void print(const char* name, std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -39,9 +39,18 @@ struct Arguments {
   View view = View::front;
 };
 
+// "/all" at the end: nothing is culled.
+void readQuads(const std::string& text, RenderOptions& options) {
+  options.cull = !text.ends_with("/all");
+  if (text.starts_with("auto"))
+    options.pixelError = text.size() > 4 && text[4] == ':' ? std::stof(text.substr(5)) : kAutoPixelError;
+  else
+    std::sscanf(text.c_str(), "%ux%u", &options.shape.around, &options.shape.along);
+}
+
 Arguments argumentsOf(int argc, char** argv) {
   Arguments a;
-  if (argc > 3) std::sscanf(argv[3], "%ux%u", &a.options.shape.around, &a.options.shape.along);
+  if (argc > 3) readQuads(argv[3], a.options);
   if (argc > 4) a.options.sweepsPerBatch = std::uint32_t(std::atoi(argv[4]));
   if (argc > 5) a.options.samples = std::uint32_t(std::atoi(argv[5]));
   if (argc > 6) std::sscanf(argv[6], "%ux%u", &a.options.width, &a.options.height);
@@ -106,6 +115,7 @@ int main(int argc, char** argv) {
   const float aspect = float(arguments.options.width) / float(arguments.options.height);
   RenderInput input{network.points(), frames, joints, cameraFrom(arguments.view, box, aspect), {}};
   timeFrames(renderer, input);
+  std::printf("  drawn %llu triangles\n", static_cast<unsigned long long>(renderer.drawnTriangleCount()));
   std::printf("  static draw  min %8.2f ms\n", renderer.staticDraw(input, 10));
   RenderOptions untimed = arguments.options;
   untimed.timed = false;

@@ -7,11 +7,13 @@
 #include "gpu/gpu_rig.h"
 #include "render/frame_upload.h"
 #include "render/skin_pass.h"
-#include "render/tessellate_pass.h"
+#include "render/tube_pass.h"
 #include "shared/sweep.h"
 #include "support/networks.h"
 #include "surface/octahedral.h"
+#include "surface/detail.h"
 #include "surface/tessellate.h"
+#include "surface/visible.h"
 
 // The compute passes against their CPU references: 1e-5 of the body's height (here 1 m) in position, 1e-3 in
 // normals, at sizes that are no multiple of the workgroup.
@@ -43,53 +45,166 @@ std::vector<quat> framesOf(const Network& network, std::span<const vec4> points)
   return frames;
 }
 
-Difference passAgainstReference(const test::GpuRig& rig, const Network& network, const std::vector<vec4>& points,
-                                const SweepShape& shape, std::uint32_t batchSweeps) {
-  const std::vector<quat> frames = framesOf(network, points);
-  const TessellatePass pass(rig.device());
-  const TubeSet tubes(rig.device(), network, shape, batchSweeps);
-  const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);
-  const PosedNetwork posed{tubes.table(), points, frames};
-  Difference worst;
-  for (const TubeBatch& batch : tubes.batches()) {
-    const std::uint32_t each = tubes.verticesPerItem(batch);
-    // One vertex more than needed, to see that nothing is written past the end.
-    const shared::TubeVertex untouched{1, 2, 3, 4};
-    const gpu::Buffer vertices = rig.upload(std::vector(batch.count * each + 1, untouched));
-    rig.run([&](VkCommandBuffer commands) {
-      pass.record(commands, {tubes, batch, pointBuffer.address(), knotBuffer.address(), vertices.address()});
-    });
-    const auto found = rig.download<shared::TubeVertex>(vertices);
-    CHECK(found.back().normal == 4);
-    std::vector<SurfacePoint> wanted(each);
-    for (std::uint32_t i = 0; i < batch.count; ++i) {
-      if (batch.caps)
-        tessellateCap(posed, batch.first + i, shape, wanted);
-      else
-        tessellateSweep(posed, batch.first + i, shape, wanted);
-      compare(worst, std::span(found).subspan(i * each, each), wanted);
-    }
-  }
-  return worst;
-}
-
 std::vector<vec4> restPoints(const Network& network) {
   return {network.points().begin(), network.points().end()};
 }
 
+Camera cameraAt(vec3 position, float orthographic = 0) {
+  Camera camera;
+  camera.position = position;
+  camera.target = {0, 0.5f, 0};
+  camera.verticalAngle = 0.7f;
+  camera.orthographicHeight = orthographic;
+  camera.nearDistance = 0.05f;
+  return camera;
+}
+
+// A network in device memory and the passes that draw it.
+struct Tubes {
+  Tubes(const test::GpuRig& used, const Network& network, std::vector<vec4> posed, const TubeDetail& detail,
+        std::uint32_t batchSweeps)
+      : rig(used),
+        points(std::move(posed)),
+        frames(framesOf(network, points)),
+        set(rig.device(), network, detail, batchSweeps),
+        detailPass(rig.device(), set),
+        pass(rig.device()),
+        pointBuffer(rig.upload(points)),
+        knotBuffer(rig.upload(frames)) {}
+
+  shared::DetailView view(const Camera& camera, std::uint32_t samples = 1) const {
+    return detailView(camera, {}, {333, 222}, samples, set.detail(), detailSnap(rig.device(), {333, 222}));
+  }
+  NetworkDetail chosen(const shared::DetailView& wanted) const { return networkDetail(posed(), wanted); }
+  PosedNetwork posed() const { return {set.table(), points, frames}; }
+
+  const test::GpuRig& rig;
+  std::vector<vec4> points;
+  std::vector<quat> frames;
+  TubeSet set;
+  DetailPass detailPass;
+  TubePass pass;
+  gpu::Buffer pointBuffer, knotBuffer;
+};
+
+struct Drawn {
+  std::vector<shared::TubeVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<shared::DrawCommand> draws;
+};
+
+Drawn drawnBatch(const Tubes& tubes, const TubeBatch& batch, const shared::DetailView& view, bool cull) {
+  const TubeDraws draws(tubes.rig.device(), tubes.set.room(), batch.groups());
+  tubes.rig.run([&](VkCommandBuffer commands) {
+    tubes.detailPass.record(commands, tubes.set, tubes.pointBuffer.address(), view);
+    tubes.pass.record(commands, {tubes.set, batch, tubes.detailPass, tubes.pointBuffer.address(),
+                                 tubes.knotBuffer.address(), draws, cull});
+  });
+  return {tubes.rig.download<shared::TubeVertex>(draws.vertices), tubes.rig.download<std::uint32_t>(draws.indices),
+          tubes.rig.download<shared::DrawCommand>(draws.draws)};
+}
+
+// The rings of one sweep with its caps, as shaders/tubes.comp writes them.
+std::vector<SurfacePoint> ringsOf(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t around,
+                                  std::uint32_t along) {
+  const std::uint32_t caps = network.table.sweeps[sweep].caps;
+  const std::vector<vec2> directions = ringDirections(around), angles = capAngles();
+  std::vector<SurfacePoint> points;
+  const auto add = [&](std::uint32_t ring, std::uint32_t polar, float outward) {
+    const Section section = ringSection(network, sweep, ring, along);
+    for (const vec2& direction : directions) points.push_back(capPoint(section, direction, angles[polar], outward));
+  };
+  if (caps & 1)
+    for (std::uint32_t j = shared::kCapRings; j > 0; --j) add(0, j, -1);
+  for (std::uint32_t ring = 0; ring <= along; ++ring) add(ring, 0, 1);
+  if (caps & 2)
+    for (std::uint32_t j = 1; j <= shared::kCapRings; ++j) add(along, j, 1);
+  return points;
+}
+
+vec2 placeOf(const shared::TubeVertex& v, const shared::DetailView& view) {
+  const vec4 clip = view.viewProjection * vec4(v.x, v.y, v.z, 1);
+  if (clip.z > clip.w || clip.w <= 0) return vec2(shared::kBehind);
+  return (vec2(clip) / clip.w + 1.0f) * (0.5f * vec2(view.columns, view.rows)) - 0.5f;
+}
+
+struct Triangles {
+  std::vector<uvec3> all, seen;
+};
+
+// The triangles of one sweep whose vertices begin at `base`, in the pass's order.
+Triangles trianglesOf(const Drawn& drawn, const shared::DetailView& view, std::uint32_t base, std::uint32_t strips,
+                      std::uint32_t m) {
+  Triangles triangles;
+  for (std::uint32_t strip = 0; strip < strips; ++strip)
+    for (std::uint32_t k = 0; k < m; ++k) {
+      const std::uint32_t a = base + strip * m + k, b = base + strip * m + (k + 1) % m, c = b + m, d = a + m;
+      const auto at = [&](std::uint32_t i) { return placeOf(drawn.vertices[i], view); };
+      const std::uint32_t seen = seenOfQuad(at(a), at(b), at(c), at(d), {view.columns, view.rows}, view.snap);
+      triangles.all.insert(triangles.all.end(), {{a, b, c}, {a, c, d}});
+      if (seen & 1) triangles.seen.push_back({a, b, c});
+      if (seen & 2) triangles.seen.push_back({a, c, d});
+    }
+  return triangles;
+}
+
+struct Outcome {
+  Difference vertices;
+  std::size_t triangles = 0, drawn = 0, wrong = 0;  // wrong: drawn or left out against the reference
+};
+
+Outcome passAgainstReference(const Tubes& tubes, const shared::DetailView& view, bool cull) {
+  const NetworkDetail detail = tubes.chosen(view);
+  Outcome outcome;
+  for (const TubeBatch& batch : tubes.set.batches()) {
+    const Drawn drawn = drawnBatch(tubes, batch, view, cull);
+    for (std::uint32_t group = 0; group < batch.groups(); ++group) {
+      std::vector<uvec3> wanted;
+      for (std::uint32_t i = group * shared::kGroupSweeps; i < std::min((group + 1) * shared::kGroupSweeps, batch.sweeps); ++i) {
+        const std::uint32_t sweep = batch.firstSweep + i, along = detail.along[sweep];
+        if (along == 0) continue;
+        const std::uint32_t m = detail.around[tubes.set.table().vesselOfSweep[sweep]], base = i << tubes.set.room().vertexShift;
+        const std::vector<SurfacePoint> points = ringsOf(tubes.posed(), sweep, m, along);
+        compare(outcome.vertices, std::span(drawn.vertices).subspan(base, points.size()), points);
+        const Triangles triangles = trianglesOf(drawn, view, base, std::uint32_t(points.size()) / m - 1, m);
+        outcome.triangles += triangles.all.size();
+        const auto& take = cull ? triangles.seen : triangles.all;
+        wanted.insert(wanted.end(), take.begin(), take.end());
+      }
+      const shared::DrawCommand& draw = drawn.draws[group];
+      CHECK(draw.instanceCount == 1);
+      CHECK(draw.indexCount % 3 == 0);
+      std::vector<uvec3> found;
+      for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
+        const std::uint32_t* index = &drawn.indices[draw.firstIndex + i];
+        found.push_back({index[0], index[1], index[2]});
+      }
+      outcome.drawn += found.size();
+      std::size_t common = 0;  // both are in the same order
+      for (const uvec3& triangle : wanted)
+        if (common < found.size() && found[common] == triangle) ++common;
+      outcome.wrong += wanted.size() + found.size() - 2 * common;
+    }
+  }
+  return outcome;
+}
+
 }  // namespace
 
-TEST_CASE("the compute passes write what the CPU reference does, at all extremes of m and n") {
+TEST_CASE("tubes are what the CPU reference says, at all extremes of m and n") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::windingNetwork(37, 21);
   for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{3, 20}, SweepShape{4, 5}, SweepShape{7, 3},
                                  SweepShape{8, 10}, SweepShape{16, 2}, SweepShape{16, 20}}) {
     CAPTURE(shape.around);
     CAPTURE(shape.along);
-    const Difference worst = passAgainstReference(rig, network, restPoints(network), shape, 101);
-    CHECK(worst.vertices > 0);
-    CHECK(worst.position <= 1e-5f);
-    CHECK(worst.normal <= 1e-3f);
+    const Tubes tubes(rig, network, restPoints(network), {shape, 0}, 101);
+    const Outcome outcome = passAgainstReference(tubes, tubes.view(cameraAt({0, 0.5f, 9})), false);
+    CHECK(outcome.triangles == tubes.set.triangleCount());
+    CHECK(outcome.drawn == outcome.triangles);
+    CHECK(outcome.wrong == 0);
+    CHECK(outcome.vertices.position <= 1e-5f);
+    CHECK(outcome.vertices.normal <= 1e-3f);
   }
 }
 
@@ -97,10 +212,38 @@ TEST_CASE("one sweep, and one more than a workgroup takes") {
   VASA_REQUIRE_GPU(rig);
   for (const std::uint32_t spans : {1u, 2u, 21u, 64u, 65u}) {
     const Network network = test::straightVessel(0.5f, 0.02f, 0.004f, spans);
-    const Difference worst = passAgainstReference(rig, network, restPoints(network), {5, 2}, 1000);
-    CHECK(worst.position <= 1e-5f);
-    CHECK(worst.normal <= 1e-3f);
+    const Tubes tubes(rig, network, restPoints(network), {{5, 2}, 0}, 1000);
+    const Outcome outcome = passAgainstReference(tubes, tubes.view(cameraAt({2, 0.5f, 1})), false);
+    CHECK(outcome.triangles == 10 * (2 * spans + 6));
+    CHECK(outcome.wrong == 0);
+    CHECK(outcome.vertices.position <= 1e-5f);
+    CHECK(outcome.vertices.normal <= 1e-3f);
   }
+}
+
+TEST_CASE("m, n and what is left out are what the CPU reference says, from near and far") {
+  VASA_REQUIRE_GPU(rig);
+  const Network network = test::windingNetwork(60, 4);
+  const Tubes tubes(rig, network, restPoints(network), {{}, 0.2f}, 128);
+  std::size_t drawn = 0, wrong = 0;
+  for (const Camera& camera : {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
+                               cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)})
+    for (const std::uint32_t samples : {1u, 4u}) {
+      const shared::DetailView view = tubes.view(camera, samples);
+      const NetworkDetail wanted = tubes.chosen(view);
+      rig.run([&](VkCommandBuffer commands) {
+        tubes.detailPass.record(commands, tubes.set, tubes.pointBuffer.address(), view);
+      });
+      CHECK(rig.download<std::uint32_t>(tubes.detailPass.aroundBuffer()) == wanted.around);
+      CHECK(rig.download<std::uint32_t>(tubes.detailPass.alongBuffer()) == wanted.along);
+      const Outcome outcome = passAgainstReference(tubes, view, true);
+      CHECK(outcome.vertices.position <= 1e-5f);
+      CHECK(outcome.drawn < outcome.triangles);
+      drawn += outcome.drawn;
+      wrong += outcome.wrong;
+    }
+  CHECK(drawn > 1000);
+  CHECK(double(wrong) <= 1e-3 * double(drawn));  // the reference's margins may round the other way
 }
 
 TEST_CASE("skinning on the device is that of the body's") {
@@ -161,7 +304,8 @@ TEST_CASE("degenerate curves: points that coincide, hairpins, a radius that fall
         own[1].w = 0.2f;
     }
   }
-  const Difference worst = passAgainstReference(rig, network, points, {6, 5}, 64);
+  const Tubes tubes(rig, network, points, {{6, 5}, 0}, 64);
+  const Difference worst = passAgainstReference(tubes, tubes.view(cameraAt({0, 0.5f, 3})), false).vertices;
   CHECK(worst.position <= 1e-5f);
   CHECK(worst.normal <= 1e-3f);
 }

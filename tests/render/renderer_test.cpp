@@ -190,6 +190,32 @@ TEST_CASE("a picture depends on its input alone: not on the batch size, nor on f
   CHECK(std::count(hashes.begin(), hashes.end(), hashes[0]) == std::ptrdiff_t(hashes.size()));
 }
 
+TEST_CASE("leaving out what cannot be seen changes no pixel") {
+  VASA_REQUIRE_GPU(rig);
+  const Subject subject(test::windingNetwork(60, 5));
+  Camera far, near, inside, flat;
+  far.position = {0.3f, 0.6f, 4};
+  near.position = {0.5f, 0.6f, 0.6f};
+  inside.position = {0.02f, 0.5f, 0.05f};  // vessels on both sides of the near plane
+  flat.orthographicHeight = 0.3f;
+  for (const std::uint32_t samples : {1u, 4u})
+    for (const float pixelError : {0.0f, 0.2f}) {
+      RenderOptions options = small(samples);
+      options.pixelError = pixelError;
+      options.timed = true;
+      Renderer culled(rig.device(), subject.network, {}, options);
+      options.cull = false;
+      Renderer whole(rig.device(), subject.network, {}, options);
+      for (Camera camera : {far, near, inside, flat}) {
+        camera.target = {0, 0.5f, 0};
+        culled.draw(subject.input(camera));
+        whole.draw(subject.input(camera));
+        CHECK(culled.drawnTriangleCount() < whole.drawnTriangleCount());
+        CHECK(hashOfPicture(culled.readBack()) == hashOfPicture(whole.readBack()));
+      }
+    }
+}
+
 TEST_CASE("memory for vertices does not grow with the network") {
   VASA_REQUIRE_GPU(rig);
   RenderOptions options = small();
@@ -197,7 +223,7 @@ TEST_CASE("memory for vertices does not grow with the network") {
   const Renderer few(rig.device(), test::windingNetwork(20, 1), {}, options);
   const Renderer many(rig.device(), test::windingNetwork(200, 1), {}, options);
   CHECK(many.triangleCount() > 5 * few.triangleCount());
-  CHECK(many.templateBytes() == few.templateBytes());
+  CHECK(double(many.templateBytes()) < 1.02 * double(few.templateBytes()));  // by the caps in the fullest group
 }
 
 TEST_CASE("three hundred frames of changing poses without a word from the validation layer") {

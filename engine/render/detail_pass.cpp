@@ -1,0 +1,86 @@
+#include "render/detail_pass.h"
+
+#include <cmath>
+
+#include "gpu/barrier.h"
+#include "gpu/device.h"
+#include "gpu/transfer.h"
+#include "render/surface_pass.h"
+#include "spirv/around_comp.h"
+#include "spirv/measure_comp.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kGroup = 64;
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+
+// Sides of the view volume, from rows of the matrix (Gribb, Hartmann 2001). Clip space holds -w <= x, y <= w, z <= w.
+void setPlanes(shared::DetailView& view) {
+  const mat4 rows = glm::transpose(view.viewProjection);
+  const vec4 sides[5]{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
+  for (int i = 0; i < 5; ++i) view.planes[i] = sides[i] / glm::length(vec3(sides[i]));
+}
+
+}  // namespace
+
+shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, std::uint32_t samples,
+                              const TubeDetail& detail, float snap) {
+  shared::DetailView view{};
+  const float width = float(size.width), height = float(size.height);
+  view.viewProjection = viewProjection(camera, width / height);
+  setPlanes(view);
+  if (camera.orthographicHeight > 0) {
+    view.depth = {0, 0, 0, 1};
+    view.nearest = 1;
+    view.focal = height / camera.orthographicHeight;
+  } else {
+    const vec3 ahead = -cameraAxes(camera)[2];
+    view.depth = vec4(ahead, -glm::dot(ahead, camera.position));
+    view.nearest = camera.nearDistance;
+    view.reach = 1;
+    view.focal = height / (2 * std::tan(camera.verticalAngle / 2));
+  }
+  view.tolerance = detail.pixelError;
+  view.around = detail.automatic() ? 0 : detail.shape.around;
+  view.along = detail.automatic() ? 0 : detail.shape.along;
+  view.hiddenKinds = hiddenKinds(look);
+  // Vulkan's standard places of four samples lie in four columns and rows of a pixel, evenly.
+  view.columns = width * float(samples);
+  view.rows = height * float(samples);
+  view.snap = snap * float(samples);
+  return view;
+}
+
+float detailSnap(const gpu::Device& device, VkExtent2D size) {
+  const float rounding = float(std::max(size.width, size.height)) * 0x1p-21f;
+  return std::exp2(-float(device.limits().subPixelPrecisionBits)) + rounding;
+}
+
+DetailPass::DetailPass(gpu::Device& device, const TubeSet& tubes)
+    : measure_(device, {spirv::measure_comp, sizeof(shared::MeasurePush)}),
+      choose_(device, {spirv::around_comp, sizeof(shared::AroundPush)}),
+      view_(device, {"detail view", sizeof(shared::DetailView)}),
+      along_(device, {"quads along", 4 * tubes.table().sweeps.size()}),
+      sizes_(gpu::makeBuffer(device, "vessel sizes", std::span<const std::uint32_t>(std::vector<std::uint32_t>(tubes.vesselCount())))),
+      around_(device, {"quads around", 4 * VkDeviceSize(tubes.vesselCount())}) {}
+
+void DetailPass::record(VkCommandBuffer commands, const TubeSet& tubes, VkDeviceAddress points,
+                        const shared::DetailView& view) const {
+  gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_TRANSFER_BIT);
+  vkCmdUpdateBuffer(commands, view_.handle(), 0, sizeof view, &view);
+  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT | kCompute, kCompute);
+  const std::uint32_t sweeps = std::uint32_t(tubes.table().sweeps.size());
+  measure_.dispatch(commands,
+                    shared::MeasurePush{points, tubes.sweeps(), tubes.tables(), view_.address(), tubes.colours(),
+                                        along_.address(), sizes_.address(), sweeps, 0},
+                    gpu::groupsFor(sweeps, kGroup));
+  gpu::stageBarrier(commands, kCompute, kCompute);
+  choose_.dispatch(commands,
+                   shared::AroundPush{tubes.tables(), view_.address(), sizes_.address(), around_.address(),
+                                      tubes.vesselCount(), 0},
+                   gpu::groupsFor(tubes.vesselCount(), kGroup));
+  gpu::stageBarrier(commands, kCompute, kCompute);
+}
+
+}  // namespace vasa

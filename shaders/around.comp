@@ -1,0 +1,26 @@
+#version 460
+// A thread a vessel: how many quads around the picture asks for. CPU reference: engine/surface/detail.h.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/tubes.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { AroundPush push; };
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= push.count) return;
+  uint m = push.view.view.around;
+  if (m == 0) {
+    float radius = uintBitsToFloat(push.sizes.size[i]), tolerance = push.view.view.tolerance;
+    m = kMinAround;
+    while (m < kMaxAround) {
+      precise float error = radius * push.tables.tables.aroundError[m];
+      if (error <= tolerance) break;
+      ++m;
+    }
+    push.sizes.size[i] = 0;  // for the next frame
+  }
+  push.around.value[i] = m;
+}

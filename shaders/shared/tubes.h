@@ -1,0 +1,104 @@
+// Read by C++ and GLSL (scalar layout): how a network's tubes become triangles. The passes, one dispatch each:
+//   measure    a thread a sweep of the network -> n of each sweep, radius of each vessel in pixels
+//   around     a thread a vessel               -> m of each vessel
+//   tubes      a thread a sweep of a batch, a workgroup a group of them -> vertices, indices of the triangles that may be
+//              seen, in the order of the sweeps, and an indirect draw a group
+#ifndef VASA_SHARED_TUBES_H
+#define VASA_SHARED_TUBES_H
+#include "shared/detail.h"
+#ifdef __cplusplus
+namespace vasa::shared {
+#define VASA_CONSTANT constexpr
+#define VASA_ADDRESS(Block) std::uint64_t
+#else
+#define VASA_CONSTANT const
+#define VASA_ADDRESS(Block) Block
+#endif
+
+/// Sweeps and threads of a workgroup.
+VASA_CONSTANT uint kGroupSweeps = 64;
+/// Most strips between the rings of a sweep, its caps included.
+VASA_CONSTANT uint kMaxStrips = kMaxAlong + 2 * kCapRings;
+/// Place of a vertex that has none on the picture.
+VASA_CONSTANT float kBehind = 3e30;
+
+/// What of the network's tessellation never changes.
+struct TubeTables {
+  mat4 spanClass[kSpanClasses];         // de Boor to Bézier points
+  vec2 step[kMaxAround + 1];            // (cos, sin) of 2π/m
+  float aroundError[kMaxAround + 1];    // 1 - cos(π/m)
+  vec2 polar[kCapRings + 1];            // (cos φ, sin φ) from a cap's rim to its pole
+};
+
+/// VkDrawIndexedIndirectCommand.
+struct DrawCommand {
+  uint indexCount, instanceCount, firstIndex;
+  int vertexOffset;
+  uint firstInstance;
+};
+
+#ifndef __cplusplus
+#define VASA_READ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer
+#define VASA_WRITE layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer
+VASA_READ Points { vec4 point[]; };
+VASA_READ Knots { vec4 knot[]; };  // x y z w
+VASA_READ Sweeps { SweepRecord sweep[]; };
+VASA_READ Tables { TubeTables tables; };
+VASA_READ View { DetailView view; };
+VASA_READ Uints { uint value[]; };
+VASA_WRITE UintsOut { uint value[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sizes { uint size[]; };
+VASA_WRITE Vertices { TubeVertex vertex[]; };
+VASA_WRITE Draws { DrawCommand draw[]; };
+#undef VASA_READ
+#undef VASA_WRITE
+#endif
+
+struct MeasurePush {
+  VASA_ADDRESS(Points) points;
+  VASA_ADDRESS(Sweeps) sweeps;
+  VASA_ADDRESS(Tables) tables;
+  VASA_ADDRESS(View) view;
+  VASA_ADDRESS(Uints) colours;     // kind in the highest 8 bits
+  VASA_ADDRESS(UintsOut) along;    // n of each sweep, 0: not drawn
+  VASA_ADDRESS(Sizes) sizes;       // of each vessel: bits of the radius in pixels, 0 before and after a frame
+  uint count;
+  uint unused;
+};
+
+struct AroundPush {
+  VASA_ADDRESS(Tables) tables;
+  VASA_ADDRESS(View) view;
+  VASA_ADDRESS(Sizes) sizes;
+  VASA_ADDRESS(UintsOut) around;   // m of each vessel
+  uint count;
+  uint unused;
+};
+
+/// A sweep's rings, caps included, run along the vessel: a first cap's pole and rings, the rings of t = 0 .. 1, a last
+/// cap's rings and pole. A pole is a ring whose vertices coincide.
+struct TubesPush {
+  VASA_ADDRESS(Points) points;
+  VASA_ADDRESS(Knots) knots;
+  VASA_ADDRESS(Sweeps) sweeps;
+  VASA_ADDRESS(Tables) tables;
+  VASA_ADDRESS(View) view;
+  VASA_ADDRESS(Uints) along;         // n of each sweep, 0: not drawn
+  VASA_ADDRESS(Uints) around;        // m of each vessel
+  VASA_ADDRESS(Vertices) vertices;   // 2^vertexShift of them a sweep of the batch
+  VASA_ADDRESS(UintsOut) indices;
+  VASA_ADDRESS(Draws) draws;
+  uint firstSweep, sweepCount;
+  uint vertexShift, indicesPerGroup;  // room
+  uint keepAll;                       // 1: every triangle is drawn
+  uint unused;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(TubeTables) == 64 * 9 + 12 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
+static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 104);
+}  // namespace vasa::shared
+#endif
+#undef VASA_ADDRESS
+#undef VASA_CONSTANT
+#endif
