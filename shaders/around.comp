@@ -14,8 +14,8 @@ void main() {
   uint m = push.view.view.around;
   if (m == 0) {
     float radius = uintBitsToFloat(push.sizes.size[i]), tolerance = push.view.view.tolerance;
-    m = kMinAround;
-    while (m < kMaxAround) {
+    m = radius > tolerance ? kRoundAround : kThinAround;
+    while (m >= kRoundAround && m < kMaxAround) {
       precise float error = radius * push.tables.tables.aroundError[m];
       if (error <= tolerance) break;
       ++m;

@@ -10,8 +10,9 @@
 namespace vasa::cli {
 namespace {
 
-std::optional<std::uint32_t> number(std::string_view text) {
-  std::uint32_t value = 0;
+template <class Number = std::uint32_t>
+std::optional<Number> number(std::string_view text) {
+  Number value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
   return value;
@@ -69,8 +70,11 @@ Result<PictureSize> parseSize(const std::string& text) {
 
 Result<Quads> parseQuads(const std::string& text) {
   if (text == "auto") return Quads{.pixelError = kAutoPixelError};
+  if (text.starts_with("auto:"))
+    if (const auto pixels = number<float>(std::string_view(text).substr(5)); pixels && *pixels >= 0.001f && *pixels <= 10)
+      return Quads{.pixelError = *pixels};
   if (const auto quads = product(text, {3, 16}, {2, 20})) return Quads{quads->first, quads->second};
-  return usage("--quads " + text + ": give MxN with M from 3 to 16 around and N from 2 to 20 along, for example 8x5, or auto");
+  return usage("--quads " + text + ": give MxN with M from 3 to 16 around and N from 2 to 20 along, for example 8x5, or auto, or auto:PIXELS with an error from 0.001 to 10");
 }
 
 Result<FramePattern> FramePattern::parse(const std::string& text, bool several) {

@@ -328,7 +328,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("-o,--output", options->output, "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
-  sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to a seventh of a pixel")->capture_default_str();
+  sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.3 pixels")->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
   sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, arteries, veins (a list with commas)");
   sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");

@@ -16,7 +16,7 @@ class Device;
 namespace vasa {
 
 /// [pixels] error of `--quads auto`: RenderOptions::pixelError.
-constexpr float kAutoPixelError = 0.15f;
+constexpr float kAutoPixelError = 0.3f;
 
 /// What is settled for a renderer's life.
 struct RenderOptions {

@@ -75,14 +75,16 @@ std::span<const float> aroundErrors() {
 }
 
 std::uint32_t aroundFor(float radiusPixels, float tolerance) {
-  std::uint32_t m = shared::kMinAround;
+  if (radiusPixels <= tolerance) return shared::kThinAround;
+  std::uint32_t m = shared::kRoundAround;
   while (m < shared::kMaxAround && radiusPixels * aroundErrors()[m] > tolerance) ++m;
   return m;
 }
 
 std::uint32_t alongFor(float bendPixels, float tolerance) {
+  const float share = float(shared::kAlongShare) * tolerance;
   std::uint32_t n = 1;
-  while (n < shared::kMaxAlong && bendPixels > float(n * n) * tolerance) ++n;
+  while (n < shared::kMaxAlong && bendPixels > float(n * n) * share) ++n;
   return n;
 }
 

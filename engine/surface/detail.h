@@ -12,10 +12,12 @@
 //   n, the quads along, belongs to a sweep, as a ring at its end does not depend on it.
 //
 // With fixed quads both are the same everywhere; a sweep out of view has n = 0 and is not tessellated. With
-// --quads auto they are the least whose error on the picture stays below DetailView::tolerance:
-//   R (1 − cos(π/m)) <= tolerance    R: largest radius of the vessel's sweeps in view [pixels]
-//   E / n²           <= tolerance    E: height of an arc as bent as the sweep's most bent part, at its outer side
-// with m in [kMinAround, kMaxAround] and n in [1, kMaxAlong]. CPU reference of shaders/measure.comp and around.comp.
+// --quads auto they follow from DetailView::tolerance:
+//   m = kThinAround where R <= tolerance, else the least m >= kRoundAround with R (1 − cos(π/m)) <= tolerance
+//     R: largest radius of the vessel's sweeps in view [pixels]
+//   n = the least n with E / n² <= kAlongShare · tolerance
+//     E: height of an arc as bent as the sweep's most bent part, at its outer side [pixels]
+// up to kMaxAround and kMaxAlong. CPU reference of shaders/measure.comp and around.comp.
 namespace vasa {
 
 /// What a sweep is in a picture.
@@ -34,7 +36,7 @@ std::uint32_t alongFor(float bendPixels, float tolerance);
 /// (1 − cos(π/m)) for m = 0 .. kMaxAround (m < 3 unused), as the shaders read it.
 std::span<const float> aroundErrors();
 
-/// m of every vessel (kMinAround for one out of view) and n of every sweep (0: out of view).
+/// m of every vessel (kThinAround for one out of view) and n of every sweep (0: out of view).
 struct NetworkDetail {
   std::vector<std::uint32_t> around, along;
 };

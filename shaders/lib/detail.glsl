@@ -47,8 +47,9 @@ SweepExtent sweepExtent(vec4 d0, vec4 d1, vec4 d2, vec4 d3, Bezier bezier, Detai
 }
 
 uint alongFor(float bendPixels, float tolerance) {
+  precise float share = kAlongShare * tolerance;
   uint n = 1;
-  while (n < kMaxAlong && bendPixels > float(n * n) * tolerance) ++n;
+  while (n < kMaxAlong && bendPixels > float(n * n) * share) ++n;
   return n;
 }
 

@@ -5,7 +5,15 @@
 #ifdef __cplusplus
 #include <cstddef>
 namespace vasa::shared {
+#define VASA_CONSTANT constexpr
+#else
+#define VASA_CONSTANT const
 #endif
+
+/// Quads around a vessel whose m the picture decides: for one no thicker than its tolerance, and least for any other.
+VASA_CONSTANT uint kThinAround = 5, kRoundAround = 8;
+/// Share of the tolerance that corners along a sweep may take: they show sooner than those around it.
+VASA_CONSTANT float kAlongShare = 0.07;
 
 /// A picture's view of the network. Fixed m and n, or those that keep an error in pixels.
 struct DetailView {
@@ -26,4 +34,5 @@ struct DetailView {
 static_assert(sizeof(DetailView) == 64 + 80 + 16 + 40);
 }  // namespace vasa::shared
 #endif
+#undef VASA_CONSTANT
 #endif
