@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "body/skin_field.h"
+#include "body/skin_shell.h"
 #include "math/closest_point.h"
 
 namespace vasa {
@@ -15,19 +16,6 @@ constexpr std::size_t kSamples = 400;
 constexpr float kOutsideHeights = 0.01f;
 constexpr float kFarHeights = 0.15f;
 constexpr float kMostOutside = 0.15f;
-
-/// How often the mesh winds around p (van Oosterom and Strackee 1983): near 0 outside, also where it has
-/// holes.
-float windingNumber(const TriangleMesh& mesh, vec3 p) {
-  double sum = 0;
-  for (const uvec3 t : mesh.triangles) {
-    const vec3 a = mesh.positions[t.x] - p, b = mesh.positions[t.y] - p, c = mesh.positions[t.z] - p;
-    const float la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    const float denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-    sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)), denominator);
-  }
-  return float(std::abs(sum) / (4 * kPi));
-}
 
 bool outsideSkin(const TriangleMesh& skin, vec3 p, float margin) {
   if (windingNumber(skin, p) >= 0.5f) return false;

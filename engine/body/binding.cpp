@@ -136,27 +136,6 @@ void appendRecords(std::span<const LimbShare> limbs, std::vector<BindingRecord>&
   }
 }
 
-/// The ties along and between a network's vessels.
-std::vector<Tie> tiesOf(const Network& network) {
-  std::vector<Tie> ties;
-  for (const Vessel& vessel : network.vessels())
-    for (std::uint32_t i = 1; i < vessel.pointCount; ++i)
-      ties.push_back({vessel.firstPoint + i - 1, vessel.firstPoint + i});
-  const auto endPoint = [&](VesselEnd end) {
-    const Vessel& vessel = network.vessel(end.vessel);
-    return vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0);
-  };
-  for (const Node& node : network.nodes()) {
-    const std::span<const VesselEnd> ends = network.ends(node);
-    for (std::size_t k = 1; k < ends.size(); ++k) ties.push_back({endPoint(ends[0]), endPoint(ends[k])});
-    if (!node.host || ends.empty()) continue;
-    const Vessel& host = network.vessel(node.host->vessel);
-    const std::uint32_t span = locate(node.host->parameter, host.spanCount()).span;
-    for (std::uint32_t k = 1; k < 3; ++k) ties.push_back({endPoint(ends[0]), host.firstPoint + span + k});
-  }
-  return ties;
-}
-
 }  // namespace
 
 Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
@@ -181,6 +160,26 @@ Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::
     appendRecords(binder.bind(i), binding.records);
   }
   return binding;
+}
+
+std::vector<Tie> tiesOf(const Network& network) {
+  std::vector<Tie> ties;
+  for (const Vessel& vessel : network.vessels())
+    for (std::uint32_t i = 1; i < vessel.pointCount; ++i)
+      ties.push_back({vessel.firstPoint + i - 1, vessel.firstPoint + i});
+  const auto endPoint = [&](VesselEnd end) {
+    const Vessel& vessel = network.vessel(end.vessel);
+    return vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0);
+  };
+  for (const Node& node : network.nodes()) {
+    const std::span<const VesselEnd> ends = network.ends(node);
+    for (std::size_t k = 1; k < ends.size(); ++k) ties.push_back({endPoint(ends[0]), endPoint(ends[k])});
+    if (!node.host || ends.empty()) continue;
+    const Vessel& host = network.vessel(node.host->vessel);
+    const std::uint32_t span = locate(node.host->parameter, host.spanCount()).span;
+    for (std::uint32_t k = 1; k < 3; ++k) ties.push_back({endPoint(ends[0]), host.firstPoint + span + k});
+  }
+  return ties;
 }
 
 Result<Binding> bind(const Body& body, const Network& network, std::string_view name) {

@@ -57,6 +57,9 @@ struct Binding {
 Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
                            std::span<const Tie> ties = {});
 
+/// The ties along and between a network's vessels.
+std::vector<Tie> tiesOf(const Network& network);
+
 /// Binds a network's de Boor points, with ties along its vessels and across its nodes.
 Result<Binding> bind(const Body& body, const Network& network, std::string_view name);
 

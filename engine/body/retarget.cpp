@@ -122,8 +122,10 @@ class Retargeter {
   }
 
  private:
-  // The first joint that follows one which moves.
+  // The hips, or the first joint that follows one which moves.
   std::uint32_t hipsOf() const {
+    for (std::uint32_t j = 0; j < source_.size(); ++j)
+      if (source_[j] != kNone && (to_.parts.of[j] == "hips" || from_.parts.of[source_[j]] == "hips")) return j;
     for (std::uint32_t j = 0; j < source_.size(); ++j)
       if (source_[j] != kNone && (motion_.joints[source_[j]].moves || from_.parents[source_[j]] == kNone)) return j;
     return kNone;
@@ -339,6 +341,10 @@ class Retargeter {
 };
 
 }  // namespace
+
+Result<std::vector<std::uint32_t>> matchedJoints(const Motion& motion, const Body& body, const JointMap& map) {
+  return matchJoints(rigOf(motion), rigOf(body.skeleton), map, motion.name, body.name);
+}
 
 Result<Clip> retarget(const Motion& motion, const Body& body, const JointMap& map) {
   if (motion.frameCount == 0 || motion.joints.empty()) return badInput(motion.name + " has no frames");

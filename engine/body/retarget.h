@@ -23,4 +23,7 @@ namespace vasa {
 /// O(frames · joints).
 Result<Clip> retarget(const Motion& motion, const Body& body, const JointMap& map = {});
 
+/// The joint of the motion that each joint of the body follows, as above; JointId::kNone where there is none.
+Result<std::vector<std::uint32_t>> matchedJoints(const Motion& motion, const Body& body, const JointMap& map = {});
+
 }  // namespace vasa

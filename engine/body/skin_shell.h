@@ -1,0 +1,37 @@
+#pragma once
+#include "body/body.h"
+#include "mesh/triangle_tree.h"
+
+namespace vasa {
+
+/// A body's skin at rest as the boundary between inside and outside. Skins have holes (eyes, mouth) and overlap
+/// themselves (an arm against the chest); inside is where the surface winds around a place.
+class SkinShell {
+ public:
+  /// @param mesh  closed but for small holes, outward
+  explicit SkinShell(TriangleMesh mesh);
+  SkinShell(const SkinShell&) = delete;
+  SkinShell& operator=(const SkinShell&) = delete;
+
+  struct Place {
+    vec3 nearest{0};
+    vec3 normal{0};      ///< of the surface there, outward
+    float depth = 0;     ///< [m] below the surface; negative outside
+  };
+  /// Expected O(log n); where the surface's normal says outside, O(n) to make sure.
+  Place look(vec3 p) const;
+
+  const TriangleMesh& mesh() const { return mesh_; }
+
+ private:
+  TriangleMesh mesh_;
+  TriangleTree tree_;
+};
+
+/// How often a mesh winds around p (van Oosterom and Strackee 1983): near 0 outside, also where it has holes.
+float windingNumber(const TriangleMesh& mesh, vec3 p);
+
+/// The skin's mesh at rest in model space; empty where the body has none.
+TriangleMesh skinAtRest(const Body& body);
+
+}  // namespace vasa

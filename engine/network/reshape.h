@@ -1,0 +1,12 @@
+#pragma once
+#include "core/result.h"
+#include "network/network.h"
+
+namespace vasa {
+
+/// The same vessels and nodes with other points. Fails as NetworkBuilder::build does.
+/// @param points      as network.points()
+/// @param bodyHeight  [m]
+Result<Network> reshapeNetwork(const Network& network, std::span<const vec4> points, float bodyHeight);
+
+}  // namespace vasa
