@@ -48,8 +48,9 @@ bool anyVessels(const Look& look) {
   return look.drawArteries || look.drawVeins || look.drawOtherVessels;
 }
 
-TubeDraws drawsFor(gpu::Device& device, const TubeSet& tubes) {
-  return {device, tubes.room(), tubes.groupsPerBatch()};
+template <class Set>
+std::array<TubeDraws, 2> drawsFor(gpu::Device& device, const Set& set) {
+  return {TubeDraws(device, set.room(), set.groupsPerBatch()), TubeDraws(device, set.room(), set.groupsPerBatch())};
 }
 
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
@@ -71,15 +72,22 @@ struct Renderer::State {
 
   gpu::Device& device;
   RenderOptions options;
+  std::size_t batchCount() const { return tubes.batches().size() + forks.batches().size(); }
+  std::uint32_t groupCount() const { return tubes.groupCount() + forks.groupCount(); }
+  void setColours(std::span<const std::uint32_t> given);
+
+  std::vector<std::uint32_t> ownColours;  // of the spans, by their vessels' kinds
   TubeSet tubes;
+  ForkSet forks;
   MeshSet meshes;
   FrameUpload upload;
   DetailPass detailPass;
   TubePass tubePass;
+  ForkPass forkPass;
   SkinPass skinPass;
   gpu::Target target;
   SurfacePass surfacePass;
-  std::array<TubeDraws, 2> templates;
+  std::array<TubeDraws, 2> templates, forkTemplates;
   gpu::Buffer readBack;
   gpu::Buffer drawn;  // every group's draw of the latest frame, where frames are timed
   gpu::GpuTimer timer, staticTimer;
@@ -89,43 +97,75 @@ struct Renderer::State {
  private:
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
   void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch);
+  void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
 };
 
 Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
                        const RenderOptions& chosen)
     : device(dev),
       options(chosen),
+      ownColours(kindColours(network)),
       tubes(device, network, {chosen.shape, chosen.pixelError}, chosen.sweepsPerBatch),
+      forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
       meshes(device, skinned),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
       tubePass(device),
+      forkPass(device),
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
-      templates{drawsFor(device, tubes), drawsFor(device, tubes)},
+      templates(drawsFor(device, tubes)),
+      forkTemplates(drawsFor(device, forks)),
       readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
-      drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? tubes.groupCount() : 0),
+      drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
                      gpu::MemoryRole::readBack}),
-      timer(device, chosen.timed ? std::uint32_t(2 * tubes.batches().size() + 3) : 0),
-      staticTimer(device, 1) {}
+      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 3) : 0),
+      staticTimer(device, 1) {
+  setColours({});
+}
+
+void Renderer::State::setColours(std::span<const std::uint32_t> given) {
+  const std::vector<std::uint32_t> colours = recoloured(ownColours, given);
+  tubes.setSpanColours(device, colours);
+  forks.setSpanColours(device, colours);
+}
 
 void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
   const auto scope = timer.scope(commands, kTessellate);
-  tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
-                             templates[batch % 2], options.cull});
+  const std::size_t tubeBatches = tubes.batches().size();
+  if (batch < tubeBatches)
+    tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
+                               templates[batch % 2], options.cull});
+  else
+    forkPass.record(commands, {tubes, forks, forks.batches()[batch - tubeBatches], detailPass, upload.points(),
+                               upload.knots(), forkTemplates[batch % 2], options.cull});
 }
 
 void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch) {
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
-  surfacePass.recordTubes(commands, push, tubes, tubes.batches()[batch], templates[batch % 2]);
-  target.pause(commands);
+  const std::size_t tubeBatches = tubes.batches().size();
+  if (batch < tubeBatches) {
+    const TubeBatch& range = tubes.batches()[batch];
+    surfacePass.recordTubes(commands, push, tubes, range, templates[batch % 2]);
+    target.pause(commands);
+    copyDraws(commands, templates[batch % 2], range.firstSweep / shared::kGroupSweeps, range.groups());
+  } else {
+    const ForkBatch& range = forks.batches()[batch - tubeBatches];
+    surfacePass.recordForks(commands, push, forks, range, forkTemplates[batch % 2]);
+    target.pause(commands);
+    copyDraws(commands, forkTemplates[batch % 2], tubes.groupCount() + range.firstFork / shared::kGroupForks,
+              range.groups());
+  }
+}
+
+void Renderer::State::copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group,
+                                std::uint32_t groups) {
   if (drawn.bytes() == 0) return;
   constexpr VkDeviceSize each = sizeof(shared::DrawCommand);
-  const TubeBatch& range = tubes.batches()[batch];
-  const VkBufferCopy copy{0, each * (range.firstSweep / shared::kGroupSweeps), each * range.groups()};
-  vkCmdCopyBuffer(commands, templates[batch % 2].draws.handle(), drawn.handle(), 1, &copy);
+  const VkBufferCopy copy{0, each * group, each * groups};
+  vkCmdCopyBuffer(commands, from.draws.handle(), drawn.handle(), 1, &copy);
 }
 
 shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
@@ -135,7 +175,7 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
 
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
-  const std::size_t batches = anyVessels(input.look) ? tubes.batches().size() : 0;
+  const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
   timer.begin(commands);
   upload.record(commands);
   if (batches > 0) {
@@ -192,7 +232,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
-  state_->tubes.setSweepColours(state_->device, colours);
+  state_->setColours(colours);
 }
 
 void Renderer::draw(const RenderInput& input) {
@@ -226,12 +266,12 @@ FrameTimes Renderer::times() const {
 
 double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   State& s = *state_;
-  const StaticTubes tubes(s.device, s.tubes);
+  const StaticTubes tubes(s.device, s.tubes, s.forks);
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);
   gpu::Commands commands = s.device.queue().begin("static vertices");
   s.upload.record(commands);
   s.detailPass.record(commands, s.tubes, s.upload.points(), s.viewOf(input));
-  tubes.recordVertices(commands, s.tubePass, s.detailPass, s.upload.points(), s.upload.knots());
+  tubes.recordVertices(commands, s.tubePass, s.forkPass, s.detailPass, s.upload.points(), s.upload.knots());
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
   for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));
@@ -239,7 +279,7 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
 }
 
 std::uint64_t Renderer::triangleCount() const {
-  return state_->tubes.triangleCount();
+  return state_->tubes.triangleCount() + state_->forks.triangleCount();
 }
 
 std::uint64_t Renderer::drawnTriangleCount() const {
@@ -250,11 +290,12 @@ std::uint64_t Renderer::drawnTriangleCount() const {
 }
 
 std::uint32_t Renderer::sweepCount() const {
-  return std::uint32_t(state_->tubes.table().sweeps.size());
+  return state_->tubes.table().spanCount;
 }
 
 std::uint64_t Renderer::templateBytes() const {
-  return state_->templates[0].bytes() + state_->templates[1].bytes();
+  return state_->templates[0].bytes() + state_->templates[1].bytes() + state_->forkTemplates[0].bytes() +
+         state_->forkTemplates[1].bytes();
 }
 
 const RenderOptions& Renderer::options() const {

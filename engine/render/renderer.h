@@ -65,9 +65,9 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Colours of the sweeps from the next frame on (packColour), one a sweep in the order of SweepTable::sweeps;
-  /// alpha 0 hides a sweep and its caps, any other alpha shows it. Empty goes back to the colours of the
-  /// vessels' kinds.
+  /// Colours of the network's spans from the next frame on (packColour), vessel after vessel; alpha 0 hides a span,
+  /// its cap and the forks whose trunk begins in it, any other alpha shows it. Empty goes back to the colours of
+  /// the vessels' kinds.
   void setSweepColours(std::span<const std::uint32_t> colours);
 
   /// Draws and waits until the picture is done.

@@ -133,6 +133,17 @@ void SurfacePass::recordTubes(VkCommandBuffer commands, shared::DrawPush push, c
   vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
 }
 
+void SurfacePass::recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks,
+                              const ForkBatch& batch, const TubeDraws& draws) const {
+  push.colours = forks.colours();
+  push.firstItem = batch.firstFork;
+  push.itemShift = forks.room().vertexShift;
+  tubes_.bind(commands, push);
+  bindVertices(commands, draws.vertices, 0);
+  vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+  vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
+}
+
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                                const Look& look) const {
   drawParts(commands, push, meshes, opaque_,

@@ -2,6 +2,7 @@
 #include "gpu/graphics_pipeline.h"
 #include "gpu/target.h"
 #include "render/camera.h"
+#include "render/fork_set.h"
 #include "render/mesh_set.h"
 #include "render/tube_pass.h"
 #include "shared/draw.h"
@@ -24,6 +25,8 @@ class SurfacePass {
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
   void recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes, const TubeBatch& batch,
+                   const TubeDraws& draws) const;
+  void recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks, const ForkBatch& batch,
                    const TubeDraws& draws) const;
   /// Bones, heart and others.
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;

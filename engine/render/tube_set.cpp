@@ -14,7 +14,7 @@ namespace {
 shared::TubeTables tablesOf() {
   shared::TubeTables tables{};
   std::copy(spanClassMatrices().begin(), spanClassMatrices().end(), tables.spanClass);
-  for (std::uint32_t m = shared::kMinAround; m <= shared::kMaxAround; ++m) tables.step[m] = ringDirections(m)[1];
+  for (std::uint32_t m = shared::kMinAround; m <= shared::kMaxAround; ++m) tables.step[m] = ringDirections(m)[1], tables.halfStep[m] = ringDirections(2 * m)[1];
   std::copy(aroundErrors().begin(), aroundErrors().end(), tables.aroundError);
   const std::vector<vec2> angles = capAngles();
   std::copy(angles.begin(), angles.end(), tables.polar);
@@ -31,6 +31,21 @@ std::uint32_t capsOf(const shared::SweepRecord& sweep) {
 
 }  // namespace
 
+std::vector<std::uint32_t> kindColours(const Network& network) {
+  std::vector<std::uint32_t> colours;
+  for (const Vessel& vessel : network.vessels())
+    colours.insert(colours.end(), vessel.spanCount(),
+                   withKind(packColour(colourOf(vessel.kind)), std::uint32_t(vessel.kind)));
+  return colours;
+}
+
+std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, std::span<const std::uint32_t> given) {
+  assert(given.empty() || given.size() == kindColours.size());
+  for (std::size_t i = 0; i < given.size(); ++i)
+    kindColours[i] = withKind(given[i], given[i] >> 24 ? kindColours[i] >> 24 : kHiddenKind);
+  return kindColours;
+}
+
 TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t batchSweeps)
     : table_(makeSweepTable(network)), detail_(detail), vesselCount_(std::uint32_t(network.vessels().size())) {
   assert(detail.automatic() || detail.shape.valid());
@@ -39,11 +54,7 @@ TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& 
   sweeps_ = gpu::makeBuffer(device, "sweeps", std::span<const shared::SweepRecord>(table_.sweeps));
   tables_ = gpu::makeBuffer(device, "tube tables", std::span(&tables, 1));
   colours_ = gpu::Buffer(device, {"sweep colours", 4 * table_.sweeps.size()});
-  for (const std::uint32_t vessel : table_.vesselOfSweep) {
-    const VesselKind kind = network.vessels()[vessel].kind;
-    kindColours_.push_back(withKind(packColour(colourOf(kind)), std::uint32_t(kind)));
-  }
-  setSweepColours(device, {});
+  setSpanColours(device, kindColours(network));
 }
 
 void TubeSet::makeBatches(std::uint32_t batchSweeps) {
@@ -70,11 +81,10 @@ std::uint64_t TubeSet::triangleCount() const {
   return 2 * strips * detail_.shape.around;
 }
 
-void TubeSet::setSweepColours(gpu::Device& device, std::span<const std::uint32_t> colours) {
-  assert(colours.empty() || colours.size() == table_.sweeps.size());
-  std::vector<std::uint32_t> all = kindColours_;
-  for (std::size_t i = 0; i < colours.size(); ++i)
-    all[i] = withKind(colours[i], colours[i] >> 24 ? kindColours_[i] >> 24 : kHiddenKind);
+void TubeSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
+  assert(spanColours.size() == table_.spanCount);
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t span : table_.spanOfSweep) all.push_back(spanColours[span]);
   gpu::uploadBytes(device, colours_, std::as_bytes(std::span(all)));
 }
 

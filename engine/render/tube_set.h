@@ -35,6 +35,11 @@ struct TubeBatch {
   std::uint32_t groups() const { return (sweeps + shared::kGroupSweeps - 1) / shared::kGroupSweeps; }
 };
 
+/// Colours of a network's spans by their vessels' kinds, kind in the highest 8 bits.
+std::vector<std::uint32_t> kindColours(const Network& network);
+/// The same with other colours (packColour; alpha 0 hides a span). @param given  empty: none
+std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, std::span<const std::uint32_t> given);
+
 /// What of a network stays the same from frame to frame, in device memory.
 class TubeSet {
  public:
@@ -55,8 +60,8 @@ class TubeSet {
   VkDeviceAddress tables() const { return tables_.address(); }
   VkDeviceAddress colours() const { return colours_.address(); }  ///< one a sweep, kind in the highest 8 bits
 
-  /// Waits for the device. Empty: the colours of the vessels' kinds.
-  void setSweepColours(gpu::Device& device, std::span<const std::uint32_t> colours);
+  /// Waits for the device. @param spanColours  one a span of the network, kind in the highest 8 bits
+  void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
 
  private:
   void makeBatches(std::uint32_t batchSweeps);
@@ -66,7 +71,6 @@ class TubeSet {
   std::vector<TubeBatch> batches_;
   GroupRoom room_;
   std::uint32_t vesselCount_ = 0;
-  std::vector<std::uint32_t> kindColours_;  // one a sweep, kind in the highest 8 bits
   gpu::Buffer sweeps_, tables_, colours_;
 };
 

@@ -1,19 +1,183 @@
 #include "surface/surface_mesh.h"
 
+#include <cassert>
+#include <map>
+
+#include "core/parallel.h"
+#include "surface/fork.h"
+#include "surface/fork_template.h"
+
+// Rings are written by the tubes; forks and caps use the tubes' vertices. Where two forks share a ring without a tube
+// between them, the ring is written by the first of them.
 namespace vasa {
+namespace {
+
+class MeshLayout {
+ public:
+  MeshLayout(const PosedNetwork& network, const SweepShape& shape, SurfaceMesh& mesh)
+      : network_(network), shape_(shape), mesh_(mesh) {
+    placeTubes();
+    placeCaps();
+    placeForks();
+    mesh.positions.resize(vertices_);
+    mesh.normals.resize(vertices_);
+    mesh.vesselOfVertex.resize(vertices_);
+    mesh.triangles.resize(triangles_);
+  }
+
+  void write() {
+    const SweepTable& table = network_.table;
+    parallelFor(table.sweeps.size(), 16, [&](std::size_t i) { writeTube(std::uint32_t(i)); });
+    parallelFor(table.caps.size(), 16, [&](std::size_t i) { writeCap(std::uint32_t(i)); });
+    parallelFor(table.forks.size(), 16, [&](std::size_t i) { writeFork(std::uint32_t(i)); });
+  }
+
+ private:
+  struct Place {
+    std::uint32_t vertex = 0, triangle = 0;
+  };
+  struct ForkPlace : Place {
+    std::uint32_t window = 0;
+    std::uint32_t ringA = 0, ringB = 0, ringBranch = 0;  // first vertex of the rings
+    bool ownsA = false, ownsB = false, ownsBranch = false;
+  };
+  using RingKey = std::pair<std::uint32_t, float>;  // first de Boor point of the span, t
+
+  static RingKey keyOf(const shared::SweepRecord& sweep, bool last) {
+    if (!last) return {sweep.point, sweep.from};
+    if (sweep.to == 1 && sweep.nextClass != shared::kNoSpan) return {sweep.point + 1, 0.0f};
+    return {sweep.point, sweep.to};
+  }
+
+  void placeTubes() {
+    const auto& sweeps = network_.table.sweeps;
+    for (std::uint32_t i = 0; i < sweeps.size(); ++i) {
+      const bool follows = i > 0 && sweeps[i - 1].vessel == sweeps[i].vessel &&
+                           keyOf(sweeps[i - 1], true) == keyOf(sweeps[i], false);
+      if (follows) vertices_ -= shape_.around;
+      tubes_.push_back({vertices_, triangles_});
+      rings_[keyOf(sweeps[i], false)] = vertices_;
+      vertices_ += shape_.sweepVertices();
+      rings_[keyOf(sweeps[i], true)] = vertices_ - shape_.around;
+      triangles_ += shape_.sweepTriangles();
+    }
+  }
+
+  void placeCaps() {
+    for (std::size_t i = 0; i < network_.table.caps.size(); ++i) {
+      caps_.push_back({vertices_, triangles_});
+      vertices_ += shape_.capVertices() - shape_.around;
+      triangles_ += shape_.capTriangles();
+    }
+  }
+
+  std::uint32_t ringFor(const shared::ForkRing& ring, bool& own) {
+    const auto [place, isNew] = rings_.try_emplace(RingKey{ring.point, ring.t}, vertices_);
+    own = isNew;
+    if (isNew) vertices_ += shape_.around;
+    return place->second;
+  }
+
+  void placeForks() {
+    const std::uint32_t m = shape_.around;
+    for (const shared::ForkRecord& fork : network_.table.forks) {
+      ForkPlace place;
+      place.window = forkWindow(fork, m);
+      place.ringA = ringFor(fork.a, place.ownsA);
+      place.ringB = ringFor(fork.b, place.ownsB);
+      if (fork.hasBranch) place.ringBranch = ringFor(fork.branch, place.ownsBranch);
+      place.vertex = vertices_;
+      place.triangle = triangles_;
+      vertices_ += (shared::kTrunkRows - 2 + (fork.hasBranch ? shared::kCollarRows : 0)) * m;
+      triangles_ += forkTriangleCount({m, m, m}, place.window);
+      forks_.push_back(place);
+    }
+  }
+
+  void put(std::uint32_t vertex, const SurfacePoint& point, std::uint32_t vessel) {
+    mesh_.positions[vertex] = point.position;
+    mesh_.normals[vertex] = point.normal;
+    mesh_.vesselOfVertex[vertex] = vessel;
+  }
+
+  void writeTube(std::uint32_t index) {
+    std::vector<SurfacePoint> points(shape_.sweepVertices());
+    tessellateSweep(network_, index, shape_, points);
+    const bool shared = index + 1 < tubes_.size() &&
+                        tubes_[index + 1].vertex < tubes_[index].vertex + shape_.sweepVertices();
+    const std::size_t count = points.size() - (shared ? shape_.around : 0);  // the next sweep writes its first ring
+    for (std::uint32_t k = 0; k < count; ++k)
+      put(tubes_[index].vertex + k, points[k], network_.table.vesselOfSweep[index]);
+    std::uint32_t triangle = tubes_[index].triangle;
+    for (const uvec3& t : sweepTriangles(shape_)) mesh_.triangles[triangle++] = t + tubes_[index].vertex;
+  }
+
+  void writeCap(std::uint32_t index) {
+    const auto [sweep, last] = network_.table.caps[index];
+    const std::uint32_t m = shape_.around;
+    std::vector<SurfacePoint> points(shape_.capVertices());
+    tessellateCap(network_, index, shape_, points);
+    for (std::uint32_t k = m; k < points.size(); ++k)
+      put(caps_[index].vertex + k - m, points[k], network_.table.vesselOfSweep[sweep]);
+    const std::uint32_t rim = tubes_[sweep].vertex + (last ? shape_.along * m : 0);
+    const auto target = [&](std::uint32_t k) {
+      return k >= m ? caps_[index].vertex + k - m : rim + capDirection(k, m, last);
+    };
+    std::uint32_t triangle = caps_[index].triangle;
+    for (const uvec3& t : capTriangles(shape_)) mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
+  }
+
+  void writeFork(std::uint32_t index) {
+    const ForkPlace& place = forks_[index];
+    const shared::ForkRecord& fork = network_.table.forks[index];
+    const std::uint32_t m = shape_.around, vessel = network_.table.vesselOfFork[index];
+    const ForkShape forkShape{m, m, m};
+    std::vector<SurfacePoint> points(forkShape.vertices());
+    const ForkSeams seams = evaluateFork(network_, fork, forkShape, points);
+    const auto target = [&](std::uint32_t vertex) {
+      const std::uint32_t row = vertex / m, k = vertex % m;
+      if (row == 0) return place.ringA + seams.a.direction(k, m);
+      if (row < shared::kTrunkRows - 1) return place.vertex + (row - 1) * m + k;
+      if (row == shared::kTrunkRows - 1) return place.ringB + seams.b.direction(k, m);
+      if (row == kBranchRow) return place.ringBranch + seams.branch.direction(k, m);
+      return place.vertex + (row - 2) * m + k;
+    };
+    for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
+      const std::uint32_t row = vertex / m;
+      if (row >= kHoleRow && !fork.hasBranch) break;
+      const bool own = row == 0                        ? place.ownsA
+                       : row == shared::kTrunkRows - 1 ? place.ownsB
+                       : row == kBranchRow             ? place.ownsBranch
+                                                       : true;
+      if (own) put(target(vertex), points[vertex], vessel);
+    }
+    std::uint32_t triangle = place.triangle;
+    for (const uvec3& t : forkTriangles(forkShape, place.window))
+      mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
+  }
+
+  const PosedNetwork& network_;
+  SweepShape shape_;
+  SurfaceMesh& mesh_;
+  std::uint32_t vertices_ = 0, triangles_ = 0;
+  std::vector<Place> tubes_, caps_;
+  std::vector<ForkPlace> forks_;
+  std::map<RingKey, std::uint32_t> rings_;
+};
+
+}  // namespace
+
+SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape) {
+  assert(shape.valid());
+  SurfaceMesh mesh;
+  MeshLayout(network, shape, mesh).write();
+  return mesh;
+}
 
 SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
                         const SweepShape& shape) {
-  Surface surface = tessellate(network, points, knotFrames, shape);
-  SurfaceMesh mesh;
-  mesh.vesselOfVertex.resize(surface.positions.size());
-  for (std::uint32_t vessel = 0; vessel + 1 < surface.firstTriangle.size(); ++vessel)
-    for (std::uint32_t i = surface.firstTriangle[vessel]; i < surface.firstTriangle[vessel + 1]; ++i)
-      for (int corner = 0; corner < 3; ++corner) mesh.vesselOfVertex[surface.triangles[i][corner]] = vessel;
-  mesh.positions = std::move(surface.positions);
-  mesh.normals = std::move(surface.normals);
-  mesh.triangles = std::move(surface.triangles);
-  return mesh;
+  const SweepTable table = makeSweepTable(network);
+  return surfaceMesh(PosedNetwork{table, points, knotFrames}, shape);
 }
 
 }  // namespace vasa

@@ -3,7 +3,8 @@
 
 namespace vasa {
 
-/// The whole drawn surface of a network as one indexed mesh: what `export` writes and what a picture shows.
+/// The whole drawn surface of a network as one indexed mesh: what `export` writes and what a picture shows. Tubes, then
+/// caps, then forks; every edge belongs to two triangles.
 struct SurfaceMesh {
   std::vector<vec3> positions, normals;        ///< one a vertex [m], unit
   std::vector<uvec3> triangles;                ///< counter-clockwise seen from outside
@@ -15,5 +16,7 @@ struct SurfaceMesh {
 /// O(vertices), parallel; the same for any number of threads.
 SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
                         const SweepShape& shape);
+/// With a table that is there already.
+SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape);
 
 }  // namespace vasa

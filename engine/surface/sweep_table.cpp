@@ -5,45 +5,56 @@
 
 #include "core/parallel.h"
 #include "curve/frame.h"
+#include "surface/fork_record.h"
 
 namespace vasa {
 namespace {
 
-// Knots i-2 .. i+3, clamped to [0, spans], settle a span's matrix; so two spans to either side matter.
-std::uint32_t spanClass(std::uint32_t span, std::uint32_t spans) {
-  return 3 * std::min(span, 2u) + std::min(spans - 1 - span, 2u);
+void addCap(SweepTable& table, std::uint32_t sweep, bool last) {
+  table.caps.push_back({sweep, last});
+  table.sweeps[sweep].caps |= last ? 2 : 1;
 }
 
-bool needsCap(const Network& network, NodeId node) {
-  return !node.valid() || !network.node(node).host;
-}
-
-void addVessel(const Network& network, std::uint32_t index, SweepTable& table) {
-  const Vessel& vessel = network.vessels()[index];
+// The sweeps of one stretch of tube.
+void addTube(const Network& network, const TubeStretch& tube, std::uint32_t spansBefore, SweepTable& table) {
+  const Vessel& vessel = network.vessels()[tube.vessel];
   const std::uint32_t spans = vessel.spanCount(), first = std::uint32_t(table.sweeps.size());
-  for (std::uint32_t span = 0; span < spans; ++span) {
-    const std::uint32_t next = span + 1 < spans ? spanClass(span + 1, spans) : shared::kNoSpan;
-    table.sweeps.push_back({vessel.firstPoint + span, table.knotCount + span, spanClass(span, spans), next,
-                            vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1, index, 0});
-    table.vesselOfSweep.push_back(index);
+  const std::uint32_t knot = firstKnot(network, {tube.vessel});
+  for (std::uint32_t span = locate(tube.from, spans).span; span < spans && float(span) < tube.to; ++span) {
+    const std::uint32_t next = span + 1 < spans ? spanClassOf(span + 1, spans) : shared::kNoSpan;
+    table.sweeps.push_back({vessel.firstPoint + span, knot + span, spanClassOf(span, spans), next, vessel.firstPoint,
+                            vessel.firstPoint + vessel.pointCount - 1, tube.vessel, 0,
+                            std::max(tube.from - float(span), 0.0f), std::min(tube.to - float(span), 1.0f)});
+    table.vesselOfSweep.push_back(tube.vessel);
+    table.spanOfSweep.push_back(spansBefore + span);
   }
-  const auto cap = [&](std::uint32_t sweep, bool last) {
-    table.caps.push_back({sweep, last});
-    table.sweeps[sweep].caps |= last ? 2 : 1;
-  };
-  if (needsCap(network, vessel.start)) cap(first, false);
-  if (needsCap(network, vessel.end)) cap(first + spans - 1, true);
-  table.knotCount += spans + 1;
+  if (tube.capFrom) addCap(table, first, false);
+  if (tube.capTo) addCap(table, std::uint32_t(table.sweeps.size() - 1), true);
 }
 
 }  // namespace
 
 SweepTable makeSweepTable(const Network& network) {
+  return makeSweepTable(network, planForks(network));
+}
+
+SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
   SweepTable table;
   table.sweeps.reserve(network.sweepCount());
-  table.vesselOfSweep.reserve(network.sweepCount());
   table.pointCount = std::uint32_t(network.points().size());
-  for (std::uint32_t i = 0; i < network.vessels().size(); ++i) addVessel(network, i, table);
+  table.knotCount = network.sectionCount();
+  std::vector<std::uint32_t> firstSpan;
+  for (const Vessel& vessel : network.vessels()) {
+    firstSpan.push_back(table.spanCount);
+    table.spanCount += vessel.spanCount();
+  }
+  for (const TubeStretch& tube : plan.tubes) addTube(network, tube, firstSpan[tube.vessel], table);
+  table.forks = std::move(plan.forks);
+  table.vesselOfFork = std::move(plan.vesselOfFork);
+  for (std::size_t i = 0; i < table.forks.size(); ++i) {
+    const std::uint32_t vessel = table.vesselOfFork[i];
+    table.spanOfFork.push_back(firstSpan[vessel] + table.forks[i].a.point - network.vessels()[vessel].firstPoint);
+  }
   return table;
 }
 

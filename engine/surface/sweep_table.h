@@ -3,25 +3,32 @@
 #include <vector>
 
 #include "network/network.h"
-#include "shared/sweep.h"
+#include "surface/fork_plan.h"
 
 namespace vasa {
 
-/// One end of a vessel that gets a cap.
+/// One end of a tube that gets a cap.
 struct CapEnd {
-  std::uint32_t sweep = 0;  ///< the vessel's first or last sweep
-  bool last = false;        ///< which of the two ends
+  std::uint32_t sweep = 0;
+  bool last = false;  ///< at the sweep's last ring, else at its first
 };
 
-/// A network's sweeps as flat records, for the CPU and the shaders alike; constant over time.
+/// A network's surface as flat records, for the CPU and the shaders alike; constant over time. A sweep is a span of a
+/// vessel; a span that forks cut is several sweeps, or none.
 struct SweepTable {
   std::vector<shared::SweepRecord> sweeps;   ///< vessel after vessel, span after span
   std::vector<std::uint32_t> vesselOfSweep;  ///< one a sweep
-  std::vector<CapEnd> caps;                  ///< every end, save those inside the vessel they leave (a T)
+  std::vector<std::uint32_t> spanOfSweep;    ///< one a sweep: its span, counted through all vessels of the network
+  std::vector<CapEnd> caps;                  ///< every end that no fork carries on
+  std::vector<shared::ForkRecord> forks;
+  std::vector<std::uint32_t> vesselOfFork, spanOfFork;  ///< those whose colour a fork takes
   std::uint32_t pointCount = 0;              ///< de Boor points of the network
   std::uint32_t knotCount = 0;               ///< knot quaternions: spans + 1 of each vessel, vessel after vessel
+  std::uint32_t spanCount = 0;               ///< of all vessels
 };
+/// Cut as planForks() says (surface/fork_plan.h).
 SweepTable makeSweepTable(const Network& network);
+SweepTable makeSweepTable(const Network& network, ForkPlan plan);
 
 /// Index of a vessel's first knot quaternion (it has one for each span and one more).
 std::uint32_t firstKnot(const Network& network, VesselId vessel);

@@ -29,14 +29,4 @@ void tessellateSweep(const PosedNetwork& network, std::uint32_t sweep, const Swe
 void tessellateCap(const PosedNetwork& network, std::uint32_t cap, const SweepShape& shape,
                    std::span<SurfacePoint> vertices);
 
-/// A network's surface as one indexed mesh, vessel after vessel; rings between spans are shared, so each vessel
-/// is closed but for its ends inside a host.
-struct Surface {
-  std::vector<vec3> positions, normals;       ///< one a vertex
-  std::vector<uvec3> triangles;               ///< counter-clockwise seen from outside
-  std::vector<std::uint32_t> firstTriangle;   ///< one a vessel, and the total
-};
-Surface tessellate(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
-                   const SweepShape& shape);
-
 }  // namespace vasa

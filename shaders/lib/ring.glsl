@@ -10,6 +10,7 @@ struct SweepCurve {
   Bezier own, next;
   vec4 knots[4];  // at t = 0 and 1 of this span, then of the span behind it
   vec3 chord, nextChord;  // the vessel's where the span has none of its own
+  float from, to;         // what of the span is drawn
   bool hasNext;
 };
 
@@ -29,7 +30,9 @@ SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord rec
   curve.knots[1] = curve.knots[2] = curve.knots[3] = end;
   curve.next = curve.own;
   curve.nextChord = curve.chord;
-  curve.hasNext = record.nextClass != kNoSpan;
+  curve.from = record.from;
+  curve.to = record.to;
+  curve.hasNext = record.nextClass != kNoSpan && record.to == 1;
   if (curve.hasNext) {
     curve.next = bezierOf(tables.tables.spanClass[record.nextClass], d1, d2, d3, points.point[record.point + 4]);
     curve.nextChord = vesselChord(points, record, curve.next);
@@ -39,7 +42,7 @@ SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord rec
 }
 
 Section ringSection(SweepCurve curve, uint ring, uint along) {
-  precise float t = float(ring) / float(along);
+  precise float t = ring == along ? curve.to : curve.from + (curve.to - curve.from) * (float(ring) / float(along));
   if (ring == along && curve.hasNext) return sectionAt(curve.next, curve.nextChord, curve.knots[2], curve.knots[3], 0);
   return sectionAt(curve.own, curve.chord, curve.knots[0], curve.knots[1], t);
 }

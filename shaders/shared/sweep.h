@@ -21,7 +21,7 @@ VASA_CONSTANT uint kNoSpan = 0xffffffffu;
 /// Rings of a cap between its rim and its pole, the rim included.
 VASA_CONSTANT uint kCapRings = 3;
 
-/// One span of a vessel; constant over time.
+/// One span of a vessel, or a part of one; constant over time.
 struct SweepRecord {
   uint point;      // first of its four de Boor points
   uint knot;       // knot quaternion at its start; the next one is at its end
@@ -30,6 +30,7 @@ struct SweepRecord {
   uint firstPoint, lastPoint;  // of its vessel
   uint vessel;
   uint caps;  // bit 0: its first ring is closed by a cap, bit 1: its last one
+  float from, to;  // part of the span that is drawn as a tube, in [0, 1]; forks take the rest
 };
 
 /// A tessellated vertex: 16 bytes.
@@ -39,7 +40,7 @@ struct TubeVertex {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SweepRecord) == 32 && sizeof(TubeVertex) == 16);
+static_assert(sizeof(SweepRecord) == 40 && sizeof(TubeVertex) == 16);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -26,6 +26,7 @@ VASA_CONSTANT float kBehind = 3e30;
 struct TubeTables {
   mat4 spanClass[kSpanClasses];         // de Boor to Bézier points
   vec2 step[kMaxAround + 1];            // (cos, sin) of 2π/m
+  vec2 halfStep[kMaxAround + 1];        // (cos, sin) of π/m
   float aroundError[kMaxAround + 1];    // 1 - cos(π/m)
   vec2 polar[kCapRings + 1];            // (cos φ, sin φ) from a cap's rim to its pole
 };
@@ -95,7 +96,7 @@ struct TubesPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(TubeTables) == 64 * 9 + 12 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
+static_assert(sizeof(TubeTables) == 64 * 9 + 20 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
 static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 104);
 }  // namespace vasa::shared
 #endif

@@ -70,6 +70,49 @@ Network windingNetwork(std::uint32_t vessels, std::uint32_t seed) {
   return built(builder);
 }
 
+Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed) {
+  Random random(seed);
+  NetworkBuilder builder;
+  // A gently bent vessel of some length, from a point on along a direction.
+  const auto add = [&](vec3 start, vec3 heading, float radius) {
+    std::vector<vec4> points;
+    const float step = random.in(3, 6) * radius;
+    for (std::uint32_t i = 0, count = 6 + random.below(4); i < count; ++i) {
+      points.emplace_back(start, radius);
+      start += step * (i == 0 || i + 2 == count ? 0.4f : 1.0f) * heading;
+      heading = glm::normalize(heading + 0.15f * random.direction());
+      radius *= random.in(0.93f, 1.02f);
+    }
+    return builder.addVessel({"vessel " + std::to_string(builder.vesselCount()), "", kKinds[0]}, std::move(points));
+  };
+  while (builder.vesselCount() < vessels) {
+    const vec3 place(random.in(-0.4f, 0.4f), random.in(0, 1), random.in(-0.4f, 0.4f));
+    const VesselId trunk = add(place, random.direction(), random.in(0.003f, 0.006f));
+    const std::vector<vec4> points = builder.pointsOf(trunk);
+    const float parameter = random.in(0.4f, 0.7f) * float(spanCount(points));
+    const vec4 at = evaluate(points, parameter);
+    const vec3 along = glm::normalize(vec3(evaluateDerivative(points, parameter)));
+    const auto leaving = [&](float most) {
+      const vec3 side = glm::normalize(glm::cross(along, random.direction()));
+      const float angle = random.in(0.45f, most);
+      return std::cos(angle) * along + std::sin(angle) * side;
+    };
+    for (std::uint32_t i = 0, count = 1 + random.below(3); i < count; ++i)  // often at one place
+      builder.joinToSide({add(vec3(at), leaving(2.6f), at.w * random.in(0.15f, 1)), false}, {trunk, parameter});
+    const vec4 tip = points.back();
+    const vec3 onward = glm::normalize(vec3(points.back() - points[points.size() - 2]));
+    std::vector<VesselEnd> ends{{trunk, true}};
+    for (std::uint32_t i = 0, count = 1 + random.below(3); i < count; ++i) {
+      const vec3 side = glm::normalize(glm::cross(onward, random.direction()));
+      const float angle = count == 1 ? 0.3f : random.in(0.35f, 0.9f);
+      ends.push_back({add(vec3(tip), std::cos(angle) * onward + std::sin(angle) * side, tip.w * random.in(0.5f, 0.95f)),
+                      false});
+    }
+    builder.joinEnds(ends);
+  }
+  return built(builder);
+}
+
 Network straightVessel(float length, float r0, float r1, std::uint32_t spans) {
   std::vector<vec4> points;
   // Greville abscissae of the clamped knots make C(u) and r(u) linear in u.

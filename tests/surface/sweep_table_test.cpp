@@ -19,15 +19,19 @@ TEST_CASE("span classes give each span's own matrix, bit for bit") {
   }
 }
 
-TEST_CASE("records follow the vessels, and ends inside a host get no cap") {
+TEST_CASE("records follow the vessels, and forks take what is theirs") {
   const Network network = test::windingNetwork(30, 5);
   const SweepTable table = makeSweepTable(network);
-  CHECK(table.sweeps.size() == network.sweepCount());
   CHECK(table.knotCount == network.sectionCount());
-  CHECK(table.caps.size() == 2 * 30 - 10);
+  CHECK(table.spanCount == network.sweepCount());
+  CHECK(table.forks.size() == table.vesselOfFork.size());
+  // An end of a tube is capped or carried on by a fork, whose trunk has two rings and whose branch has one.
+  CHECK(table.caps.size() == 2 * 30 - table.forks.size());
   for (std::uint32_t i = 0; i < table.sweeps.size(); ++i) {
     const VesselId vessel{table.vesselOfSweep[i]};
     const std::uint32_t span = table.sweeps[i].point - network.vessel(vessel).firstPoint;
     CHECK(table.sweeps[i].knot == firstKnot(network, vessel) + span);
+    CHECK(table.sweeps[i].from < table.sweeps[i].to);
+    if (table.sweeps[i].from > 0) CHECK((table.sweeps[i].caps & 1) == 0);
   }
 }

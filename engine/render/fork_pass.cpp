@@ -1,0 +1,32 @@
+#include "render/fork_pass.h"
+
+#include "spirv/forks_comp.h"
+
+namespace vasa {
+
+ForkPass::ForkPass(gpu::Device& device) : pipeline_(device, {spirv::forks_comp, sizeof(shared::ForksPush)}) {}
+
+void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
+  const ForkSet& forks = input.forks;
+  const TubeDraws& draws = input.draws;
+  pipeline_.dispatch(commands,
+                     shared::ForksPush{.points = input.points,
+                                       .knots = input.knots,
+                                       .forks = forks.forks(),
+                                       .tables = input.tubes.tables(),
+                                       .view = input.detail.view(),
+                                       .colours = forks.colours(),
+                                       .around = input.detail.around(),
+                                       .vertices = draws.vertices.address(),
+                                       .indices = draws.indices.address(),
+                                       .draws = draws.draws.address(),
+                                       .firstFork = input.batch.firstFork,
+                                       .forkCount = input.batch.forks,
+                                       .vertexShift = forks.room().vertexShift,
+                                       .indicesPerGroup = forks.room().indices,
+                                       .keepAll = input.cull ? 0u : 1u,
+                                       .unused = 0},
+                     input.batch.groups());
+}
+
+}  // namespace vasa

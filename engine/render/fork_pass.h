@@ -1,0 +1,29 @@
+#pragma once
+#include "render/fork_set.h"
+#include "render/tube_pass.h"
+
+namespace vasa {
+
+/// Turns a batch of forks into triangles between the tubes' rings, and leaves out those that cannot be seen.
+/// CPU references: surface/fork.h, surface/fork_template.h, surface/visible.h.
+class ForkPass {
+ public:
+  explicit ForkPass(gpu::Device& device);
+
+  struct Input {
+    const TubeSet& tubes;  ///< of the same network
+    const ForkSet& forks;
+    const ForkBatch& batch;
+    const DetailPass& detail;
+    VkDeviceAddress points, knots;  ///< de Boor points (vec4) and knot quaternions (x y z w) of the frame
+    const TubeDraws& draws;         ///< made for ForkSet::room()
+    bool cull = true;               ///< false: every triangle is drawn
+  };
+  /// No barriers.
+  void record(VkCommandBuffer commands, const Input& input) const;
+
+ private:
+  gpu::ComputePipeline pipeline_;
+};
+
+}  // namespace vasa

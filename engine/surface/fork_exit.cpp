@@ -1,0 +1,72 @@
+#include "surface/fork_exit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vasa {
+namespace {
+
+constexpr int kRingProbes = 8;
+constexpr float kClearance = 0.12f;  // of the branch's radius, between its ring and the host's wall
+
+struct Walker {
+  const VesselLine& branch;
+  bool last;
+  float way(float from) const { return last ? branch.length() - from : from; }
+  vec4 point(float from) const { return branch.point(way(from)); }
+  vec3 outward(float from) const { return (last ? -1.0f : 1.0f) * branch.tangent(way(from)); }
+};
+
+// How deep the branch's ring reaches into the host [m]; negative: how far it stands off.
+float ringDepth(const Walker& walker, float from, const VesselLine& host, float foot) {
+  const vec4 point = walker.point(from);
+  const vec3 outward = walker.outward(from), u = anyPerpendicular(outward), v = glm::cross(outward, u);
+  float depth = -1e30f;
+  for (int i = 0; i < kRingProbes; ++i) {
+    const float angle = 2 * kPi * float(i) / kRingProbes;
+    const vec3 probe = vec3(point) + point.w * (std::cos(angle) * u + std::sin(angle) * v);
+    const VesselLine::Foot near = host.nearest(probe, foot, 4 * point.w + 1e-3f);
+    depth = std::max(depth, near.radius - near.distance);
+  }
+  return depth;
+}
+
+}  // namespace
+
+ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay) {
+  const Walker walker{branch, last};
+  ForkExit exit;
+  float foot = hostWay, best = 1e30f, limit = 0.98f * branch.length();
+  bool outside = false;
+  for (float from = 0; from < limit;) {
+    const vec4 point = walker.point(from);
+    const float step = std::max(0.15f * point.w, branch.length() / 4096);
+    const VesselLine::Foot near = host.nearest(vec3(point), foot, 6 * step + 0.5f * host.point(foot).w);
+    foot = near.way;
+    if (near.distance < near.radius) {
+      exit.cross = from;
+      exit.foot = foot;
+      outside = false;
+      best = 1e30f;
+    } else {
+      if (!outside) limit = std::min(limit, exit.cross + 4 * point.w + 3 * near.radius);
+      outside = true;
+      const float depth = ringDepth(walker, from, host, foot);
+      if (from > exit.cross + 0.25f * point.w && depth < best) {
+        best = depth;
+        exit.ring = from;
+        exit.found = true;
+        exit.clear = depth <= -kClearance * point.w;
+        if (exit.clear) break;
+      }
+    }
+    from += step;
+  }
+  if (!exit.found || !outside) return {};
+  exit.radius = walker.point(exit.ring).w;
+  const vec3 course = vec3(walker.point(exit.ring) - walker.point(exit.cross));
+  exit.lean = glm::dot(course, host.tangent(exit.foot)) / std::max(glm::length(course), 1e-12f);
+  return exit;
+}
+
+}  // namespace vasa

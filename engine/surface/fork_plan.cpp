@@ -1,0 +1,294 @@
+#include "surface/fork_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/fork_exit.h"
+#include "surface/fork_record.h"
+#include "surface/fork_room.h"
+#include "surface/vessel_line.h"
+
+// A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it are given
+// room. A branch without room is dropped; that lengthens its own line again, so lines are gone through until no branch
+// is dropped any more. Branches are only ever dropped, so this ends.
+namespace vasa {
+namespace {
+
+constexpr float kWidestHole = 0.9f;        // sine of half its angle
+constexpr float kHoleMargin = 1.25f;       // rows of the trunk stay outside the hole
+constexpr float kSliver = 0.1f;            // of the radius: shorter tubes go to the forks beside them
+constexpr float kBesideJoin = 0.15f;       // of the radius: the least a join takes
+
+// A branch or a join on a line.
+struct Item {
+  ForkRoom room;
+  std::uint32_t child = 0;  // 2 * line + end; meaningless for a join
+  bool branch = false;
+  float hole = 0, around = 0, radius = 0, shiftLimit = 0;
+  float mustLow = 1e30f, mustHigh = -1e30f;  // a join within
+};
+
+enum class Fate { none, forked, hidden, tooShort, crowded };
+
+class Planner {
+ public:
+  explicit Planner(const Network& network) : network_(network), lines_(makeVesselLines(network)) {
+    exits_.resize(2 * lines_.lines.size());
+    fates_.resize(exits_.size(), Fate::none);
+    children_.resize(lines_.lines.size());
+    items_.resize(lines_.lines.size());
+  }
+
+  ForkPlan run() {
+    findExits();
+    for (bool dropped = true; dropped;) {
+      dropped = false;
+      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) dropped = !settle(line) || dropped;
+    }
+    for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) emit(line);
+    std::sort(plan_.tubes.begin(), plan_.tubes.end(), [](const TubeStretch& a, const TubeStretch& b) {
+      return a.vessel != b.vessel ? a.vessel < b.vessel : a.from < b.from;
+    });
+    count();
+    return std::move(plan_);
+  }
+
+ private:
+  struct Range {
+    float low, high;
+  };
+
+  void findExits() {
+    for (std::uint32_t end = 0; end < exits_.size(); ++end) {
+      const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
+      if (lineEnd.kind != LineEnd::Kind::branch) continue;
+      exits_[end] = findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay);
+      fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
+      children_[lineEnd.host].push_back(end);
+    }
+    for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) {
+      clearJoin(2 * line);
+      clearJoin(2 * line + 1);
+      if (!forked(2 * line) || !forked(2 * line + 1)) continue;
+      const float room = lines_.lines[line].length() - exits_[2 * line].ring - exits_[2 * line + 1].ring;
+      if (room < kSliver * exits_[2 * line].radius) fates_[2 * line + 1] = Fate::tooShort;
+    }
+  }
+  bool forked(std::uint32_t end) const { return fates_[end] == Fate::forked; }
+
+  // A branch's ring too near a join of its own line moves beyond it.
+  void clearJoin(std::uint32_t end) {
+    if (!forked(end)) return;
+    const VesselLine& line = lines_.lines[end / 2];
+    ForkExit& exit = exits_[end];
+    const auto clear = [&](const VesselLine::Join& join) {
+      const bool last = end % 2 == 1;
+      const float near = last ? line.length() - join.at - join.gap : join.at;
+      const float beside = 2 * kBesideJoin * exit.radius;
+      if (exit.ring > near - beside && exit.ring < near + join.gap + beside) exit.ring = near + join.gap + beside;
+    };
+    if (end % 2 == 0)
+      for (std::size_t i = 0; i < line.joins().size(); ++i) clear(line.joins()[i]);
+    else
+      for (std::size_t i = line.joins().size(); i-- > 0;) clear(line.joins()[i]);
+    if (exit.ring > 0.98f * line.length()) fates_[end] = Fate::tooShort;
+  }
+
+  // What of a line forks may take: between its branch rings, or leaving some tube for a cap.
+  Range rangeOf(std::uint32_t index) const {
+    const VesselLine& line = lines_.lines[index];
+    const float length = line.length();
+    const auto margin = [&](std::uint32_t end) {
+      if (forked(end)) return exits_[end].ring;
+      float least = std::min(0.3f * line.point(end % 2 ? length : 0).w, 0.1f * length);
+      for (const VesselLine::Join& join : line.joins())
+        least = std::min(least, 0.25f * (end % 2 ? length - join.at - join.gap : join.at));
+      return least;
+    };
+    return {margin(2 * index), length - margin(2 * index + 1)};
+  }
+
+  Item branchItem(const VesselLine& host, std::uint32_t end) const {
+    const ForkExit& exit = exits_[end];
+    const float trunk = host.point(exit.foot).w, wide = (1 + kHoleMargin) / 2;
+    const float stretched = 1 / std::sqrt(std::max(1 - exit.lean * exit.lean, 1.0f / 9));
+    Item item;
+    item.branch = true;
+    item.child = end;
+    item.radius = exit.radius;
+    item.hole = std::min(exit.radius, 1.3f * trunk) * (1 + shared::kFillet) * stretched;
+    item.around = std::min(exit.radius * (1 + shared::kFillet) / trunk, kWidestHole);
+    item.room.centre = exit.foot;
+    item.room.before = item.room.after = kHoleMargin * item.hole + 0.08f * trunk;
+    item.room.want = (kHoleMargin + 0.2f) * item.hole + 0.35f * trunk * wide;
+    item.shiftLimit = 1.3f * item.hole + trunk;
+    return item;
+  }
+
+  static Item joinItem(const VesselLine& line, const VesselLine::Join& join) {
+    const vec4 before = line.point(join.at), after = line.point(join.at + join.gap);
+    const float radius = std::max(before.w, after.w), probe = 1.5f * radius, middle = join.at + join.gap / 2;
+    const vec3 in = vec3(before - line.point(join.at - probe)), out = vec3(line.point(join.at + join.gap + probe) - after);
+    const float size = std::max(glm::length(in) * glm::length(out), 1e-20f);
+    const float cosine = std::clamp(glm::dot(in, out) / size, -0.6f, 1.0f);
+    const float bend = std::sqrt((1 - cosine) / (1 + cosine));  // tan of half the angle
+    Item item;
+    item.radius = radius;
+    item.room.centre = middle;
+    item.room.before = item.room.after = kBesideJoin * radius + join.gap / 2;
+    item.room.want = item.room.before + radius * (0.3f + bend) + std::abs(before.w - after.w);
+    item.mustLow = join.at;
+    item.mustHigh = join.at + join.gap;
+    return item;
+  }
+
+  std::vector<Item> itemsOf(std::uint32_t index, Range range) const {
+    const VesselLine& line = lines_.lines[index];
+    std::vector<Item> items;
+    for (const std::uint32_t end : children_[index])
+      if (forked(end)) items.push_back(branchItem(line, end));
+    const auto byCentre = [](const Item& a, const Item& b) {
+      return a.room.centre != b.room.centre ? a.room.centre < b.room.centre : a.child < b.child;
+    };
+    std::vector<Item> joins;
+    for (const VesselLine::Join& join : line.joins()) {
+      if (join.at <= range.low || join.at + join.gap >= range.high) continue;
+      Item item = joinItem(line, join);
+      Item* nearest = nullptr;
+      for (Item& branch : items) {
+        const float apart = std::abs(branch.room.centre - item.room.centre);
+        if (apart < branch.room.before + 1.5f * item.room.before + 0.5f * item.radius &&
+            (!nearest || apart < std::abs(nearest->room.centre - item.room.centre)))
+          nearest = &branch;
+      }
+      if (nearest) take(*nearest, item);
+      else joins.push_back(item);
+    }
+    items.insert(items.end(), joins.begin(), joins.end());
+    std::sort(items.begin(), items.end(), byCentre);
+    return items;
+  }
+
+  // The branch's fork covers the join, too, and somewhat more, so that it may move.
+  static void take(Item& branch, const Item& join) {
+    const float beside = join.room.before + 0.35f * join.radius;
+    branch.room.before = std::max(branch.room.before, branch.room.centre - join.room.centre + beside);
+    branch.room.after = std::max(branch.room.after, join.room.centre - branch.room.centre + beside);
+    branch.mustLow = std::min(branch.mustLow, join.mustLow);
+    branch.mustHigh = std::max(branch.mustHigh, join.mustHigh);
+  }
+
+  // @return false where a branch was dropped
+  bool settle(std::uint32_t index) {
+    const Range range = rangeOf(index);
+    std::vector<Item>& items = items_[index];
+    items = itemsOf(index, range);
+    if (items.empty()) return true;
+    std::vector<ForkRoom> rooms;
+    for (const Item& item : items) rooms.push_back(item.room);
+    const float sliver = kSliver * lines_.lines[index].point(range.low).w;
+    Item* worst = nullptr;
+    if (!shareRoom(rooms, range.low, range.high, sliver)) {
+      for (Item& item : items)
+        if (item.branch && (!worst || item.radius < worst->radius)) worst = &item;
+    } else {
+      float excess = 1;
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const bool torn = items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high;
+        // A join that a fork pushes off its place: the nearest branch gives way.
+        if (torn && !items[i].branch) worst = nearestBranch(items, i);
+        else if (torn) worst = &items[i];
+        if (torn) break;
+        const float share = items[i].branch ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
+        if (share > excess) excess = share, worst = &items[i];
+      }
+    }
+    if (worst) {
+      fates_[worst->child] = Fate::crowded;
+      return false;
+    }
+    for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
+    return true;
+  }
+
+  static Item* nearestBranch(std::vector<Item>& items, std::size_t to) {
+    Item* nearest = nullptr;
+    for (Item& item : items)
+      if (item.branch && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
+                                          std::abs(nearest->room.centre - items[to].room.centre)))
+        nearest = &item;
+    return nearest;
+  }
+
+  void emit(std::uint32_t index) {
+    const VesselLine& line = lines_.lines[index];
+    const bool fromBranch = forked(2 * index), toBranch = forked(2 * index + 1);
+    float from = fromBranch ? exits_[2 * index].ring : 0;
+    bool cap = !fromBranch;
+    for (const Item& item : items_[index]) {
+      emitTube(line, from, item.room.low, cap, false);
+      emitFork(index, item);
+      from = item.room.high;
+      cap = false;
+    }
+    emitTube(line, from, toBranch ? line.length() - exits_[2 * index + 1].ring : line.length(), cap, !toBranch);
+  }
+
+  void emitTube(const VesselLine& line, float from, float to, bool capFrom, bool capTo) {
+    if (to <= from) return;
+    const VesselPlace a = line.place(from), b = line.place(to);
+    TubeStretch tube{b.vessel, a.vessel == b.vessel ? a.u : (b.reversed ? spansOf(b) : 0), b.u, capFrom, capTo};
+    if (b.reversed) {
+      std::swap(tube.from, tube.to);
+      std::swap(tube.capFrom, tube.capTo);
+    }
+    if (tube.to > tube.from) plan_.tubes.push_back(tube);
+  }
+  float spansOf(const VesselPlace& place) const { return float(network_.vessels()[place.vessel].spanCount()); }
+
+  void emitFork(std::uint32_t index, const Item& item) {
+    const VesselLine& line = lines_.lines[index];
+    ForkCourse course{.low = line.place(item.room.low),
+                      .high = line.place(item.room.high),
+                      .centre = vec3(line.point(item.room.centre)),
+                      .length = item.room.high - item.room.low};
+    if (item.branch) {
+      const ForkExit& exit = exits_[item.child];
+      const VesselLine& branch = lines_.lines[item.child / 2];
+      const bool last = item.child % 2 == 1;
+      const auto way = [&](float fromEnd) { return last ? branch.length() - fromEnd : fromEnd; };
+      course.branch = {branch.place(way(exit.ring)), branch.place(way(exit.cross)), last, item.hole, item.around};
+      plan_.report.leaning += !exit.clear;
+    }
+    plan_.report.joins += item.mustLow < 1e30f;
+    plan_.forks.push_back(makeForkRecord(network_, course));
+    plan_.vesselOfFork.push_back(course.low.vessel);
+  }
+
+  void count() {
+    plan_.report.doubles = lines_.doubles;
+    for (const Fate fate : fates_) {
+      plan_.report.branches += fate != Fate::none;
+      plan_.report.forked += fate == Fate::forked;
+      plan_.report.hidden += fate == Fate::hidden;
+      plan_.report.tooShort += fate == Fate::tooShort;
+      plan_.report.crowded += fate == Fate::crowded;
+    }
+  }
+
+  const Network& network_;
+  VesselLines lines_;
+  std::vector<ForkExit> exits_;  // 2 * line + end
+  std::vector<Fate> fates_;
+  std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
+  std::vector<std::vector<Item>> items_;
+  ForkPlan plan_;
+};
+
+}  // namespace
+
+ForkPlan planForks(const Network& network) {
+  return Planner(network).run();
+}
+
+}  // namespace vasa

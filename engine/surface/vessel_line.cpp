@@ -1,0 +1,279 @@
+#include "surface/vessel_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kSamplesPerSpan = 8;
+constexpr float kLongestDouble = 8;    // radii
+constexpr float kStraightest = 0.35f;  // greatest cosine between two ends' outward directions that still run on
+
+// An end of a vessel as a node sees it.
+struct Arm {
+  VesselEnd end;
+  vec3 outward;
+  float radius;
+};
+
+std::uint32_t key(const VesselEnd& end) {
+  return 2 * end.vessel.value + (end.last ? 1 : 0);
+}
+
+// Direction over the first one and a half radii: tangents at an end are noise.
+Arm armOf(const Network& network, const VesselEnd& end) {
+  const Vessel& vessel = network.vessel(end.vessel);
+  const auto points = network.pointsOf(vessel);
+  const float spans = float(vessel.spanCount());
+  const vec4 start = end.last ? points.back() : points.front();
+  vec3 outward(0);
+  for (int i = 1; i <= 32; ++i) {
+    const float u = spans * float(i * i) / 1024.0f;
+    outward = vec3(evaluate(points, end.last ? spans - u : u) - start);
+    if (glm::length(outward) > 1.5f * start.w) break;
+  }
+  const float length = glm::length(outward);
+  return {end, length > 0 ? outward / length : vec3(0, 0, 1), start.w};
+}
+
+// What a left-out vessel is a double of: its parameters 0 and spans are those of `vessel`, `at[0]` and `at[1]`.
+struct Double {
+  VesselId vessel;
+  std::array<float, 2> at{};
+};
+
+float wayBetween(std::span<const vec4> points, float from, float to) {
+  float way = 0;
+  vec3 before(evaluate(points, from));
+  for (int i = 1; i <= 32; ++i) {
+    const vec3 next(evaluate(points, glm::mix(from, to, float(i) / 32)));
+    way += glm::distance(before, next);
+    before = next;
+  }
+  return way;
+}
+
+std::optional<Double> doubleOf(const Network& network, const Vessel& vessel) {
+  for (const bool last : {false, true}) {
+    const NodeId side = last ? vessel.end : vessel.start, tip = last ? vessel.start : vessel.end;
+    if (!side.valid() || !tip.valid() || !network.node(side).host || network.node(tip).host) continue;
+    const Host host = *network.node(side).host;
+    const auto points = network.pointsOf(network.vessel(host.vessel));
+    for (const VesselEnd& end : network.ends(network.node(tip))) {
+      if (end.vessel != host.vessel) continue;
+      const float at = end.last ? float(spanCount(points)) : 0, way = wayBetween(points, at, host.parameter);
+      const float radius = std::max(evaluate(points, host.parameter).w, evaluate(points, at).w);
+      if (way > kLongestDouble * radius || lengthOf(network.pointsOf(vessel)) > 1.5f * way + radius) continue;
+      return Double{host.vessel, {last ? at : host.parameter, last ? host.parameter : at}};
+    }
+  }
+  return std::nullopt;
+}
+
+// Which ends run on into which.
+class Joiner {
+ public:
+  explicit Joiner(const Network& network)
+      : network_(network), partner_(2 * network.vessels().size(), kNone), group_(network.vessels().size()) {
+    std::iota(group_.begin(), group_.end(), 0u);
+  }
+  static constexpr std::uint32_t kNone = ~0u;
+
+  // Joins the best pair of these ends.
+  bool joinBest(const std::vector<VesselEnd>& ends) {
+    std::vector<Arm> arms;
+    float largest = 0;
+    for (const VesselEnd& end : ends) {
+      arms.push_back(armOf(network_, end));
+      largest = std::max(largest, arms.back().radius);
+    }
+    float best = -1e9f;
+    std::size_t one = 0, other = 0;
+    for (std::size_t i = 0; i < arms.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const float cosine = glm::dot(arms[i].outward, arms[k].outward);
+        if (cosine > kStraightest || root(arms[i].end.vessel.value) == root(arms[k].end.vessel.value)) continue;
+        const float score = 1.5f * std::min(arms[i].radius, arms[k].radius) / largest - cosine;
+        if (score > best) best = score, one = i, other = k;
+      }
+    if (best == -1e9f) return false;
+    const VesselEnd a = arms[one].end, b = arms[other].end;
+    partner_[key(a)] = key(b);
+    partner_[key(b)] = key(a);
+    group_[root(a.vessel.value)] = root(b.vessel.value);
+    return true;
+  }
+  std::uint32_t partner(std::uint32_t end) const { return partner_[end]; }
+
+ private:
+  std::uint32_t root(std::uint32_t v) {
+    while (group_[v] != v) v = group_[v] = group_[group_[v]];
+    return v;
+  }
+  const Network& network_;
+  std::vector<std::uint32_t> partner_, group_;
+};
+
+// The ends that meet at a node, with the host's own end where the node is at it and that end is free.
+std::vector<VesselEnd> meetingEnds(const Network& network, const Node& node) {
+  std::vector<VesselEnd> ends(network.ends(node).begin(), network.ends(node).end());
+  if (!node.host) return ends;
+  const Vessel& host = network.vessel(node.host->vessel);
+  const auto points = network.pointsOf(host);
+  const vec3 place(evaluate(points, node.host->parameter));
+  const bool last = node.host->parameter > 0.5f * float(host.spanCount());
+  const vec4 end = last ? points.back() : points.front();
+  if ((last ? host.end : host.start).valid() || glm::distance(place, vec3(end)) > end.w) return {};
+  ends.push_back({node.host->vessel, last});
+  return ends;
+}
+
+}  // namespace
+
+VesselLine::VesselLine(const Network& network, std::vector<Part> parts) : parts_(std::move(parts)) {
+  float at = 0;
+  for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+    const Vessel& vessel = network.vessel(parts_[p].vessel);
+    const auto points = network.pointsOf(vessel);
+    const std::uint32_t count = kSamplesPerSpan * vessel.spanCount();
+    for (std::uint32_t i = 0; i <= count; ++i) {
+      const float u = float(parts_[p].reversed ? count - i : i) / kSamplesPerSpan;
+      const vec4 point = evaluate(points, u);
+      const float step = samples_.empty() ? 0 : glm::distance(vec3(point), samples_.back().centre);
+      if (i == 0 && p > 0) joins_.push_back({at, step});
+      at += step;
+      samples_.push_back({vec3(point), point.w, at, u, p});
+    }
+  }
+}
+
+std::size_t VesselLine::sampleBefore(float way) const {
+  const auto after = std::upper_bound(samples_.begin(), samples_.end(), way,
+                                      [](float w, const Sample& sample) { return w < sample.at; });
+  const std::size_t index = std::size_t(after - samples_.begin());
+  return std::min(index > 0 ? index - 1 : 0, samples_.size() - 2);
+}
+
+float VesselLine::wayOf(VesselId vessel, float u) const {
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.vessel == vessel; });
+  float way = 0;
+  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
+    const Sample &a = samples_[i], &b = samples_[i + 1];
+    if (a.part != b.part || a.part != std::uint32_t(part - parts_.begin())) continue;
+    way = a.u == b.u ? a.at : glm::mix(a.at, b.at, std::clamp((u - a.u) / (b.u - a.u), 0.0f, 1.0f));
+    if (std::min(a.u, b.u) <= u && u <= std::max(a.u, b.u)) break;
+  }
+  return way;
+}
+
+VesselPlace VesselLine::place(float way) const {
+  const std::size_t i = sampleBefore(way);
+  const Sample &a = samples_[i], &b = samples_[i + 1];
+  const Part& part = parts_[a.part];
+  if (a.part != b.part || b.at <= a.at) return {part.vessel.value, a.u, part.reversed};
+  const float share = std::clamp((way - a.at) / (b.at - a.at), 0.0f, 1.0f);
+  float u = glm::mix(a.u, b.u, share);
+  if (std::abs(u - std::round(u)) < 1e-4f) u = std::round(u);  // a ring that is there anyway
+  return {part.vessel.value, u, part.reversed};
+}
+
+vec4 VesselLine::point(float way) const {
+  const std::size_t i = sampleBefore(way);
+  const Sample &a = samples_[i], &b = samples_[i + 1];
+  const float share = b.at > a.at ? std::clamp((way - a.at) / (b.at - a.at), 0.0f, 1.0f) : 0;
+  return glm::mix(vec4(a.centre, a.radius), vec4(b.centre, b.radius), share);
+}
+
+vec3 VesselLine::tangent(float way) const {
+  for (std::size_t i = sampleBefore(way), reach = 0; reach < samples_.size(); ++reach) {
+    const std::size_t low = i > reach ? i - reach : 0, high = std::min(i + 1 + reach, samples_.size() - 1);
+    const vec3 chord = samples_[high].centre - samples_[low].centre;
+    const float length = glm::length(chord);
+    if (length > 1e-9f) return chord / length;
+  }
+  return {0, 0, 1};
+}
+
+VesselLine::Foot VesselLine::nearest(vec3 point, float around, float reach) const {
+  Foot best{around, 1e30f, 0};
+  for (std::size_t i = sampleBefore(around - reach); i + 1 < samples_.size() && samples_[i].at <= around + reach; ++i) {
+    const Sample &a = samples_[i], &b = samples_[i + 1];
+    const vec3 along = b.centre - a.centre;
+    const float length2 = glm::dot(along, along);
+    const float share = length2 > 0 ? std::clamp(glm::dot(point - a.centre, along) / length2, 0.0f, 1.0f) : 0;
+    const float distance = glm::distance(point, a.centre + share * along);
+    if (distance < best.distance)
+      best = {glm::mix(a.at, b.at, share), distance, glm::mix(a.radius, b.radius, share)};
+  }
+  return best;
+}
+
+VesselLines makeVesselLines(const Network& network) {
+  std::vector<std::optional<Double>> doubles;
+  for (const Vessel& vessel : network.vessels()) doubles.push_back(doubleOf(network, vessel));
+  for (std::uint32_t v = 0; v < doubles.size(); ++v)  // not of one another
+    if (doubles[v] && doubles[doubles[v]->vessel.value]) doubles[v].reset();
+  const auto drawn = [&](const VesselEnd& end) { return !doubles[end.vessel.value]; };
+  const auto drawnOf = [&](std::vector<VesselEnd> ends) {
+    std::erase_if(ends, [&](const VesselEnd& end) { return !drawn(end); });
+    return ends;
+  };
+  Joiner joiner(network);
+  for (const Node& node : network.nodes()) {
+    const std::vector<VesselEnd> ends = drawnOf(meetingEnds(network, node));
+    if (ends.size() >= 2) joiner.joinBest(ends);
+  }
+  VesselLines result;
+  std::vector<std::uint32_t> lineOf(network.vessels().size(), Joiner::kNone);
+  for (std::uint32_t v = 0; v < lineOf.size(); ++v) {
+    result.doubles += doubles[v].has_value();
+    if (lineOf[v] != Joiner::kNone || doubles[v]) continue;
+    std::uint32_t start = 2 * v;  // walk back to the line's first end
+    while (joiner.partner(start) != Joiner::kNone) start = joiner.partner(start) ^ 1u;
+    std::vector<VesselLine::Part> parts;
+    for (std::uint32_t end = start;;) {
+      parts.push_back({{end / 2}, (end & 1) != 0});
+      lineOf[end / 2] = std::uint32_t(result.lines.size());
+      end = joiner.partner(end ^ 1u);
+      if (end == Joiner::kNone) break;
+    }
+    result.lines.emplace_back(network, std::move(parts));
+  }
+  result.ends.resize(result.lines.size());
+  const auto settle = [&](const VesselEnd& end, Host host) {
+    if (!drawn(end) || joiner.partner(key(end)) != Joiner::kNone) return;
+    if (const auto& twin = doubles[host.vessel.value]) {
+      const float share = host.parameter / float(network.vessel(host.vessel).spanCount());
+      host = {twin->vessel, glm::mix(twin->at[0], twin->at[1], share)};
+    }
+    if (host.vessel == end.vessel) return;
+    const std::uint32_t line = lineOf[end.vessel.value], hostLine = lineOf[host.vessel.value];
+    const VesselLine::Part& first = result.lines[line].parts().front();
+    const bool atStart = first.vessel == end.vessel && first.reversed == end.last;
+    result.ends[line][atStart ? 0 : 1] = {LineEnd::Kind::branch, hostLine,
+                                          result.lines[hostLine].wayOf(host.vessel, host.parameter)};
+  };
+  for (const Node& node : network.nodes()) {
+    if (node.host) {
+      for (const VesselEnd& end : network.ends(node)) settle(end, *node.host);
+      continue;
+    }
+    const std::vector<VesselEnd> ends = drawnOf({network.ends(node).begin(), network.ends(node).end()});
+    if (ends.empty()) continue;
+    // The joined ones, or the largest, carry the others.
+    const auto rank = [&](const VesselEnd& end) {
+      return (joiner.partner(key(end)) != Joiner::kNone ? 1e6f : 0.0f) + armOf(network, end).radius;
+    };
+    const VesselEnd carrier =
+        *std::max_element(ends.begin(), ends.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    const float u = carrier.last ? float(network.vessel(carrier.vessel).spanCount()) : 0;
+    for (const VesselEnd& end : ends)
+      if (!(end == carrier)) settle(end, {carrier.vessel, u});
+  }
+  return result;
+}
+
+}  // namespace vasa

@@ -1,0 +1,81 @@
+// Read by C++ and GLSL (scalar layout): how a network's forks lie in memory.
+#ifndef VASA_SHARED_FORK_H
+#define VASA_SHARED_FORK_H
+#include "shared/tubes.h"
+#ifdef __cplusplus
+namespace vasa::shared {
+#define VASA_CONSTANT constexpr
+#else
+#define VASA_CONSTANT const
+#endif
+
+/// Rows of a fork's trunk, both rings of its tubes included.
+VASA_CONSTANT uint kTrunkRows = 5;
+/// Rows of its collar, without the loop where it leaves the trunk, with the branch's ring.
+VASA_CONSTANT uint kCollarRows = 4;
+/// How much wider the hole in the trunk is than the branch: the room for the fillet.
+VASA_CONSTANT float kFillet = 0.35f;
+
+/// A ring of a vessel: its section at t of one span.
+struct ForkRing {
+  uint point;      // first of the span's four de Boor points
+  uint knot;       // knot quaternion at the span's start
+  uint spanClass;
+  uint firstPoint, lastPoint;  // of its vessel
+  float t;
+  float turn;      // +1 where the vessel runs the fork's way (trunk: from a to b, branch: outwards), else -1
+};
+
+/// A piece of trunk from ring a to ring b with one branch on its side; constant over time.
+struct ForkRecord {
+  ForkRing a, b, branch;
+  uint crossPoint, crossClass;  // the branch's axis pierces the trunk's wall here: span and t
+  float crossT;
+  float scaleA, scaleB;         // from d/dt of the rings' vessels to d/ds of the trunk, s in [0, 1]
+  float row1, centre, row3;     // s of the trunk's inner rows; the hole's middle is at `centre`
+  float holeAround;             // sine of the hole's half angle around the trunk
+  float holeAlong;              // its half length, in s
+  uint hasBranch;
+  float window;                 // share of the trunk's columns that the hole takes
+  uint vesselA, vesselB, vesselBranch;
+};
+
+/// Forks and threads of a workgroup.
+VASA_CONSTANT uint kGroupForks = 64;
+/// Most vertices and triangles of a fork.
+VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + 1 + kCollarRows) * kMaxAround;
+VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + 2 * kCollarRows + 2) * kMaxAround + 4;
+
+#ifndef __cplusplus
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };
+#define VASA_ADDRESS(Block) Block
+#else
+#define VASA_ADDRESS(Block) std::uint64_t
+#endif
+
+/// Of forks.comp: a thread a fork, a workgroup a group of them -> vertices, indices of the triangles that may be seen, in
+/// the order of the forks, and an indirect draw a group.
+struct ForksPush {
+  VASA_ADDRESS(Points) points;
+  VASA_ADDRESS(Knots) knots;
+  VASA_ADDRESS(Forks) forks;
+  VASA_ADDRESS(Tables) tables;
+  VASA_ADDRESS(View) view;
+  VASA_ADDRESS(Uints) colours;       // of each fork, kind in the highest 8 bits
+  VASA_ADDRESS(Uints) around;        // m of each vessel
+  VASA_ADDRESS(Vertices) vertices;   // 2^vertexShift of them a fork of the batch
+  VASA_ADDRESS(UintsOut) indices;
+  VASA_ADDRESS(Draws) draws;
+  uint firstFork, forkCount;
+  uint vertexShift, indicesPerGroup;  // room
+  uint keepAll;                       // 1: every triangle is drawn
+  uint unused;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(ForkRing) == 28 && sizeof(ForkRecord) == 144 && sizeof(ForksPush) == 104);
+}  // namespace vasa::shared
+#endif
+#undef VASA_CONSTANT
+#undef VASA_ADDRESS
+#endif

@@ -1,0 +1,177 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <map>
+
+#include "gpu/gpu_rig.h"
+#include "render/fork_pass.h"
+#include "support/networks.h"
+#include "surface/detail.h"
+#include "surface/fork_template.h"
+#include "surface/octahedral.h"
+
+// The forks' pass against its CPU reference: 1e-6 of the body's height (here 1 m) in position, 2e-4 in normals (they are
+// packed to 7e-5), triangles alike; and against the tubes' pass: the rings that they share, bit for bit.
+
+using namespace vasa;
+
+namespace {
+
+struct Drawn {
+  std::vector<shared::TubeVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<shared::DrawCommand> draws;
+};
+
+// Networks in device memory, and what the passes make of them.
+struct Forks {
+  Forks(const test::GpuRig& used, const Network& network, std::vector<vec4> posed, const TubeDetail& detail)
+      : rig(used),
+        points(std::move(posed)),
+        frames(network.sectionCount()),
+        tubes(rig.device(), network, detail, 1u << 20),
+        forks(rig.device(), tubes.table(), detail, 1u << 20),
+        detailPass(rig.device(), tubes),
+        tubePass(rig.device()),
+        forkPass(rig.device()) {
+    networkFrames(network, points, restReferences(network), frames);
+    const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);
+    Camera camera;
+    camera.position = {0, 0.5f, 3};
+    camera.target = {0, 0.5f, 0};
+    view = detailView(camera, {}, {640, 480}, 1, detail, detailSnap(rig.device(), {640, 480}));
+    forks.setSpanColours(rig.device(), kindColours(network));
+    const TubeDraws tubeDraws(rig.device(), tubes.room(), tubes.groupCount());
+    const TubeDraws forkDraws(rig.device(), forks.room(), forks.groupCount());
+    rig.run([&](VkCommandBuffer commands) {
+      detailPass.record(commands, tubes, pointBuffer.address(), view);
+      tubePass.record(commands, {tubes, tubes.batches()[0], detailPass, pointBuffer.address(), knotBuffer.address(),
+                                 tubeDraws, false});
+      forkPass.record(commands, {tubes, forks, forks.batches()[0], detailPass, pointBuffer.address(),
+                                 knotBuffer.address(), forkDraws, false});
+    });
+    tubesDrawn = download(tubeDraws);
+    forksDrawn = download(forkDraws);
+    around = rig.download<std::uint32_t>(detailPass.aroundBuffer());
+    along = rig.download<std::uint32_t>(detailPass.alongBuffer());
+  }
+
+  Drawn download(const TubeDraws& draws) const {
+    return {rig.download<shared::TubeVertex>(draws.vertices), rig.download<std::uint32_t>(draws.indices),
+            rig.download<shared::DrawCommand>(draws.draws)};
+  }
+  PosedNetwork posed() const { return {tubes.table(), points, frames}; }
+  ForkShape shapeOf(const shared::ForkRecord& fork) const {
+    return {around[fork.vesselA], around[fork.vesselB], around[fork.vesselBranch]};
+  }
+
+  const test::GpuRig& rig;
+  std::vector<vec4> points;
+  std::vector<quat> frames;
+  TubeSet tubes;
+  ForkSet forks;
+  DetailPass detailPass;
+  TubePass tubePass;
+  ForkPass forkPass;
+  shared::DetailView view{};
+  Drawn tubesDrawn, forksDrawn;
+  std::vector<std::uint32_t> around, along;
+};
+
+std::vector<vec4> restPoints(const Network& network) {
+  return {network.points().begin(), network.points().end()};
+}
+
+void checkAgainstReference(const Forks& passes) {
+  float position = 0, normal = 0;
+  std::vector<uvec3> wanted;
+  const auto& records = passes.tubes.table().forks;
+  for (std::uint32_t i = 0; i < records.size(); ++i) {
+    const ForkShape shape = passes.shapeOf(records[i]);
+    const std::uint32_t base = i << passes.forks.room().vertexShift, window = forkWindow(records[i], shape.a);
+    std::vector<SurfacePoint> points(shape.vertices());
+    evaluateFork(passes.posed(), records[i], shape, points);
+    const std::uint32_t used = window == 0 ? shape.rowStart(kHoleRow) : shape.vertices();
+    for (std::uint32_t k = 0; k < used; ++k) {
+      const shared::TubeVertex& v = passes.forksDrawn.vertices[base + k];
+      position = std::max(position, glm::distance(vec3(v.x, v.y, v.z), points[k].position));
+      normal = std::max(normal, glm::distance(unpackOctahedral(v.normal), points[k].normal));
+    }
+    for (const uvec3& t : forkTriangles(shape, window)) wanted.push_back(t + base);
+  }
+  CHECK(position <= 1e-6f);
+  CHECK(normal <= 2e-4f);
+  std::vector<uvec3> found;
+  for (const shared::DrawCommand& draw : passes.forksDrawn.draws)
+    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
+      const std::uint32_t* index = &passes.forksDrawn.indices[draw.firstIndex + i];
+      found.push_back({index[0], index[1], index[2]});
+    }
+  CHECK(found == wanted);
+}
+
+using Bits = std::array<std::uint32_t, 3>;
+
+Bits bitsOf(const shared::TubeVertex& v) {
+  return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z)};
+}
+
+// Every vertex of a fork's rings is a vertex of a tube or of another fork's ring.
+void checkSeams(const Forks& passes) {
+  std::map<Bits, int> rings;
+  const SweepTable& table = passes.tubes.table();
+  for (std::uint32_t i = 0; i < table.sweeps.size(); ++i) {
+    const std::uint32_t m = passes.around[table.vesselOfSweep[i]], rows = passes.along[i];
+    const std::uint32_t first = (i << passes.tubes.room().vertexShift) + shared::kCapRings * (table.sweeps[i].caps & 1) * m;
+    REQUIRE(rows > 0);
+    for (std::uint32_t k = 0; k < m; ++k) {
+      ++rings[bitsOf(passes.tubesDrawn.vertices[first + k])];
+      ++rings[bitsOf(passes.tubesDrawn.vertices[first + rows * m + k])];
+    }
+  }
+  const auto eachRing = [&](const auto& act) {
+    for (std::uint32_t i = 0; i < table.forks.size(); ++i) {
+      const ForkShape shape = passes.shapeOf(table.forks[i]);
+      for (const std::uint32_t row : {0u, kHoleRow - 1, kBranchRow}) {
+        if (row == kBranchRow && !table.forks[i].hasBranch) continue;
+        for (std::uint32_t k = 0; k < shape.rowSize(row); ++k)
+          act(bitsOf(passes.forksDrawn.vertices[(i << passes.forks.room().vertexShift) + shape.rowStart(row) + k]));
+      }
+    }
+  };
+  eachRing([&](const Bits& bits) { ++rings[bits]; });
+  std::size_t alone = 0;
+  eachRing([&](const Bits& bits) { alone += rings[bits] < 2; });
+  CHECK(alone == 0);
+}
+
+}  // namespace
+
+TEST_CASE("forks on the device are those of the reference, and meet the tubes bit for bit") {
+  VASA_REQUIRE_GPU(rig);
+  const Network network = test::branchingNetwork(101, 5);
+  for (const TubeDetail& detail : {TubeDetail{{3, 2}, 0}, TubeDetail{{4, 5}, 0}, TubeDetail{{7, 3}, 0},
+                                   TubeDetail{{8, 20}, 0}, TubeDetail{{16, 2}, 0}, TubeDetail{{}, 0.05f}}) {
+    CAPTURE(detail.shape.around);
+    const Forks passes(rig, network, restPoints(network), detail);
+    REQUIRE(!passes.tubes.table().forks.empty());
+    checkAgainstReference(passes);
+    checkSeams(passes);
+  }
+}
+
+TEST_CASE("forks of bent networks keep to the reference and to their seams") {
+  VASA_REQUIRE_GPU(rig);
+  const Network network = test::branchingNetwork(64, 8);
+  std::vector<vec4> points = restPoints(network);
+  for (vec4& p : points) {
+    const float angle = 6 * p.y;  // twisted about the upright axis
+    const vec2 c(std::cos(angle), std::sin(angle));
+    p = vec4(c.x * p.x - c.y * p.z, p.y, c.y * p.x + c.x * p.z, p.w);
+  }
+  pinEnds(network, points);
+  const Forks passes(rig, network, points, {{8, 5}, 0});
+  checkAgainstReference(passes);
+  checkSeams(passes);
+}
