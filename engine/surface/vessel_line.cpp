@@ -87,6 +87,7 @@ class Joiner {
     std::vector<Arm> arms;
     float largest = 0;
     for (const VesselEnd& end : ends) {
+      if (partner_[key(end)] != kNone) continue;  // a free end may meet several branches
       arms.push_back(armOf(network_, end));
       largest = std::max(largest, arms.back().radius);
     }
