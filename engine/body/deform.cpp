@@ -51,6 +51,17 @@ void movePoints(const Binding& binding, std::span<const vec4> rest, std::span<ve
 
 }  // namespace
 
+std::vector<Station> mainStations(const Binding& binding) {
+  std::vector<Station> stations(binding.pointCount);
+  forEachPoint(binding, [&](std::size_t i, std::span<const BindingRecord> records) {
+    const auto greatest = std::max_element(records.begin(), records.end(), [](const BindingRecord& a, const BindingRecord& b) {
+      return a.share < b.share;
+    });
+    stations[i] = greatest->station();
+  });
+  return stations;
+}
+
 void Deformer::run(std::span<const vec4> rest, const Pose& pose, std::span<vec4> out) {
   pose_.run(binding_->spines, pose);
   movePoints(

@@ -30,6 +30,13 @@ Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint3
   return sectionAt(bezierAt(network, record.point + step, spanClass), chord, knots[0], knots[1], t);
 }
 
+Section sectionOn(const PosedNetwork& network, std::uint32_t sweep, float t) {
+  const shared::SweepRecord& record = network.table.sweeps[sweep];
+  const vec3 chord(network.points[record.lastPoint] - network.points[record.firstPoint]);
+  const quat* knots = &network.knotFrames[record.knot];
+  return sectionAt(bezierAt(network, record.point, record.spanClass), chord, knots[0], knots[1], t);
+}
+
 void tessellateSweep(const PosedNetwork& network, std::uint32_t sweep, const SweepShape& shape,
                      std::span<SurfacePoint> vertices) {
   assert(vertices.size() == shape.sweepVertices());

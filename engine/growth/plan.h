@@ -1,0 +1,63 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "growth/growth_rules.h"
+#include "surface/sweep_table.h"
+
+namespace vasa {
+
+/// Where on a network capillaries grow; constant over time. All spans are as long as the network has sweeps.
+struct CapillarySites {
+  std::vector<shared::GrowthSite> sites;
+  std::vector<std::uint16_t> sprouts;  ///< trees along each sweep; 0 where nothing grows
+  std::vector<std::uint8_t> freeEnds;  ///< bit 0: trees at the sweep's first section, bit 1: at its last
+  std::vector<std::uint8_t> region;    ///< number of the sweep's region, or 255
+};
+
+/// What of the capillaries is asked for.
+struct CapillaryWish {
+  std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
+  std::uint32_t edges = 0;   ///< of every curve's polyline: 5, 8 or 10; 0: by its size in the picture
+  std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every sweep has fewer trees
+  float smallest = 0.5f;     ///< [pixels] generations with shorter curves are left out; 0: none is
+};
+
+/// Curves that are grown into the ring of vertices and drawn together.
+struct CapillaryBatch {
+  std::uint32_t firstJob = 0, jobCount = 0;
+  std::uint32_t curves = 0, edges = 0;
+};
+
+/// What one picture draws of the capillaries, the farthest first.
+struct CapillaryPlan {
+  std::vector<shared::GrowthJob> jobs;
+  std::vector<CapillaryBatch> batches;
+  std::uint64_t curves = 0;      ///< that are drawn
+  std::uint64_t trees = 0;
+  std::uint64_t wishedCurves = 0;  ///< of all trees in the picture, before the budget
+};
+
+/// What planning looks at.
+struct PlanInput {
+  const SweepTable& table;
+  std::span<const vec4> points;  ///< de Boor points of the frame
+  const shared::GrowthTables& tables;
+  const CapillarySites& sites;
+  const shared::GrowthView& view;
+};
+
+/// Curves of all trees, wherever they are.
+std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites, std::uint32_t levels);
+
+/// Most jobs that a plan has on a network: what its buffer must hold.
+std::uint32_t mostJobs(const SweepTable& table, std::uint32_t budget);
+
+/// Chooses what is drawn: trees that may be seen, as many generations as have some size in the picture, within the
+/// budget. The work and the memory grow with the sweeps, not with the curves. The result depends on the input alone.
+void planCapillaries(const PlanInput& input, const CapillaryWish& wish, CapillaryPlan& plan);
+
+/// Levels that a system's trees may have: wished levels, or fewer where a tree would not fit the ring.
+std::uint32_t levelsOf(const shared::GrowthTables& tables, std::uint32_t system, std::uint32_t wished);
+
+}  // namespace vasa

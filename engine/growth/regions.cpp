@@ -1,0 +1,185 @@
+#include "growth/regions.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "core/atomic_file.h"
+#include "growth/rule_text.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::array<std::string_view, 9> kColumns{"region",      "system",      "joints",     "vessels", "kinds",
+                                                   "thinnest_mm", "thickest_mm", "spacing_mm", "hub"};
+constexpr std::size_t kMaximumBytes = 1 << 20;
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return result;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(trimmed(text.substr(0, end)));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::vector<std::string> list(std::string_view cell) {
+  std::vector<std::string> items;
+  for (const std::string_view part : split(cell, '|'))
+    if (!part.empty()) items.push_back(lower(part));
+  return items;
+}
+
+bool holdsAny(const std::vector<std::string>& parts, const std::string& text) {
+  return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return text.find(part) != std::string::npos; });
+}
+
+// Reads a row's cells; the first fault is kept.
+class Row {
+ public:
+  Row(const std::string& file, std::size_t line, std::vector<std::string_view> cells)
+      : file_(file), line_(line), cells_(std::move(cells)) {}
+
+  std::string_view text(std::size_t column) const { return cells_[column]; }
+  float millimetres(std::size_t column, float low, float high) {
+    const auto value = numberIn(cells_[column]);
+    if (value && *value >= low && *value <= high) return *value * 1e-3f;
+    fail(std::string(kColumns[column]) + " is '" + std::string(cells_[column].substr(0, 40)) + "' but must be a number from " +
+         std::to_string(int(low)) + " to " + std::to_string(int(high)));
+    return 0;
+  }
+  void fail(const std::string& what) {
+    if (state) state = ruleFault(file_, line_, what);
+  }
+  Result<void> state;
+
+ private:
+  const std::string& file_;
+  std::size_t line_;
+  std::vector<std::string_view> cells_;
+};
+
+std::uint32_t systemNamed(Row& row, const GrowthRules& rules) {
+  const std::string_view name = row.text(1);
+  if (name == "-") return GrowthRegion::kNoSystem;
+  const auto found = std::find(rules.systems.begin(), rules.systems.end(), name);
+  if (found != rules.systems.end()) return std::uint32_t(found - rules.systems.begin());
+  std::string known;
+  for (const std::string& system : rules.systems) known.append(", ").append(system);
+  row.fail("there is no system '" + std::string(name.substr(0, 40)) + "'; use one of -" + known);
+  return GrowthRegion::kNoSystem;
+}
+
+std::vector<VesselKind> kindsIn(Row& row) {
+  constexpr std::array kAll{VesselKind::artery, VesselKind::vein, VesselKind::portalVein, VesselKind::lymphatic, VesselKind::other};
+  std::vector<VesselKind> kinds;
+  for (const std::string& word : list(row.text(4))) {
+    const auto found = std::find_if(kAll.begin(), kAll.end(), [&](VesselKind kind) { return kindName(kind) == word; });
+    if (found == kAll.end()) row.fail("kinds has '" + word.substr(0, 40) + "', which is no kind of vessel; use artery, vein, portal vein, lymphatic or other");
+    else kinds.push_back(*found);
+  }
+  return kinds;
+}
+
+// Joint:(x y z) in millimetres.
+void readHub(Row& row, GrowthRegion& region) {
+  const std::string_view cell = row.text(8);
+  if (cell.empty()) return;
+  const std::size_t colon = cell.find(":(");
+  const bool closed = colon != std::string_view::npos && colon > 0 && cell.ends_with(')');
+  std::vector<std::string_view> numbers;
+  if (closed)
+    for (const std::string_view part : split(cell.substr(colon + 2, cell.size() - colon - 3), ' '))
+      if (!part.empty()) numbers.push_back(part);
+  if (numbers.size() != 3) return row.fail("hub is '" + std::string(cell.substr(0, 40)) + "' but must be JOINT:(x y z), in millimetres, or empty");
+  region.hubJoint = cell.substr(0, colon);
+  for (int i = 0; i < 3; ++i) {
+    const auto value = numberIn(numbers[std::size_t(i)]);
+    if (!value || std::abs(*value) > 2000) return row.fail("hub has '" + std::string(numbers[std::size_t(i)].substr(0, 40)) + "' where a number of millimetres belongs");
+    region.hubOffset[i] = *value * 1e-3f;
+  }
+}
+
+Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
+  GrowthRegion region;
+  region.name = row.text(0);
+  region.system = systemNamed(row, rules);
+  region.joints = list(row.text(2));
+  region.vessels = list(row.text(3));
+  region.kinds = kindsIn(row);
+  if (region.system != GrowthRegion::kNoSystem) {
+    region.thinnest = row.millimetres(5, 0, 100);
+    region.thickest = row.millimetres(6, 0, 100);
+    region.spacing = row.millimetres(7, 0, 1000);
+    if (region.spacing < 1e-4f) row.fail("spacing_mm must be at least 0.1");
+    if (region.thickest < region.thinnest) row.fail("thickest_mm is less than thinnest_mm; exchange them");
+  }
+  readHub(row, region);
+  if (!row.state) return row.state.error();
+  return region;
+}
+
+std::string headerText() {
+  std::string text;
+  for (const std::string_view column : kColumns) text.append(text.empty() ? "" : ",").append(column);
+  return text;
+}
+
+}  // namespace
+
+const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question) {
+  const std::string vessel = lower(question.vessel), joint = lower(question.joint), id = lower(question.ontologyId);
+  for (const GrowthRegion& region : regions) {
+    const bool named = region.vessels.empty() || holdsAny(region.vessels, vessel) ||
+                       std::find(region.vessels.begin(), region.vessels.end(), id) != region.vessels.end();
+    const bool placed = region.joints.empty() || holdsAny(region.joints, joint);
+    const bool kind = region.kinds.empty() || std::find(region.kinds.begin(), region.kinds.end(), question.kind) != region.kinds.end();
+    if (named && placed && kind) return &region;
+  }
+  return nullptr;
+}
+
+Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name, const GrowthRules& rules) {
+  std::vector<GrowthRegion> regions;
+  bool header = false;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.empty() || line.front() == '#') continue;
+    if (!header) {
+      if (line != headerText()) return ruleFault(name, number, "the first line must name the columns: " + headerText());
+      header = true;
+      continue;
+    }
+    std::vector<std::string_view> cells = split(line, ',');
+    if (cells.size() != kColumns.size())
+      return ruleFault(name, number, "has " + std::to_string(cells.size()) + " cells but must have " + std::to_string(kColumns.size()) + ": " + headerText());
+    auto region = regionIn(Row(name, number, std::move(cells)), rules);
+    if (!region) return region.error();
+    regions.push_back(std::move(*region));
+  }
+  if (regions.empty()) return badInput(name + ": has no regions; the least is a line of columns and a row for everything: default,SYSTEM,,,,0,3,8,");
+  return regions;
+}
+
+Result<std::vector<GrowthRegion>> readRegions(const std::filesystem::path& path, const GrowthRules& rules) {
+  const auto bytes = readFile(path, kMaximumBytes);
+  if (!bytes) return bytes.error();
+  return parseRegions({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), rules);
+}
+
+}  // namespace vasa

@@ -1,0 +1,40 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "growth/growth_rules.h"
+#include "network/network.h"
+
+namespace vasa {
+
+/// A row of the table that says which rules grow where.
+struct GrowthRegion {
+  static constexpr std::uint32_t kNoSystem = 0xffu;  ///< nothing grows here
+
+  std::string name;
+  std::uint32_t system = kNoSystem;
+  std::vector<std::string> joints;   ///< parts of joints' names; empty: all
+  std::vector<std::string> vessels;  ///< parts of vessels' names, or whole ontology ids; empty: all
+  std::vector<VesselKind> kinds;     ///< empty: all
+  float thinnest = 0, thickest = 0;  ///< [m] radii of vessels that sprout
+  float spacing = 0;                 ///< [m] of vessel for one tree
+  std::string hubJoint;              ///< empty: the hub is the nearest place on the limb's axis
+  vec3 hubOffset{0};                 ///< [m] from that joint, in the body's axes at rest
+};
+
+struct RegionQuestion {
+  std::string_view vessel, ontologyId, joint;
+  VesselKind kind = VesselKind::other;
+};
+
+/// The first region whose joints, vessels and kinds fit; nullptr if there is none. Upper and lower case are alike.
+const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question);
+
+/// Reads the table: see data/growth/regions.csv. Lengths are for a body 1.75 m tall. badInput names file, line, cause
+/// and remedy.
+Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name, const GrowthRules& rules);
+Result<std::vector<GrowthRegion>> readRegions(const std::filesystem::path& path, const GrowthRules& rules);
+
+}  // namespace vasa

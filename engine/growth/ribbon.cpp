@@ -1,0 +1,61 @@
+#include "growth/ribbon.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace vasa {
+namespace {
+
+std::uint32_t snorm16(float value) {
+  return std::uint32_t(int(std::floor(std::clamp(value, -1.0f, 1.0f) * 32767.0f + 0.5f))) & 0xffffu;
+}
+
+std::uint32_t unorm8(float value) {
+  return std::uint32_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+vec3 rgbOf(std::uint32_t packed) {
+  return vec3(float(packed & 0xffu), float(packed >> 8 & 0xffu), float(packed >> 16 & 0xffu)) / 255.0f;
+}
+
+}  // namespace
+
+void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t edges,
+                 std::span<shared::CapillaryVertex> vertices) {
+  assert(vertices.size() == 2 * (edges + 1));
+  const vec3 from = rgbOf(root), to = rgbOf(view.capillary);
+  for (std::uint32_t i = 0; i <= edges; ++i) {
+    const float t = float(i) / float(edges);
+    const vec4 point = capillary.curve.at(t);
+    const vec3 place(point), along(capillary.curve.derivative(t));
+    const vec3 toEye = view.perspective * (view.eye - place) + (1 - view.perspective) * view.eye;
+    vec3 side = glm::cross(along, toEye);
+    const float length2 = glm::dot(side, side);
+    side = length2 > 1e-20f ? side / std::sqrt(length2) : view.right;
+    const float depth = std::max(glm::dot(vec3(view.depth), place) + view.depth.w, 1e-6f);
+    const float pixel = depth / view.focal;
+    const float half = std::max(point.w, 0.5f * view.thinnest * pixel);
+    const vec3 colour = glm::mix(from, to, capillary.phaseAt(t));
+    const std::uint32_t packed = unorm8(colour.x) | unorm8(colour.y) << 8 | unorm8(colour.z) << 16 |
+                                 unorm8(point.w / half) << 24;
+    for (int k = 0; k < 2; ++k) {
+      const vec3 out = k == 0 ? side : -side;
+      vertices[2 * i + std::uint32_t(k)] = {view.viewProjection * vec4(place + half * out, 1), packed,
+                                            snorm16(glm::dot(out, view.right)) | snorm16(glm::dot(out, view.up)) << 16};
+    }
+  }
+}
+
+std::vector<std::uint32_t> ribbonIndices(std::uint32_t edges, std::uint32_t copies) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(std::size_t(6) * edges * copies);
+  for (std::uint32_t copy = 0; copy < copies; ++copy)
+    for (std::uint32_t edge = 0; edge < edges; ++edge) {
+      const std::uint32_t v = 2 * (copy * (edges + 1) + edge);
+      indices.insert(indices.end(), {v, v + 1, v + 2, v + 2, v + 1, v + 3});
+    }
+  return indices;
+}
+
+}  // namespace vasa

@@ -1,0 +1,17 @@
+#pragma once
+#include "growth/capillary.h"
+
+namespace vasa {
+
+/// A curve as a ribbon of `edges` quads that faces the camera: the shared polyline with its thickness. Where it is
+/// thinner than view.thinnest pixels it is drawn that wide and fades as much instead.
+/// The CPU reference of shaders/capillary.comp.
+/// @param root      colour of the vessel, sRGB, red lowest
+/// @param vertices  2 · (edges + 1), the two sides by turns
+void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t edges,
+                 std::span<shared::CapillaryVertex> vertices);
+
+/// Pairs of triangles of `copies` ribbons, one behind the other.
+std::vector<std::uint32_t> ribbonIndices(std::uint32_t edges, std::uint32_t copies);
+
+}  // namespace vasa

@@ -1,0 +1,156 @@
+#include "render/capillary_pass.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "gpu/barrier.h"
+#include "gpu/transfer.h"
+#include "growth/ribbon.h"
+#include "spirv/capillary_comp.h"
+#include "spirv/capillary_frag.h"
+#include "spirv/capillary_vert.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::array<std::uint32_t, 3> kEdges{5, 8, shared::kMostCapillaryEdges};
+constexpr float kThinnest = 1.0f;  // [pixels]
+constexpr vec4 kBedColour{0.52f, 0.20f, 0.36f, 1};
+
+std::size_t edgesIndex(std::uint32_t edges) {
+  const auto found = std::find(kEdges.begin(), kEdges.end(), edges);
+  assert(found != kEdges.end());
+  return std::size_t(found - kEdges.begin());
+}
+
+struct RibbonLayout {
+  VkVertexInputBindingDescription binding{0, sizeof(shared::CapillaryVertex), VK_VERTEX_INPUT_RATE_VERTEX};
+  std::array<VkVertexInputAttributeDescription, 3> attributes{{
+      {0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+      {1, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(shared::CapillaryVertex, colour)},
+      {2, 0, VK_FORMAT_R16G16_SNORM, offsetof(shared::CapillaryVertex, across)},
+  }};
+  VkPipelineVertexInputStateCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+                                            nullptr,
+                                            0,
+                                            1,
+                                            &binding,
+                                            std::uint32_t(attributes.size()),
+                                            attributes.data()};
+};
+
+gpu::Buffer ringBuffer(gpu::Device& device) {
+  return {device,
+          {.name = "capillary ring",
+           .bytes = VkDeviceSize(shared::kRingCurves) * 2 * (shared::kMostCapillaryEdges + 1) * sizeof(shared::CapillaryVertex),
+           .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}};
+}
+
+}  // namespace
+
+shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32_t seed) {
+  const float width = float(size.width), height = float(size.height);
+  const bool perspective = camera.orthographicHeight <= 0;
+  const mat3 axes = cameraAxes(camera);
+  shared::GrowthView view{};
+  view.viewProjection = viewProjection(camera, width / height);
+  view.eye = perspective ? camera.position : axes[2];
+  view.perspective = perspective ? 1.0f : 0.0f;
+  view.depth = perspective ? vec4(-axes[2], glm::dot(axes[2], camera.position)) : vec4(0, 0, 0, 1);
+  view.right = axes[0];
+  view.up = axes[1];
+  view.focal = perspective ? height / (2 * std::tan(camera.verticalAngle / 2)) : height / camera.orthographicHeight;
+  view.thinnest = kThinnest;
+  view.seed = seed;
+  view.capillary = packColour(kBedColour);
+  return view;
+}
+
+CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes,
+                             const GrowthRules& rules, const CapillarySites& sites, const CapillaryWish& wish)
+    : tubes_(tubes), sites_(sites), rules_(rules), wish_(wish) {
+  assert(sites.sites.size() == tubes.table().sweeps.size());
+  if (wish.levels == 0) return;
+  grow_ = gpu::ComputePipeline(device, {spirv::capillary_comp, sizeof(shared::CapillaryPush)});
+  const RibbonLayout layout;
+  draw_ = gpu::GraphicsPipeline(device, {.name = "capillaries",
+                                         .vertex = spirv::capillary_vert,
+                                         .fragment = spirv::capillary_frag,
+                                         .pushBytes = sizeof(shared::DrawPush),
+                                         .vertexInput = &layout.info,
+                                         .colour = target.colour,
+                                         .depth = target.depth,
+                                         .samples = target.samples,
+                                         .cull = VK_CULL_MODE_NONE,
+                                         .depthTest = VK_COMPARE_OP_GREATER,
+                                         .blend = gpu::Blend::premultiplied});
+  for (gpu::Buffer& ring : rings_) ring = ringBuffer(device);
+  for (std::size_t i = 0; i < kEdges.size(); ++i) {
+    const auto indices = ribbonIndices(kEdges[i], shared::kRingCurves);
+    indices_[i] = gpu::makeBuffer(device, "capillary indices", std::span<const std::uint32_t>(indices));
+  }
+  tables_ = gpu::makeBuffer(device, "growth tables", std::span(&rules.tables, 1));
+  siteBuffer_ = gpu::makeBuffer(device, "growth sites", std::span<const shared::GrowthSite>(sites.sites));
+  const VkDeviceSize frameBytes = sizeof(shared::GrowthView) + mostJobs(tubes.table(), wish.budget) * sizeof(shared::GrowthJob);
+  host_ = gpu::Buffer(device, {"capillary frame, host", frameBytes, gpu::MemoryRole::upload});
+  frame_ = gpu::Buffer(device, {"capillary frame", frameBytes});
+}
+
+void CapillaryPass::prepare(std::span<const vec4> points, const shared::GrowthView& view) {
+  planCapillaries({tubes_.table(), points, rules_.tables, sites_, view}, wish_, plan_);
+  if (plan_.jobs.empty()) return;
+  assert(plan_.jobs.size() <= mostJobs(tubes_.table(), wish_.budget));
+  host_.write(std::span(&view, 1));
+  host_.write(std::span<const shared::GrowthJob>(plan_.jobs), sizeof view);
+}
+
+void CapillaryPass::recordUpload(VkCommandBuffer commands) const {
+  if (plan_.jobs.empty()) return;
+  const VkBufferCopy used{0, 0, sizeof(shared::GrowthView) + plan_.jobs.size() * sizeof(shared::GrowthJob)};
+  vkCmdCopyBuffer(commands, host_.handle(), frame_.handle(), 1, &used);
+  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+}
+
+void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, std::size_t number) const {
+  const CapillaryBatch& batch = plan_.batches[number];
+  const shared::CapillaryPush push{
+      .points = input.points,
+      .knots = input.knots,
+      .sweeps = tubes_.sweeps(),
+      .tables = tubes_.tables(),
+      .growth = tables_.address(),
+      .sites = siteBuffer_.address(),
+      .colours = tubes_.colours(),
+      .view = frame_.address(),
+      .jobs = frame_.address() + sizeof(shared::GrowthView) + batch.firstJob * sizeof(shared::GrowthJob),
+      .vertices = ring(number).address(),
+      .jobCount = batch.jobCount,
+      .curveCount = batch.curves,
+      .edges = batch.edges,
+      .hiddenKinds = input.draw.hiddenKinds,
+  };
+  grow_.dispatch(commands, push, gpu::groupsFor(batch.curves, 64));
+}
+
+void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
+  const CapillaryBatch& batch = plan_.batches[number];
+  draw_.bind(commands, input.draw);
+  const VkBuffer buffer = ring(number).handle();
+  const VkDeviceSize offset = 0;
+  vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+  vkCmdBindIndexBuffer(commands, indices_[edgesIndex(batch.edges)].handle(), 0, VK_INDEX_TYPE_UINT32);
+  vkCmdDrawIndexed(commands, 6 * batch.edges * batch.curves, 1, 0, 0, 0);
+}
+
+std::uint64_t CapillaryPass::ringBytes() const {
+  return rings_[0].bytes() + rings_[1].bytes();
+}
+
+std::uint64_t CapillaryPass::bytes() const {
+  std::uint64_t sum = ringBytes() + tables_.bytes() + siteBuffer_.bytes() + host_.bytes() + frame_.bytes();
+  for (const gpu::Buffer& indices : indices_) sum += indices.bytes();
+  return sum;
+}
+
+}  // namespace vasa

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+
+#include "gpu/compute_pipeline.h"
+#include "gpu/graphics_pipeline.h"
+#include "gpu/target.h"
+#include "growth/plan.h"
+#include "render/camera.h"
+#include "render/look.h"
+#include "render/tube_set.h"
+#include "shared/draw.h"
+
+namespace vasa {
+
+/// What the shaders see of a camera.
+/// @param seed  of the capillaries' shapes
+shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32_t seed);
+
+/// Grows capillaries on the device and draws them, a batch after another through two fixed rings of vertices: the memory
+/// does not depend on how many there are. CPU reference: growth/capillary.h and ribbon.h.
+class CapillaryPass {
+ public:
+  /// @param wish  levels are the most that record() may be asked for, budget the most curves; 0 levels: takes no memory
+  CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes, const GrowthRules& rules,
+                const CapillarySites& sites, const CapillaryWish& wish);
+
+  /// Plans a frame and writes the plan to host memory. The device must have finished the frame before.
+  void prepare(std::span<const vec4> points, const shared::GrowthView& view);
+
+  struct Input {
+    VkDeviceAddress points, knots;  ///< as tessellation reads them
+    shared::DrawPush draw;          ///< the frame's constants
+  };
+  /// Copies the plan to the device and makes compute shaders see it.
+  void recordUpload(VkCommandBuffer commands) const;
+  std::size_t batches() const { return plan_.batches.size(); }
+  /// Writes batch `batch` into its ring. No barriers: whoever read the ring before must have finished.
+  void recordGrowth(VkCommandBuffer commands, const Input& input, std::size_t batch) const;
+  /// Draws it, between Target::begin() and its end.
+  void recordDraw(VkCommandBuffer commands, const Input& input, std::size_t batch) const;
+
+  const CapillaryPlan& plan() const { return plan_; }
+  const gpu::Buffer& ring(std::size_t batch) const { return rings_[batch % 2]; }
+  std::uint64_t bytes() const;      ///< all device and upload memory: depends on the network's sweeps and the budget's jobs
+  std::uint64_t ringBytes() const;  ///< of vertices
+
+ private:
+  const TubeSet& tubes_;
+  const CapillarySites& sites_;
+  const GrowthRules& rules_;
+  CapillaryWish wish_;
+  CapillaryPlan plan_;
+  gpu::ComputePipeline grow_;
+  gpu::GraphicsPipeline draw_;
+  std::array<gpu::Buffer, 2> rings_;
+  std::array<gpu::Buffer, 3> indices_;  // of 5, 8 and 10 edges
+  gpu::Buffer tables_, siteBuffer_, host_, frame_;
+};
+
+}  // namespace vasa

@@ -1,0 +1,23 @@
+#pragma once
+#include "growth/plan.h"
+#include "growth/regions.h"
+#include "scene/scene.h"
+
+namespace vasa {
+
+/// What capillaries of a scene grow from; constant over time.
+struct SceneGrowth {
+  GrowthRules rules;
+  std::vector<GrowthRegion> regions;
+  CapillarySites sites;
+};
+
+/// Reads the rules of a folder (capillaries.lsys, regions.csv) and settles what grows where on the scene's vessels:
+/// each sweep's region by the vessel's name and the joint it moves with, its hub and axis by the body's limbs, its
+/// room by the nearest skin. All of that is 36 bytes a sweep; capillaries themselves are stored nowhere.
+Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder);
+
+/// The same from rules at hand.
+CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions);
+
+}  // namespace vasa

@@ -1,0 +1,19 @@
+#version 460
+// A ribbon lit as the round vessel it stands for.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/shade.glsl"
+#include "shared/draw.h"
+
+layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(location = 0) in vec4 tint;
+layout(location = 1) in vec2 side;
+layout(location = 0) out vec4 pixel;  // premultiplied
+
+void main() {
+  vec3 eye = normalize(vec3(push.eyeCorner + gl_FragCoord.xy * push.eyeStep, 1));
+  vec3 worldUp = vec3(push.right.y, push.up.y, push.right.z * push.up.x - push.right.x * push.up.z);
+  vec3 normal = normalize(vec3(side, 0) + sqrt(max(1 - dot(side, side), 0.0)) * eye);
+  pixel = vec4(shade(tint.rgb, normal, eye, worldUp) * tint.a, tint.a);
+}
