@@ -22,11 +22,13 @@ GrowthJob jobOf(uint curve) {
 // sectionOn of engine/surface/tessellate.cpp.
 Section rootSection(uint sweep, float t) {
   SweepRecord record = push.sweeps.sweep[sweep];
-  Bezier bezier = bezierOf(push.tables.spanClass[record.spanClass], push.points.point[record.point],
+  Bezier bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], push.points.point[record.point],
                            push.points.point[record.point + 1], push.points.point[record.point + 2],
                            push.points.point[record.point + 3]);
   vec3 chord = push.points.point[record.lastPoint].xyz - push.points.point[record.firstPoint].xyz;
-  return sectionAt(bezier, chord, push.knots.knot[record.knot], push.knots.knot[record.knot + 1], t);
+  precise float at = record.from + (record.to - record.from) * t;
+  if (t == 1) at = record.to;
+  return sectionAt(bezier, chord, push.knots.knot[record.knot], push.knots.knot[record.knot + 1], at);
 }
 
 float placeOnSweep(uint sweepKey, uint sprout) {
@@ -64,10 +66,16 @@ void main() {
   GrowthSite site = push.sites.site[job.sweep];
   uint axiom = push.growth.growth.system[site.system & 0xffu].axiom;
   uint size = push.growth.growth.symbol[axiom].treeSize[job.levels];
+  uint target = curve * 2 * (push.edges + 1), colour = push.colours.colour[job.sweep];
+  if ((push.hiddenKinds >> (colour >> 24) & 1u) != 0u) {
+    for (uint i = 0; i < 2 * (push.edges + 1); ++i)
+      push.vertices.vertex[target + i] = CapillaryVertex(vec4(2, 2, 2, 1), 0, 0);  // outside the picture
+    return;
+  }
   uint within = curve - job.firstCurve, sprout = job.firstSprout + within / size;
   uint sweepKey = keyOf(push.view.view.seed, job.sweep);
   Section section = rootSection(job.sweep, placeOnSweep(sweepKey, sprout));
   Capillary capillary =
       capillaryAt(push.growth, site, section, sprout, keyOf(sweepKey, sprout), job.levels, within % size);
-  writeRibbon(capillary, push.colours.colour[job.sweep], curve * 2 * (push.edges + 1));
+  writeRibbon(capillary, colour, target);
 }

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "camera_choice.h"
+#include "capillary_options.h"
 #include "commands.h"
 #include "core/atomic_file.h"
 #include "core/hash.h"
@@ -26,6 +27,7 @@ struct Options {
   SceneOptions scene;
   CameraOptions camera;
   std::string frames, size = "1280x720", output, video, quads = "8x5", shard, hide;
+  CapillaryOptions capillaries;
   unsigned samples = 4;
   bool resume = false, transparent = false, noVolume = false, avoid = false, highlightContacts = false;
 };
@@ -38,6 +40,7 @@ struct Job {
   CameraMan camera;
   Look look;
   RenderOptions render;
+  std::unique_ptr<SceneGrowth> growth;  // none without capillaries
   FrameRange range;
   Shard shard;
   std::optional<FramePattern> pattern;  // none: raw PNG to standard output
@@ -71,8 +74,8 @@ Look lookOf(const LookChoice& choice, bool transparent) {
 }
 
 // Everything that decides a picture but the frame's number.
-Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options) {
-  std::uint64_t hash = 0;
+Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed) {
+  std::uint64_t hash = options.capillaries.levels > 0 ? seed : 0;
   std::vector<std::filesystem::path> files = choice.networks;
   files.push_back(choice.body);
   if (!options.scene.scene.empty()) files.emplace_back(options.scene.scene);
@@ -85,10 +88,10 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options)
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, options.transparent,
                   options.noVolume, options.avoid, options.highlightContacts);
-  return hashOf(std::span(settings), hash);
+  return hashOfCapillaries(options.capillaries, hashOf(std::span(settings), hash));
 }
 
-Result<Job> prepare(const Options& options) {
+Result<Job> prepare(const Globals& globals, const Options& options) {
   Job job;
   // What is wrong with the words themselves is told before anything is loaded.
   if (const auto pattern = FramePattern::parse(options.output, false); !pattern) return pattern.error();
@@ -107,6 +110,9 @@ Result<Job> prepare(const Options& options) {
   auto scene = loadScene(job.choice);
   if (!scene) return scene.error();
   job.scene = std::move(*scene);
+  auto growth = growthOf(job.scene, options.capillaries);
+  if (!growth) return growth.error();
+  job.growth = std::move(*growth);
   if (!job.choice.clip.empty()) {
     const auto clip = findClip(job.scene.body, job.choice.clip);
     if (!clip) return clip.error();
@@ -122,13 +128,16 @@ Result<Job> prepare(const Options& options) {
   const float aspect = float(size->width) / float(size->height);
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
   if (!camera) return camera.error();
-  const auto hash = hashOfRun(job.choice, options);
+  const auto hash = hashOfRun(job.choice, options, globals.seed);
   if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
   job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .timed = false};
   job.range = *range;
   job.shard = *shard;
+  job.render.growth = job.growth.get();
+  job.render.capillaries = wishOf(options.capillaries);
+  job.render.seed = std::uint32_t(globals.seed);
   job.runHash = *hash;
   return job;
 }
@@ -165,6 +174,8 @@ class Film {
     if (auto written = finishWriting(); !written) return written;
     return video_ ? video_->finish() : Result<void>();
   }
+
+  CapillaryCounts capillaries() const { return renderer_.capillaryCounts(); }
 
   std::uint32_t drawn = 0, kept = 0, steps = 0;
   float largestStep = 0;       // [m] of a control point between consecutive frames
@@ -280,7 +291,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     return Error{Fault::usage, "nothing to write; give -o 'frame_{frame:04}.png', --video film.mp4, or both"};
   if (options.output == "-" && globals.json)
     return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
-  auto job = prepare(options);
+  auto job = prepare(globals, options);
   if (!job) return job.error();
   if (options.output == "-" && job->range.first != job->range.last)
     return Error{Fault::usage, "-o - writes one picture; choose it with --frames N"};
@@ -301,6 +312,9 @@ Result<void> run(const Globals& globals, const Options& options) {
                   {"largest_step_m", work.largestStep},
                   {"largest_step_frame", work.largestStepFrame},
                   {"largest_joint_step_m", work.largestJointStep},
+                  {"capillaries", work.capillaries().curves},
+                  {"capillary_trees", work.capillaries().trees},
+                  {"capillary_bytes", work.capillaries().bytes},
                   {"device", device.adapter().name}};
   });
   if (!film) return film.error();
@@ -324,6 +338,7 @@ void addRender(CLI::App& app, Command& command) {
       "  vasa render --clip squat --frames 30 --size 640x1280 -o - > picture.png");
   addSceneOptions(*sub, options->scene);
   addCameraOptions(*sub, options->camera);
+  addCapillaryOptions(*sub, options->capillaries);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("-o,--output", options->output, "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");

@@ -5,7 +5,6 @@
 // The built-in human is looked for in $VASA_DATA_DIR, beside the installed program (../share/vasa), and where the
 // build put it.
 namespace vasa::cli {
-namespace {
 
 Result<std::filesystem::path> dataFolder() {
   std::vector<std::filesystem::path> places;
@@ -18,8 +17,6 @@ Result<std::filesystem::path> dataFolder() {
     if (std::filesystem::exists(place / "human.glb", ignored)) return place;
   return ioError("the built-in human (human.glb) is in none of its places; build the project or set VASA_DATA_DIR");
 }
-
-}  // namespace
 
 void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option("SCENE", options.scene, "Scene file (.json); nothing: the built-in human");

@@ -17,6 +17,9 @@ struct SceneOptions {
   std::string jointMap;
 };
 
+/// The folder of what ships with the program: the built-in human, the rules of growth.
+Result<std::filesystem::path> dataFolder();
+
 /// Declares SCENE, --body, --network, --clip and --joint-map.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 

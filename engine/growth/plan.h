@@ -15,6 +15,12 @@ struct CapillarySites {
   std::vector<std::uint8_t> region;    ///< number of the sweep's region, or 255
 };
 
+/// What a network's capillaries grow from; constant over time.
+struct Growth {
+  GrowthRules rules;
+  CapillarySites sites;
+};
+
 /// What of the capillaries is asked for.
 struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all

@@ -9,6 +9,7 @@
 #include "gpu/barrier.h"
 #include "gpu/device.h"
 #include "gpu/timer.h"
+#include "render/capillary_pass.h"
 #include "render/frame_upload.h"
 #include "render/picture.h"
 #include "render/skin_pass.h"
@@ -18,6 +19,7 @@
 //   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
 //   picture, first stretch: clear, bones and heart
 //   for each batch k: write batch k+1 into the other template; stretch: draw batch k; barrier
+//   likewise batch by batch: capillaries
 //   picture, last stretch: skin; resolve
 // One barrier a batch keeps both templates apart: whatever wrote or read one of them before it is finished
 // after it. Between two barriers a device may write one template while it draws the other.
@@ -30,6 +32,7 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
 constexpr const char* kTessellate = "tessellate";
 constexpr const char* kDraw = "draw tubes";
+constexpr const char* kCapillaries = "capillaries";
 constexpr const char* kMeshes = "meshes";
 
 using Clock = std::chrono::steady_clock;
@@ -88,6 +91,7 @@ struct Renderer::State {
   gpu::Target target;
   SurfacePass surfacePass;
   std::array<TubeDraws, 2> templates, forkTemplates;
+  std::optional<CapillaryPass> capillaries;
   gpu::Buffer readBack;
   gpu::Buffer drawn;  // every group's draw of the latest frame, where frames are timed
   gpu::GpuTimer timer, staticTimer;
@@ -98,6 +102,7 @@ struct Renderer::State {
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
   void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch);
   void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
+  void recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push);
 };
 
 Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
@@ -120,9 +125,11 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
       drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
                      gpu::MemoryRole::readBack}),
-      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 3) : 0),
+      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 4) : 0),
       staticTimer(device, 1) {
   setColours({});
+  if (options.growth && options.capillaries.levels > 0)
+    capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites, options.capillaries);
 }
 
 void Renderer::State::setColours(std::span<const std::uint32_t> given) {
@@ -168,6 +175,21 @@ void Renderer::State::copyDraws(VkCommandBuffer commands, const TubeDraws& from,
   vkCmdCopyBuffer(commands, from.draws.handle(), drawn.handle(), 1, &copy);
 }
 
+void Renderer::State::recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push) {
+  const auto scope = timer.scope(commands, kCapillaries);
+  const CapillaryPass::Input input{upload.points(), upload.knots(), push};
+  capillaries->recordUpload(commands);
+  for (std::size_t batch = 0; batch < capillaries->batches(); ++batch) {
+    if (batch == 0) capillaries->recordGrowth(commands, input, batch);
+    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+    if (batch + 1 < capillaries->batches()) capillaries->recordGrowth(commands, input, batch + 1);
+    target.begin(commands, {}, 0, gpu::Stretch::middle);
+    capillaries->recordDraw(commands, input, batch);
+    target.pause(commands);
+  }
+  gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+}
+
 shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
   return detailView(input.camera, input.look, target.spec().size, options.samples, tubes.detail(),
                     detailSnap(device, target.spec().size));
@@ -197,6 +219,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
     recordBatch(commands, push, batch);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
+  if (capillaries && batches > 0) recordCapillaries(commands, push);
   const auto scope = timer.scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
   surfacePass.recordSkin(commands, push, meshes, input.look);
@@ -239,6 +262,7 @@ void Renderer::draw(const RenderInput& input) {
   State& s = *state_;
   const auto start = Clock::now();
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);
+  if (s.capillaries) s.capillaries->prepare(input.points, growthView(input.camera, s.target.spec().size, s.options.seed));
   s.times = {.upload = msSince(start)};
   gpu::Commands commands = s.device.queue().begin("frame");
   s.record(commands, input);
@@ -247,7 +271,10 @@ void Renderer::draw(const RenderInput& input) {
   s.times.total = msSince(start);
   for (const auto& [name, ms] : s.timer.results()) {
     const std::string_view stage(name);
-    (stage == kTessellate ? s.times.tessellate : stage == kDraw ? s.times.draw : s.times.meshes) += ms;
+    (stage == kTessellate    ? s.times.tessellate
+     : stage == kDraw        ? s.times.draw
+     : stage == kCapillaries ? s.times.capillaries
+                             : s.times.meshes) += ms;
   }
 }
 
@@ -262,6 +289,12 @@ Image Renderer::readBack() {
 
 FrameTimes Renderer::times() const {
   return state_->times;
+}
+
+CapillaryCounts Renderer::capillaryCounts() const {
+  if (!state_->capillaries) return {};
+  const CapillaryPlan& plan = state_->capillaries->plan();
+  return {plan.trees, plan.curves, plan.wishedCurves, state_->capillaries->bytes(), state_->capillaries->ringBytes()};
 }
 
 double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {

@@ -4,6 +4,7 @@
 
 #include "body/body.h"
 #include "core/image.h"
+#include "growth/plan.h"
 #include "render/camera.h"
 #include "render/look.h"
 #include "surface/sweep_table.h"
@@ -29,6 +30,9 @@ struct RenderOptions {
   /// Sweeps tessellated and drawn at a time, rounded up to whole groups. Two batches are all the vertex memory that
   /// tubes take, however many sweeps there are.
   std::uint32_t sweepsPerBatch = 1024;
+  const Growth* growth = nullptr;  ///< of the capillaries, must outlive the renderer; nullptr: none are drawn
+  CapillaryWish capillaries;            ///< which of them
+  std::uint32_t seed = 1;               ///< of their shapes
   /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and keeps a
   /// device from writing one template while it draws the other; the pictures are the same.
   bool timed = true;
@@ -49,8 +53,17 @@ struct FrameTimes {
   double upload = 0;      ///< host: points, frames and joints into the device's reach
   double tessellate = 0;  ///< compute passes that write vertices of tubes and caps
   double draw = 0;        ///< rasterising tubes and caps
+  double capillaries = 0; ///< growing and drawing capillaries
   double meshes = 0;      ///< skinning and drawing bones, heart, skin; clearing and resolving
   double total = 0;       ///< host: from draw() to the finished picture
+};
+
+/// Capillaries of the latest frame.
+struct CapillaryCounts {
+  std::uint64_t trees = 0, curves = 0;
+  std::uint64_t wishedCurves = 0;  ///< without the budget
+  std::uint64_t bytes = 0;         ///< device and upload memory for all that has to do with them, the ring included
+  std::uint64_t ringBytes = 0;     ///< for their vertices
 };
 
 /// Draws a network in a body, off screen. A frame is a function of the input alone: nothing of an earlier frame
@@ -77,6 +90,7 @@ class Renderer {
   Image readBack();
 
   FrameTimes times() const;
+  CapillaryCounts capillaryCounts() const;
 
   /// For comparison with times().draw and .tessellate: the time [ms, minimum of `repeats`] to draw the same tubes
   /// and caps from vertex buffers that hold all of them, with nothing else: no compute, no meshes, no clearing.

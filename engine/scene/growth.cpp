@@ -60,8 +60,11 @@ std::vector<std::uint8_t> freeEndsOf(const Network& network, const SweepTable& t
   std::vector<std::uint8_t> ends(table.sweeps.size());
   for (const CapEnd& cap : table.caps) {
     const Vessel& vessel = network.vessels()[table.vesselOfSweep[cap.sweep]];
+    const shared::SweepRecord& record = table.sweeps[cap.sweep];
+    const bool atEnd = cap.last ? record.nextClass == shared::kNoSpan && record.to == 1
+                                : record.point == record.firstPoint && record.from == 0;
     const NodeId node = cap.last ? vessel.end : vessel.start;
-    if (!node.valid()) ends[cap.sweep] = std::uint8_t(ends[cap.sweep] | (cap.last ? 2u : 1u));
+    if (atEnd && !node.valid()) ends[cap.sweep] = std::uint8_t(ends[cap.sweep] | (cap.last ? 2u : 1u));
   }
   return ends;
 }
@@ -110,7 +113,8 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     site.system = region->system | (points.front().w < points.back().w ? 0x100u : 0u);
     sites.region[sweep] = std::uint8_t(region - regions.data());
     const vec4 chord = rest.points[table.sweeps[sweep].point + 2] - rest.points[table.sweeps[sweep].point + 1];
-    const float length = std::max(glm::length(vec3(chord)), 1e-5f);
+    const shared::SweepRecord& record = table.sweeps[sweep];
+    const float length = std::max(glm::length(vec3(chord)), 1e-5f) * (record.to - record.from);
     // What is left of a tree over the whole ones grows in as many sweeps as its share says.
     sites.sprouts[sweep] = std::uint16_t(std::min(length / (region->spacing * scale) + unitFloat(scramble(keyOf(7, sweep))), 4000.0f));
   }

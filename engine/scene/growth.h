@@ -5,11 +5,9 @@
 
 namespace vasa {
 
-/// What capillaries of a scene grow from; constant over time.
-struct SceneGrowth {
-  GrowthRules rules;
+/// What a scene's capillaries grow from, and the regions that CapillarySites::region counts.
+struct SceneGrowth : Growth {
   std::vector<GrowthRegion> regions;
-  CapillarySites sites;
 };
 
 /// Reads the rules of a folder (capillaries.lsys, regions.csv) and settles what grows where on the scene's vessels:

@@ -34,7 +34,8 @@ Section sectionOn(const PosedNetwork& network, std::uint32_t sweep, float t) {
   const shared::SweepRecord& record = network.table.sweeps[sweep];
   const vec3 chord(network.points[record.lastPoint] - network.points[record.firstPoint]);
   const quat* knots = &network.knotFrames[record.knot];
-  return sectionAt(bezierAt(network, record.point, record.spanClass), chord, knots[0], knots[1], t);
+  const float at = t == 1 ? record.to : record.from + (record.to - record.from) * t;
+  return sectionAt(bezierAt(network, record.point, record.spanClass), chord, knots[0], knots[1], at);
 }
 
 void tessellateSweep(const PosedNetwork& network, std::uint32_t sweep, const SweepShape& shape,

@@ -19,7 +19,7 @@ struct PosedNetwork {
 /// bit for bit.
 Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring, std::uint32_t along);
 
-/// The section at a parameter t in [0, 1] of a sweep's own span.
+/// The section at a share t in [0, 1] of a sweep's part of its span.
 Section sectionOn(const PosedNetwork& network, std::uint32_t sweep, float t);
 
 /// The vertices of one sweep's template: the CPU reference of shaders/tessellate.comp.

@@ -1,7 +1,7 @@
 // Read by C++ and GLSL (scalar layout): what capillaries grow from, and how one frame draws them.
 #ifndef VASA_SHARED_GROWTH_H
 #define VASA_SHARED_GROWTH_H
-#include "shared/tessellate.h"
+#include "shared/tubes.h"
 #ifdef __cplusplus
 #include <cstddef>
 namespace vasa::shared {

@@ -1,0 +1,69 @@
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "cli/program.h"
+#include "io/png.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+Outcome renderTo(const std::filesystem::path& picture, std::initializer_list<std::string> more) {
+  std::vector<std::string> arguments{"render", "--clip", "fist", "--frames", "20", "--focus", "LeftHand", "--size", "160x160", "--hide", "skin",
+                                     "--quads", "4x2", "--json", "-o", picture.string()};
+  arguments.insert(arguments.end(), more);
+  return runProgram(arguments);
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+}  // namespace
+
+TEST_CASE("capillaries grow from the built-in human, the same again, more with each generation") {
+  TemporaryFolder folder;
+  std::int64_t before = 0;
+  for (const char* levels : {"1", "2", "3"}) {
+    const auto outcome = renderTo(folder.path() / (std::string(levels) + ".png"), {"--capillaries", levels});
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    const auto report = outcome.json();
+    CHECK(report["capillaries"].get<std::int64_t>() > 2 * before);
+    CHECK(report["capillary_bytes"].get<std::int64_t>() < 20'000'000);
+    before = report["capillaries"].get<std::int64_t>();
+  }
+  REQUIRE(renderTo(folder.path() / "again.png", {"--capillaries", "3", "--threads", "1"}).exit == 0);
+  REQUIRE(renderTo(folder.path() / "other.png", {"--capillaries", "3", "--seed", "2"}).exit == 0);
+  const auto three = readPng(folder.path() / "3.png"), again = readPng(folder.path() / "again.png"), other = readPng(folder.path() / "other.png");
+  REQUIRE((three.ok() && again.ok() && other.ok()));
+  CHECK(three->rgba == again->rgba);
+  CHECK(three->rgba != other->rgba);
+}
+
+TEST_CASE("a budget holds") {
+  TemporaryFolder folder;
+  const auto outcome = renderTo(folder.path() / "a.png", {"--capillaries", "3", "--capillary-budget", "5000", "--capillary-edges", "8"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(outcome.json()["capillaries"].get<int>() <= 5000);
+  CHECK(outcome.json()["capillaries"].get<int>() > 4000);
+}
+
+TEST_CASE("what is wrong with capillaries is told") {
+  TemporaryFolder folder;
+  const auto picture = folder.path() / "a.png";
+  CHECK(renderTo(picture, {"--capillaries", "7"}).exit == 2);
+  CHECK(renderTo(picture, {"--capillaries", "2", "--capillary-edges", "6"}).exit == 2);
+  CHECK(renderTo(picture, {"--capillaries", "2", "--growth", (folder.path() / "nothing").string()}).exit == 6);
+  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S length 9\nS -> F [@3 S]\n");
+  write(folder.path() / "regions.csv", "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\nall,b,,,,0,3,8,\n");
+  auto outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
+  CHECK(outcome.exit == 3);
+  CHECK(outcome.err.find("capillaries.lsys:4: '@3' wants a number from 0.02 to 1") != std::string::npos);
+  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S length 9\nS -> F [@1 S]\n");
+  outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
+  CHECK(outcome.exit == 3);
+  CHECK(outcome.err.find("regions.csv:2: there is no system 'b'; use one of -, a") != std::string::npos);
+}

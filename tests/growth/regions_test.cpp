@@ -1,0 +1,82 @@
+#include "growth/regions.h"
+
+#include <doctest/doctest.h>
+
+#include "support/growth.h"
+
+using namespace vasa;
+
+namespace {
+
+const std::string kColumns = "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\n";
+
+GrowthRules rules() {
+  auto read = parseGrowthRules(test::growthText(), "g");
+  REQUIRE(read.ok());
+  return std::move(*read);
+}
+
+std::string messageOf(const std::string& text) {
+  const auto regions = parseRegions(text, "r.csv", rules());
+  REQUIRE_FALSE(regions.ok());
+  CHECK(regions.error().fault == Fault::badInput);
+  return regions.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("the first row that fits decides") {
+  const auto regions = parseRegions("# where what grows\n" + kColumns +
+                                        "none,-,,coronary|FMA12,,,,,\n"
+                                        "hand,reed,Hand|Thumb,,,0.1,2,3,\n"
+                                        "head,oak,head,,artery | vein,0.1,2,3,Head:(0 70 -5.5)\n"
+                                        "rest,oak,,,,0,3,8,\n",
+                                    "r.csv", rules());
+  REQUIRE_MESSAGE(regions.ok(), (regions.ok() ? "" : regions.error().message));
+  const auto nameOf = [&](const RegionQuestion& question) { return regionOf(*regions, question)->name; };
+  CHECK(nameOf({"Left Coronary artery", "", "Spine", VesselKind::artery}) == "none");
+  CHECK(nameOf({"aorta", "fma12", "Spine", VesselKind::artery}) == "none");
+  CHECK(nameOf({"aorta", "FMA123", "Spine", VesselKind::artery}) == "rest");
+  CHECK(nameOf({"digital artery", "", "LeftHandFinger1", VesselKind::artery}) == "hand");
+  CHECK(nameOf({"facial vein", "", "Head", VesselKind::vein}) == "head");
+  CHECK(nameOf({"facial duct", "", "Head", VesselKind::lymphatic}) == "rest");
+  CHECK((*regions)[0].system == GrowthRegion::kNoSystem);
+  CHECK((*regions)[1].system == 1);
+  CHECK((*regions)[2].hubJoint == "Head");
+  CHECK((*regions)[2].hubOffset.z == doctest::Approx(-0.0055f));
+  CHECK((*regions)[3].spacing == doctest::Approx(0.008f));
+  CHECK(regionOf({}, {}) == nullptr);
+}
+
+TEST_CASE("what the program ships can be read") {
+  const std::filesystem::path folder = VASA_GROWTH_DIR;
+  const auto shipped = readGrowthRules(folder / "capillaries.lsys");
+  REQUIRE(shipped.ok());
+  const auto regions = readRegions(folder / "regions.csv", *shipped);
+  REQUIRE_MESSAGE(regions.ok(), (regions.ok() ? "" : regions.error().message));
+  const auto systemOf = [&](const RegionQuestion& question) {
+    const GrowthRegion* region = regionOf(*regions, question);
+    REQUIRE(region);
+    return region->system == GrowthRegion::kNoSystem ? std::string("-") : shipped->systems[region->system];
+  };
+  CHECK(systemOf({"left middle cerebral artery", "", "Head", VesselKind::artery}) == "brain");
+  CHECK(systemOf({"left facial artery", "", "Neck1", VesselKind::artery}) == "face");
+  CHECK(systemOf({"plantar arch left", "", "LeftFoot", VesselKind::artery}) == "foot");
+  CHECK(systemOf({"ulnar palmar digital artery of ring finger left", "", "LeftHandFinger3", VesselKind::artery}) == "hand");
+  CHECK(systemOf({"popliteal vein", "", "LeftLeg", VesselKind::vein}) == "muscle");
+}
+
+TEST_CASE("faults are told with file, line, cause and remedy") {
+  CHECK(messageOf("") .starts_with("r.csv: has no regions"));
+  CHECK(messageOf("region,system\n") == "r.csv:1: the first line must name the columns: " + kColumns.substr(0, kColumns.size() - 1));
+  CHECK(messageOf(kColumns + "a,oak\n").starts_with("r.csv:2: has 2 cells but must have 9"));
+  CHECK(messageOf(kColumns + "a,elm,,,,0,3,8,\n") == "r.csv:2: there is no system 'elm'; use one of -, oak, reed");
+  CHECK(messageOf(kColumns + "a,oak,,,tube,0,3,8,\n").find("no kind of vessel") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,three,8,\n") == "r.csv:2: thickest_mm is 'three' but must be a number from 0 to 100");
+  CHECK(messageOf(kColumns + "a,oak,,,,0,nan,8,\n").find("must be a number") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,0,\n").find("spacing_mm must be at least 0.1") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,4,3,8,\n").find("exchange them") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head\n").find("must be JOINT:(x y z)") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2)\n").find("must be JOINT:(x y z)") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2 x)\n").find("where a number of millimetres belongs") != std::string::npos);
+}

@@ -1,0 +1,204 @@
+#include <doctest/doctest.h>
+
+#include <bit>
+
+#include "core/hash.h"
+#include "gpu/gpu_rig.h"
+#include "growth/ribbon.h"
+#include "render/capillary_pass.h"
+#include "render/renderer.h"
+#include "support/growth.h"
+#include "support/networks.h"
+
+// Capillaries on the device against their CPU specification, and in pictures.
+
+using namespace vasa;
+
+namespace {
+
+Camera lookingAt(const test::GrownNetwork& grown, float distance, bool perspective) {
+  Camera camera;
+  const vec3 middle(grown.points[grown.points.size() / 2]);
+  camera.target = middle;
+  camera.position = middle + distance * glm::normalize(vec3(0.3f, 0.4f, 1));
+  camera.orthographicHeight = perspective ? 0 : distance;
+  return camera;
+}
+
+constexpr gpu::TargetSpec kTarget{.size = {333, 222}, .samples = VK_SAMPLE_COUNT_1_BIT};
+
+struct Difference {
+  float place = 0;   // in the picture's half widths
+  int colour = 0;    // of 255
+  float across = 0;  // of 1
+  std::uint64_t curves = 0;
+};
+
+int byteDifference(std::uint32_t a, std::uint32_t b) {
+  int worst = 0;
+  for (int shift = 0; shift < 32; shift += 8) worst = std::max(worst, std::abs(int(a >> shift & 255u) - int(b >> shift & 255u)));
+  return worst;
+}
+
+void compare(Difference& worst, const shared::CapillaryVertex& found, const shared::CapillaryVertex& wanted) {
+  const float place = glm::distance(found.clip, wanted.clip) / std::max(std::abs(wanted.clip.w), 0.05f);
+  worst.place = std::max(worst.place, std::isfinite(place) ? place : 1e9f);
+  worst.colour = std::max(worst.colour, byteDifference(found.colour, wanted.colour));
+  for (int shift = 0; shift < 32; shift += 16)
+    worst.across = std::max(worst.across, float(std::abs(std::int16_t(found.across >> shift) - std::int16_t(wanted.across >> shift))) / 32767);
+}
+
+// Every curve of every batch of a plan, as the device grows it and as the specification does.
+Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::GrownNetwork& grown, const Camera& camera,
+                                      const CapillaryWish& wish, std::uint32_t seed) {
+  const TubeSet tubes(rig.device(), grown.network, {.shape = {3, 2}}, 100);
+  CapillaryPass pass(rig.device(), kTarget, tubes, grown.rules, grown.sites, wish);
+  const gpu::Buffer points = rig.upload(grown.points), knots = rig.upload(grown.frames);
+  const shared::GrowthView view = growthView(camera, kTarget.size, seed);
+  pass.prepare(grown.points, view);
+  const PosedNetwork posed = grown.posed();
+  const GrowthScene scene = grown.scene(posed, seed);
+  Difference worst;
+  for (std::size_t b = 0; b < pass.batches(); ++b) {
+    rig.run([&](VkCommandBuffer commands) {
+      pass.recordUpload(commands);
+      pass.recordGrowth(commands, {points.address(), knots.address(), {}}, b);
+    });
+    const auto found = rig.download<shared::CapillaryVertex>(pass.ring(b));
+    const CapillaryBatch& batch = pass.plan().batches[b];
+    const std::uint32_t each = 2 * (batch.edges + 1);
+    std::vector<shared::CapillaryVertex> wanted(each);
+    for (std::uint32_t j = 0; j < batch.jobCount; ++j) {
+      const shared::GrowthJob& job = pass.plan().jobs[batch.firstJob + j];
+      const std::uint32_t end = j + 1 < batch.jobCount ? pass.plan().jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
+      const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.sweep].system & 0xffu, job.levels);
+      const auto kind = grown.network.vessels()[grown.table.vesselOfSweep[job.sweep]].kind;
+      for (std::uint32_t curve = job.firstCurve; curve < end; ++curve) {
+        const std::uint32_t within = curve - job.firstCurve;
+        const Capillary capillary = capillaryAt(scene, {job.sweep, job.firstSprout + within / size}, job.levels, within % size);
+        writeRibbon(capillary, view, packColour(colourOf(kind)), batch.edges, wanted);
+        for (std::uint32_t v = 0; v < each; ++v) compare(worst, found[std::size_t(curve) * each + v], wanted[v]);
+        ++worst.curves;
+      }
+    }
+  }
+  CHECK(worst.curves == pass.plan().curves);
+  return worst;
+}
+
+Growth growthOf(const test::GrownNetwork& grown) {
+  return {grown.rules, grown.sites};
+}
+
+struct Picture {
+  Image image;
+  CapillaryCounts counts;
+};
+
+Picture pictureOf(const test::GpuRig& rig, const test::GrownNetwork& grown, const Camera& camera, RenderOptions options) {
+  const Growth growth = growthOf(grown);
+  options.width = 200;
+  options.height = 160;
+  options.growth = &growth;
+  options.timed = false;
+  Renderer renderer(rig.device(), grown.network, {}, options);
+  RenderInput input{grown.points, grown.frames, {}, camera, {}};
+  input.look.transparent = true;
+  renderer.draw(input);
+  return {renderer.readBack(), renderer.capillaryCounts()};
+}
+
+std::uint64_t hashOfPicture(const Image& image) {
+  return hashOf(std::span<const std::uint8_t>(image.rgba));
+}
+
+std::size_t covered(const Image& image) {
+  std::size_t count = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) count += image.rgba[i] > 0;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the device grows what the specification says: generations, edges, seeds, both projections") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork grown(test::windingNetwork(41, 21));
+  struct Case {
+    std::uint32_t levels, edges, seed;
+    bool perspective;
+  };
+  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true}}) {
+    CAPTURE(c.levels);
+    CAPTURE(c.edges);
+    const CapillaryWish wish{.levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = 0};
+    const Difference worst = deviceAgainstSpecification(rig, grown, lookingAt(grown, 2, c.perspective), wish, c.seed);
+    CHECK(worst.curves > 200);
+    CHECK(worst.place <= 1e-4f);
+    CHECK(worst.colour <= 1);
+    CHECK(worst.across <= 2e-2f);
+  }
+}
+
+TEST_CASE("the memory for capillaries does not depend on how many there are") {
+  VASA_REQUIRE_GPU(rig);
+  test::GrownNetwork grown(test::windingNetwork(30, 5));
+  const Camera camera = lookingAt(grown, 2, true);
+  RenderOptions options;
+  options.capillaries = {.levels = 1, .edges = 5, .budget = 1'000'000, .smallest = 0};
+  const CapillaryCounts few = pictureOf(rig, grown, camera, options).counts;
+  for (std::uint16_t& sprouts : grown.sites.sprouts) sprouts = std::uint16_t(8 * sprouts);
+  options.capillaries.levels = 4;
+  const CapillaryCounts many = pictureOf(rig, grown, camera, options).counts;
+  CHECK(many.curves > 20 * few.curves);
+  CHECK(many.curves > 2 * shared::kRingCurves);
+  CHECK(many.bytes == few.bytes);
+  CHECK(many.ringBytes == 2ull * shared::kRingCurves * 22 * 24);
+}
+
+TEST_CASE("the same picture twice, whatever was drawn before; another one for another seed") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork grown(test::windingNetwork(30, 5));
+  const Camera camera = lookingAt(grown, 2, true);
+  RenderOptions options;
+  options.capillaries = {.levels = 3};
+  const Picture one = pictureOf(rig, grown, camera, options), two = pictureOf(rig, grown, camera, options);
+  CHECK(hashOfPicture(one.image) == hashOfPicture(two.image));
+  const Growth growth = growthOf(grown);
+  options.width = 200;
+  options.height = 160;
+  options.timed = false;
+  options.growth = &growth;
+  Renderer renderer(rig.device(), grown.network, {}, options);
+  RenderInput elsewhere{grown.points, grown.frames, {}, lookingAt(grown, 1, false), {}};
+  renderer.draw(elsewhere);
+  RenderInput input{grown.points, grown.frames, {}, camera, {}};
+  input.look.transparent = true;
+  renderer.draw(input);
+  CHECK(hashOfPicture(renderer.readBack()) == hashOfPicture(one.image));
+  options.seed = 2;
+  CHECK(hashOfPicture(pictureOf(rig, grown, camera, options).image) != hashOfPicture(one.image));
+}
+
+TEST_CASE("more generations cover more of the picture; hidden vessels have none") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork grown(test::windingNetwork(12, 5));
+  const Camera camera = lookingAt(grown, 2, true);
+  RenderOptions options;
+  std::size_t before = 0;
+  for (const std::uint32_t levels : {0u, 1u, 2u, 3u}) {
+    options.capillaries = {.levels = levels};
+    const std::size_t now = covered(pictureOf(rig, grown, camera, options).image);
+    CHECK(now > before);
+    before = now;
+  }
+  const Growth growth = growthOf(grown);
+  options.width = 200;
+  options.height = 160;
+  options.growth = &growth;
+  Renderer renderer(rig.device(), grown.network, {}, options);
+  RenderInput input{grown.points, grown.frames, {}, camera, {}};
+  input.look.transparent = true;
+  renderer.setSweepColours(std::vector<std::uint32_t>(renderer.sweepCount(), 0));  // alpha 0 hides
+  renderer.draw(input);
+  CHECK(covered(renderer.readBack()) == 0);
+}
