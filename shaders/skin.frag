@@ -1,5 +1,5 @@
 #version 460
-// A thin translucent shell: more to be seen at the outline, where the line of sight runs along the skin.
+// A thin translucent shell: more of it is in the line of sight at the outline, so that vessels read through its middle.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
@@ -16,7 +16,9 @@ void main() {
   vec3 worldUp = vec3(push.right.y, push.up.y, push.right.z * push.up.x - push.right.x * push.up.z);
   vec3 outward = normalize(normal);
   float graze = 1 - clamp(dot(outward, eye), 0.0, 1.0);
-  float alpha = clamp(push.opacity * (0.7 + 2.0 * graze * graze * graze), 0.0, 1.0);
-  vec3 light = mix(kGround, kSky, 0.5 + 0.5 * dot(outward, worldUp)) + 0.45 * wrapped(dot(outward, kKey));
-  pixel = vec4((colour * light + 0.3 * kKeyColour * highlight(outward, eye, kKey)) * alpha, alpha);
+  float alpha = clamp(push.opacity * (0.45 + 2.6 * graze * graze * graze), 0.0, 1.0);
+  vec3 gloss = kStyles[kStyle].key * (3.0 * highlight(outward, eye, kKey));
+  vec3 light = ambientLight(outward, worldUp) + kStyles[kStyle].key * (0.5 * wrapped(dot(outward, kKey)));
+  vec3 rim = kStyles[kStyle].rim * (0.8 * graze * graze);
+  pixel = vec4(filmic((colour * light + gloss + rim) * kStyles[kStyle].exposure) * alpha, alpha);
 }

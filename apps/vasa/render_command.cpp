@@ -29,6 +29,7 @@ struct Options {
   std::string frames, size = "1280x720", output, video, quads = "8x5", shard, hide;
   CapillaryOptions capillaries;
   unsigned samples = 4;
+  std::string look;  // empty: as the scene says
   bool resume = false, transparent = false, noVolume = false, avoid = false, highlightContacts = false;
 };
 
@@ -61,7 +62,7 @@ Result<void> hide(const std::string& list, LookChoice& look) {
 }
 
 Look lookOf(const LookChoice& choice, bool transparent) {
-  Look look;
+  Look look = lookNamed(choice.preset).value_or(Look{});
   if (choice.background) look.background = *choice.background;
   look.transparent = transparent;
   look.drawSkin = choice.skin;
@@ -69,7 +70,7 @@ Look lookOf(const LookChoice& choice, bool transparent) {
   look.drawHeart = look.drawOther = choice.organs;
   look.drawArteries = choice.arteries;
   look.drawVeins = choice.veins;
-  look.skinOpacity = choice.skinOpacity;
+  if (choice.skinOpacity) look.skinOpacity = *choice.skinOpacity;
   return look;
 }
 
@@ -85,8 +86,8 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options,
     hash = hashBytes(*bytes, hash);
   }
   const std::string settings =
-      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
-                  options.camera.distance, options.size, options.quads, options.samples, options.hide, options.transparent,
+      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
+                  options.camera.distance, options.size, options.quads, options.samples, options.hide, choice.look.preset, options.transparent,
                   options.noVolume, options.avoid, options.highlightContacts);
   return hashOfCapillaries(options.capillaries, hashOf(std::span(settings), hash));
 }
@@ -106,6 +107,9 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   job.choice = std::move(*choice);
   const auto cameraChoice = chooseCamera(job.choice.camera, options.camera);
   if (!cameraChoice) return cameraChoice.error();
+  if (!options.look.empty()) job.choice.look.preset = options.look;
+  if (!lookNamed(job.choice.look.preset))
+    return Error{Fault::usage, "--look " + job.choice.look.preset + ": choose atlas, clinical or xray"};
   if (auto hidden = hide(options.hide, job.choice.look); !hidden) return hidden.error();
   auto scene = loadScene(job.choice);
   if (!scene) return scene.error();
@@ -132,7 +136,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
-  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .timed = false};
+  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .occlusion = true, .timed = false};
   job.range = *range;
   job.shard = *shard;
   job.render.growth = job.growth.get();
@@ -345,6 +349,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.3 pixels")->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas");
   sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, arteries, veins (a list with commas)");
   sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");

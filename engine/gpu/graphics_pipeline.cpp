@@ -16,9 +16,15 @@ VkPipelineColorBlendAttachmentState blendOf(Blend blend) {
   VkPipelineColorBlendAttachmentState state{};
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                          VK_COLOR_COMPONENT_A_BIT;
-  state.blendEnable = blend == Blend::premultiplied;
+  state.blendEnable = blend != Blend::none;
   state.srcColorBlendFactor = state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  if (blend == Blend::add) state.dstColorBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  if (blend == Blend::multiply) {
+    state.srcColorBlendFactor = state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    state.dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;
+    state.dstAlphaBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  }
   state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
   return state;
 }

@@ -11,6 +11,8 @@ namespace vasa::gpu {
 enum class Blend {
   none,
   premultiplied,  ///< colour + (1 - alpha) * what is there
+  add,            ///< colour + what is there
+  multiply,       ///< colour * what is there
 };
 
 struct GraphicsSpec {

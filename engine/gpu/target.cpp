@@ -32,9 +32,49 @@ Target::Target(Device& device, const TargetSpec& spec) : spec_(spec) {
   if (multisampled)
     samples_ =
         Image(device, {spec.name, spec.size, spec.colour, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, spec.samples});
-  if (spec.depth != VK_FORMAT_UNDEFINED)
-    depth_ = Image(device, {spec.name, spec.size, spec.depth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                            spec.samples});
+  if (spec.depth == VK_FORMAT_UNDEFINED) return;
+  constexpr VkImageUsageFlags attachment = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  const VkImageUsageFlags copied = spec.readDepth ? attachment | VK_IMAGE_USAGE_TRANSFER_SRC_BIT : attachment;
+  depth_ = Image(device, {spec.name, spec.size, spec.depth, multisampled ? attachment : copied, spec.samples});
+  if (spec.readDepth && multisampled) readableDepth_ = Image(device, {spec.name, spec.size, spec.depth, copied});
+}
+
+void Target::copyDepth(VkCommandBuffer commands, const Buffer& to) const {
+  assert(spec_.readDepth && to.bytes() >= pictureBytes());
+  constexpr VkImageLayout attachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  constexpr VkImageLayout source = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  constexpr VkPipelineStageFlags2 transfer = VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+  if (readableDepth_) resolveDepth(commands);
+  const Image& image = readableDepth_ ? readableDepth_ : depth_;
+  const VkPipelineStageFlags2 written = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages;
+  changeLayout(commands, {image.handle(), image.aspect(), attachment, source, written, transfer});
+  VkBufferImageCopy region{};
+  region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+  region.imageExtent = {spec_.size.width, spec_.size.height, 1};
+  vkCmdCopyImageToBuffer(commands, image.handle(), source, to.handle(), 1, &region);
+  changeLayout(commands, {image.handle(), image.aspect(), source, attachment, transfer, written});
+}
+
+// An empty stretch that takes the first of each pixel's samples.
+void Target::resolveDepth(VkCommandBuffer commands) const {
+  makeAttachment(commands, readableDepth_);
+  stageBarrier(commands, kAttachmentStages, kAttachmentStages);
+  VkRenderingAttachmentInfo depths{};
+  depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  depths.imageView = depth_.view();
+  depths.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  depths.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+  depths.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  depths.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
+  depths.resolveImageView = readableDepth_.view();
+  depths.resolveImageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  VkRenderingInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea.extent = spec_.size;
+  info.layerCount = 1;
+  info.pDepthAttachment = &depths;
+  vkCmdBeginRendering(commands, &info);
+  vkCmdEndRendering(commands);
 }
 
 void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float depth,

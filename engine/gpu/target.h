@@ -14,6 +14,7 @@ struct TargetSpec {
   VkFormat colour = VK_FORMAT_R8G8B8A8_SRGB;  ///< four bytes a pixel, linear values encoded on writing
   VkFormat depth = VK_FORMAT_D32_SFLOAT;      ///< VK_FORMAT_UNDEFINED: none
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
+  bool readDepth = false;  ///< copyDepth() will be called
 };
 
 constexpr VkPipelineStageFlags2 kAttachmentStages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
@@ -45,17 +46,22 @@ class Target {
   /// Ends the only or last stretch; whatever comes after sees the picture in layout `after`.
   void end(VkCommandBuffer commands, VkImageLayout after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) const;
 
+  /// Between two stretches: copies depth, of the first sample of each pixel, as 4 bytes a pixel, rows from the top.
+  void copyDepth(VkCommandBuffer commands, const Buffer& to) const;
+
   /// After end(): copies the picture, rows from the top, without gaps, 4 bytes a pixel.
   void copyPicture(VkCommandBuffer commands, const Buffer& to) const;
   VkDeviceSize pictureBytes() const { return VkDeviceSize(spec_.size.width) * spec_.size.height * 4; }
 
  private:
   void setViewport(VkCommandBuffer commands) const;
+  void resolveDepth(VkCommandBuffer commands) const;
 
   TargetSpec spec_;
   Image samples_;  // empty with one sample a pixel
   Image picture_;
   Image depth_;
+  Image readableDepth_;  // one sample a pixel; empty where depth_ is that itself
 };
 
 }  // namespace vasa::gpu

@@ -16,6 +16,23 @@ MeshRole roleNamed(std::string_view name) {
   return MeshRole::other;
 }
 
+std::optional<Look> lookNamed(std::string_view name) {
+  Look look;
+  look.occlusion = 1;
+  if (name == "atlas") {
+    look.background = {1, 1, 1, 1};
+    return look;
+  }
+  look.style = LookStyle::clinical;
+  look.background = {0.035f, 0.045f, 0.06f, 1};
+  if (name == "clinical") return look;
+  look.style = LookStyle::xray;
+  look.background = {0.01f, 0.015f, 0.03f, 1};
+  look.occlusion = 0;
+  if (name == "xray") return look;
+  return std::nullopt;
+}
+
 vec4 colourOf(VesselKind kind) {
   switch (kind) {
     case VesselKind::artery: return {0.80f, 0.13f, 0.12f, 1};
@@ -29,7 +46,7 @@ vec4 colourOf(VesselKind kind) {
 
 vec4 colourOf(MeshRole role) {
   switch (role) {
-    case MeshRole::bones: return {0.91f, 0.87f, 0.77f, 1};
+    case MeshRole::bones: return {0.93f, 0.86f, 0.71f, 1};
     case MeshRole::heart: return {0.52f, 0.11f, 0.12f, 1};
     case MeshRole::skin: return {0.86f, 0.60f, 0.48f, 1};
     case MeshRole::other: break;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "math/types.h"
@@ -14,8 +15,12 @@ enum class MeshRole : std::uint8_t { bones, heart, skin, other };
 /// otherwise other. Upper and lower case are alike.
 MeshRole roleNamed(std::string_view name);
 
+/// The light: atlas for a white page, clinical for a dark screen, xray for surfaces that let light through.
+enum class LookStyle : std::uint8_t { atlas, clinical, xray };
+
 /// What is shown, and in which colours. Colours are sRGB in [0, 1] with straight alpha.
 struct Look {
+  LookStyle style = LookStyle::atlas;
   vec4 background{0.93f, 0.94f, 0.95f, 1};
   bool transparent = false;  ///< picture with alpha: the background counts for nothing
   bool drawArteries = true;
@@ -25,8 +30,13 @@ struct Look {
   bool drawHeart = true;
   bool drawSkin = true;
   bool drawOther = true;
-  float skinOpacity = 0.3f;  ///< of the skin seen face on, in [0, 1]; more towards its outline
+  float skinOpacity = 0.3f;  ///< in [0, 1]: less where the skin is seen face on, more towards its outline
+  /// Strength of ambient occlusion, 0 (none, fast) to 1; not in xray.
+  float occlusion = 0;
 };
+
+/// The presets "atlas", "clinical" and "xray": style, background, skin and occlusion.
+std::optional<Look> lookNamed(std::string_view name);
 
 /// Arteries red, veins blue, portal vein purple, lymph vessels green, others grey.
 vec4 colourOf(VesselKind kind);

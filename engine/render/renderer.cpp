@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <optional>
 #include <string_view>
 
 #include "gpu/barrier.h"
@@ -11,6 +12,7 @@
 #include "gpu/timer.h"
 #include "render/capillary_pass.h"
 #include "render/frame_upload.h"
+#include "render/occlusion_pass.h"
 #include "render/picture.h"
 #include "render/skin_pass.h"
 #include "render/static_tubes.h"
@@ -30,6 +32,7 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
 constexpr const char* kTessellate = "tessellate";
 constexpr const char* kDraw = "draw tubes";
 constexpr const char* kCapillaries = "capillaries";
@@ -60,7 +63,8 @@ gpu::TargetSpec targetSpec(const RenderOptions& options) {
   assert(options.samples == 1 || options.samples == 4);
   return {.name = "picture",
           .size = {options.width, options.height},
-          .samples = VkSampleCountFlagBits(options.samples)};
+          .samples = VkSampleCountFlagBits(options.samples),
+          .readDepth = options.occlusion};
 }
 
 }  // namespace
@@ -90,6 +94,7 @@ struct Renderer::State {
   SkinPass skinPass;
   gpu::Target target;
   SurfacePass surfacePass;
+  std::optional<OcclusionPass> occlusionPass;
   std::array<TubeDraws, 2> templates, forkTemplates;
   std::optional<CapillaryPass> capillaries;
   gpu::Buffer readBack;
@@ -100,7 +105,7 @@ struct Renderer::State {
 
  private:
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
-  void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch);
+  void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, LookStyle style);
   void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
   void recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push);
 };
@@ -125,9 +130,10 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
       drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
                      gpu::MemoryRole::readBack}),
-      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 4) : 0),
+      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 5) : 0),
       staticTimer(device, 1) {
   setColours({});
+  if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
     capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites, options.capillaries);
 }
@@ -149,18 +155,19 @@ void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t b
                                upload.knots(), forkTemplates[batch % 2], options.cull});
 }
 
-void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch) {
+void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch,
+                                  LookStyle style) {
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
   const std::size_t tubeBatches = tubes.batches().size();
   if (batch < tubeBatches) {
     const TubeBatch& range = tubes.batches()[batch];
-    surfacePass.recordTubes(commands, push, tubes, range, templates[batch % 2]);
+    surfacePass.recordTubes(commands, push, tubes, range, templates[batch % 2], style);
     target.pause(commands);
     copyDraws(commands, templates[batch % 2], range.firstSweep / shared::kGroupSweeps, range.groups());
   } else {
     const ForkBatch& range = forks.batches()[batch - tubeBatches];
-    surfacePass.recordForks(commands, push, forks, range, forkTemplates[batch % 2]);
+    surfacePass.recordForks(commands, push, forks, range, forkTemplates[batch % 2], style);
     target.pause(commands);
     copyDraws(commands, forkTemplates[batch % 2], tubes.groupCount() + range.firstFork / shared::kGroupForks,
               range.groups());
@@ -216,12 +223,15 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   }
   for (std::size_t batch = 0; batch < batches; ++batch) {
     if (batch + 1 < batches) recordTessellation(commands, batch + 1);
-    recordBatch(commands, push, batch);
+    recordBatch(commands, push, batch, input.look.style);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
   if (capillaries && batches > 0) recordCapillaries(commands, push);
   const auto scope = timer.scope(commands, kMeshes);
+  const bool occluded = occlusionPass && input.look.occlusion > 0 && input.look.style != LookStyle::xray;
+  if (occluded) occlusionPass->record(commands, target, input.camera, kOcclusionReach, input.look.occlusion);
   target.begin(commands, {}, 0, gpu::Stretch::last);
+  if (occluded) occlusionPass->recordApply(commands, target);
   surfacePass.recordSkin(commands, push, meshes, input.look);
   target.end(commands);
 }

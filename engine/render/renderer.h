@@ -27,6 +27,7 @@ struct RenderOptions {
   /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
   float pixelError = 0;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
+  bool occlusion = false;  ///< Look::occlusion counts; takes 12 bytes a pixel
   /// Sweeps tessellated and drawn at a time, rounded up to whole groups. Two batches are all the vertex memory that
   /// tubes take, however many sweeps there are.
   std::uint32_t sweepsPerBatch = 1024;

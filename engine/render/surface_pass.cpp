@@ -8,6 +8,7 @@
 #include "spirv/opaque_frag.h"
 #include "spirv/skin_frag.h"
 #include "spirv/surface_vert.h"
+#include "spirv/xray_frag.h"
 
 namespace vasa {
 namespace {
@@ -36,6 +37,19 @@ bool shown(MeshRole role, const Look& look) {
     case MeshRole::other: return look.drawOther;
   }
   return false;
+}
+
+constexpr float kXrayVessels = 1.8f;
+
+// How much light a surface of the x-ray style gathers.
+float xrayLight(MeshRole role) {
+  switch (role) {
+    case MeshRole::bones: return 0.3f;
+    case MeshRole::heart: return 0.5f;
+    case MeshRole::skin: return 0.5f;
+    case MeshRole::other: break;
+  }
+  return 0.5f;
 }
 
 void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDeviceSize offset) {
@@ -95,8 +109,7 @@ shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2
 
 SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
   const VertexLayout layout;
-  gpu::GraphicsSpec spec{
-      .name = "tubes",
+  const gpu::GraphicsSpec common{
       .vertex = spirv::surface_vert,
       .fragment = spirv::opaque_frag,
       .pushBytes = sizeof(shared::DrawPush),
@@ -106,39 +119,55 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
       .samples = target.samples,
       .depthTest = VK_COMPARE_OP_GREATER,
   };
-  tubes_ = gpu::GraphicsPipeline(device, spec);
-  spec.name = "opaque meshes";
-  spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
-  opaque_ = gpu::GraphicsPipeline(device, spec);
+  for (const LookStyle style : {LookStyle::atlas, LookStyle::clinical}) {
+    const std::size_t i = std::size_t(style);
+    gpu::GraphicsSpec spec = common;
+    spec.constants.set(0, std::uint32_t(style));
+    spec.name = "tubes";
+    tubes_[i] = gpu::GraphicsPipeline(device, spec);
+    spec.name = "opaque meshes";
+    spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
+    opaque_[i] = gpu::GraphicsPipeline(device, spec);
+    spec.name = "skin";
+    spec.cull = VK_CULL_MODE_BACK_BIT;
+    spec.fragment = spirv::skin_frag;
+    spec.depthTest = VK_COMPARE_OP_EQUAL;
+    spec.depthWrite = false;
+    spec.blend = gpu::Blend::premultiplied;
+    skinColour_[i] = gpu::GraphicsPipeline(device, spec);
+  }
+  gpu::GraphicsSpec spec = common;
   spec.name = "skin depth";
-  spec.cull = VK_CULL_MODE_BACK_BIT;
   spec.fragment = {};
   skinDepth_ = gpu::GraphicsPipeline(device, spec);
-  spec.name = "skin";
-  spec.fragment = spirv::skin_frag;
-  spec.depthTest = VK_COMPARE_OP_EQUAL;
+  spec.name = "x-ray";
+  spec.fragment = spirv::xray_frag;
+  spec.depthTest = VK_COMPARE_OP_ALWAYS;
   spec.depthWrite = false;
-  spec.blend = gpu::Blend::premultiplied;
-  skinColour_ = gpu::GraphicsPipeline(device, spec);
+  spec.blend = gpu::Blend::add;
+  for (auto* pipelines : {&tubes_, &opaque_, &skinColour_})
+    (*pipelines)[std::size_t(LookStyle::xray)] = gpu::GraphicsPipeline(device, spec);
 }
 
 void SurfacePass::recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes,
-                              const TubeBatch& batch, const TubeDraws& draws) const {
+                              const TubeBatch& batch, const TubeDraws& draws, LookStyle style) const {
+  push.opacity = kXrayVessels;
   push.colours = tubes.colours();
   push.firstItem = batch.firstSweep;
   push.itemShift = tubes.room().vertexShift;
-  tubes_.bind(commands, push);
+  tubes_[std::size_t(style)].bind(commands, push);
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
   vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks,
-                              const ForkBatch& batch, const TubeDraws& draws) const {
+                              const ForkBatch& batch, const TubeDraws& draws, LookStyle style) const {
+  push.opacity = kXrayVessels;
   push.colours = forks.colours();
   push.firstItem = batch.firstFork;
   push.itemShift = forks.room().vertexShift;
-  tubes_.bind(commands, push);
+  tubes_[std::size_t(style)].bind(commands, push);
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
   vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
@@ -146,16 +175,20 @@ void SurfacePass::recordForks(VkCommandBuffer commands, shared::DrawPush push, c
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                                const Look& look) const {
-  drawParts(commands, push, meshes, opaque_,
-            [&](MeshRole role) { return role != MeshRole::skin && shown(role, look); });
+  for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
+    push.opacity = xrayLight(role);
+    drawParts(commands, push, meshes, opaque_[std::size_t(look.style)],
+              [&](MeshRole part) { return part == role && shown(role, look); });
+  }
 }
 
 void SurfacePass::recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                              const Look& look) const {
   const auto skin = [&](MeshRole role) { return role == MeshRole::skin && shown(role, look); };
-  push.opacity = look.skinOpacity;
-  drawParts(commands, push, meshes, skinDepth_, skin);
-  drawParts(commands, push, meshes, skinColour_, skin);
+  const bool xray = look.style == LookStyle::xray;
+  push.opacity = look.skinOpacity * (xray ? xrayLight(MeshRole::skin) : 1);
+  if (!xray) drawParts(commands, push, meshes, skinDepth_, skin);
+  drawParts(commands, push, meshes, skinColour_[std::size_t(look.style)], skin);
 }
 
 }  // namespace vasa

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "gpu/graphics_pipeline.h"
 #include "gpu/target.h"
 #include "render/camera.h"
@@ -25,16 +27,18 @@ class SurfacePass {
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
   void recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes, const TubeBatch& batch,
-                   const TubeDraws& draws) const;
+                   const TubeDraws& draws, LookStyle style = LookStyle::atlas) const;
   void recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks, const ForkBatch& batch,
-                   const TubeDraws& draws) const;
+                   const TubeDraws& draws, LookStyle style = LookStyle::atlas) const;
   /// Bones, heart and others.
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
   /// The skin: the depth of its nearest side first, then that side's colour over what lies behind.
   void recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
 
  private:
-  gpu::GraphicsPipeline tubes_, opaque_, skinDepth_, skinColour_;
+  // One of each for every LookStyle.
+  std::array<gpu::GraphicsPipeline, 3> tubes_, opaque_, skinColour_;
+  gpu::GraphicsPipeline skinDepth_;
 };
 
 }  // namespace vasa

@@ -52,7 +52,8 @@ class Reader {
       out = value.get<bool>();
     };
   }
-  Field number(float& out, float low, float high) {
+  template <class Out>  // float, or std::optional of it
+  Field number(Out& out, float low, float high) {
     return [this, &out, low, high](const Json& value, const std::string& place) {
       const double x = value.is_number() ? value.get<double>() : NAN;
       if (!(x >= low && x <= high))
@@ -110,13 +111,17 @@ void readCamera(Reader& reader, const Json& value, const std::string& place, Cam
 
 void readLook(Reader& reader, const Json& value, const std::string& place, LookChoice& look) {
   reader.object(value, place,
-                {{"background", reader.vector(look.background, 0, 1)},
+                {{"preset", reader.text(look.preset)},
+                 {"background", reader.vector(look.background, 0, 1)},
                  {"skin", reader.flag(look.skin)},
                  {"bones", reader.flag(look.bones)},
                  {"organs", reader.flag(look.organs)},
                  {"arteries", reader.flag(look.arteries)},
                  {"veins", reader.flag(look.veins)},
                  {"skin_opacity", reader.number(look.skinOpacity, 0, 1)}});
+  constexpr std::array kPresets{"atlas", "clinical", "xray"};
+  if (std::find(kPresets.begin(), kPresets.end(), look.preset) == kPresets.end())
+    reader.fail(place + "/preset", "must be atlas, clinical or xray");
 }
 
 }  // namespace

@@ -21,15 +21,16 @@ struct CameraChoice {
 
 /// What is shown and how.
 struct LookChoice {
-  std::optional<vec4> background;  ///< sRGB 0..1 and opacity
+  std::string preset = "atlas";    ///< atlas, clinical or xray
+  std::optional<vec4> background;  ///< sRGB 0..1 and opacity; default: the preset's
   bool skin = true, bones = true, organs = true, arteries = true, veins = true;
-  float skinOpacity = 0.3f;
+  std::optional<float> skinOpacity;  ///< default: the preset's
 };
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
-///     "look": { "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
+///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
 ///               "skin_opacity": 0.3 } }
 struct SceneFile {
   std::filesystem::path body;

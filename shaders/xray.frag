@@ -1,0 +1,19 @@
+#version 460
+// Light that gathers along the line of sight, most where a surface turns away; added up, so the order of surfaces does
+// not matter.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/draw.h"
+
+layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(location = 0) in vec3 normal;
+layout(location = 1) flat in vec3 colour;
+layout(location = 0) out vec4 pixel;  // premultiplied
+
+void main() {
+  vec3 eye = normalize(vec3(push.eyeCorner + gl_FragCoord.xy * push.eyeStep, 1));
+  float away = 1 - abs(dot(normalize(normal), eye));
+  float gathered = push.opacity * (0.12 + 0.88 * away * away);
+  pixel = vec4(colour * gathered, gathered);
+}
