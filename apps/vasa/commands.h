@@ -29,6 +29,7 @@ void addBench(CLI::App& app, Command& command);
 void addCheck(CLI::App& app, Command& command);
 void addConvert(CLI::App& app, Command& command);
 void addDevices(CLI::App& app, Command& command);
+void addExport(CLI::App& app, Command& command);
 void addFit(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);
 void addProfile(CLI::App& app, Command& command);

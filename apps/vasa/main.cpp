@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
   addGlobals(app, command.globals);
   addConvert(app, command);
   addRender(app, command);
+  addExport(app, command);
   addFit(app, command);
   addInfo(app, command);
   addCheck(app, command);

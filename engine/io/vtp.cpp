@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/atomic_file.h"
 #include "core/log.h"
@@ -90,15 +91,17 @@ class Reader {
   std::vector<double> numbers(const XMLElement& array, const std::string& place) {
     const auto scalar = vtp::scalarNamed(attribute(array, "type"));
     if (!scalar) breaks(place + "/type", "is not a number type that VTK has");
-    const std::string_view format = attribute(array, "format");
-    const char* text = array.GetText();
-    if (format == "ascii") return asciiNumbers(text ? text : "", place);
-    std::vector<std::byte> content;
-    if (format == "appended") content = appendedBlock(array, place);
-    else if (format == "binary") content = block(text ? text : "", place);
-    else breaks(place + "/format", "must be ascii, binary or appended");
+    if (attribute(array, "format") == "ascii") return asciiNumbers(array.GetText() ? array.GetText() : "", place);
+    const std::vector<std::byte> content = bytesOf(array, place);
     if (content.size() % vtp::sizeOf(*scalar) != 0) breaks(place, "is no whole number of values");
     return vtp::numbersOf(content, *scalar, encoding_.bigEndian);
+  }
+
+  std::vector<std::byte> bytesOf(const XMLElement& array, const std::string& place) {
+    const std::string_view format = attribute(array, "format");
+    if (format == "appended") return appendedBlock(array, place);
+    if (format != "binary") breaks(place + "/format", "must be ascii, binary or appended");
+    return block(array.GetText() ? array.GetText() : "", place);
   }
 
   static std::vector<double> asciiNumbers(std::string_view text, const std::string& place) {
@@ -157,13 +160,17 @@ class Reader {
   }
 
   void readNames(const XMLElement& fields) {
-    for (const XMLElement* name : {arrayNamed(&fields, "VesselNames")}) {
-      if (!name || attribute(*name, "type") != "String" || attribute(*name, "format") != "ascii") continue;
-      std::string text;
-      for (const double value : asciiNumbers(name->GetText() ? name->GetText() : "", "/VTKFile/PolyData/FieldData/VesselNames")) {
-        if (value == 0) out_.names.push_back(std::exchange(text, {}));
-        else if (value > 0 && value < 256) text += char(static_cast<unsigned char>(value));
-      }
+    const std::string place = "/VTKFile/PolyData/FieldData/VesselNames";
+    const XMLElement* array = fields.FirstChildElement("Array");  // what VTK calls arrays of anything but numbers
+    while (array && attribute(*array, "Name") != "VesselNames") array = array->NextSiblingElement("Array");
+    if (!array || attribute(*array, "type") != "String") return;
+    std::vector<double> letters;
+    if (attribute(*array, "format") == "ascii") letters = asciiNumbers(array->GetText() ? array->GetText() : "", place);
+    else letters = vtp::numbersOf(bytesOf(*array, place), vtp::Scalar::uint8, false);
+    std::string text;
+    for (const double letter : letters) {
+      if (letter == 0) out_.names.push_back(std::exchange(text, {}));
+      else if (letter > 0 && letter < 256) text += char(static_cast<unsigned char>(letter));
     }
   }
 

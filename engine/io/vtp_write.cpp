@@ -33,14 +33,14 @@ std::string cells(const char* kind, const std::vector<std::int64_t>& connectivit
 // VTK keeps strings as the numbers of their bytes, a zero after each.
 std::string nameField(const std::vector<std::string>& names) {
   if (names.empty()) return {};
-  std::string text = "    <FieldData>\n      <DataArray type=\"String\" Name=\"VesselNames\" NumberOfTuples=\"" +
+  std::string text = "    <FieldData>\n      <Array type=\"String\" Name=\"VesselNames\" NumberOfTuples=\"" +
                      std::to_string(names.size()) + "\" format=\"ascii\">\n";
   for (const std::string& name : names) {
     text += "        ";
     for (const unsigned char c : name) text += std::to_string(c) + " ";
     text += "0\n";
   }
-  return text + "      </DataArray>\n    </FieldData>\n";
+  return text + "      </Array>\n    </FieldData>\n";
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+
+#include "core/result.h"
+#include "scene/film_baker.h"
+#include "scene/frame.h"
+
+namespace vasa {
+
+struct BakeOptions {
+  std::uint32_t first = 0, last = 0;  ///< frames of the clip, both included
+  FrameOptions frame;
+  SweepShape shape;
+  bool finestThatFits = true;         ///< choose the shape by maxBytes; `shape` is the finest looked at
+  std::size_t maxBytes = 64u << 20;   ///< of vertices, triangles and shapes together
+  float tolerance = 5e-5f;            ///< [m] of any vertex in any frame
+  std::function<vec3(VesselKind)> colourOf;                         ///< linear
+  std::function<void(std::uint32_t, std::uint32_t)> progress = {};  ///< frames done, of how many
+  std::function<bool()> stopRequested = {};
+};
+
+/// The drawn surface of a scene's vessels with its motion through a clip as shapes with weights, a key a frame
+/// (mesh/shape_basis.h). The first frame is the mesh itself.
+/// Fails with `failed` where even the coarsest shape takes more than maxBytes, and as stopRequested says.
+/// @param clip  nullptr: at rest, not moving
+Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& options);
+
+}  // namespace vasa

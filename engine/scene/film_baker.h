@@ -1,0 +1,56 @@
+#pragma once
+#include <functional>
+
+#include "io/animated_mesh.h"
+#include "network/network.h"
+#include "surface/sweep_table.h"
+#include "surface/sweep_template.h"
+
+namespace vasa {
+
+/// What a frame's surface follows from.
+struct PosedFrame {
+  std::vector<vec4> points;
+  std::vector<quat> knotFrames;
+};
+
+/// Every frame of a clip, and a few shapes halfway between two frames.
+struct Film {
+  std::vector<PosedFrame> frames, between;
+  std::vector<std::uint32_t> betweenAt;  ///< the frame before each of `between`
+  std::vector<float> times;               ///< [s] of the frames; empty where there is no clip
+};
+
+struct Bake {
+  AnimatedMesh mesh;
+  SweepShape shape;
+  float error = 0;        ///< [m] the farthest a vertex is, in a frame, from where a picture shows it
+  float betweenError = 0; ///< [m] halfway between two frames (looked at in a few places): vertices go straight there
+};
+
+/// Turns a film of a network into a mesh with shapes and weights.
+class FilmBaker {
+ public:
+  /// @param tolerance  [m] of any vertex in any frame
+  FilmBaker(const Network& network, const Film& film, float tolerance, std::function<vec3(VesselKind)> colourOf)
+      : network_(network), table_(makeSweepTable(network)), film_(film), tolerance_(tolerance), colourOf_(std::move(colourOf)) {}
+
+  struct Size {
+    std::size_t vertices = 0, triangles = 0;
+  };
+  Size sizeOf(const SweepShape& shape) const;
+
+  /// Holds the vertices of all frames in memory while it runs.
+  Bake run(const SweepShape& shape) const;
+
+ private:
+  float betweenError(const AnimatedMesh& mesh, const SweepShape& shape) const;
+
+  const Network& network_;
+  SweepTable table_;
+  const Film& film_;
+  float tolerance_;
+  std::function<vec3(VesselKind)> colourOf_;
+};
+
+}  // namespace vasa

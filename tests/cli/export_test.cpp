@@ -1,0 +1,124 @@
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "cli/program.h"
+#include "io/gltf.h"
+#include "io/obj.h"
+#include "io/swc.h"
+#include "io/vtp.h"
+#include "network/file.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+nlohmann::json exported(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "export");
+  arguments.push_back("--json");
+  const auto outcome = runProgram(arguments);
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  return outcome.json();
+}
+
+std::string textOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes for any number of threads") {
+  const TemporaryFolder folder;
+  const auto file = (folder.path() / "a.glb").string(), again = (folder.path() / "b.glb").string();
+  const auto report = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "-o", file});
+  for (const char* key : {"file", "clip", "frames", "vessels", "quads", "vertices", "triangles", "shapes", "keys", "error_mm", "between_error_mm", "file_bytes"})
+    CHECK_MESSAGE(report.contains(key), key);
+  CHECK(report["keys"] == 6);
+  CHECK(report["shapes"].get<int>() <= 6);
+  CHECK(report["error_mm"].get<double>() <= 0.05);
+  CHECK(report["file_bytes"] == std::filesystem::file_size(file));
+  const auto summary = checkGltf(file);
+  REQUIRE_MESSAGE(summary.ok(), summary.error().message);
+  CHECK(summary->animations == 1);
+  exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--threads", "1", "-o", again});
+  CHECK(textOf(file) == textOf(again));
+  const auto small = exported({"--clip", "walk", "--frames", "3:8", "--budget", "6", "-o", file});
+  CHECK(small["file_bytes"].get<double>() < 6.3e6);
+  const auto refused = runProgram({"export", "--clip", "walk", "--budget", "0.1", "-o", (folder.path() / "c.glb").string()});
+  CHECK(refused.exit == 1);
+  CHECK(refused.err.find("--budget") != std::string::npos);
+  CHECK(!std::filesystem::exists(folder.path() / "c.glb"));
+}
+
+TEST_CASE("export: a posed surface, and centre lines that convert reads back") {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  CHECK(exported({"--clip", "squat", "--quads", "4x2", "-o", path("a.obj")})["frames"] == 1);
+  const auto elements = readObj(path("a.obj"));
+  REQUIRE(elements.ok());
+  const auto human = readNetwork(humanVessels());
+  REQUIRE(human.ok());
+  CHECK(elements->size() == human->vessels().size());
+
+  exported({"-o", path("rest.vtp")});
+  const auto converted = runProgram({"convert", path("rest.vtp"), "--scale", "0.001", "--exact", "-o", path("rest.vasa")});
+  REQUIRE_MESSAGE(converted.exit == 0, converted.err);
+  const auto again = readNetwork(path("rest.vasa"));
+  REQUIRE(again.ok());
+  REQUIRE(again->vessels().size() == human->vessels().size());
+  CHECK(again->componentCount() == human->componentCount());
+  CHECK(again->junctionCount() == human->junctionCount());
+  for (std::size_t v = 0; v < human->vessels().size(); ++v) {
+    CHECK(again->vessels()[v].name == human->vessels()[v].name);
+    CHECK(again->vessels()[v].kind == human->vessels()[v].kind);
+    CHECK(lengthOf(again->pointsOf(again->vessels()[v])) == doctest::Approx(lengthOf(human->pointsOf(human->vessels()[v]))).epsilon(0.01));
+  }
+  // Written, read and written: the same bytes.
+  const std::string vtp = textOf(path("rest.vtp"));
+  const auto lines = parseVtp(std::as_bytes(std::span(vtp)), "rest.vtp", {0.001});
+  REQUIRE(lines.ok());
+  CHECK(encodeVtp(*lines, {0.001}) == vtp);
+  exported({"--clip", "walk", "--frames", "0:2", "--unit", "m", "-o", path("{frame}.swc")});
+  const std::string swc = textOf(path("2.swc"));
+  const auto samples = parseSwc(swc, "2.swc");
+  REQUIRE(samples.ok());
+  CHECK(encodeSwc(*samples) == swc);
+}
+
+TEST_CASE("export: a row a frame and vessel") {
+  const TemporaryFolder folder;
+  const auto file = (folder.path() / "a.csv").string();
+  const auto report = exported({"--clip", "walk", "--frames", "0:1", "-o", file});
+  std::istringstream text(textOf(file));
+  std::string line;
+  std::getline(text, line);
+  CHECK(line == "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m");
+  int rows = 0;
+  while (std::getline(text, line)) {
+    ++rows;
+    CHECK(std::count(line.begin(), line.end(), ',') >= 11);
+  }
+  CHECK(rows == report["rows"]);
+  CHECK(rows == 2 * report["vessels"].get<int>());
+}
+
+TEST_CASE("export tells what is wrong") {
+  const TemporaryFolder folder;
+  const auto expect = [&](std::vector<std::string> arguments, int exit, const char* message) {
+    arguments.insert(arguments.begin(), "export");
+    const auto outcome = runProgram(arguments);
+    CHECK(outcome.exit == exit);
+    CHECK_MESSAGE(outcome.err.find(message) != std::string::npos, outcome.err);
+  };
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  expect({"-o", path("a.fbx")}, 2, "export writes");
+  expect({"--clip", "no such", "-o", path("a.glb")}, 3, "no such");
+  expect({"--clip", "walk", "--frames", "0:3", "-o", path("a.obj")}, 2, "{frame");
+  expect({"--quads", "auto", "-o", path("a.glb")}, 2, "--quads auto");
+  expect({"--clip", "walk", "--frames", "0", "--quads", "3x2", "-o", path("no/folder/a.glb")}, 6, "folder");
+  CHECK(listOf(folder.path()).empty());
+}

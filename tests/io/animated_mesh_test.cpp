@@ -1,0 +1,66 @@
+#include "io/animated_mesh.h"
+
+#include <doctest/doctest.h>
+
+#include "core/atomic_file.h"
+#include "io/gltf.h"
+#include "io/obj.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+// Two triangles of two kinds that share an edge, and move.
+AnimatedMesh sample() {
+  AnimatedMesh mesh;
+  mesh.name = "vessels";
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.25f}};
+  mesh.normals.assign(4, vec3(0, 0, 1));
+  mesh.parts = {{"artery", {1, 0, 0}, {{0, 1, 2}}}, {"vein", {0, 0, 1}, {{1, 3, 2}}}};
+  mesh.labelOfVertex = {0, 1, 0, 1};
+  mesh.labels = {{"left \"x\" artery", "artery", "FMA1"}, {"a vein \xff", "vein", ""}};
+  mesh.clip = "walk";
+  mesh.times = {0, 0.5f, 1};
+  mesh.shapes = {std::vector<vec3>(4, vec3(0, 0, 1)), {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 2, 0}}};
+  mesh.normalShapes.assign(2, std::vector<vec3>(4, vec3(0)));
+  mesh.weights = {{0, 0}, {1, 0}, {0, 1}};
+  return mesh;
+}
+
+std::filesystem::path write(const TemporaryFolder& folder, const char* name, std::span<const std::byte> bytes) {
+  REQUIRE(writeFileAtomically(folder.path() / name, bytes).ok());
+  return folder.path() / name;
+}
+
+}  // namespace
+
+TEST_CASE("an animated mesh becomes a GLB that our own complete check takes, moving or not") {
+  const TemporaryFolder folder;
+  AnimatedMesh mesh = sample();
+  const auto summary = checkGltf(write(folder, "a.glb", encodeGlb(mesh)));
+  if (!summary.ok()) FAIL(summary.error().message);
+  CHECK(summary->meshes == 1);
+  CHECK(summary->animations == 1);
+  const auto elements = readGltfElements(folder.path() / "a.glb");
+  REQUIRE(elements.ok());
+  CHECK((*elements)[0].mesh.triangles.size() == 2);
+  CHECK(encodeGlb(mesh) == encodeGlb(mesh));
+  mesh.shapes.clear(), mesh.normalShapes.clear(), mesh.times.clear(), mesh.weights.clear();
+  const auto still = checkGltf(write(folder, "b.glb", encodeGlb(mesh)));
+  REQUIRE(still.ok());
+  CHECK(still->animations == 0);
+}
+
+TEST_CASE("an OBJ has an object a vessel and is read back the same") {
+  const TemporaryFolder folder;
+  const std::string text = encodeObj(sample());
+  const auto elements = readObj(write(folder, "a.obj", std::as_bytes(std::span(text))));
+  if (!elements.ok()) FAIL(elements.error().message);
+  REQUIRE(elements->size() == 2);
+  CHECK((*elements)[0].name == "left \"x\" artery");
+  CHECK((*elements)[0].mesh.positions[1] == vec3(1, 0, 0));
+  CHECK((*elements)[1].mesh.triangles.size() == 1);
+  CHECK((*elements)[1].mesh.positions[1] == vec3(1, 1, 0.25f));
+}
