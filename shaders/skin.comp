@@ -28,7 +28,9 @@ void main() {
   blend(m, rest.joints01 >> 16, rest.weights.y);
   blend(m, rest.joints23 & 0xffffu, rest.weights.z);
   blend(m, rest.joints23 >> 16, rest.weights.w);
-  vec4 position = vec4(rest.x, rest.y, rest.z, 1), normal = vec4(unpackOctahedral(unpackSnorm(rest.normal)), 0);
+  vec3 place = vec3(rest.x, rest.y, rest.z);
+  if (i >= push.firstBeating && i < push.lastBeating) place = push.centre + push.scale * (place - push.centre);
+  vec4 position = vec4(place, 1), normal = vec4(unpackOctahedral(unpackSnorm(rest.normal)), 0);
   vec3 turned = vec3(dot(m.row0, normal), dot(m.row1, normal), dot(m.row2, normal));
   float size2 = dot(turned, turned);
   turned = size2 > 0 ? turned * inversesqrt(size2) : vec3(0, 0, 1);

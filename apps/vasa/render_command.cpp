@@ -30,6 +30,8 @@ struct Options {
   CapillaryOptions capillaries;
   unsigned samples = 4;
   std::string look;  // empty: as the scene says
+  std::uint32_t supersample = 1;
+  bool beat = false;
   bool resume = false, transparent = false, noVolume = false, avoid = false, highlightContacts = false;
 };
 
@@ -88,7 +90,8 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options,
   const std::string settings =
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, choice.look.preset, options.transparent,
-                  options.noVolume, options.avoid, options.highlightContacts);
+                  options.noVolume, options.avoid, options.highlightContacts) +
+      fmt::format("|{}|{}", options.supersample, options.beat);
   return hashOfCapillaries(options.capillaries, hashOf(std::span(settings), hash));
 }
 
@@ -136,7 +139,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
-  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .occlusion = true, .timed = false};
+  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .supersample = options.supersample, .occlusion = true, .timed = false};
   job.range = *range;
   job.shard = *shard;
   job.render.growth = job.growth.get();
@@ -147,7 +150,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
 }
 
 FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts};
+  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts, .beat = options.beat};
   if (!options.avoid) frame.avoidance.rounds = frame.avoidance.projections = frame.avoidance.lumenRounds = 0;
   return frame;
 }
@@ -206,7 +209,8 @@ class Film {
                     .knotFrames = maker_.knotFrames(),
                     .jointMatrices = maker_.jointMatrices(),
                     .camera = job_.camera.at(job_.scene, maker_.pose(), maker_.points()),
-                    .look = job_.look});
+                    .look = job_.look,
+                    .heartScale = maker_.heartScale()});
     ++drawn;
     if (auto written = finishWriting(); !written) return written;
     writing_ = std::async(std::launch::async, [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
@@ -349,6 +353,8 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.3 pixels")->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_option("--supersample", options->supersample, "Draw each pixel of the picture as NxN, 1 to 4: for stills")->check(CLI::Range(1, 4))->capture_default_str();
+  sub->add_flag("--beat", options->beat, "The heart beats as the clip goes on");
   sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas");
   sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, arteries, veins (a list with commas)");
   sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");

@@ -5,6 +5,7 @@
 
 #include "gpu/transfer.h"
 #include "render/picture.h"
+#include "scene/beat.h"
 #include "shared/skin.h"
 #include "surface/octahedral.h"
 
@@ -41,6 +42,8 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes) {
     for (const uvec3& t : mesh.mesh.triangles) triangles.push_back(t + firstVertex);
     for (const SkinInfluence& influence : mesh.influences)
       for (const std::uint16_t joint : influence.joints) jointCount_ = std::max(jointCount_, joint + 1u);
+    if (role == MeshRole::heart && heart_.last == 0)
+      heart_ = {firstVertex, std::uint32_t(vertices.size()), meshCentre(mesh)};
     colours.push_back(meshColour(mesh, role));
   }
   vertexCount_ = std::uint32_t(vertices.size());

@@ -14,9 +14,15 @@ class MeshSet {
     MeshRole role;
     std::uint32_t firstIndex, indexCount;
   };
+  /// Vertices [first, last) of the heart, and their middle at rest; none without a heart.
+  struct Heart {
+    std::uint32_t first = 0, last = 0;
+    vec3 centre{0};
+  };
   MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes);
 
   std::span<const Part> parts() const { return parts_; }
+  const Heart& heart() const { return heart_; }
   std::uint32_t vertexCount() const { return vertexCount_; }
   std::uint32_t jointCount() const { return jointCount_; }  ///< joints that the meshes use: highest number + 1
   VkDeviceAddress rest() const { return rest_.address(); }
@@ -26,6 +32,7 @@ class MeshSet {
 
  private:
   std::vector<Part> parts_;
+  Heart heart_;
   std::uint32_t vertexCount_ = 0, jointCount_ = 0;
   gpu::Buffer rest_, posed_, indices_, colours_;
 };

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/parallel.h"
+
 namespace vasa {
 namespace {
 
@@ -42,6 +44,27 @@ vec4 linearColour(vec4 srgb) {
 
 vec4 srgbColour(vec4 linear) {
   return {srgbOf(linear.x), srgbOf(linear.y), srgbOf(linear.z), linear.w};
+}
+
+std::vector<std::uint8_t> averaged(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height,
+                                   std::uint32_t n) {
+  assert(rgba.size() == std::size_t(4) * width * n * height * n);
+  std::vector<std::uint8_t> result(std::size_t(4) * width * height);
+  const float share = 1 / float(n * n);
+  parallelFor(height, 16, [&](std::size_t y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      vec4 sum(0);
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+          const std::uint8_t* p = &rgba[4 * ((y * n + j) * width * n + x * n + i)];
+          sum += vec4(linearTable()[p[0]], linearTable()[p[1]], linearTable()[p[2]], p[3]);
+        }
+      std::uint8_t* out = &result[4 * (y * width + x)];
+      for (int k = 0; k < 3; ++k) out[k] = std::uint8_t(srgbOf(sum[k] * share) * 255 + 0.5f);
+      out[3] = std::uint8_t(sum.w * share + 0.5f);
+    }
+  });
+  return result;
 }
 
 Image toImage(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height, bool transparent) {

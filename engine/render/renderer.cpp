@@ -62,7 +62,7 @@ std::array<TubeDraws, 2> drawsFor(gpu::Device& device, const Set& set) {
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
   assert(options.samples == 1 || options.samples == 4);
   return {.name = "picture",
-          .size = {options.width, options.height},
+          .size = {options.width * options.supersample, options.height * options.supersample},
           .samples = VkSampleCountFlagBits(options.samples),
           .readDepth = options.occlusion};
 }
@@ -214,7 +214,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (batches > 0) recordTessellation(commands, 0);
   {
     const auto scope = timer.scope(commands, kMeshes);
-    if (anyShown(meshes, input.look)) skinPass.record(commands, meshes, upload.joints(), upload.jointCount());
+    if (anyShown(meshes, input.look)) skinPass.record(commands, meshes, upload.joints(), upload.jointCount(), input.heartScale);
     gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
     target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
     surfacePass.recordOpaque(commands, push, meshes, input.look);
@@ -294,7 +294,10 @@ Image Renderer::readBack() {
   s.target.copyPicture(commands, s.readBack);
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   s.readBack.invalidate();
-  return toImage(s.readBack.mapped<const std::uint8_t>(), s.options.width, s.options.height, s.transparent);
+  const std::uint32_t n = s.options.supersample;
+  const auto pixels = s.readBack.mapped<const std::uint8_t>();
+  if (n == 1) return toImage(pixels, s.options.width, s.options.height, s.transparent);
+  return toImage(averaged(pixels, s.options.width, s.options.height, n), s.options.width, s.options.height, s.transparent);
 }
 
 FrameTimes Renderer::times() const {

@@ -27,6 +27,7 @@ struct RenderOptions {
   /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
   float pixelError = 0;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
+  std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
   bool occlusion = false;  ///< Look::occlusion counts; takes 12 bytes a pixel
   /// Sweeps tessellated and drawn at a time, rounded up to whole groups. Two batches are all the vertex memory that
   /// tubes take, however many sweeps there are.
@@ -46,6 +47,7 @@ struct RenderInput {
   std::span<const mat4> jointMatrices;  ///< a joint's world · inverseBind; empty where there are no meshes
   Camera camera;
   Look look;
+  float heartScale = 1;  ///< of the heart's mesh (FrameMaker::heartScale)
 };
 
 /// [ms] of the latest frame: upload and total by the host's clock, the others by the device's, which are 0 where

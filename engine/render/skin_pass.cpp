@@ -10,10 +10,12 @@ namespace vasa {
 SkinPass::SkinPass(gpu::Device& device) : pipeline_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}) {}
 
 void SkinPass::record(VkCommandBuffer commands, const MeshSet& meshes, VkDeviceAddress joints,
-                      std::uint32_t jointCount) const {
+                      std::uint32_t jointCount, float heartScale) const {
   assert(jointCount >= meshes.jointCount());
   if (meshes.vertexCount() == 0) return;
-  const shared::SkinPush push{meshes.rest(), joints, meshes.posed().address(), meshes.vertexCount(), jointCount};
+  const MeshSet::Heart& heart = meshes.heart();
+  const shared::SkinPush push{meshes.rest(), joints, meshes.posed().address(), meshes.vertexCount(), jointCount,
+                              heart.first, heart.last, heart.centre, heartScale};
   pipeline_.dispatch(commands, push, gpu::groupsFor(meshes.vertexCount(), 64));
 }
 

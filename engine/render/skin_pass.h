@@ -12,8 +12,9 @@ class SkinPass {
   /// Writes meshes.posed(). No barriers.
   /// @param joints      address of shared::JointRows of world · inverseBind, one a joint
   /// @param jointCount  at least meshes.jointCount()
-  void record(VkCommandBuffer commands, const MeshSet& meshes, VkDeviceAddress joints,
-              std::uint32_t jointCount) const;
+  /// @param heartScale  size of the heart beside its size at rest
+  void record(VkCommandBuffer commands, const MeshSet& meshes, VkDeviceAddress joints, std::uint32_t jointCount,
+              float heartScale = 1) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -28,6 +28,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       options_(options),
       deformer_(scene.binding),
       volume_(scene.network),
+      beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
       avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, options.avoidance) : nullptr),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
@@ -44,18 +45,20 @@ void FrameMaker::make(const Clip* clip, float time) {
     StageClock clock(poseMs);
     pose = clip ? samplePose(scene_->body.skeleton, *clip, time) : restPose(scene_->body.skeleton);
   }
-  make(pose);
+  make(pose, time);
   report_.poseMs = poseMs;
 }
 
-void FrameMaker::make(const Pose& pose) {
+void FrameMaker::make(const Pose& pose, float time) {
   report_ = {};
+  heartScale_ = options_.beat ? HeartBeat::scaleAt(time) : 1;
   pose_ = pose;
   for (std::size_t j = 0; j < jointMatrices_.size(); ++j)
     jointMatrices_[j] = pose.world[j] * scene_->body.skeleton.joints[j].inverseBind;
   {
     StageClock clock(report_.deformMs);
     deformer_.run(scene_->network, pose, posedPoints_);
+    beat_.apply(heartScale_, jointMatrices_, posedPoints_);
     points_ = posedPoints_;
     deformer_.rotations(rotations_);
     for (std::size_t v = 0; v < references_.size(); ++v)

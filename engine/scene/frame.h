@@ -4,6 +4,7 @@
 #include "avoid/solver.h"
 #include "body/deform.h"
 #include "body/volume.h"
+#include "scene/beat.h"
 #include "scene/scene.h"
 
 namespace vasa {
@@ -21,6 +22,7 @@ struct FrameReport {
 struct FrameOptions {
   bool keepVolume = true;
   bool avoid = false;        ///< move vessels apart that run through one another
+  bool beat = false;         ///< the heart beats (scene/beat.h)
   AvoidOptions avoidance;    ///< budgets; no rounds, projections and lumen rounds: only look
 };
 
@@ -32,12 +34,14 @@ class FrameMaker {
 
   /// @param clip  nullptr: the rest pose
   void make(const Clip* clip, float time);
-  void make(const Pose& pose);
+  /// @param time  of the heart's beat
+  void make(const Pose& pose, float time = 0);
 
   const Pose& pose() const { return pose_; }
   std::span<const vec4> points() const { return points_; }
   std::span<const quat> knotFrames() const { return knotFrames_; }
   std::span<const mat4> jointMatrices() const { return jointMatrices_; }  ///< world · inverse bind
+  float heartScale() const { return heartScale_; }  ///< RenderInput::heartScale
   const FrameReport& report() const { return report_; }
   /// The network as the body alone moves it, before vessels were moved apart.
   std::span<const vec4> posedPoints() const { return posedPoints_; }
@@ -49,6 +53,8 @@ class FrameMaker {
   FrameOptions options_;
   Deformer deformer_;
   VolumeKeeper volume_;
+  HeartBeat beat_;
+  float heartScale_ = 1;
   std::unique_ptr<Avoider> avoider_;
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;

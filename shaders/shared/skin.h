@@ -34,10 +34,13 @@ struct SkinPush {
   VASA_ADDRESS(PosedVertices) posed;
   uint count;
   uint jointCount;
+  uint firstBeating, lastBeating;  // vertices of the heart: [first, last)
+  vec3 centre;                     // that they are drawn together to, at rest
+  float scale;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SkinVertex) == 40 && sizeof(JointRows) == 48 && sizeof(SkinPush) == 32);
+static_assert(sizeof(SkinVertex) == 40 && sizeof(JointRows) == 48 && sizeof(SkinPush) == 56);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

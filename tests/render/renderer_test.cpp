@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/hash.h"
@@ -166,6 +167,52 @@ TEST_CASE("joints move meshes") {
   const Image image = renderer.readBack();
   CHECK(at(image, 80, 30)[3] == 255);  // half a metre up
   CHECK(at(image, 80, 75)[3] == 0);
+}
+
+TEST_CASE("a supersampled picture is the mean of its pixels, in linear light") {
+  VASA_REQUIRE_GPU(rig);
+  const Subject subject(test::windingNetwork(20, 2));
+  const Camera camera = cameraFrom(View::front, measure(subject.network, subject.points).bounds, 1);
+  RenderOptions options = small();
+  options.width = options.height = 40;
+  options.supersample = 3;
+  Renderer fine(rig.device(), subject.network, {}, options);
+  options.width = options.height = 120;
+  options.supersample = 1;
+  Renderer large(rig.device(), subject.network, {}, options);
+  fine.draw(subject.input(camera));
+  large.draw(subject.input(camera));
+  const Image reduced = fine.readBack(), whole = large.readBack();
+  REQUIRE(reduced.width == 40);
+  const auto linear = [](int byte) { return std::pow((double(byte) / 255 + 0.055) / 1.055, 2.4); };
+  for (std::uint32_t y = 0; y < 40; y += 3)
+    for (std::uint32_t x = 0; x < 40; ++x) {
+      double sum = 0;
+      for (std::uint32_t i = 0; i < 9; ++i) sum += linear(at(whole, 3 * x + i % 3, 3 * y + i / 3)[0]);
+      CHECK(linear(at(reduced, x, y)[0]) == doctest::Approx(sum / 9).epsilon(0.02));
+    }
+}
+
+TEST_CASE("a beating heart is smaller, and nothing else is") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.3f, -0.3f, 0.8f}, {0.3f, 0.3f, 1}),
+                                        test::boxMesh("heart", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
+  subject.joints = {mat4(1)};
+  Renderer renderer(rig.device(), subject.network, meshes, small());
+  const auto pixels = [&](bool heart, float scale) {
+    RenderInput input = subject.input(sideView());
+    input.look.transparent = true;
+    input.look.drawHeart = heart;
+    input.look.drawBones = !heart;
+    input.look.drawArteries = false;
+    input.heartScale = scale;
+    renderer.draw(input);
+    return double(covered(renderer.readBack()));
+  };
+  CHECK(pixels(true, 1) == doctest::Approx(40 * 40).epsilon(0.06));
+  CHECK(pixels(true, 0.5f) == doctest::Approx(20 * 20).epsilon(0.12));
+  CHECK(pixels(false, 0.5f) == pixels(false, 1));
 }
 
 TEST_CASE("a picture depends on its input alone: not on the batch size, nor on frames before it") {
