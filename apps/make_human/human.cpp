@@ -7,7 +7,7 @@
 
 namespace vasa::human {
 
-Result<Human> makeHuman(const std::filesystem::path& tables) {
+Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& options) {
   Human human;
   Result<Rig> rig = Rig::read(tables / "joints.csv");
   if (!rig.ok()) return rig.error();
@@ -27,7 +27,9 @@ Result<Human> makeHuman(const std::filesystem::path& tables) {
   if (!clips.ok()) return clips.error();
   human.clips = std::move(clips).value();
   const Aabb box = human.meshes.front().mesh.bounds();
-  Result<Network> vessels = makeVessels(tables / "vessels.csv", human.rig, box.high.y - box.low.y);
+  const Surroundings around{human.skinShape, Solid(human.meshes[1].mesh), Solid(human.meshes[2].mesh)};
+  const MotionProbe probe(bodyOf(human.rig, human.meshes, human.clips));
+  Result<Network> vessels = makeVessels(tables, human.rig, around, probe, box.high.y - box.low.y, options);
   if (!vessels.ok()) return vessels.error();
   human.vessels = std::move(vessels).value();
   return human;

@@ -1,5 +1,6 @@
 #pragma once
 #include "body/body.h"
+#include "make_human/grow.h"
 #include "make_human/rig.h"
 #include "make_human/shape.h"
 #include "network/network.h"
@@ -15,7 +16,8 @@ struct Human {
   Network vessels;
 };
 
-/// Reads joints, parts, sections, bones, clips, clip_keys and vessels (.csv) and makes the human of them.
-Result<Human> makeHuman(const std::filesystem::path& tables);
+/// Reads joints, parts, sections, bones, clips, clip_keys, vessels and growth (.csv) and makes the human of
+/// them.
+Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& options = {});
 
 }  // namespace vasa::human

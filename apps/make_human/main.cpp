@@ -1,4 +1,4 @@
-#include <cstdio>
+#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "core/atomic_file.h"
@@ -9,14 +9,15 @@
 
 namespace {
 
-vasa::Result<void> generate(const std::filesystem::path& tables, const std::filesystem::path& out) {
+vasa::Result<void> generate(const std::filesystem::path& tables, const std::filesystem::path& out,
+                            const vasa::human::GrowOptions& options, bool quantise) {
   using namespace vasa;
-  Result<human::Human> made = human::makeHuman(tables);
+  Result<human::Human> made = human::makeHuman(tables, options);
   if (!made.ok()) return made.error();
   const std::vector<std::byte> body = human::writeGlb(made->rig, made->meshes, made->clips);
   if (const Result<void> written = writeFileAtomically(out / "human.glb", body); !written.ok())
     return written;
-  const Result<std::size_t> network = writeNetwork(out / "human.vasa", made->vessels);
+  const Result<std::size_t> network = writeNetwork(out / "human.vasa", made->vessels, {quantise});
   if (!network.ok()) return network.error();
   return {};
 }
@@ -24,13 +25,25 @@ vasa::Result<void> generate(const std::filesystem::path& tables, const std::file
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs(
-        "usage: make_human TABLES OUT\n\nMakes OUT/human.glb and OUT/human.vasa of the tables in a folder.\n",
-        stderr);
-    return int(vasa::Fault::usage);
+  CLI::App app("Makes OUT/human.glb and OUT/human.vasa, the built-in human, of the tables in a folder");
+  std::string tables, out;
+  vasa::human::GrowOptions options;
+  bool quantise = false;
+  app.add_option("tables", tables, "Folder of the tables (.csv)")->required();
+  app.add_option("out", out, "Folder for the results")->required();
+  app.add_option("--detail", options.sweeps,
+                 "Sweeps of the network, at least: small vessels grow until there are as many")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 2000000u));
+  app.add_option("--seed", options.seed, "Another seed, other small vessels")->capture_default_str();
+  app.add_flag("--quantise", quantise, "8 bytes a point instead of 16");
+  app.footer("Example:\n  make_human data/human build --detail 403000");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : int(vasa::Fault::usage);
   }
-  const vasa::Result<void> done = generate(argv[1], argv[2]);
+  const vasa::Result<void> done = generate(tables, out, options, quantise);
   if (done.ok()) return 0;
   vasa::logError(done.error().message);
   return int(done.error().fault);

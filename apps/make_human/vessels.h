@@ -1,10 +1,15 @@
 #pragma once
+#include "make_human/grow.h"
+#include "make_human/motion_probe.h"
 #include "make_human/rig.h"
+#include "make_human/surroundings.h"
 #include "network/network.h"
 
 namespace vasa::human {
 
-/// The network of vessels.csv on the rig's body. @param bodyHeight  [m]
-Result<Network> makeVessels(const std::filesystem::path& vessels, const Rig& rig, float bodyHeight);
+/// The network of vessels.csv and growth.csv on the rig's body. What a pose of the clips would bring out of
+/// the skin is laid deeper, and if it is a grown vessel, left out. @param bodyHeight  [m]
+Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig, const Surroundings& around,
+                            const MotionProbe& probe, float bodyHeight, const GrowOptions& options);
 
 }  // namespace vasa::human

@@ -1,0 +1,107 @@
+#include "make_human/motion_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/binding.h"
+#include "body/deform.h"
+#include "body/skinning.h"
+#include "core/parallel.h"
+#include "make_human/solid.h"
+
+namespace vasa::human {
+namespace {
+
+constexpr int kPosesPerClip = 5;
+constexpr std::uint32_t kFrameStep = 3;
+
+/// How much two poses differ: the turns of all joints between them, in terms of the chord.
+float difference(const Pose& a, const Pose& b) {
+  float total = 0;
+  for (std::size_t i = 1; i < a.world.size(); ++i) {
+    const mat3 da = glm::transpose(mat3(a.world[0])) * mat3(a.world[i]);
+    const mat3 db = glm::transpose(mat3(b.world[0])) * mat3(b.world[i]);
+    float sum = 0;
+    for (int k = 0; k < 3; ++k) sum += glm::dot(da[k] - db[k], da[k] - db[k]);
+    total += std::sqrt(sum);
+  }
+  return total;
+}
+
+/// Of each clip, from the rest pose on always the pose that differs most from those chosen.
+std::vector<Pose> extremePoses(const Body& body) {
+  std::vector<Pose> chosen;
+  const Pose rest = restPose(body.skeleton);
+  for (const Clip& clip : body.clips) {
+    std::vector<Pose> all;
+    std::vector<float> distance;
+    for (std::uint32_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
+      all.push_back(samplePose(body.skeleton, clip, clip.timeOfFrame(frame)));
+      distance.push_back(difference(all.back(), rest));
+    }
+    for (int k = 0; k < kPosesPerClip; ++k) {
+      const std::size_t next =
+          std::size_t(std::max_element(distance.begin(), distance.end()) - distance.begin());
+      chosen.push_back(all[next]);
+      for (std::size_t i = 0; i < all.size(); ++i)
+        distance[i] = std::min(distance[i], difference(all[i], all[next]));
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Body bodyOf(const Rig& rig, std::vector<SkinnedMesh> meshes, std::vector<Clip> clips) {
+  Body body;
+  body.name = "human.glb";
+  for (int point : rig.joints) {
+    const RigPoint& from = rig.points[std::size_t(point)];
+    Skeleton::Joint joint;
+    joint.name = from.name;
+    joint.rest.translation = from.position;
+    if (from.parent >= 0) {
+      joint.parent = JointId{std::uint32_t(rig.points[std::size_t(from.parent)].joint)};
+      joint.rest.translation -= rig.points[std::size_t(from.parent)].position;
+    }
+    joint.restWorld[3] = vec4(from.position, 1);
+    joint.inverseBind[3] = vec4(-from.position, 1);
+    body.skeleton.joints.push_back(joint);
+  }
+  body.meshes = std::move(meshes);
+  body.clips = std::move(clips);
+  return body;
+}
+
+MotionProbe::MotionProbe(Body body) : body_(std::move(body)), poses_(extremePoses(body_)) {}
+
+Result<std::vector<Escape>> MotionProbe::escapes(const Network& network) const {
+  const Result<Binding> binding = bind(body_, network, "human.vasa");
+  if (!binding.ok()) return binding.error();
+  std::vector<Escape> places;
+  for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
+    const std::uint32_t steps = 2 * network.vessels()[v].spanCount();
+    for (std::uint32_t k = 0; k <= steps; ++k) places.push_back({v, float(k) / float(steps), 0});
+  }
+  Deformer deformer(*binding);
+  std::vector<vec4> posed(network.points().size());
+  for (const Pose& pose : poses_) {
+    deformer.run(network, pose, posed);
+    TriangleMesh skin;
+    skin.triangles = body_.meshes[0].mesh.triangles;
+    skinPositions(body_.meshes[0], skinMatrices(body_.skeleton, pose), skin.positions);
+    const Solid solid(skin);
+    parallelFor(places.size(), 256, [&](std::size_t i) {
+      const Vessel& vessel = network.vessels()[places[i].vessel];
+      const vec3 p(evaluate(Network::pointsOf(vessel, posed), places[i].share * float(vessel.spanCount())));
+      if (solid.winding(p) > 0) return;
+      float nearest = 1;  // few places get here: no tree is built for them
+      for (vec3 q : skin.positions) nearest = std::min(nearest, glm::dot(p - q, p - q));
+      places[i].excess = std::max(places[i].excess, std::sqrt(nearest));
+    });
+  }
+  std::erase_if(places, [](const Escape& place) { return place.excess <= 0; });
+  return places;
+}
+
+}  // namespace vasa::human
