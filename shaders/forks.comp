@@ -9,6 +9,7 @@
 #include "lib/visible.glsl"
 
 void add(uint a, uint b, uint c);
+vec2 stepOf(uint around);
 
 #include "lib/fork_triangles.glsl"
 
@@ -45,39 +46,29 @@ void put(uint vertex, SurfacePoint point) {
   places[vertex] = clip.z > clip.w || clip.w <= 0 ? vec2(kBehind) : (clip.xy / clip.w + 1.0) * (0.5 * samples) - 0.5;
 }
 
-void ringRow(uint start, uint around, Ring ring, vec3 ringTangent, Section middle, vec2 edge) {
-  setDirections(push.tables.tables.step[around], around);
-  vec3 u = carried(middle.u, middle.centre, middle.tangent, ring.section.centre, ringTangent);
-  precise vec3 wanted = edge.x * u + edge.y * crossOf(ringTangent, u);
-  uint first = seamAt(ring, wanted, around);
-  for (uint k = 0; k < around; ++k) put(start + k, surfacePoint(ring.section, seamDirection(ring, first, k, around)));
-}
+vec2 stepOf(uint around) { return push.tables.tables.step[around]; }
 
-void trunkRow(uint start, uint around, float s, Trunk trunk, Section middle, vec2 edge) {
-  Section section = wallAt(trunk, middle, s);
-  for (uint k = 0; k < around; ++k) put(start + k, surfacePoint(section, turned(edge, directions[k])));
-}
-
-void collar(ForkRecord fork, ForkShape shape, Trunk trunk, Section middle) {
-  uint around = shape.branch, start = rowStart(shape, kTrunkRows);
-  setDirections(push.tables.tables.step[around], around);
-  Ring branch = ringOf(push.points, push.knots, push.tables, fork.branch);
+void collar(ForkBranch record, uint start, uint around, vec2 towards, Trunk trunk, Section middle) {
+  setDirections(stepOf(around), around);
+  Ring branch = ringOf(push.points, push.knots, push.tables, record.ring);
+  Section at = wallAt(trunk, middle, record.centre);
   precise vec3 outward = branch.turn * branch.section.tangent;
-  precise vec3 sum = middle.u + outward;
-  precise float fold = max(1.0 + dotOf(middle.u, outward), 1e-3);
-  precise vec3 across = middle.v - (dotOf(middle.v, sum) / fold) * sum;
+  precise vec3 wanted = towards.x * at.u + towards.y * at.v, side = towards.x * at.v - towards.y * at.u;
+  precise vec3 sum = wanted + outward;
+  precise float fold = max(1.0 + dotOf(wanted, outward), 1e-3);
+  precise vec3 across = side - (dotOf(side, sum) / fold) * sum;
   uint first = seamAt(branch, across, around);
   for (uint k = 0; k < around; ++k) {
     vec2 polar = directions[k];
-    precise float x = fork.holeAround * polar.x;
+    precise float x = record.holeAround * polar.x;
     precise float depth = sqrt(1.0 - x * x);
-    precise float s = fork.centre + fork.holeAlong * polar.y;
+    precise float s = record.centre + record.holeAlong * polar.y;
     Section section = wallAt(trunk, middle, s);
-    SurfacePoint hole = surfacePoint(section, vec2(depth, x));
-    precise float cornerX = x / (1.0 + kFillet);
-    precise float cornerS = fork.centre + (fork.holeAlong / (1.0 + kFillet)) * polar.y;
+    SurfacePoint hole = surfacePoint(section, turned(towards, vec2(depth, x)));
+    precise float cornerX = record.cornerAround * x;
+    precise float cornerS = record.centre + (record.cornerAlong * record.holeAlong) * polar.y;
     precise float cornerDepth = sqrt(1.0 - cornerX * cornerX);
-    SurfacePoint corner = surfacePoint(wallAt(trunk, middle, cornerS), vec2(cornerDepth, cornerX));
+    SurfacePoint corner = surfacePoint(wallAt(trunk, middle, cornerS), turned(towards, vec2(cornerDepth, cornerX)));
     precise vec3 chord = corner.position - hole.position;
     precise vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
 
@@ -89,32 +80,66 @@ void collar(ForkRecord fork, ForkShape shape, Trunk trunk, Section middle) {
     vec3 ruling = unitOr(along, outward);
     precise vec3 reach = end.position - (hole.position + inwards);
     precise float rise = max(dotOf(reach, ruling), 0.35 * sqrt(dotOf(reach, reach)));
-    precise float slide = fork.holeAround * polar.y;
-    precise vec3 sideways = (slide * x / depth) * section.u - slide * section.v;
-    vec3 velocity = derivativeAt(trunk.bezier, s).xyz;
     precise vec3 h1 = hole.position + kRound * inwards, p1 = end.position - (kRound * rise) * ruling;
-    precise vec3 aroundH = section.radius * sideways + (fork.holeAlong * polar.x) * velocity;
+    precise float slide = -(record.holeAround * polar.y);
+    precise vec2 slip = vec2(-(slide * x / depth), slide);
+    vec2 sideways = turned(towards, slip);
+    vec3 velocity = derivativeAt(trunk.bezier, s).xyz;
+    precise vec3 aroundH = section.radius * (sideways.x * section.u + sideways.y * section.v) +
+                           (record.holeAlong * polar.x) * velocity;
     precise vec3 aroundP = (branch.turn * branch.section.radius) *
                            (direction.x * branch.section.v - direction.y * branch.section.u);
     CollarCurve curve = CollarCurve(hole.position, h1, p1, end.position, aroundH, aroundP);
     put(start + k, hole);
-    for (uint row = 1; row < kCollarRows; ++row)
-      put(start + row * around + k, collarAt(curve, float(row) / float(kCollarRows)));
+    for (uint row = 1; row < kCollarRows; ++row) put(start + row * around + k, collarAt(curve, collarParameter(row)));
     put(start + kCollarRows * around + k, end);
   }
 }
 
-// A ball around the fork, with room to spare for the collar's control points, lies outside one side of the picture.
+// Puts the branch's hole between columns; `directions` have to be the trunk's.
+void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Trunk trunk, Section middle) {
+  Section at = wallAt(trunk, middle, branch.centre);
+  vec4 cross = pointAt(spanAt(push.points, push.tables, branch.crossPoint, branch.crossClass), branch.crossT);
+  vec3 towards = levelled(at, cross.xyz);
+  vec2 wanted = vec2(dotOf(towards, at.u), dotOf(towards, at.v)), halfStep = push.tables.tables.halfStep[shape.a];
+  precise float share = branch.window * float(shape.a) + 1.0;
+  ForkWindow window;
+  window.count = min(uint(ceil(share)), fork.branchCount > 1 ? shape.a / fork.branchCount : shape.a - 1);
+  vec2 halfAngle = vec2(1, 0);
+  for (uint c = 0; c < window.count; ++c) halfAngle = turned(halfAngle, halfStep);
+  window.first = nearestOf(turned(wanted, vec2(halfAngle.x, -halfAngle.y)), shape.a);
+  if (i > 0) {  // beside the first one's
+    uint otherFirst = windows[0].first, least = windows[0].count, most = shape.a - window.count;
+    uint behind = (window.first + shape.a - otherFirst) % shape.a;
+    if (behind < least) window.first = (otherFirst + (2 * behind < least ? most : least)) % shape.a;
+    else if (behind > most) window.first = (otherFirst + most) % shape.a;
+  }
+  window.hole = holeDirection(branch, wanted, turned(directions[window.first], halfAngle), halfAngle);
+  window.wide = branch.holeAround;
+  precise vec3 rows = (vec3(fork.row1, fork.row2, fork.row3) - branch.centre) / branch.holeAlong;
+  window.rows = rows;
+  windows[i] = window;
+}
+
+// A ball around the fork, with room to spare for the collars' control points, lies outside one side of the picture.
 bool outOfView(ForkRecord fork, Ring a, Ring b) {
-  vec4 end = vec4(b.section.centre, b.section.radius);
-  if (fork.hasBranch != 0) end = pointAt(spanAt(push.points, push.tables, fork.branch.point, fork.branch.spanClass), fork.branch.t);
   vec3 centre = 0.5 * (a.section.centre + b.section.centre);
-  float reach = max(distance(centre, end.xyz) + end.w, distance(centre, a.section.centre) + a.section.radius + b.section.radius);
+  float reach = distance(centre, a.section.centre) + a.section.radius + b.section.radius;
+  for (uint i = 0; i < fork.branchCount; ++i) {
+    ForkRing ring = push.branches.branch[fork.firstBranch + i].ring;
+    vec4 end = pointAt(spanAt(push.points, push.tables, ring.point, ring.spanClass), ring.t);
+    reach = max(reach, distance(centre, end.xyz) + end.w);
+  }
   for (uint i = 0; i < 5; ++i) {
     vec4 plane = push.view.view.planes[i];
     if (dot(plane.xyz, centre) + plane.w < -1.8 * reach) return true;
   }
   return false;
+}
+
+void trunkRow(uint start, uint around, float s, Trunk trunk, Section middle) {
+  Section section = wallAt(trunk, middle, s);
+  for (uint k = 0; k < around; ++k) put(start + k, surfacePoint(section, directions[k]));
 }
 
 // @return false where the fork is not drawn
@@ -126,39 +151,43 @@ bool build(ForkRecord fork, ForkShape shape) {
   Trunk trunk = Trunk(Bezier(vec4(a.section.centre, a.section.radius), innerPoint(a, thirdA), innerPoint(b, thirdB),
                              vec4(b.section.centre, b.section.radius)), chord);
   precise vec3 tangentA = a.turn * a.section.tangent, tangentB = b.turn * b.section.tangent;
-  Section bare = trunkAt(trunk, fork.centre);
-  vec3 towards = carried(a.section.u, a.section.centre, tangentA, bare.centre, bare.tangent);
-  vec2 edge = vec2(1, 0);
-  if (fork.hasBranch != 0) {
-    vec4 cross = pointAt(spanAt(push.points, push.tables, fork.crossPoint, fork.crossClass), fork.crossT);
-    towards = levelled(bare.centre, bare.tangent, cross.xyz);
-    vec2 back = vec2(1, -1) * push.tables.tables.halfStep[shape.a];
-    for (uint i = 0; i < shape.window; ++i) edge = turned(edge, back);
+  Section bare = trunkAt(trunk, fork.row2);
+  Section middle = framed(bare, carried(a.section.u, a.section.centre, tangentA, bare.centre, bare.tangent));
+
+  setDirections(stepOf(shape.b), shape.b);
+  uint first = seamAt(b, carried(middle.u, middle.centre, middle.tangent, b.section.centre, tangentB), shape.b);
+  for (uint k = 0; k < shape.b; ++k)
+    put(rowStart(shape, kTrunkRows - 1) + k, surfacePoint(b.section, seamDirection(b, first, k, shape.b)));
+  setDirections(stepOf(shape.a), shape.a);
+  for (uint k = 0; k < shape.a; ++k) {
+    columns[k] = directions[k];
+    put(k, surfacePoint(a.section, seamDirection(a, 0, k, shape.a)));
   }
-  Section middle = framed(bare, towards);
-  ringRow(rowStart(shape, 4), shape.b, b, tangentB, middle, edge);
-  ringRow(0, shape.a, a, tangentA, middle, edge);
-  trunkRow(rowStart(shape, 1), shape.a, fork.row1, trunk, middle, edge);
-  trunkRow(rowStart(shape, 2), shape.a, fork.centre, trunk, middle, edge);
-  trunkRow(rowStart(shape, 3), shape.a, fork.row3, trunk, middle, edge);
-  if (fork.hasBranch != 0) collar(fork, shape, trunk, middle);
+  trunkRow(rowStart(shape, 1), shape.a, fork.row1, trunk, middle);
+  trunkRow(rowStart(shape, 2), shape.a, fork.row2, trunk, middle);
+  trunkRow(rowStart(shape, 3), shape.a, fork.row3, trunk, middle);
+  for (uint i = 0; i < fork.branchCount; ++i)
+    placeWindow(i, fork, push.branches.branch[fork.firstBranch + i], shape, trunk, middle);
+  for (uint i = 0; i < fork.branchCount; ++i)
+    collar(push.branches.branch[fork.firstBranch + i], rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole,
+           trunk, middle);
   return true;
 }
 
 ForkShape shapeOf(ForkRecord fork) {
-  ForkShape shape = ForkShape(push.around.value[fork.vesselA], push.around.value[fork.vesselB],
-                              push.around.value[fork.vesselBranch], 0);
-  if (fork.hasBranch != 0) {
-    precise float columns = fork.window * float(shape.a);
-    shape.window = clamp(uint(ceil(columns)), 1u, shape.a - 1);
-  }
+  ForkShape shape;
+  shape.a = push.around.value[fork.vesselA];
+  shape.b = push.around.value[fork.vesselB];
+  shape.branchCount = fork.branchCount;
+  for (uint i = 0; i < kMostBranches; ++i)
+    shape.branch[i] = i < fork.branchCount ? push.around.value[push.branches.branch[fork.firstBranch + i].vessel] : 0;
   return shape;
 }
 
 void main() {
   uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, item = group * kGroupForks + local;
   bool shown = item < push.forkCount;
-  ForkShape shape = ForkShape(0, 0, 0, 0);
+  ForkShape shape;
   triangle = kept = 0;
   writing = false;
   if (shown) shown = (push.view.view.hiddenKinds >> (push.colours.value[push.firstFork + item] >> 24) & 1u) == 0u;

@@ -13,6 +13,7 @@ void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
                      shared::ForksPush{.points = input.points,
                                        .knots = input.knots,
                                        .forks = forks.forks(),
+                                       .branches = forks.branches(),
                                        .tables = input.tubes.tables(),
                                        .view = input.detail.view(),
                                        .colours = forks.colours(),

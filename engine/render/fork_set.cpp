@@ -14,13 +14,18 @@ ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail&
   const std::uint32_t most = detail.mostAround();
   const std::uint32_t each = std::min((std::max(batchForks, 1u) - 1) / group, count_ / group) * group + group;
   for (std::uint32_t first = 0; first < count_; first += each) batches_.push_back({first, std::min(each, count_ - first)});
-  std::uint32_t largest = 0;  // more columns in the window make fewer triangles
-  for (const std::uint32_t window : {0u, 1u})
-    largest = std::max(largest, forkTriangleCount({most, most, most}, window));
-  room_ = {std::uint32_t(std::bit_width(ForkShape{most, most, most}.vertices() - 1)), 3 * largest * group};
+  constexpr std::uint32_t branches = shared::kMostBranches;
+  ForkShape largest{most, most, branches, {}};
+  largest.branch.fill(most);
+  room_ = {std::uint32_t(std::bit_width(largest.vertices() - 1)), 3 * forkTriangleCount(largest, branches) * group};
   if (!detail.automatic())
-    for (const shared::ForkRecord& fork : table.forks)
-      triangles_ += forkTriangleCount({most, most, most}, forkWindow(fork, most));
+    for (const shared::ForkRecord& fork : table.forks) {
+      std::uint32_t columns = 0;
+      for (std::uint32_t i = 0; i < fork.branchCount; ++i)
+        columns += windowColumns(table.branches[fork.firstBranch + i], fork.branchCount, most);
+      triangles_ += forkTriangleCount(forkShape(table, fork, [&](std::uint32_t) { return most; }), columns);
+    }
+  branches_ = gpu::makeBuffer(device, "fork branches", std::span<const shared::ForkBranch>(table.branches));
   forks_ = gpu::makeBuffer(device, "forks", std::span<const shared::ForkRecord>(table.forks));
   colours_ = gpu::Buffer(device, {"fork colours", 4 * VkDeviceSize(count_)});
 }

@@ -24,6 +24,7 @@ class ForkSet {
   std::uint64_t triangleCount() const { return triangles_; }
 
   VkDeviceAddress forks() const { return forks_.address(); }
+  VkDeviceAddress branches() const { return branches_.address(); }
   VkDeviceAddress colours() const { return colours_.address(); }  ///< one a fork, kind in the highest 8 bits
 
   /// Waits for the device. @param spanColours  one a span of the network, kind in the highest 8 bits
@@ -35,7 +36,7 @@ class ForkSet {
   std::vector<ForkBatch> batches_;
   GroupRoom room_;
   std::vector<std::uint32_t> spanOfFork_;
-  gpu::Buffer forks_, colours_;
+  gpu::Buffer forks_, branches_, colours_;
 };
 
 }  // namespace vasa

@@ -6,17 +6,18 @@
 
 // The specification of shaders/lib/fork.glsl and forks.comp: same operations in the same order.
 //
-// With e the unit direction, at right angles to the trunk's axis, from it to where the branch's axis pierces the wall
-// (at s = centre), the hole is the set of points
-//   S(s, x) = C(s) + r(s) (√(1 − x²) u(s) + x v(s)),  s = centre + h_s sin φ,  x = h_x cos φ,
-// where u(s) is e carried to s by one double reflection (Wang, Jüttler, Zheng, Liu 2008) and v = T × u. A collar curve
-// is the cubic Bézier polygon H, H + k (X − H), P − k' w, P with H on the hole, X on a smaller, similar hole that
-// stands for the corner between wall and branch, P on the branch's ring, w along the branch's wall.
+// With u(s) a direction of ring a carried to the trunk's middle and from there to s, each time by one double reflection
+// (Wang, Jüttler, Zheng, Liu 2008), v = T × u, and (c, d) the hole's direction in that frame, the hole is
+//   S(s, x) = C(s) + r(s) (c' u(s) + d' v(s)),  (c', d') = (c, d) turned by (√(1 − x²), x),
+//   s = centre + h_s sin φ,  x = h_x cos φ.
+// A collar curve is the cubic Bézier polygon H, H + k (X − H), P − k' w, P with H on the hole, X on a smaller, similar
+// hole that stands for the corner between wall and branch, P on the branch's ring, w along the branch's wall.
 namespace vasa {
 namespace {
 
 constexpr float kTiny2 = 1e-20f;
 constexpr float kRound = 0.55f;  // of a quarter circle's control polygon
+constexpr float kDense = 0.4f;   // rows of the collar beside the hole, against even ones
 
 float dotOf(vec3 a, vec3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -105,28 +106,59 @@ vec2 turned(vec2 a, vec2 b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
 
-// The ring's vertex nearest to a direction.
-ForkSeam seamAt(const Ring& ring, vec3 direction, std::span<const vec2> directions) {
-  const vec2 d(dotOf(direction, ring.section.frame.u), dotOf(direction, ring.section.frame.v));
-  ForkSeam seam{0, ring.turn < 0};
+// The one of some directions nearest to another.
+std::uint32_t nearestOf(std::span<const vec2> directions, vec2 wanted) {
+  std::uint32_t first = 0;
   float best = -3e38f;
   for (std::uint32_t k = 0; k < directions.size(); ++k) {
-    const float along = d.x * directions[k].x + d.y * directions[k].y;
-    if (along > best) best = along, seam.first = k;
+    const float along = wanted.x * directions[k].x + wanted.y * directions[k].y;
+    if (along > best) best = along, first = k;
   }
-  return seam;
+  return first;
+}
+
+ForkSeam seamAt(const Ring& ring, vec3 direction, std::span<const vec2> directions) {
+  const vec2 d(dotOf(direction, ring.section.frame.u), dotOf(direction, ring.section.frame.v));
+  return {nearestOf(directions, d), ring.turn < 0};
 }
 
 struct Wall {
   const Trunk& trunk;
-  Section middle;  // with the hole's direction as its u
+  Section middle;
 
-  Section sectionTowards(float s) const {
+  Section sectionAt(float s) const {
     Section section = trunk.at(s);
     setFrame(section, carried(middle.frame.u, middle.centre, middle.frame.tangent, section.centre, section.frame.tangent));
     return section;
   }
 };
+
+// (cos, sin) of half the angle of so many columns.
+vec2 halfAngleOf(std::uint32_t columns, std::uint32_t around) {
+  const vec2 half = ringDirections(2 * around)[1];
+  vec2 angle(1, 0);
+  for (std::uint32_t i = 0; i < columns; ++i) angle = turned(angle, half);
+  return angle;
+}
+
+vec2 against(vec2 a) {
+  return {a.x, -a.y};
+}
+
+// Where the hole's middle lies, in the trunk's frame: as wanted, or the nearest direction that keeps it in its window.
+vec2 holeDirection(const shared::ForkBranch& branch, vec2 wanted, vec2 windowMiddle, vec2 windowHalf) {
+  const vec2 off = turned(wanted, against(windowMiddle));
+  const vec2 room = turned(windowHalf, {branch.holdCos, -branch.holdSin});  // cos and sin of how far it may be off
+  if (room.y <= 0) return windowMiddle;
+  if (off.x >= room.x) return wanted;
+  return turned(windowMiddle, {room.x, off.y < 0 ? -room.y : room.y});
+}
+
+// Denser towards the hole, where the curve turns.
+float collarParameter(std::uint32_t row) {
+  const float share = float(row) / float(shared::kCollarRows);
+  return share * (kDense + (1.0f - kDense) * share);
+}
 
 // One curve of the collar.
 struct CollarCurve {
@@ -142,83 +174,57 @@ struct CollarCurve {
   }
 };
 
-}  // namespace
+// A branch's hole and collar.
+class Collar {
+ public:
+  Collar(const PosedNetwork& network, const Wall& wall, const shared::ForkBranch& branch, vec2 direction)
+      : wall_(wall), branch_(branch), direction_(direction), ring_(ringOf(network, branch.ring)) {}
 
-std::uint32_t forkWindow(const shared::ForkRecord& fork, std::uint32_t around) {
-  if (fork.hasBranch == 0) return 0;
-  return std::clamp(std::uint32_t(std::ceil(fork.window * float(around))), 1u, around - 1);
-}
-
-ForkSeams evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                       std::span<SurfacePoint> vertices) {
-  assert(vertices.size() == shape.vertices());
-  const std::vector<vec2> columns = ringDirections(shape.a);
-  const Ring a = ringOf(network, fork.a), b = ringOf(network, fork.b);
-  const vec4 endA(a.section.centre, a.section.radius), endB(b.section.centre, b.section.radius);
-  const Trunk trunk{{{endA, innerPoint(a, fork.scaleA / 3.0f), innerPoint(b, -(fork.scaleB / 3.0f)), endB}},
-                    b.section.centre - a.section.centre};
-  const vec3 tangentA = a.turn * a.section.frame.tangent, tangentB = b.turn * b.section.frame.tangent;
-
-  // The direction of the hole, and of the column at the window's left edge.
-  Wall wall{trunk, trunk.at(fork.centre)};
-  const vec3 tangent = wall.middle.frame.tangent;
-  vec3 towards;
-  vec2 edge(1, 0);
-  if (fork.hasBranch != 0) {
-    const Bezier branch = bezierAt(network, fork.crossPoint, fork.crossClass);
-    const vec3 out = vec3(branch.at(fork.crossT)) - wall.middle.centre;
-    towards = unitOr(out - dotOf(out, tangent) * tangent, anyPerpendicular(tangent));
-    const vec2 back = glm::vec2(1, -1) * ringDirections(2 * shape.a)[1];
-    for (std::uint32_t i = forkWindow(fork, shape.a); i > 0; --i) edge = turned(edge, back);
-  } else {
-    towards = carried(a.section.frame.u, a.section.centre, tangentA, wall.middle.centre, tangent);
-  }
-  setFrame(wall.middle, towards);
-
-  ForkSeams seams;
-  const auto ringRow = [&](const Ring& ring, vec3 ringTangent, std::uint32_t row) {
-    const std::uint32_t around = shape.rowSize(row);
+  ForkSeam write(const ForkShape& shape, std::uint32_t index, std::span<SurfacePoint> vertices) const {
+    const std::uint32_t around = shape.branch[index];
     const std::vector<vec2> directions = ringDirections(around);
-    const vec3 u = carried(towards, wall.middle.centre, tangent, ring.section.centre, ringTangent);
-    const vec3 direction = edge.x * u + edge.y * glm::cross(ringTangent, u);
-    const ForkSeam seam = seamAt(ring, direction, directions);
-    for (std::uint32_t k = 0; k < around; ++k)
-      vertices[shape.rowStart(row) + k] = surfacePoint(ring.section, directions[seam.direction(k, around)]);
+    const ForkSeam seam = seamAt(ring_, across(), directions);
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const vec2 direction = directions[seam.direction(k, around)];
+      const SurfacePoint end = surfacePoint(ring_.section, direction);
+      SurfacePoint hole;
+      const CollarCurve curve = curveAt(directions[k], direction, end, hole);
+      vertices[shape.rowStart(holeRow(index)) + k] = hole;
+      for (std::uint32_t row = 1; row < shared::kCollarRows; ++row)
+        vertices[shape.rowStart(holeRow(index) + row) + k] = curve.at(collarParameter(row));
+      vertices[shape.rowStart(branchRow(index)) + k] = end;
+    }
     return seam;
-  };
-  seams.a = ringRow(a, tangentA, 0);
-  seams.b = ringRow(b, tangentB, shared::kTrunkRows - 1);
-  const float inner[] = {fork.row1, fork.centre, fork.row3};
-  for (std::uint32_t row = 1; row + 1 < shared::kTrunkRows; ++row) {
-    const Section section = wall.sectionTowards(inner[row - 1]);
-    for (std::uint32_t k = 0; k < shape.a; ++k)
-      vertices[shape.rowStart(row) + k] = surfacePoint(section, turned(edge, columns[k]));
   }
-  if (fork.hasBranch == 0) return seams;
 
-  const Ring branch = ringOf(network, fork.branch);
-  const vec3 outward = branch.turn * branch.section.frame.tangent;
-  const vec3 sum = towards + outward;
-  const float fold = std::max(1.0f + dotOf(towards, outward), 1e-3f);
-  const vec3 across = wall.middle.frame.v - (dotOf(wall.middle.frame.v, sum) / fold) * sum;  // turned with towards → outward
-  const std::uint32_t around = shape.branch;
-  const std::vector<vec2> directions = ringDirections(around);
-  seams.branch = seamAt(branch, across, directions);
-  for (std::uint32_t k = 0; k < around; ++k) {
-    const vec2 polar = directions[k];
-    const float x = fork.holeAround * polar.x, depth = std::sqrt(1.0f - x * x);
-    const Section section = wall.sectionTowards(fork.centre + fork.holeAlong * polar.y);
-    const SurfacePoint hole = surfacePoint(section, {depth, x});
-    const float cornerX = x / (1.0f + shared::kFillet);
-    const Section corner = wall.sectionTowards(fork.centre + (fork.holeAlong / (1.0f + shared::kFillet)) * polar.y);
-    const vec3 chord = surfacePoint(corner, {std::sqrt(1.0f - cornerX * cornerX), cornerX}).position - hole.position;
+ private:
+  // The hole's first direction, turned as the branch is turned away from the wall.
+  vec3 across() const {
+    const Section at = wall_.sectionAt(branch_.centre);
+    const vec3 towards = direction_.x * at.frame.u + direction_.y * at.frame.v;
+    const vec3 side = direction_.x * at.frame.v - direction_.y * at.frame.u;
+    const vec3 outward = ring_.turn * ring_.section.frame.tangent;
+    const vec3 sum = towards + outward;
+    const float fold = std::max(1.0f + dotOf(towards, outward), 1e-3f);
+    return side - (dotOf(side, sum) / fold) * sum;
+  }
+
+  CollarCurve curveAt(vec2 polar, vec2 direction, const SurfacePoint& end, SurfacePoint& hole) const {
+    const Section& branch = ring_.section;
+    const vec3 outward = ring_.turn * branch.frame.tangent;
+    const float x = branch_.holeAround * polar.x, depth = std::sqrt(1.0f - x * x);
+    const float s = branch_.centre + branch_.holeAlong * polar.y;
+    const Section section = wall_.sectionAt(s);
+    hole = surfacePoint(section, turned(direction_, {depth, x}));
+    const float cornerX = branch_.cornerAround * x, cornerDepth = std::sqrt(1.0f - cornerX * cornerX);
+    const float cornerS = branch_.centre + (branch_.cornerAlong * branch_.holeAlong) * polar.y;
+    const SurfacePoint corner = surfacePoint(wall_.sectionAt(cornerS), turned(direction_, {cornerDepth, cornerX}));
+    const vec3 chord = corner.position - hole.position;
     const vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
 
-    const vec2 direction = directions[seams.branch.direction(k, around)];
-    const SurfacePoint end = surfacePoint(branch.section, direction);
-    const vec3 d = direction.x * branch.section.frame.u + direction.y * branch.section.frame.v;
-    const float bend = std::max(1.0f - branch.section.radius * dotOf(branch.section.curvature, d), 0.1f);
-    const vec3 ruling = unitOr(bend * outward + (branch.turn * branch.section.slope) * d, outward);
+    const vec3 d = direction.x * branch.frame.u + direction.y * branch.frame.v;
+    const float bend = std::max(1.0f - branch.radius * dotOf(branch.curvature, d), 0.1f);
+    const vec3 ruling = unitOr(bend * outward + (ring_.turn * branch.slope) * d, outward);
     const vec3 reach = end.position - (hole.position + inwards);
     const float rise = std::max(dotOf(reach, ruling), 0.35f * std::sqrt(dotOf(reach, reach)));
 
@@ -227,18 +233,79 @@ ForkSeams evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fo
     curve.h1 = hole.position + kRound * inwards;
     curve.p1 = end.position - (kRound * rise) * ruling;
     curve.p = end.position;
-    const float slide = fork.holeAround * polar.y;  // -dx/dφ
-    const vec3 sideways = (slide * x / depth) * section.frame.u - slide * section.frame.v;
-    const vec3 velocity(trunk.bezier.derivative(fork.centre + fork.holeAlong * polar.y));
-    curve.aroundH = section.radius * sideways + (fork.holeAlong * polar.x) * velocity;
-    curve.aroundP = (branch.turn * branch.section.radius) *
-                    (direction.x * branch.section.frame.v - direction.y * branch.section.frame.u);
-    vertices[shape.rowStart(kHoleRow) + k] = hole;
-    for (std::uint32_t row = 1; row < shared::kCollarRows; ++row)
-      vertices[shape.rowStart(kHoleRow + row) + k] = curve.at(float(row) / float(shared::kCollarRows));
-    vertices[shape.rowStart(kBranchRow) + k] = end;
+    const float slide = -(branch_.holeAround * polar.y);  // dx/dφ
+    const vec2 sideways = turned(direction_, {-(slide * x / depth), slide});
+    const vec3 velocity(wall_.trunk.bezier.derivative(s));
+    curve.aroundH = section.radius * (sideways.x * section.frame.u + sideways.y * section.frame.v) +
+                    (branch_.holeAlong * polar.x) * velocity;
+    curve.aroundP = (ring_.turn * branch.radius) * (direction.x * branch.frame.v - direction.y * branch.frame.u);
+    return curve;
   }
-  return seams;
+
+  const Wall& wall_;
+  const shared::ForkBranch& branch_;
+  vec2 direction_;
+  Ring ring_;
+};
+
+}  // namespace
+
+std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t branchCount, std::uint32_t around) {
+  const auto wanted = std::uint32_t(std::ceil(branch.window * float(around) + 1.0f));
+  return std::min(wanted, branchCount > 1 ? around / branchCount : around - 1);
+}
+
+ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
+                        std::span<SurfacePoint> vertices) {
+  assert(vertices.size() == shape.vertices());
+  const std::vector<vec2> columns = ringDirections(shape.a), ringB = ringDirections(shape.b);
+  const Ring a = ringOf(network, fork.a), b = ringOf(network, fork.b);
+  const vec4 endA(a.section.centre, a.section.radius), endB(b.section.centre, b.section.radius);
+  const Trunk trunk{{{endA, innerPoint(a, fork.scaleA / 3.0f), innerPoint(b, -(fork.scaleB / 3.0f)), endB}},
+                    b.section.centre - a.section.centre};
+  const vec3 tangentA = a.turn * a.section.frame.tangent, tangentB = b.turn * b.section.frame.tangent;
+  Wall wall{trunk, trunk.at(fork.row2)};
+  const vec3 tangent = wall.middle.frame.tangent;
+  setFrame(wall.middle, carried(a.section.frame.u, a.section.centre, tangentA, wall.middle.centre, tangent));
+
+  ForkLayout layout;
+  layout.a = {0, a.turn < 0};
+  for (std::uint32_t k = 0; k < shape.a; ++k)
+    vertices[k] = surfacePoint(a.section, columns[layout.a.direction(k, shape.a)]);
+  const float inner[] = {fork.row1, fork.row2, fork.row3};
+  for (std::uint32_t row = 1; row + 1 < shared::kTrunkRows; ++row) {
+    const Section section = wall.sectionAt(inner[row - 1]);
+    for (std::uint32_t k = 0; k < shape.a; ++k) vertices[shape.rowStart(row) + k] = surfacePoint(section, columns[k]);
+  }
+  layout.b = seamAt(b, carried(wall.middle.frame.u, wall.middle.centre, tangent, b.section.centre, tangentB), ringB);
+  for (std::uint32_t k = 0; k < shape.b; ++k)
+    vertices[shape.rowStart(shared::kTrunkRows - 1) + k] = surfacePoint(b.section, ringB[layout.b.direction(k, shape.b)]);
+
+  for (std::uint32_t i = 0; i < fork.branchCount; ++i) {
+    const shared::ForkBranch& branch = network.table.branches[fork.firstBranch + i];
+    const Section at = wall.sectionAt(branch.centre);
+    const vec3 out = vec3(bezierAt(network, branch.crossPoint, branch.crossClass).at(branch.crossT)) - at.centre;
+    const vec3 towards = unitOr(out - dotOf(out, at.frame.tangent) * at.frame.tangent, at.frame.u);
+    const vec2 wanted(dotOf(towards, at.frame.u), dotOf(towards, at.frame.v));
+    ForkWindow& window = layout.window[i];
+    window.count = windowColumns(branch, fork.branchCount, shape.a);
+    const vec2 half = halfAngleOf(window.count, shape.a);
+    window.first = nearestOf(columns, turned(wanted, against(half)));
+    if (i > 0) {  // beside the first one's
+      const ForkWindow& other = layout.window[0];
+      const std::uint32_t behind = (window.first + shape.a - other.first) % shape.a;
+      const std::uint32_t least = other.count, most = shape.a - window.count;
+      // Out of reach on either side: to the nearer one.
+      if (behind < least) window.first = (other.first + (2 * behind < other.count ? most : least)) % shape.a;
+      else if (behind > most) window.first = (other.first + most) % shape.a;
+    }
+    const vec2 direction = holeDirection(branch, wanted, turned(columns[window.first], half), half);
+    window.hole = direction;
+    window.wide = branch.holeAround;
+    window.rows = (vec3(fork.row1, fork.row2, fork.row3) - branch.centre) / branch.holeAlong;
+    layout.branch[i] = Collar(network, wall, branch, direction).write(shape, i, vertices);
+  }
+  return layout;
 }
 
 }  // namespace vasa

@@ -7,7 +7,8 @@ namespace vasa {
 namespace {
 
 constexpr int kRingProbes = 8;
-constexpr float kClearance = 0.12f;  // of the branch's radius, between its ring and the host's wall
+constexpr float kLongestCollar = 3.0f;  // radii, from where the hole lies below the axis to the ring
+constexpr float kClearance = 0.35f;  // of the branch's radius, between its ring and the host's wall
 
 struct Walker {
   const VesselLine& branch;
@@ -38,11 +39,13 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
   ForkExit exit;
   float foot = hostWay, best = 1e30f, limit = 0.98f * branch.length();
   bool outside = false;
+  std::vector<std::pair<float, float>> steps;  // ways along the branch and the host
   for (float from = 0; from < limit;) {
     const vec4 point = walker.point(from);
     const float step = std::max(0.15f * point.w, branch.length() / 4096);
     const VesselLine::Foot near = host.nearest(vec3(point), foot, 6 * step + 0.5f * host.point(foot).w);
     foot = near.way;
+    steps.push_back({from, foot});
     if (near.distance < near.radius) {
       exit.cross = from;
       exit.foot = foot;
@@ -55,6 +58,7 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
       if (from > exit.cross + 0.25f * point.w && depth < best) {
         best = depth;
         exit.ring = from;
+        exit.ringFoot = foot;
         exit.found = true;
         exit.clear = depth <= -kClearance * point.w;
         if (exit.clear) break;
@@ -64,6 +68,9 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
   }
   if (!exit.found || !outside) return {};
   exit.radius = walker.point(exit.ring).w;
+  // A branch that creeps along the wall leaves it where it ends to: the hole stays near the ring.
+  for (const auto& [from, beside] : steps)
+    if (from > exit.cross && from <= exit.ring - kLongestCollar * exit.radius) exit.cross = from, exit.foot = beside;
   const vec3 course = vec3(walker.point(exit.ring) - walker.point(exit.cross));
   exit.lean = glm::dot(course, host.tangent(exit.foot)) / std::max(glm::length(course), 1e-12f);
   return exit;

@@ -7,9 +7,11 @@ namespace vasa {
 struct ForkExit {
   bool found = false;
   bool clear = false;     ///< the whole ring at `ring` stands off the host; else the best there is
-  float cross = 0;        ///< way along the branch from its end: its axis pierces the host's wall
+  float cross = 0;        ///< way along the branch from its end: its axis pierces the host's wall, or a few radii before
+                          ///< `ring` where that is later
   float ring = 0;         ///< way along the branch: its tube begins here
   float foot = 0;         ///< way along the host beside `cross`
+  float ringFoot = 0;     ///< way along the host beside `ring`
   float radius = 0;       ///< of the branch at `ring`
   float lean = 0;         ///< cosine between branch and host there
 };

@@ -14,18 +14,33 @@
 namespace vasa {
 namespace {
 
+constexpr float kFillet = 0.35f;          // of the branch's radius
 constexpr float kWidestHole = 0.9f;        // sine of half its angle
 constexpr float kHoleMargin = 1.25f;       // rows of the trunk stay outside the hole
+constexpr float kBetweenHoles = 0.3f;      // [radians] around the host
 constexpr float kSliver = 0.1f;            // of the radius: shorter tubes go to the forks beside them
 constexpr float kBesideJoin = 0.15f;       // of the radius: the least a join takes
 
-// A branch or a join on a line.
+// A branch that leaves a line.
+struct Leaving {
+  std::uint32_t child = 0;  // 2 * line + end
+  float centre = 0;         // way along the host
+  vec3 direction{0};        // unit, from the host's axis
+  float hole = 0, around = 0, radius = 0, cornerAround = 0, cornerAlong = 0;
+};
+
+// One or two branches, or a join, or both, on a line.
 struct Item {
   ForkRoom room;
-  std::uint32_t child = 0;  // 2 * line + end; meaningless for a join
-  bool branch = false;
-  float hole = 0, around = 0, radius = 0, shiftLimit = 0;
+  std::vector<Leaving> branches;
+  float radius = 0, shiftLimit = 0;
   float mustLow = 1e30f, mustHigh = -1e30f;  // a join within
+
+  bool branch() const { return !branches.empty(); }
+  const Leaving& thinnest() const {
+    return *std::min_element(branches.begin(), branches.end(),
+                             [](const Leaving& a, const Leaving& b) { return a.radius < b.radius; });
+  }
 };
 
 enum class Fate { none, forked, hidden, tooShort, crowded };
@@ -110,19 +125,56 @@ class Planner {
 
   Item branchItem(const VesselLine& host, std::uint32_t end) const {
     const ForkExit& exit = exits_[end];
-    const float trunk = host.point(exit.foot).w, wide = (1 + kHoleMargin) / 2;
+    const float trunk = host.point(exit.foot).w;
     const float stretched = 1 / std::sqrt(std::max(1 - exit.lean * exit.lean, 1.0f / 9));
+    Leaving leaving;
+    leaving.child = end;
+    leaving.centre = exit.foot;
+    leaving.radius = exit.radius;
+    // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the branch is clear.
+    const float radius = std::min(exit.radius, 1.3f * trunk);
+    const float corner = std::clamp(std::abs(exit.ringFoot - exit.foot), radius, radius * stretched);
+    leaving.hole = corner + kFillet * (0.5f * radius + 0.5f * corner);
+    leaving.around = std::min(exit.radius * (1 + kFillet) / trunk, kWidestHole);
+    leaving.cornerAlong = corner / leaving.hole;
+    leaving.cornerAround = 1 / (1 + kFillet);
+    const VesselLine& branch = lines_.lines[end / 2];
+    const vec3 axis = host.tangent(exit.foot);
+    const vec3 out = vec3(branch.point(end % 2 ? branch.length() - exit.cross : exit.cross) - host.point(exit.foot));
+    const vec3 level = out - glm::dot(out, axis) * axis;
+    leaving.direction = level / std::max(glm::length(level), 1e-12f);
     Item item;
-    item.branch = true;
-    item.child = end;
+    item.branches = {leaving};
     item.radius = exit.radius;
-    item.hole = std::min(exit.radius, 1.3f * trunk) * (1 + shared::kFillet) * stretched;
-    item.around = std::min(exit.radius * (1 + shared::kFillet) / trunk, kWidestHole);
     item.room.centre = exit.foot;
-    item.room.before = item.room.after = kHoleMargin * item.hole + 0.08f * trunk;
-    item.room.want = (kHoleMargin + 0.2f) * item.hole + 0.35f * trunk * wide;
-    item.shiftLimit = 1.3f * item.hole + trunk;
+    item.room.before = item.room.after = kHoleMargin * leaving.hole + 0.08f * trunk;
+    item.room.want = (kHoleMargin + 0.2f) * leaving.hole + 0.35f * trunk;
+    item.shiftLimit = 1.3f * leaving.hole + trunk;
     return item;
+  }
+
+  // Branches that need the same room on different sides of the host become one fork.
+  static void pairUp(std::vector<Item>& items) {
+    for (std::size_t i = 0; i + 1 < items.size(); ++i) {
+      Item& one = items[i];
+      for (std::size_t k = i + 1; k < items.size() && one.branches.size() == 1; ++k) {
+        Item& other = items[k];
+        if (other.branches.size() != 1) continue;
+        if (other.room.centre - other.room.before >= one.room.centre + one.room.after) continue;
+        const Leaving &a = one.branches[0], &b = other.branches[0];
+        if (std::abs(a.centre - b.centre) > 1.2f * std::min(a.hole, b.hole) + 0.8f * std::max(a.hole, b.hole)) continue;
+        const float apart = std::acos(std::clamp(glm::dot(a.direction, b.direction), -1.0f, 1.0f));
+        if (apart < std::asin(a.around) + std::asin(b.around) + kBetweenHoles) continue;
+        const float low = std::min(one.room.centre - one.room.before, other.room.centre - other.room.before);
+        const float high = std::max(one.room.centre + one.room.after, other.room.centre + other.room.after);
+        one.room.want += high - low - one.room.before - one.room.after;
+        one.room.centre = (low + high) / 2;
+        one.room.before = one.room.after = (high - low) / 2;
+        one.shiftLimit = std::max(one.shiftLimit, other.shiftLimit);
+        one.branches.push_back(b);
+        items.erase(items.begin() + std::ptrdiff_t(k));
+      }
+    }
   }
 
   static Item joinItem(const VesselLine& line, const VesselLine::Join& join) {
@@ -148,8 +200,11 @@ class Planner {
     for (const std::uint32_t end : children_[index])
       if (forked(end)) items.push_back(branchItem(line, end));
     const auto byCentre = [](const Item& a, const Item& b) {
-      return a.room.centre != b.room.centre ? a.room.centre < b.room.centre : a.child < b.child;
+      if (a.room.centre != b.room.centre || !a.branch() || !b.branch()) return a.room.centre < b.room.centre;
+      return a.branches[0].child < b.branches[0].child;
     };
+    std::sort(items.begin(), items.end(), byCentre);
+    pairUp(items);
     std::vector<Item> joins;
     for (const VesselLine::Join& join : line.joins()) {
       if (join.at <= range.low || join.at + join.gap >= range.high) continue;
@@ -190,21 +245,21 @@ class Planner {
     Item* worst = nullptr;
     if (!shareRoom(rooms, range.low, range.high, sliver)) {
       for (Item& item : items)
-        if (item.branch && (!worst || item.radius < worst->radius)) worst = &item;
+        if (item.branch() && (!worst || item.thinnest().radius < worst->thinnest().radius)) worst = &item;
     } else {
       float excess = 1;
       for (std::size_t i = 0; i < items.size(); ++i) {
         const bool torn = items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high;
         // A join that a fork pushes off its place: the nearest branch gives way.
-        if (torn && !items[i].branch) worst = nearestBranch(items, i);
+        if (torn && !items[i].branch()) worst = nearestBranch(items, i);
         else if (torn) worst = &items[i];
         if (torn) break;
-        const float share = items[i].branch ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
+        const float share = items[i].branch() ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
         if (share > excess) excess = share, worst = &items[i];
       }
     }
     if (worst) {
-      fates_[worst->child] = Fate::crowded;
+      fates_[worst->thinnest().child] = Fate::crowded;
       return false;
     }
     for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
@@ -214,7 +269,7 @@ class Planner {
   static Item* nearestBranch(std::vector<Item>& items, std::size_t to) {
     Item* nearest = nullptr;
     for (Item& item : items)
-      if (item.branch && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
+      if (item.branch() && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
                                           std::abs(nearest->room.centre - items[to].room.centre)))
         nearest = &item;
     return nearest;
@@ -250,18 +305,19 @@ class Planner {
     const VesselLine& line = lines_.lines[index];
     ForkCourse course{.low = line.place(item.room.low),
                       .high = line.place(item.room.high),
-                      .centre = vec3(line.point(item.room.centre)),
                       .length = item.room.high - item.room.low};
-    if (item.branch) {
-      const ForkExit& exit = exits_[item.child];
-      const VesselLine& branch = lines_.lines[item.child / 2];
-      const bool last = item.child % 2 == 1;
+    for (const Leaving& leaving : item.branches) {
+      const ForkExit& exit = exits_[leaving.child];
+      const VesselLine& branch = lines_.lines[leaving.child / 2];
+      const bool last = leaving.child % 2 == 1;
       const auto way = [&](float fromEnd) { return last ? branch.length() - fromEnd : fromEnd; };
-      course.branch = {branch.place(way(exit.ring)), branch.place(way(exit.cross)), last, item.hole, item.around};
+      course.branches.push_back({branch.place(way(exit.ring)), branch.place(way(exit.cross)), last,
+                                 vec3(line.point(leaving.centre + item.room.shift)), leaving.hole, leaving.around,
+                                 leaving.cornerAround, leaving.cornerAlong});
       plan_.report.leaning += !exit.clear;
     }
     plan_.report.joins += item.mustLow < 1e30f;
-    plan_.forks.push_back(makeForkRecord(network_, course));
+    plan_.forks.push_back(makeForkRecord(network_, course, plan_.branches));
     plan_.vesselOfFork.push_back(course.low.vessel);
   }
 

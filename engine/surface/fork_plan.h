@@ -21,6 +21,7 @@ struct TubeStretch {
 struct ForkPlan {
   std::vector<TubeStretch> tubes;           ///< vessel after vessel
   std::vector<shared::ForkRecord> forks;
+  std::vector<shared::ForkBranch> branches;  ///< fork after fork
   std::vector<std::uint32_t> vesselOfFork;  ///< the host at ring a
 
   /// What became of the junctions.

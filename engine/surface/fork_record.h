@@ -1,5 +1,5 @@
 #pragma once
-#include <optional>
+#include <vector>
 
 #include "shared/fork.h"
 #include "surface/vessel_line.h"
@@ -9,19 +9,21 @@ namespace vasa {
 /// The course of one fork at rest.
 struct ForkCourse {
   VesselPlace low, high;  ///< the trunk's two rings
-  vec3 centre{0};         ///< on the trunk's axis, below the hole's middle
   float length = 0;       ///< [m] from low to high
   struct Branch {
     VesselPlace ring, cross;  ///< where its tube begins, where its axis pierces the wall
     bool last = false;        ///< it runs towards its line's first end
+    vec3 centre{0};           ///< on the trunk's axis, below the hole's middle
     float hole = 0;           ///< [m] half length of the hole along the trunk
     float around = 0;         ///< sine of the hole's half angle
+    float cornerAround = 0, cornerAlong = 0;  ///< where wall and branch would meet without a fillet: shares of the hole
   };
-  std::optional<Branch> branch;
+  std::vector<Branch> branches;  ///< at most kMostBranches
 };
 
-/// What the fork's evaluation reads in every pose (surface/fork.h).
-shared::ForkRecord makeForkRecord(const Network& network, const ForkCourse& course);
+/// What the fork's evaluation reads in every pose (surface/fork.h); its branches are added to `branches`.
+shared::ForkRecord makeForkRecord(const Network& network, const ForkCourse& course,
+                                  std::vector<shared::ForkBranch>& branches);
 
 /// Class of a span among `spans` (spanClassMatrices of surface/sweep_table.h).
 std::uint32_t spanClassOf(std::uint32_t span, std::uint32_t spans);

@@ -1,5 +1,6 @@
 #include "surface/surface_mesh.h"
 
+#include <array>
 #include <cassert>
 #include <map>
 
@@ -37,9 +38,12 @@ class MeshLayout {
     std::uint32_t vertex = 0, triangle = 0;
   };
   struct ForkPlace : Place {
-    std::uint32_t window = 0;
-    std::uint32_t ringA = 0, ringB = 0, ringBranch = 0;  // first vertex of the rings
-    bool ownsA = false, ownsB = false, ownsBranch = false;
+    struct Ring {
+      std::uint32_t first = 0;  // its first vertex
+      bool own = false;         // written by the fork
+    };
+    Ring a, b;
+    std::array<Ring, shared::kMostBranches> branch;
   };
   using RingKey = std::pair<std::uint32_t, float>;  // first de Boor point of the span, t
 
@@ -71,25 +75,32 @@ class MeshLayout {
     }
   }
 
-  std::uint32_t ringFor(const shared::ForkRing& ring, bool& own) {
+  ForkPlace::Ring ringFor(const shared::ForkRing& ring) {
     const auto [place, isNew] = rings_.try_emplace(RingKey{ring.point, ring.t}, vertices_);
-    own = isNew;
     if (isNew) vertices_ += shape_.around;
-    return place->second;
+    return {place->second, isNew};
+  }
+
+  ForkShape shapeOf(const shared::ForkRecord& fork) const {
+    return forkShape(network_.table, fork, [this](std::uint32_t) { return shape_.around; });
   }
 
   void placeForks() {
     const std::uint32_t m = shape_.around;
     for (const shared::ForkRecord& fork : network_.table.forks) {
       ForkPlace place;
-      place.window = forkWindow(fork, m);
-      place.ringA = ringFor(fork.a, place.ownsA);
-      place.ringB = ringFor(fork.b, place.ownsB);
-      if (fork.hasBranch) place.ringBranch = ringFor(fork.branch, place.ownsBranch);
+      place.a = ringFor(fork.a);
+      place.b = ringFor(fork.b);
+      std::uint32_t columns = 0;
+      for (std::uint32_t i = 0; i < fork.branchCount; ++i) {
+        const shared::ForkBranch& branch = network_.table.branches[fork.firstBranch + i];
+        place.branch[i] = ringFor(branch.ring);
+        columns += windowColumns(branch, fork.branchCount, m);
+      }
       place.vertex = vertices_;
       place.triangle = triangles_;
-      vertices_ += (shared::kTrunkRows - 2 + (fork.hasBranch ? shared::kCollarRows : 0)) * m;
-      triangles_ += forkTriangleCount({m, m, m}, place.window);
+      vertices_ += (shared::kTrunkRows - 2 + fork.branchCount * shared::kCollarRows) * m;
+      triangles_ += forkTriangleCount(shapeOf(fork), columns);
       forks_.push_back(place);
     }
   }
@@ -127,33 +138,32 @@ class MeshLayout {
     for (const uvec3& t : capTriangles(shape_)) mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
   }
 
+  // Where a fork's vertex is in the mesh, and whether the fork writes it.
+  std::pair<std::uint32_t, bool> targetOf(const ForkPlace& place, const ForkLayout& layout, std::uint32_t vertex) const {
+    const std::uint32_t m = shape_.around, row = vertex / m, k = vertex % m;
+    if (row == 0) return {place.a.first + layout.a.direction(k, m), place.a.own};
+    if (row < shared::kTrunkRows - 1) return {place.vertex + (row - 1) * m + k, true};
+    if (row == shared::kTrunkRows - 1) return {place.b.first + layout.b.direction(k, m), place.b.own};
+    const std::uint32_t branch = (row - shared::kTrunkRows) / kBranchRows;
+    if (row == branchRow(branch))
+      return {place.branch[branch].first + layout.branch[branch].direction(k, m), place.branch[branch].own};
+    return {place.vertex + (row - 2 - branch) * m + k, true};
+  }
+
   void writeFork(std::uint32_t index) {
     const ForkPlace& place = forks_[index];
     const shared::ForkRecord& fork = network_.table.forks[index];
-    const std::uint32_t m = shape_.around, vessel = network_.table.vesselOfFork[index];
-    const ForkShape forkShape{m, m, m};
-    std::vector<SurfacePoint> points(forkShape.vertices());
-    const ForkSeams seams = evaluateFork(network_, fork, forkShape, points);
-    const auto target = [&](std::uint32_t vertex) {
-      const std::uint32_t row = vertex / m, k = vertex % m;
-      if (row == 0) return place.ringA + seams.a.direction(k, m);
-      if (row < shared::kTrunkRows - 1) return place.vertex + (row - 1) * m + k;
-      if (row == shared::kTrunkRows - 1) return place.ringB + seams.b.direction(k, m);
-      if (row == kBranchRow) return place.ringBranch + seams.branch.direction(k, m);
-      return place.vertex + (row - 2) * m + k;
-    };
+    const ForkShape shape = shapeOf(fork);
+    std::vector<SurfacePoint> points(shape.vertices());
+    const ForkLayout layout = evaluateFork(network_, fork, shape, points);
     for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
-      const std::uint32_t row = vertex / m;
-      if (row >= kHoleRow && !fork.hasBranch) break;
-      const bool own = row == 0                        ? place.ownsA
-                       : row == shared::kTrunkRows - 1 ? place.ownsB
-                       : row == kBranchRow             ? place.ownsBranch
-                                                       : true;
-      if (own) put(target(vertex), points[vertex], vessel);
+      const auto [target, own] = targetOf(place, layout, vertex);
+      if (own) put(target, points[vertex], network_.table.vesselOfFork[index]);
     }
     std::uint32_t triangle = place.triangle;
-    for (const uvec3& t : forkTriangles(forkShape, place.window))
-      mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
+    for (const uvec3& t : forkTriangles(shape, std::span(layout.window).first(fork.branchCount)))
+      mesh_.triangles[triangle++] = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first,
+                                     targetOf(place, layout, t.z).first};
   }
 
   const PosedNetwork& network_;

@@ -4,7 +4,8 @@
 namespace vasa {
 
 /// The whole drawn surface of a network as one indexed mesh: what `export` writes and what a picture shows. Tubes, then
-/// caps, then forks; every edge belongs to two triangles.
+/// caps, then forks; every edge belongs to two triangles. From pose to pose the numbers of vertices and triangles and
+/// what they belong to stay the same, but a fork's triangles may begin at another vertex of a ring.
 struct SurfaceMesh {
   std::vector<vec3> positions, normals;        ///< one a vertex [m], unit
   std::vector<uvec3> triangles;                ///< counter-clockwise seen from outside

@@ -50,6 +50,7 @@ SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
   }
   for (const TubeStretch& tube : plan.tubes) addTube(network, tube, firstSpan[tube.vessel], table);
   table.forks = std::move(plan.forks);
+  table.branches = std::move(plan.branches);
   table.vesselOfFork = std::move(plan.vesselOfFork);
   for (std::size_t i = 0; i < table.forks.size(); ++i) {
     const std::uint32_t vessel = table.vesselOfFork[i];

@@ -5,6 +5,7 @@
 #include "shared/fork.h"
 
 const float kRound = 0.55;  // of a quarter circle's control polygon
+const float kDense = 0.4;   // rows of the collar beside the hole, against even ones
 
 struct Ring {
   Section section;
@@ -81,11 +82,11 @@ vec3 carried(vec3 direction, vec3 from, vec3 fromTangent, vec3 to, vec3 toTangen
   return unitOr(u, anyPerpendicular(toTangent));
 }
 
-// The direction to a point, at right angles to the axis.
-vec3 levelled(vec3 centre, vec3 axis, vec3 point) {
-  precise vec3 away = point - centre;
-  precise vec3 level = away - dotOf(away, axis) * axis;
-  return unitOr(level, anyPerpendicular(axis));
+// The direction to a point, at right angles to the section's tangent.
+vec3 levelled(Section section, vec3 point) {
+  precise vec3 away = point - section.centre;
+  precise vec3 level = away - dotOf(away, section.tangent) * section.tangent;
+  return unitOr(level, section.u);
 }
 
 Section framed(Section section, vec3 u) {
@@ -94,7 +95,7 @@ Section framed(Section section, vec3 u) {
   return section;
 }
 
-// The trunk's section at s, its u the hole's direction.
+// The trunk's section at s, its frame carried from the middle.
 Section wallAt(Trunk trunk, Section middle, float s) {
   Section section = trunkAt(trunk, s);
   return framed(section, carried(middle.u, middle.centre, middle.tangent, section.centre, section.tangent));
@@ -116,13 +117,12 @@ void setDirections(vec2 step, uint around) {
   }
 }
 
-// First vertex of the ring for a row that begins in this direction.
-uint seamAt(Ring ring, vec3 wanted, uint around) {
-  vec2 d = vec2(dotOf(wanted, ring.section.u), dotOf(wanted, ring.section.v));
+// The one of the directions nearest to another.
+uint nearestOf(vec2 wanted, uint around) {
   uint first = 0;
   float best = -3e38;
   for (uint k = 0; k < around; ++k) {
-    precise float along = d.x * directions[k].x + d.y * directions[k].y;
+    precise float along = wanted.x * directions[k].x + wanted.y * directions[k].y;
     if (along > best) {
       best = along;
       first = k;
@@ -131,8 +131,28 @@ uint seamAt(Ring ring, vec3 wanted, uint around) {
   return first;
 }
 
+// First vertex of the ring for a row that begins in this direction.
+uint seamAt(Ring ring, vec3 wanted, uint around) {
+  return nearestOf(vec2(dotOf(wanted, ring.section.u), dotOf(wanted, ring.section.v)), around);
+}
+
 vec2 seamDirection(Ring ring, uint first, uint k, uint around) {
   return directions[(ring.turn < 0 ? first + around - k : first + k) % around];
+}
+
+float collarParameter(uint row) {
+  precise float share = float(row) / float(kCollarRows);
+  precise float t = share * (kDense + (1.0 - kDense) * share);
+  return t;
+}
+
+// Where the hole's middle lies, in the trunk's frame: as wanted, or the nearest direction that keeps it in its window.
+vec2 holeDirection(ForkBranch branch, vec2 wanted, vec2 windowMiddle, vec2 windowHalf) {
+  vec2 off = turned(wanted, vec2(windowMiddle.x, -windowMiddle.y));
+  vec2 room = turned(windowHalf, vec2(branch.holdCos, -branch.holdSin));
+  if (room.y <= 0) return windowMiddle;
+  if (off.x >= room.x) return wanted;
+  return turned(windowMiddle, vec2(room.x, off.y < 0 ? -room.y : room.y));
 }
 
 struct CollarCurve {

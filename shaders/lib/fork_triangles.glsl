@@ -1,18 +1,46 @@
-// Mirrors engine/surface/fork_template.cpp. The shader that includes it has  void add(uint a, uint b, uint c).
+// Mirrors engine/surface/fork_template.cpp. The shader that includes it has
+//   void add(uint a, uint b, uint c)   takes a triangle
+//   vec2 stepOf(uint around)           (cos, sin) of 2π/m
 #ifndef VASA_FORK_TRIANGLES
 #define VASA_FORK_TRIANGLES
 #include "lib/fork.glsl"
 
-const float kNominalWide = 1.4, kNominalHigh = 1.2;
-
-struct ForkShape {
-  uint a, b, branch, window;
+// Columns between which a hole lies, and how it lies there.
+struct ForkWindow {
+  uint first, count;
+  vec2 hole;
+  float wide;
+  vec3 rows;
 };
 
-uint rowSize(ForkShape shape, uint row) { return row < kTrunkRows - 1 ? shape.a : row == kTrunkRows - 1 ? shape.b : shape.branch; }
+struct ForkShape {
+  uint a, b, branchCount;
+  uint branch[kMostBranches];
+};
+
+const uint kBranchRows = 1 + kCollarRows;
+
+ForkWindow windows[kMostBranches];
+vec2 columns[kMaxAround];  // the trunk's directions
+
+uint holeRow(uint branch) { return kTrunkRows + branch * kBranchRows; }
+
+uint rowSize(ForkShape shape, uint row) {
+  if (row < kTrunkRows) return row + 1 < kTrunkRows ? shape.a : shape.b;
+  return shape.branch[(row - kTrunkRows) / kBranchRows];
+}
 
 uint rowStart(ForkShape shape, uint row) {
-  return row < kTrunkRows ? row * shape.a : (kTrunkRows - 1) * shape.a + shape.b + (row - kTrunkRows) * shape.branch;
+  if (row < kTrunkRows) return row * shape.a;
+  uint start = (kTrunkRows - 1) * shape.a + shape.b, rest = row - kTrunkRows;
+  if (rest <= kBranchRows) return start + rest * shape.branch[0];
+  return start + kBranchRows * shape.branch[0] + (rest - kBranchRows) * shape.branch[1];
+}
+
+bool inWindow(ForkShape shape, uint column) {
+  for (uint i = 0; i < shape.branchCount; ++i)
+    if ((column + shape.a - windows[i].first) % shape.a < windows[i].count) return true;
+  return false;
 }
 
 float squareWay(vec2 d) {
@@ -21,9 +49,10 @@ float squareWay(vec2 d) {
   return way;
 }
 
-void addQuads(ForkShape shape, uint row, uint firstColumn) {
+void addQuads(ForkShape shape, uint row, bool aroundWindows) {
   uint m = rowSize(shape, row), low = rowStart(shape, row), high = rowStart(shape, row + 1);
-  for (uint k = firstColumn; k < m; ++k) {
+  for (uint k = 0; k < m; ++k) {
+    if (aroundWindows && inWindow(shape, k)) continue;
     uint next = k + 1 == m ? 0 : k + 1;
     add(low + k, low + next, high + next);
     add(low + k, high + next, high + k);
@@ -33,7 +62,7 @@ void addQuads(ForkShape shape, uint row, uint firstColumn) {
 void addStrip(ForkShape shape, uint row) {
   uint p = rowSize(shape, row), q = rowSize(shape, row + 1);
   if (p == q) {
-    addQuads(shape, row, 0);
+    addQuads(shape, row, false);
     return;
   }
   uint low = rowStart(shape, row), high = rowStart(shape, row + 1);
@@ -49,42 +78,50 @@ void addStrip(ForkShape shape, uint row) {
   }
 }
 
-uvec2 outlinePlace(uint i, uint window) {
-  if (i == 0) return uvec2(2, window);
-  if (i <= window + 1) return uvec2(3, window + 1 - i);
-  if (i == window + 2) return uvec2(2, 0);
-  return uvec2(1, i - window - 3);
+uvec2 outlinePlace(uint i, uint count) {
+  if (i == 0) return uvec2(2, count);
+  if (i <= count + 1) return uvec2(3, count + 1 - i);
+  if (i == count + 2) return uvec2(2, 0);
+  return uvec2(1, i - count - 3);
 }
 
-uint outlineVertex(ForkShape shape, uint i) {
-  uvec2 place = outlinePlace(i, shape.window);
-  return rowStart(shape, place.x) + place.y;
+uint outlineVertex(ForkShape shape, ForkWindow window, uint i) {
+  uvec2 place = outlinePlace(i, window.count);
+  return rowStart(shape, place.x) + (window.first + place.y) % shape.a;
 }
 
-float outerWay(ForkShape shape, uint i) {
-  if (i == 2 * shape.window + 4) return 4.0;
-  uvec2 place = outlinePlace(i, shape.window);
-  precise float x = kNominalWide * (2.0 * float(place.y) / float(shape.window) - 1.0);
-  precise float y = kNominalHigh * (float(place.x) - 2.0);
-  return squareWay(vec2(x, y));
+float outlineWay(ForkShape shape, ForkWindow window, uint i) {
+  uvec2 place = outlinePlace(i, window.count);
+  vec2 column = columns[(window.first + place.y) % shape.a];
+  precise float along = column.x * window.hole.x + column.y * window.hole.y;
+  precise float aside = column.y * window.hole.x - column.x * window.hole.y;
+  precise float x = 2.0 * aside / ((1.0 + max(along, -0.99)) * window.wide);
+  return squareWay(vec2(x, window.rows[place.x - 1]));
 }
 
-// `directions` are the branch's.
-float holeWay(ForkShape shape, uint i) { return i == shape.branch ? 4.0 : squareWay(directions[i]); }
+float outerWay(ForkShape shape, ForkWindow window, float start, uint i) {
+  return i == 0 ? start : i == 2 * window.count + 4 ? start + 4.0 : outlineWay(shape, window, i);
+}
 
-void addWall(ForkShape shape) {
-  uint outline = 2 * shape.window + 4, hole = shape.branch, first = rowStart(shape, kTrunkRows);
+// `directions` have to be the branch's.
+float holeWay(uint hole, uint i) { return i == hole ? 4.0 : squareWay(directions[i]); }
+
+void addWall(ForkShape shape, uint branch) {
+  ForkWindow window = windows[branch];
+  uint outline = 2 * window.count + 4, hole = shape.branch[branch], first = rowStart(shape, holeRow(branch));
+  float start = outlineWay(shape, window, 0);
+  if (start > 2) start -= 4.0;
   for (uint o = 0, h = 0; o < outline || h < hole;) {
-    uint outer = outlineVertex(shape, o == outline ? 0 : o), inner = first + (h == hole ? 0 : h);
+    uint outer = outlineVertex(shape, window, o == outline ? 0 : o), inner = first + (h == hole ? 0 : h);
     bool outwards = h == hole;
     if (!outwards && o < outline) {
-      precise float outerSum = outerWay(shape, o) + outerWay(shape, o + 1);
-      precise float holeSum = holeWay(shape, h) + holeWay(shape, h + 1);
+      precise float outerSum = outerWay(shape, window, start, o) + outerWay(shape, window, start, o + 1);
+      precise float holeSum = holeWay(hole, h) + holeWay(hole, h + 1);
       outwards = outerSum <= holeSum;
     }
     if (outwards) {
       ++o;
-      add(inner, outer, outlineVertex(shape, o == outline ? 0 : o));
+      add(inner, outer, outlineVertex(shape, window, o == outline ? 0 : o));
     } else {
       ++h;
       add(inner, outer, first + (h == hole ? 0 : h));
@@ -93,13 +130,15 @@ void addWall(ForkShape shape) {
 }
 
 void addForkTriangles(ForkShape shape) {
-  addQuads(shape, 0, 0);
-  addQuads(shape, 1, shape.window);
-  addQuads(shape, 2, shape.window);
+  addQuads(shape, 0, false);
+  addQuads(shape, 1, true);
+  addQuads(shape, 2, true);
   addStrip(shape, 3);
-  if (shape.window == 0) return;
-  addWall(shape);
-  for (uint row = kTrunkRows; row < kTrunkRows + kCollarRows; ++row) addQuads(shape, row, 0);
+  for (uint branch = 0; branch < shape.branchCount; ++branch) {
+    setDirections(stepOf(shape.branch[branch]), shape.branch[branch]);
+    addWall(shape, branch);
+    for (uint row = holeRow(branch); row < holeRow(branch) + kCollarRows; ++row) addQuads(shape, row, false);
+  }
 }
 
 #endif

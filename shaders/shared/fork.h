@@ -13,8 +13,8 @@ namespace vasa::shared {
 VASA_CONSTANT uint kTrunkRows = 5;
 /// Rows of its collar, without the loop where it leaves the trunk, with the branch's ring.
 VASA_CONSTANT uint kCollarRows = 4;
-/// How much wider the hole in the trunk is than the branch: the room for the fillet.
-VASA_CONSTANT float kFillet = 0.35f;
+/// Most branches of one fork.
+VASA_CONSTANT uint kMostBranches = 2;
 
 /// A ring of a vessel: its section at t of one span.
 struct ForkRing {
@@ -26,28 +26,38 @@ struct ForkRing {
   float turn;      // +1 where the vessel runs the fork's way (trunk: from a to b, branch: outwards), else -1
 };
 
-/// A piece of trunk from ring a to ring b with one branch on its side; constant over time.
-struct ForkRecord {
-  ForkRing a, b, branch;
-  uint crossPoint, crossClass;  // the branch's axis pierces the trunk's wall here: span and t
+/// A branch that leaves a fork's trunk; constant over time.
+struct ForkBranch {
+  ForkRing ring;
+  uint crossPoint, crossClass;  // its axis pierces the trunk's wall here: span and t
   float crossT;
-  float scaleA, scaleB;         // from d/dt of the rings' vessels to d/ds of the trunk, s in [0, 1]
-  float row1, centre, row3;     // s of the trunk's inner rows; the hole's middle is at `centre`
+  float centre;                 // s of the hole's middle
   float holeAround;             // sine of the hole's half angle around the trunk
   float holeAlong;              // its half length, in s
-  uint hasBranch;
-  float window;                 // share of the trunk's columns that the hole takes
-  uint vesselA, vesselB, vesselBranch;
+  float cornerAround, cornerAlong;  // where wall and branch would meet without a fillet, as shares of the hole
+  float window;                 // share of the trunk's columns that the hole covers
+  float holdCos, holdSin;       // of the half angle that has to stay within the window
+  uint vessel;
+};
+
+/// A piece of trunk from ring a to ring b, with branches on its sides; constant over time.
+struct ForkRecord {
+  ForkRing a, b;
+  float scaleA, scaleB;         // from d/dt of the rings' vessels to d/ds of the trunk, s in [0, 1]
+  float row1, row2, row3;       // s of the trunk's inner rows; all holes lie between row1 and row3
+  uint vesselA, vesselB;
+  uint firstBranch, branchCount;
 };
 
 /// Forks and threads of a workgroup.
 VASA_CONSTANT uint kGroupForks = 64;
 /// Most vertices and triangles of a fork.
-VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + 1 + kCollarRows) * kMaxAround;
-VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + 2 * kCollarRows + 2) * kMaxAround + 4;
+VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + kMostBranches * (1 + kCollarRows)) * kMaxAround;
+VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + kMostBranches * (2 * kCollarRows + 2)) * kMaxAround;
 
 #ifndef __cplusplus
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Branches { ForkBranch branch[]; };
 #define VASA_ADDRESS(Block) Block
 #else
 #define VASA_ADDRESS(Block) std::uint64_t
@@ -59,6 +69,7 @@ struct ForksPush {
   VASA_ADDRESS(Points) points;
   VASA_ADDRESS(Knots) knots;
   VASA_ADDRESS(Forks) forks;
+  VASA_ADDRESS(Branches) branches;
   VASA_ADDRESS(Tables) tables;
   VASA_ADDRESS(View) view;
   VASA_ADDRESS(Uints) colours;       // of each fork, kind in the highest 8 bits
@@ -73,7 +84,7 @@ struct ForksPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ForkRing) == 28 && sizeof(ForkRecord) == 144 && sizeof(ForksPush) == 104);
+static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 112);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -63,7 +63,7 @@ struct Forks {
   }
   PosedNetwork posed() const { return {tubes.table(), points, frames}; }
   ForkShape shapeOf(const shared::ForkRecord& fork) const {
-    return {around[fork.vesselA], around[fork.vesselB], around[fork.vesselBranch]};
+    return forkShape(tubes.table(), fork, [this](std::uint32_t vessel) { return around[vessel]; });
   }
 
   const test::GpuRig& rig;
@@ -89,16 +89,15 @@ void checkAgainstReference(const Forks& passes) {
   const auto& records = passes.tubes.table().forks;
   for (std::uint32_t i = 0; i < records.size(); ++i) {
     const ForkShape shape = passes.shapeOf(records[i]);
-    const std::uint32_t base = i << passes.forks.room().vertexShift, window = forkWindow(records[i], shape.a);
+    const std::uint32_t base = i << passes.forks.room().vertexShift;
     std::vector<SurfacePoint> points(shape.vertices());
-    evaluateFork(passes.posed(), records[i], shape, points);
-    const std::uint32_t used = window == 0 ? shape.rowStart(kHoleRow) : shape.vertices();
-    for (std::uint32_t k = 0; k < used; ++k) {
+    const ForkLayout layout = evaluateFork(passes.posed(), records[i], shape, points);
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
       const shared::TubeVertex& v = passes.forksDrawn.vertices[base + k];
       position = std::max(position, glm::distance(vec3(v.x, v.y, v.z), points[k].position));
       normal = std::max(normal, glm::distance(unpackOctahedral(v.normal), points[k].normal));
     }
-    for (const uvec3& t : forkTriangles(shape, window)) wanted.push_back(t + base);
+    for (const uvec3& t : forkTriangles(shape, std::span(layout.window).first(shape.branchCount))) wanted.push_back(t + base);
   }
   CHECK(position <= 1e-6f);
   CHECK(normal <= 2e-4f);
@@ -133,8 +132,9 @@ void checkSeams(const Forks& passes) {
   const auto eachRing = [&](const auto& act) {
     for (std::uint32_t i = 0; i < table.forks.size(); ++i) {
       const ForkShape shape = passes.shapeOf(table.forks[i]);
-      for (const std::uint32_t row : {0u, kHoleRow - 1, kBranchRow}) {
-        if (row == kBranchRow && !table.forks[i].hasBranch) continue;
+      std::vector<std::uint32_t> ringRows{0, shared::kTrunkRows - 1};
+      for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch) ringRows.push_back(branchRow(branch));
+      for (const std::uint32_t row : ringRows) {
         for (std::uint32_t k = 0; k < shape.rowSize(row); ++k)
           act(bitsOf(passes.forksDrawn.vertices[(i << passes.forks.room().vertexShift) + shape.rowStart(row) + k]));
       }
