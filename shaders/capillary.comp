@@ -63,7 +63,9 @@ void main() {
   uint curve = gl_GlobalInvocationID.x;
   if (curve >= push.curveCount) return;
   GrowthJob job = jobOf(curve);
-  GrowthSite site = push.sites.site[job.sweep];
+  // Word by word: GPU-assisted validation takes a struct that is loaded whole for larger than it is.
+  GrowthSite site = GrowthSite(push.sites.site[job.sweep].hub, push.sites.site[job.sweep].room,
+                               push.sites.site[job.sweep].axis, push.sites.site[job.sweep].system);
   uint axiom = push.growth.growth.system[site.system & 0xffu].axiom;
   uint size = push.growth.growth.symbol[axiom].treeSize[job.levels];
   uint target = curve * 2 * (push.edges + 1), colour = push.colours.colour[job.sweep];

@@ -22,7 +22,9 @@ void blend(inout JointRows sum, uint joint, float weight) {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= push.count) return;
-  SkinVertex rest = push.rest.vertex[i];
+  // Word by word: GPU-assisted validation takes a struct that is loaded whole for larger than it is.
+  SkinVertex rest = SkinVertex(push.rest.vertex[i].x, push.rest.vertex[i].y, push.rest.vertex[i].z, push.rest.vertex[i].normal,
+                               push.rest.vertex[i].joints01, push.rest.vertex[i].joints23, push.rest.vertex[i].weights);
   JointRows m = JointRows(vec4(0), vec4(0), vec4(0));
   blend(m, rest.joints01 & 0xffffu, rest.weights.x);
   blend(m, rest.joints01 >> 16, rest.weights.y);

@@ -1,0 +1,27 @@
+# Fails unless every shader below ROOT/shaders compiles for vulkan1.3 and passes spirv-val. With CUT the compiled code is
+# cut to that many bytes first, which spirv-val has to notice.
+find_program(GLSLANG glslangValidator REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+file(GLOB shaders "${ROOT}/shaders/*.comp" "${ROOT}/shaders/*.vert" "${ROOT}/shaders/*.frag")
+set(spirv "${OUT}/checked.spv")
+foreach(shader IN LISTS shaders)
+  execute_process(COMMAND "${GLSLANG}" -V --target-env vulkan1.3 "-I${ROOT}/shaders" -o "${spirv}" "${shader}"
+                  RESULT_VARIABLE compiled OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(NOT compiled EQUAL 0)
+    message(FATAL_ERROR "${shader} does not compile:\n${text}")
+  endif()
+  if(CUT)
+    file(RENAME "${spirv}" "${spirv}.whole")
+    execute_process(COMMAND head -c "${CUT}" "${spirv}.whole" OUTPUT_FILE "${spirv}")
+  endif()
+  execute_process(COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}"
+                  RESULT_VARIABLE valid OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(NOT valid EQUAL 0)
+    message(FATAL_ERROR "${shader} is not valid:\n${text}")
+  endif()
+endforeach()
+list(LENGTH shaders count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no shaders below ${ROOT}")
+endif()
+message(STATUS "${count} shaders compile and are valid")

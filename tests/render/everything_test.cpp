@@ -1,0 +1,41 @@
+#include "render/everything.h"
+
+#include <doctest/doctest.h>
+
+#include "core/hash.h"
+#include "gpu/gpu_rig.h"
+
+using namespace vasa;
+
+namespace {
+
+std::uint64_t hashOfPicture(const Image& image) {
+  return hashOf(std::span<const std::uint8_t>(image.rgba));
+}
+
+}  // namespace
+
+TEST_CASE("three hundred frames with everything switched on, without a word from the validation layer") {
+  VASA_REQUIRE_GPU(rig);
+  test::Everything scene;
+  Renderer renderer(rig.device(), scene.grown.network, scene.meshes, scene.options(4));
+  std::uint64_t first = 0, last = 0;
+  for (unsigned i = 0; i < 300; ++i) {
+    const unsigned pose = i % 299;  // the last one is the first one again
+    renderer.draw(scene.turned(0.02f * float(pose), pose));
+    if (i == 0) first = hashOfPicture(renderer.readBack());
+    if (i == 299) last = hashOfPicture(renderer.readBack());
+  }
+  CHECK(first == last);
+}
+
+TEST_CASE("thirty frames with everything switched on under GPU-assisted validation") {
+  VASA_REQUIRE_GPU(rig);
+  gpu::Device device({.choice = {}, .validation = {.gpuAssisted = true}, .instanceExtensions = {}, .deviceExtensions = {}});
+  test::Everything scene(9);
+  {
+    Renderer renderer(device, scene.grown.network, scene.meshes, scene.options(1));
+    for (unsigned i = 0; i < 30; ++i) renderer.draw(scene.turned(0.2f * float(i), i));
+  }
+  CHECK_MESSAGE(device.validationMessages().empty(), test::joined(device.validationMessages()));
+}

@@ -1,0 +1,58 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "shared/fork.h"
+#include "shared/growth.h"
+#include "shared/occlusion.h"
+#include "shared/tubes.h"
+
+// lavapipe stops all loops of an invocation silently when they have gone round 65,535 times together. So the most that
+// an invocation of each compute pass may do is added up here from the constants that bound its loops, and has to stay
+// below half of that. tests/gpu shows that the limit is there.
+
+using namespace vasa;
+
+namespace {
+
+constexpr unsigned kBudget = 30'000;
+
+std::map<std::string, unsigned> mostLoops() {
+  using namespace shared;
+  constexpr unsigned m = kMaxAround, rings = kMaxStrips + 1, chord = 5;
+  constexpr unsigned forkRows = kTrunkRows + 1 + kCollarRows;
+  return {
+      {"measure.comp", chord + kMaxAlong},
+      {"around.comp", m},
+      {"tubes.comp", kGroupSweeps + rings + rings * m + kMaxStrips * (1 + m + 2 * m)},
+      // a ring search, m vertices and their directions a row, triangles twice (seen, written), sums over the group
+      {"forks.comp", 4 * kMostForkVertices + 4 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
+      {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
+      {"occlusion.comp", kOcclusionTaps},
+      {"smooth.comp", kOcclusionTile * (kOcclusionTile + 1)},
+      {"skin.comp", 0},
+      {"access_read.comp", 0},
+      {"access_write.comp", 0},
+  };
+}
+
+}  // namespace
+
+TEST_CASE("no invocation of any compute pass comes near the device's budget of loops") {
+  for (const auto& [shader, loops] : mostLoops()) {
+    CAPTURE(shader);
+    CHECK(loops < kBudget);
+  }
+}
+
+TEST_CASE("every compute shader has been counted") {
+  std::size_t shaders = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("shaders")) {
+    if (entry.path().extension() != ".comp") continue;
+    ++shaders;
+    CHECK_MESSAGE(mostLoops().contains(entry.path().filename().string()), entry.path().string());
+  }
+  CHECK(shaders == mostLoops().size());
+}
