@@ -36,14 +36,20 @@ float placeOnSweep(uint sweepKey, uint sprout) {
   return unitFloat(scramble(sweepKey) + sprout * 0x9e3779b9u);
 }
 
+const float kOverlap = 0.5, kPoint = 0.3;
+
 void writeRibbon(Capillary capillary, uint rootColour, uint target) {
   GrowthView view = push.view.view;
   vec3 from = unpackUnorm4x8(rootColour).rgb, to = unpackUnorm4x8(view.capillary).rgb;
   for (uint i = 0; i <= push.edges; ++i) {
     float t = float(i) / float(push.edges);
     vec4 point = pointAt(capillary.curve, t);
+    vec3 along = derivativeAt(capillary.curve, t).xyz;
+    float speed = sqrt(dotOf(along, along)), beyond = i == 0 ? -kOverlap : i == push.edges ? kOverlap : 0;
+    point.xyz += (speed > 0 ? beyond * point.w / speed : 0) * along;
+    if (capillary.leaf && i == push.edges) point.w *= kPoint;
     vec3 toEye = view.perspective * (view.eye - point.xyz) + (1 - view.perspective) * view.eye;
-    vec3 side = crossOf(derivativeAt(capillary.curve, t).xyz, toEye);
+    vec3 side = crossOf(along, toEye);
     float length2 = dotOf(side, side);
     side = length2 > 1e-20 ? side / sqrt(length2) : view.right;
     float depth = max(dotOf(view.depth.xyz, point.xyz) + view.depth.w, 1e-6);

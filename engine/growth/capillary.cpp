@@ -114,7 +114,7 @@ Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sp
   const vec3 direction = std::cos(pitch) * tangent + std::sin(pitch) * out;
   if (tip) return {section.centre, direction, section.radius * system.tipRadius, 1};
   return {section.centre + kRootDepth * section.radius * out, direction,
-          std::min(section.radius * system.share, system.mostRadius), 1};
+          std::min(section.radius * system.share, system.mostRadius) * (1 - system.shareSpread * unitOf(key, 3)), 1};
 }
 
 }  // namespace
@@ -137,7 +137,9 @@ Capillary capillaryAt(const GrowthScene& scene, Sprout sprout, std::uint32_t lev
   for (;;) {
     const GrowthSymbol& symbol = scene.tables.symbol[capillary.symbol];
     capillary.curve = grown(symbol, around, bud, capillary.key);
-    if (number-- == 0 || --levels == 0) return capillary;
+    capillary.leaf = --levels == 0 || symbol.childCount == 0;
+    if (number == 0 || capillary.leaf) return capillary;
+    --number;
     std::uint32_t branch = 0;
     for (; branch + 1 < symbol.childCount; ++branch) {
       const std::uint32_t size = scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol].treeSize[levels];

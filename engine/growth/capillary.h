@@ -33,6 +33,7 @@ struct Capillary {
   std::uint32_t symbol = 0;      ///< into GrowthTables::symbol
   float phase = 0;               ///< 0 at the vessel, towards 1 in the capillary bed: the colour's way
   std::uint32_t key = 0;
+  bool leaf = false;             ///< nothing grows from it in a tree of so many generations: it ends in a point
 
   /// The phase at t.
   float phaseAt(float t) const { return phase + (1 - phase) * 0.5f * t; }

@@ -95,7 +95,7 @@ class Parser {
       return {};
     }
     if (first == "root")
-      return readSettings(line, 1, {{"share", {&system.values.share, 0.01f, 1}},
+      return readSettings(line, 1, {{"share", {&system.values.share, 0.01f, 1, &system.values.shareSpread}},
                                     {"thickest_mm", {&system.values.mostRadius, 0.001f, 10, nullptr, 1e-3f}},
                                     {"lean", {&system.values.lean, 0, 180, nullptr, kDegree}}});
     if (first == "tips") return readTips(line, system);
@@ -112,7 +112,7 @@ class Parser {
     if (systems_.size() == shared::kMostGrowthSystems)
       return fault(line.number, "at most " + std::to_string(shared::kMostGrowthSystems) + " systems fit; leave out one");
     System system{.name = std::string(line.words[1]), .axiom = {}, .line = line.number, .letters = {}};
-    system.values = {.axiom = 0, .share = 0.3f, .mostRadius = 0.3e-3f, .lean = 60 * kDegree, .tips = 0, .tipRadius = 1, .tipSpread = 35 * kDegree};
+    system.values = {.axiom = 0, .share = 0.3f, .shareSpread = 0, .mostRadius = 0.3e-3f, .lean = 60 * kDegree, .tips = 0, .tipRadius = 1, .tipSpread = 35 * kDegree};
     systems_.push_back(std::move(system));
     return {};
   }

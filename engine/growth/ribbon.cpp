@@ -7,6 +7,9 @@
 namespace vasa {
 namespace {
 
+constexpr float kOverlap = 0.5f;  // in radii, beyond the ends
+constexpr float kPoint = 0.3f;    // width of a leaf's end
+
 std::uint32_t snorm16(float value) {
   return std::uint32_t(int(std::floor(std::clamp(value, -1.0f, 1.0f) * 32767.0f + 0.5f))) & 0xffffu;
 }
@@ -28,17 +31,20 @@ void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std
   for (std::uint32_t i = 0; i <= edges; ++i) {
     const float t = float(i) / float(edges);
     const vec4 point = capillary.curve.at(t);
-    const vec3 place(point), along(capillary.curve.derivative(t));
+    const vec3 along(capillary.curve.derivative(t));
+    const float speed = glm::length(along), beyond = i == 0 ? -kOverlap : i == edges ? kOverlap : 0;
+    const vec3 place = vec3(point) + (speed > 0 ? beyond * point.w / speed : 0) * along;
+    const float radius = capillary.leaf && i == edges ? kPoint * point.w : point.w;
     const vec3 toEye = view.perspective * (view.eye - place) + (1 - view.perspective) * view.eye;
     vec3 side = glm::cross(along, toEye);
     const float length2 = glm::dot(side, side);
     side = length2 > 1e-20f ? side / std::sqrt(length2) : view.right;
     const float depth = std::max(glm::dot(vec3(view.depth), place) + view.depth.w, 1e-6f);
     const float pixel = depth / view.focal;
-    const float half = std::max(point.w, 0.5f * view.thinnest * pixel);
+    const float half = std::max(radius, 0.5f * view.thinnest * pixel);
     const vec3 colour = glm::mix(from, to, capillary.phaseAt(t));
     const std::uint32_t packed = unorm8(colour.x) | unorm8(colour.y) << 8 | unorm8(colour.z) << 16 |
-                                 unorm8(point.w / half) << 24;
+                                 unorm8(radius / half) << 24;
     for (int k = 0; k < 2; ++k) {
       const vec3 out = k == 0 ? side : -side;
       vertices[2 * i + std::uint32_t(k)] = {view.viewProjection * vec4(place + half * out, 1), packed,

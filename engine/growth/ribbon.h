@@ -4,7 +4,8 @@
 namespace vasa {
 
 /// A curve as a ribbon of `edges` quads that faces the camera: the shared polyline with its thickness. Where it is
-/// thinner than view.thinnest pixels it is drawn that wide and fades as much instead.
+/// thinner than view.thinnest pixels it is drawn that wide and fades as much instead. It reaches half a radius beyond
+/// both ends, so that no wedge opens where branches part; a leaf ends in a point.
 /// The CPU reference of shaders/capillary.comp.
 /// @param root      colour of the vessel, sRGB, red lowest
 /// @param vertices  2 · (edges + 1), the two sides by turns

@@ -15,8 +15,8 @@ namespace vasa {
 namespace {
 
 constexpr std::array<std::uint32_t, 3> kEdges{5, 8, shared::kMostCapillaryEdges};
-constexpr float kThinnest = 1.0f;  // [pixels]
-constexpr vec4 kBedColour{0.52f, 0.20f, 0.36f, 1};
+constexpr float kThinnest = 0.85f;  // [pixels]
+constexpr vec4 kBedColour{0.62f, 0.15f, 0.36f, 1};
 
 std::size_t edgesIndex(std::uint32_t edges) {
   const auto found = std::find(kEdges.begin(), kEdges.end(), edges);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kTableHeight = 1.75f;  // [m] of the body that the tables' lengths are for
 constexpr float kBelowSkin = 0.8f;     // share of the way to the skin that capillaries may take
+constexpr float kThickTip = 1.6f;      // most radii of a stem that a free end may go on in: thicker ones were cut off
 constexpr float kFarFromSkin = 0.06f;  // [m] room where the body has no skin
 
 // How far the skin is.
@@ -100,6 +101,8 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
       sites.freeEnds[sweep] = 0;
       continue;
     }
+    const shared::GrowthSystem& system = rules.tables.system[region->system];
+    if (section.radius * system.tipRadius > kThickTip * system.mostRadius) sites.freeEnds[sweep] = 0;
     const Limb limb = limbAt(spines, joint, section.centre);
     vec3 hub = limb.centre;
     if (const JointId anchor = scene.body.skeleton.find(region->hubJoint); anchor.valid() && !region->hubJoint.empty())
@@ -118,7 +121,6 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     // What is left of a tree over the whole ones grows in as many sweeps as its share says.
     sites.sprouts[sweep] = std::uint16_t(std::min(length / (region->spacing * scale) + unitFloat(scramble(keyOf(7, sweep))), 4000.0f));
   }
-  (void)rules;
   return sites;
 }
 

@@ -21,6 +21,7 @@ struct Bud {
 struct Capillary {
   Bezier curve;
   float phase;
+  bool leaf;
 };
 
 uint scramble(uint value) {
@@ -96,7 +97,7 @@ Bud rootBud(GrowthSystem system, Section section, uint number, bool againstFlow,
   vec3 direction = cos(pitch) * tangent + sin(pitch) * outwards;
   if (tip) return Bud(section.centre, direction, section.radius * system.tipRadius, 1);
   return Bud(section.centre + kRootDepth * section.radius * outwards, direction,
-             min(section.radius * system.share, system.mostRadius), 1);
+             min(section.radius * system.share, system.mostRadius) * (1 - system.shareSpread * randomUnit(key, 3)), 1);
 }
 
 vec3 inFrame(Section section, vec3 v) { return v.x * section.u + v.y * section.v + v.z * section.tangent; }
@@ -114,7 +115,8 @@ Capillary capillaryAt(Growth tables, GrowthSite site, Section section, uint spro
     GrowthSymbol symbol = tables.growth.symbol[symbolNumber];
     Bezier curve = grown(symbol, around, bud, key);
     --levels;
-    if (number == 0u || levels == 0u) return Capillary(curve, phase);
+    bool leaf = levels == 0u || symbol.childCount == 0u;
+    if (number == 0u || leaf) return Capillary(curve, phase, leaf);
     --number;
     uint branch = 0;
     for (; branch + 1 < symbol.childCount; ++branch) {
@@ -128,7 +130,7 @@ Capillary capillaryAt(Growth tables, GrowthSite site, Section section, uint spro
     phase = phaseAt(phase, child.at);
     symbolNumber = child.symbol;
   }
-  return Capillary(Bezier(vec4(0), vec4(0), vec4(0), vec4(0)), 0);  // not reached
+  return Capillary(Bezier(vec4(0), vec4(0), vec4(0), vec4(0)), 0, true);  // not reached
 }
 
 #endif

@@ -47,7 +47,7 @@ struct GrowthSymbol {
 /// An L-system.
 struct GrowthSystem {
   uint axiom;
-  float share;        // a sprout's first radius in radii of the vessel
+  float share, shareSpread;  // a sprout's first radius in radii of the vessel; share of it that some lack
   float mostRadius;   // [m] and never more than this
   float lean;         // [rad] between the vessel's downstream tangent and the sprout
   uint tips;          // sprouts at a free end
@@ -127,7 +127,7 @@ struct CapillaryPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GrowthChild) == 32 && sizeof(GrowthSymbol) == 72 && sizeof(GrowthSystem) == 28);
+static_assert(sizeof(GrowthChild) == 32 && sizeof(GrowthSymbol) == 72 && sizeof(GrowthSystem) == 32);
 static_assert(sizeof(GrowthSite) == 32 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
 static_assert(sizeof(GrowthView) == 64 + 16 + 16 + 24 + 16 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared

@@ -33,12 +33,22 @@ TEST_CASE("a ribbon is as wide as its curve, gets thinner, and faces the camera"
   scene.write();
   for (std::uint32_t i = 0; i <= 5; ++i) {
     const float radius = 0.02f - 0.01f * float(i) / 5;
-    CHECK(scene.vertices[2 * i].clip.x == doctest::Approx(float(i) / 5).epsilon(1e-5));
+    const float beyond = i == 0 ? -0.01f : i == 5 ? 0.005f : 0;  // half a radius
+    CHECK(scene.vertices[2 * i].clip.x == doctest::Approx(float(i) / 5 + beyond).epsilon(1e-5));
     CHECK(std::abs(scene.vertices[2 * i].clip.y) == doctest::Approx(radius).epsilon(1e-4));
     CHECK(scene.vertices[2 * i].clip.y == -scene.vertices[2 * i + 1].clip.y);
     CHECK(scene.vertices[2 * i].clip.z == 0);
     CHECK((scene.vertices[2 * i].colour >> 24) == 255);
   }
+}
+
+TEST_CASE("a leaf ends in a point") {
+  Scene scene;
+  scene.capillary.leaf = true;
+  scene.view.focal = 1000;
+  scene.write();
+  CHECK(std::abs(scene.vertices[10].clip.y) == doctest::Approx(0.003f));
+  CHECK(std::abs(scene.vertices[8].clip.y) == doctest::Approx(0.012f));
 }
 
 TEST_CASE("its colour runs from the vessel's towards the bed's") {
