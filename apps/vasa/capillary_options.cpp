@@ -22,8 +22,8 @@ void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options) {
   sub.add_option("--capillaries", options.levels, "Generations of capillaries that grow from the vessels; 0: none")
       ->check(CLI::Range(0u, shared::kMostGrowthLevels))
       ->capture_default_str();
-  sub.add_option("--capillary-edges", options.edges, "Edges of a capillary's polyline: 5, 8, 10, or auto by its size in the picture")
-      ->check(CLI::IsMember({"5", "8", "10", "auto"}))
+  sub.add_option("--capillary-edges", options.edges, "Edges of a capillary's polyline: 3, 5, 8, 10, or auto by its size in the picture")
+      ->check(CLI::IsMember({"3", "5", "8", "10", "auto"}))
       ->capture_default_str();
   sub.add_option("--capillary-budget", options.budget, "Most capillaries in a picture; beyond it all vessels have fewer trees")
       ->check(CLI::Range(1u, 64'000'000u))

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "camera_choice.h"
+#include "capillary_options.h"
 #include "commands.h"
 #include "core/log.h"
 #include "frame_output.h"
@@ -29,11 +30,13 @@ struct Options {
   std::string quads = "4x5,4x10,8x5,8x10", size = "1280x720";
   std::uint32_t frames = 40;
   unsigned samples = 1;
+  CapillaryOptions capillaries;
   bool body = false, avoid = false;
 };
 
 struct Setting {
   Scene scene;
+  std::unique_ptr<SceneGrowth> growth;  // none without capillaries
   const Clip* clip = nullptr;
   CameraMan camera;
   Look look;
@@ -90,7 +93,7 @@ std::string nameOf(Quads quads) {
 Report profileRow(gpu::Device& device, const Setting& setting, const Options& options, Quads quads) {
   const auto meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>();
   RenderOptions render{.width = setting.size.width, .height = setting.size.height, .samples = options.samples,
-                       .shape = {quads.around, quads.along}, .pixelError = quads.pixelError, .timed = false};
+                       .shape = {quads.around, quads.along}, .pixelError = quads.pixelError, .growth = setting.growth.get(), .capillaries = wishOf(options.capillaries), .timed = false};
   Stages stages;
   {
     Renderer renderer(device, setting.scene.network, meshes, render);
@@ -114,12 +117,18 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
     stages.add("upload_ms", times.upload);
     stages.add("tessellate_ms", times.tessellate);
     stages.add("draw_ms", times.draw);
+    if (setting.growth) stages.add("capillaries_ms", times.capillaries);
     stages.add("meshes_ms", times.meshes);
     stages.add("triangles_drawn", double(renderer.drawnTriangleCount()));
     if (drawn++ % 8 == 0) stages.add("static_draw_ms", renderer.staticDraw(input, 1));
   });
   Report row{{"quads", nameOf(quads)}, {"sweeps", renderer.sweepCount()}, {"triangles", renderer.triangleCount()}};
   stages.report(row);
+  if (const CapillaryCounts grown = renderer.capillaryCounts(); setting.growth) {
+    row["capillaries"] = grown.curves;
+    row["capillary_trees"] = grown.trees;
+    row["capillary_bytes"] = grown.bytes;
+  }
   if (quads.pixelError > 0) row["triangles"] = row["triangles_drawn"];  // the picture decides, and leaves no others
   row["fps"] = 1000 / row.value("frame_ms", 1e9);
   row["template_bytes"] = renderer.templateBytes();
@@ -174,6 +183,9 @@ Result<Setting> prepare(const Options& options) {
   auto scene = loadScene(*choice);
   if (!scene) return scene.error();
   setting.scene = std::move(*scene);
+  auto growth = growthOf(setting.scene, options.capillaries);
+  if (!growth) return growth.error();
+  setting.growth = std::move(*growth);
   if (!choice->clip.empty()) {
     const auto clip = findClip(setting.scene.body, choice->clip);
     if (!clip) return clip.error();
@@ -219,6 +231,7 @@ void addProfile(CLI::App& app, Command& command) {
   sub->footer("Examples:\n  vasa profile\n  vasa profile --body b.glb --network b.vasa --clip walk --quads 4x5,8x10 --json");
   addSceneOptions(*sub, options->scene);
   addCameraOptions(*sub, options->camera);
+  addCapillaryOptions(*sub, options->capillaries);
   sub->add_option("--quads", options->quads, "Tessellations, MxN or auto, with commas between")->capture_default_str();
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();

@@ -65,7 +65,7 @@ struct Seen {
 
 // By the size of the longest stem of all systems, so that trees side by side share a batch.
 std::uint32_t edgesFor(float pixels) {
-  return pixels < 50 ? 5 : pixels < 140 ? 8 : 10;
+  return pixels < 40 ? 3 : pixels < 80 ? 5 : pixels < 200 ? 8 : 10;
 }
 
 class Planner {

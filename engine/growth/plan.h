@@ -24,7 +24,7 @@ struct Growth {
 /// What of the capillaries is asked for.
 struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
-  std::uint32_t edges = 0;   ///< of every curve's polyline: 5, 8 or 10; 0: by its size in the picture
+  std::uint32_t edges = 0;   ///< of every curve's polyline: 3, 5, 8 or 10; 0: by its size in the picture
   std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every sweep has fewer trees
   float smallest = 0.5f;     ///< [pixels] generations with shorter curves are left out; 0: none is
 };

@@ -14,7 +14,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::array<std::uint32_t, 3> kEdges{5, 8, shared::kMostCapillaryEdges};
+constexpr std::array<std::uint32_t, 4> kEdges{3, 5, 8, shared::kMostCapillaryEdges};
 constexpr float kThinnest = 0.85f;  // [pixels]
 constexpr vec4 kBedColour{0.62f, 0.15f, 0.36f, 1};
 

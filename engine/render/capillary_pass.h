@@ -53,7 +53,7 @@ class CapillaryPass {
   gpu::ComputePipeline grow_;
   gpu::GraphicsPipeline draw_;
   std::array<gpu::Buffer, 2> rings_;
-  std::array<gpu::Buffer, 3> indices_;  // of 5, 8 and 10 edges
+  std::array<gpu::Buffer, 4> indices_;  // of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, siteBuffer_, host_, frame_;
 };
 

@@ -102,7 +102,9 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
       continue;
     }
     const shared::GrowthSystem& system = rules.tables.system[region->system];
-    if (section.radius * system.tipRadius > kThickTip * system.mostRadius) sites.freeEnds[sweep] = 0;
+    for (const std::uint8_t last : {0, 1})
+      if (sectionOn(rest, sweep, last).radius * system.tipRadius > kThickTip * system.mostRadius)
+        sites.freeEnds[sweep] = std::uint8_t(sites.freeEnds[sweep] & ~(1u << last));
     const Limb limb = limbAt(spines, joint, section.centre);
     vec3 hub = limb.centre;
     if (const JointId anchor = scene.body.skeleton.find(region->hubJoint); anchor.valid() && !region->hubJoint.empty())

@@ -63,7 +63,8 @@ TEST_CASE("what the program ships can be read") {
   CHECK(systemOf({"left facial artery", "", "Neck1", VesselKind::artery}) == "face");
   CHECK(systemOf({"plantar arch left", "", "LeftFoot", VesselKind::artery}) == "foot");
   CHECK(systemOf({"ulnar palmar digital artery of ring finger left", "", "LeftHandFinger3", VesselKind::artery}) == "hand");
-  CHECK(systemOf({"popliteal vein", "", "LeftLeg", VesselKind::vein}) == "muscle");
+  CHECK(systemOf({"popliteal vein", "", "LeftLeg", VesselKind::vein}) == "limb");
+  CHECK(systemOf({"lumbar vein", "", "LowerBack", VesselKind::vein}) == "muscle");
 }
 
 TEST_CASE("faults are told with file, line, cause and remedy") {
