@@ -3,17 +3,31 @@
 #   ./test.sh           the release build, all tests
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
+#   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
 # Further arguments go to ctest, e.g. ./test.sh release -R network
 set -euo pipefail
 cd "$(dirname "$0")"
 preset=${1:-release}
 [ $# -gt 0 ] && shift
 scripts/install-dependencies.sh
+if [ "$preset" = fuzz ] && ! command -v clang++ > /dev/null; then scripts/install-dependencies.sh clang; fi
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
+if [ "$preset" = fuzz ]; then
+  readers='swc vtp bvh obj stl scene vasa'
+  cmake --build --preset fuzz --target $(printf 'fuzz_%s ' $readers)
+  mkdir -p build/fuzz/found
+  for reader in $readers; do
+    mkdir -p "build/fuzz/corpus/$reader"
+    echo "fuzzing $reader"
+    "build/fuzz/tests/fuzz/fuzz_$reader" -max_total_time="${1:-30}" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+      -verbosity=0 -artifact_prefix="build/fuzz/found/$reader-" "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader"
+  done
+  exit 0
+fi
 select=()
 targets=()
 case "$preset" in
-  asan) wanted='core math curve mesh network convert body io collide' ;;
+  asan) wanted='core math curve mesh network convert body io collide fuzz' ;;
   tsan) wanted='core convert collide' ;;
   *) wanted='' ;;
 esac

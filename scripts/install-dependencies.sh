@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of debian-packages.txt that are missing. Needs root or sudo only if some are.
+# Installs the Debian packages of debian-packages.txt, and those named as arguments, that are missing. Needs root or sudo only if some are.
 set -euo pipefail
 cd "$(dirname "$0")"
 missing=()
 while read -r package; do
   case "$package" in '' | '#'*) continue ;; esac
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
-done < debian-packages.txt
+done < <(cat debian-packages.txt; printf '%s\n' "$@")
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 as_root=()

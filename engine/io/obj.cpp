@@ -116,7 +116,10 @@ bool indicesValid(const tinyobj::attrib_t& attributes, const tinyobj::mesh_t& sh
 Result<std::vector<MeshElement>> readObj(const std::filesystem::path& path, const ImportFrame& frame) {
   const auto bytes = readFile(path);
   if (!bytes) return bytes.error();
-  const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  return parseObj({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path, frame);
+}
+
+Result<std::vector<MeshElement>> parseObj(const std::string& text, const std::filesystem::path& path, const ImportFrame& frame) {
   if (auto checked = LineCheck(path, frame).run(text); !checked) return checked.error();
 
   tinyobj::ObjReaderConfig settings;

@@ -16,4 +16,7 @@ namespace vasa {
 /// a face with fewer than three corners or an index outside the vertices, a file without faces.
 Result<std::vector<MeshElement>> readObj(const std::filesystem::path& path, const ImportFrame& frame = {});
 
+/// The same from text. @param path  for messages and names
+Result<std::vector<MeshElement>> parseObj(const std::string& text, const std::filesystem::path& path, const ImportFrame& frame = {});
+
 }  // namespace vasa

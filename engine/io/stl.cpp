@@ -166,21 +166,25 @@ class AsciiReader {
 
 }  // namespace
 
-Result<std::vector<MeshElement>> readStl(const std::filesystem::path& path, const ImportFrame& frame) {
-  const auto bytes = readFile(path);
-  if (!bytes) return bytes.error();
+Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, const std::filesystem::path& path, const ImportFrame& frame) {
   const std::string file = path.string(), name = path.stem().string();
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  const bool fitsBinary = bytes->size() >= kHeaderBytes &&
-                          bytes->size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes->data() + 80));
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const bool fitsBinary = bytes.size() >= kHeaderBytes &&
+                          bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
   const bool ascii = !fitsBinary && text.substr(0, text.find('\n')).find("solid") != text.npos;
-  if (!ascii && bytes->size() < kHeaderBytes)
-    return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes->size()) + " bytes");
-  auto elements = ascii ? AsciiReader(file, name, text, frame).run() : readBinary(file, name, *bytes, frame);
+  if (!ascii && bytes.size() < kHeaderBytes)
+    return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) + " bytes");
+  auto elements = ascii ? AsciiReader(file, name, text, frame).run() : readBinary(file, name, bytes, frame);
   if (!elements) return elements;
   if (elements->empty() || elements->front().mesh.empty())
     return badInput(file + ": the file has no triangles with an area; export the surface again");
   return elements;
+}
+
+Result<std::vector<MeshElement>> readStl(const std::filesystem::path& path, const ImportFrame& frame) {
+  const auto bytes = readFile(path);
+  if (!bytes) return bytes.error();
+  return parseStl(*bytes, path, frame);
 }
 
 }  // namespace vasa

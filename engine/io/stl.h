@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -14,5 +15,9 @@ namespace vasa {
 /// Fails with badInput, naming file and place: a file cut short, a coordinate that is not finite or too far
 /// away, a facet without three corners, no triangles.
 Result<std::vector<MeshElement>> readStl(const std::filesystem::path& path, const ImportFrame& frame = {});
+
+/// The same from memory. @param path  for messages and names
+Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                                          const ImportFrame& frame = {});
 
 }  // namespace vasa

@@ -170,7 +170,7 @@ class Reader {
     std::string text;
     for (const double letter : letters) {
       if (letter == 0) out_.names.push_back(std::exchange(text, {}));
-      else if (letter > 0 && letter < 256) text += char(static_cast<unsigned char>(letter));
+      else if (letter >= 1 && letter < 256) text += char(static_cast<unsigned char>(letter));
     }
   }
 

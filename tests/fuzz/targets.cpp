@@ -1,0 +1,150 @@
+#include "fuzz/targets.h"
+
+#include <cstdlib>
+#include <cstring>
+
+#include "body/retarget.h"
+#include "core/hash.h"
+#include "core/log.h"
+#include "io/bvh.h"
+#include "io/obj.h"
+#include "io/stl.h"
+#include "io/swc.h"
+#include "io/vtp.h"
+#include "network/file.h"
+#include "scene/scene_file.h"
+
+namespace vasa::fuzz {
+namespace {
+
+void must(bool holds) {
+  if (!holds) std::abort();
+}
+
+std::string_view textOf(Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+template <class T>
+void messageNames(const Result<T>& result) {
+  if (!result) must(result.error().message.starts_with("f: ") || result.error().message.starts_with("f:"));
+}
+
+// Fitting is exercised where it is quick.
+constexpr std::size_t kMostSamples = 200;
+
+void useLines(const Centrelines& lines) {
+  for (const auto& line : lines.lines) {
+    must(line.samples.size() >= 2);
+    for (std::size_t i = 0; i < line.samples.size(); ++i) {
+      must(line.samples[i].w > 0);
+      must(i == 0 || vec3(line.samples[i]) != vec3(line.samples[i - 1]));
+    }
+  }
+  for (const auto& joint : lines.joints) {
+    if (joint.host) must(joint.host->line < lines.lines.size() && joint.host->sample < lines.lines[joint.host->line].samples.size());
+    for (const auto& end : joint.ends) must(end.line < lines.lines.size());
+  }
+  if (lines.sampleCount() > kMostSamples) return;
+  const auto made = networkOfCentrelines(lines);
+  if (!made) return;
+  for (const vec4& p : made->network.points()) must(p.w > 0);
+  (void)swcOfCentrelines(centrelinesOfNetwork(made->network, made->network.points()));
+}
+
+void checkMesh(const Result<std::vector<MeshElement>>& elements) {
+  if (!elements) return;
+  must(!elements->empty());
+  for (const MeshElement& element : *elements)
+    for (const uvec3& t : element.mesh.triangles)
+      for (int k = 0; k < 3; ++k) must(t[k] < element.mesh.positions.size());
+}
+
+// A body with a few of CMU's joints, to carry motions to.
+const Body& doll() {
+  static const Body body = [] {
+    Body made;
+    const std::pair<const char*, int> joints[] = {{"Hips", -1}, {"Spine", 0}, {"LeftArm", 1}, {"LeftForeArm", 2}, {"LeftHand", 3}, {"LeftUpLeg", 0}, {"LeftLeg", 5}, {"LeftFoot", 6}};
+    for (const auto& [name, parent] : joints) {
+      Skeleton::Joint joint;
+      joint.name = name;
+      joint.rest.translation = {0.1f, parent < 0 ? 1.0f : -0.2f, 0};
+      if (parent >= 0) joint.parent = {std::uint32_t(parent)};
+      joint.restWorld = (parent < 0 ? mat4(1) : made.skeleton.joints[std::size_t(parent)].restWorld) * joint.rest.matrix();
+      made.skeleton.joints.push_back(joint);
+    }
+    return made;
+  }();
+  return body;
+}
+
+}  // namespace
+
+void swc(Bytes bytes) {
+  const auto samples = parseSwc(textOf(bytes), "f");
+  messageNames(samples);
+  if (!samples) return;
+  const std::string text = encodeSwc(*samples);
+  const auto again = parseSwc(text, "f");
+  must(again.ok() && encodeSwc(*again) == text);
+  useLines(centrelinesOfSwc(*samples, "f", VesselKind::artery));
+}
+
+void vtp(Bytes bytes) {
+  const auto lines = parseVtp(bytes, "f");
+  messageNames(lines);
+  if (!lines) return;
+  const std::string text = encodeVtp(*lines);
+  const auto again = parseVtp(std::as_bytes(std::span(text)), "f");
+  must(again.ok() && encodeVtp(*again) == text);
+  useLines(centrelinesOfVtp(*lines, "f", VesselKind::artery));
+}
+
+void bvh(Bytes bytes) {
+  const auto motion = parseBvh(textOf(bytes), "f");
+  messageNames(motion);
+  if (!motion) return;
+  must(motion->rotations.size() == motion->frameCount * motion->joints.size() && motion->translations.size() == motion->rotations.size());
+  if (motion->frameCount * motion->joints.size() > 2000) return;
+  const auto clip = retarget(*motion, doll());
+  if (clip) must(samplePose(doll().skeleton, *clip, clip->end).world.size() == doll().skeleton.joints.size());
+}
+
+void obj(Bytes bytes) {
+  const auto elements = parseObj(std::string(textOf(bytes)), "f");
+  messageNames(elements);
+  checkMesh(elements);
+}
+
+void stl(Bytes bytes) {
+  const auto elements = parseStl(bytes, "f");
+  messageNames(elements);
+  checkMesh(elements);
+}
+
+void scene(Bytes bytes) {
+  messageNames(parseScene(std::string(textOf(bytes)), "folder", "f"));
+}
+
+void vasa(Bytes bytes) {
+  std::vector<std::byte> file(24);
+  std::memcpy(file.data(), "VASA", 4);
+  const std::uint32_t version = 1;
+  const std::uint64_t length = bytes.size(), hash = hashBytes(bytes);
+  std::memcpy(file.data() + 4, &version, 4);
+  std::memcpy(file.data() + 8, &length, 8);
+  std::memcpy(file.data() + 16, &hash, 8);
+  file.insert(file.end(), bytes.begin(), bytes.end());
+  const auto network = decodeNetwork(file, "f");
+  messageNames(network);
+  if (!network) return;
+  const auto again = decodeNetwork(encodeNetwork(*network), "f");
+  must(again.ok() && again->points().size() == network->points().size());
+}
+
+std::span<const Target> targets() {
+  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"scene", scene}, {"vasa", vasa}};
+  return all;
+}
+
+}  // namespace vasa::fuzz
