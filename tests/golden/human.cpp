@@ -1,0 +1,137 @@
+#include <stdexcept>
+
+#include "golden/gallery.h"
+#include "network/measure.h"
+#include "render/renderer.h"
+#include "scene/frame.h"
+#include "scene/growth.h"
+
+namespace vasa::golden {
+namespace {
+
+template <class T>
+T taken(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+struct Human {
+  Scene scene;
+  SceneGrowth growth;
+};
+
+const Human& human() {
+  static const Human loaded = [] {
+    SceneFile file;
+    file.body = VASA_GOLDEN_DATA "/human.glb";
+    file.networks = {VASA_GOLDEN_DATA "/human.vasa"};
+    Scene scene = taken(loadScene(file));
+    SceneGrowth growth = taken(loadGrowth(scene, VASA_GOLDEN_DATA "/growth"));
+    return Human{std::move(scene), std::move(growth)};
+  }();
+  return loaded;
+}
+
+struct Shot {
+  const char* preset = "atlas";
+  const char* clip = "";
+  std::uint32_t frame = 0;
+  View view = View::front;
+  const char* subject = "";  // a joint to look at; none: the whole body
+  float around = 0.12f;      // [m] how much about it
+  const char* parts = "abhsv";  // arteries, bones, heart, skin, veins
+  std::uint32_t growLevels = 0;
+  bool transparent = false, occlusion = true, beating = false;
+};
+
+Look lookOf(const Shot& shot) {
+  Look look = *lookNamed(shot.preset);
+  const std::string_view parts(shot.parts);
+  look.drawArteries = parts.find('a') != std::string_view::npos;
+  look.drawBones = parts.find('b') != std::string_view::npos;
+  look.drawHeart = parts.find('h') != std::string_view::npos;
+  look.drawSkin = parts.find('s') != std::string_view::npos;
+  look.drawVeins = parts.find('v') != std::string_view::npos;
+  look.transparent = shot.transparent;
+  if (!shot.occlusion) look.occlusion = 0;
+  return look;
+}
+
+std::size_t jointNamed(std::string_view name) {
+  const auto& joints = human().scene.body.skeleton.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].name == name) return j;
+  throw std::runtime_error("no joint " + std::string(name));
+}
+
+Aabb boxOf(const Shot& shot, const FrameMaker& maker) {
+  const Scene& scene = human().scene;
+  if (*shot.subject) {
+    Aabb close;
+    close.add(vec3(maker.pose().world[jointNamed(shot.subject)][3]), shot.around);
+    return close;
+  }
+  Aabb box = measure(scene.network, maker.points()).bounds;
+  for (const mat4& joint : maker.pose().world) box.add(vec3(joint[3]), 0.08f);
+  return box;
+}
+
+Image draw(gpu::Device& device, const Shot& shot) {
+  const Human& all = human();
+  FrameMaker maker(all.scene, {.beat = shot.beating});
+  const Clip* clip = *shot.clip ? taken(findClip(all.scene.body, shot.clip)) : nullptr;
+  maker.make(clip, clip ? clip->timeOfFrame(shot.frame) : 0.14f);
+  const std::uint32_t width = *shot.subject ? kWidth : kHeight, height = kWidth + kHeight - width;  // a body stands upright
+  Renderer renderer(device, all.scene.network, all.scene.body.meshes,
+                    {.width = width, .height = height, .pixelError = kAutoPixelError, .supersample = 2, .occlusion = true,
+                     .growth = shot.growLevels ? &all.growth : nullptr, .capillaries = {.levels = shot.growLevels}, .timed = false});
+  renderer.draw({.points = maker.points(),
+                 .knotFrames = maker.knotFrames(),
+                 .jointMatrices = maker.jointMatrices(),
+                 .camera = cameraFrom(shot.view, boxOf(shot, maker), float(width) / float(height)),
+                 .look = lookOf(shot),
+                 .heartScale = maker.heartScale()});
+  return renderer.readBack();
+}
+
+Picture picture(std::string name, const Shot& shot) {
+  return {std::move(name), [shot](gpu::Device& device) { return draw(device, shot); }};
+}
+
+}  // namespace
+
+std::vector<Picture> humanPictures() {
+  return {
+      picture("parts/arteries", {.parts = "a"}),
+      picture("parts/veins", {.parts = "v"}),
+      picture("parts/bones", {.parts = "b"}),
+      picture("parts/heart", {.subject = "Spine1", .parts = "hav"}),
+      picture("parts/heart_beating", {.subject = "Spine1", .parts = "hav", .beating = true}),
+      picture("parts/skin", {.parts = "s"}),
+      picture("presets/atlas", {.view = View::left, .subject = "Head"}),
+      picture("presets/clinical", {.preset = "clinical", .subject = "Head"}),
+      picture("presets/xray", {.preset = "xray", .subject = "Head"}),
+      picture("presets/flat", {.subject = "Spine1", .occlusion = false}),
+      picture("presets/transparent", {.subject = "Spine1", .transparent = true}),
+      picture("poses/front", {}),
+      picture("poses/left", {.view = View::left}),
+      picture("poses/back", {.view = View::back}),
+      picture("poses/walk", {.clip = "walk", .frame = 9}),
+      picture("poses/squat", {.clip = "squat", .frame = 30, .view = View::left}),
+      picture("poses/fist", {.clip = "fist", .frame = 20, .view = View::left, .subject = "LeftHandFinger2"}),
+      picture("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 2}),
+      picture("regions/foot", {.subject = "LeftToeBase", .parts = "ab", .growLevels = 2}),
+      picture("regions/head", {.subject = "Head", .parts = "ab", .growLevels = 3}),
+  };
+}
+
+std::vector<Picture> humanMutations() {
+  return {
+      picture("parts/arteries", {.parts = "av"}),
+      picture("presets/clinical", {.preset = "atlas", .subject = "Head"}),
+      picture("poses/walk", {.clip = "walk", .frame = 13}),
+      picture("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 1}),
+  };
+}
+
+}  // namespace vasa::golden
