@@ -7,8 +7,6 @@ namespace vasa {
 namespace {
 
 constexpr int kRingProbes = 8;
-constexpr float kLongestCollar = 3.0f;  // radii, from where the hole lies below the axis to the ring
-constexpr float kClearance = 0.35f;  // of the branch's radius, between its ring and the host's wall
 
 struct Walker {
   const VesselLine& branch;
@@ -34,7 +32,8 @@ float ringDepth(const Walker& walker, float from, const VesselLine& host, float 
 
 }  // namespace
 
-ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay) {
+ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay, float clearance,
+                      float longest) {
   const Walker walker{branch, last};
   ForkExit exit;
   float foot = hostWay, best = 1e30f, limit = 0.98f * branch.length();
@@ -60,7 +59,7 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
         exit.ring = from;
         exit.ringFoot = foot;
         exit.found = true;
-        exit.clear = depth <= -kClearance * point.w;
+        exit.clear = depth <= -clearance * point.w;
         if (exit.clear) break;
       }
     }
@@ -70,7 +69,7 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
   exit.radius = walker.point(exit.ring).w;
   // A branch that creeps along the wall leaves it where it ends to: the hole stays near the ring.
   for (const auto& [from, beside] : steps)
-    if (from > exit.cross && from <= exit.ring - kLongestCollar * exit.radius) exit.cross = from, exit.foot = beside;
+    if (from > exit.cross && from <= exit.ring - longest * exit.radius) exit.cross = from, exit.foot = beside;
   const vec3 course = vec3(walker.point(exit.ring) - walker.point(exit.cross));
   exit.lean = glm::dot(course, host.tangent(exit.foot)) / std::max(glm::length(course), 1e-12f);
   return exit;

@@ -19,6 +19,9 @@ struct ForkExit {
 /// @param last     the branch is the line's last end, so that ways count from there
 /// @param hostWay  where the branch's end lies on the host
 /// The branch is followed until its ring is out of the host; not found where it never comes out.
-ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay);
+/// @param clearance  between ring and host, in radii of the branch
+/// @param longest    of the way from `cross` to `ring`, in radii of the branch
+ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay, float clearance,
+                      float longest);
 
 }  // namespace vasa

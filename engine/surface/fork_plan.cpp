@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/fork_check.h"
 #include "surface/fork_exit.h"
 #include "surface/fork_record.h"
 #include "surface/fork_room.h"
@@ -10,11 +11,19 @@
 
 // A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it are given
 // room. A branch without room is dropped; that lengthens its own line again, so lines are gone through until no branch
-// is dropped any more. Branches are only ever dropped, so this ends.
+// is dropped any more. Then forks that fold are mended, and all is done again. Branches are only ever dropped or tried
+// with another clearance, a few times each, so this ends.
 namespace vasa {
 namespace {
 
-constexpr float kFillet = 0.35f;          // of the branch's radius
+// Ways to make a fork, tried one after the other until it does not fold; in radii of the branch.
+struct Manner {
+  float clearance, longest;  // of findForkExit()
+  float fillet;
+};
+constexpr Manner kManners[] = {{0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},  {1.4f, 3, 0.5f},   {0.35f, 1.5f, 0.35f},
+                               {0.8f, 2, 0.6f},   {0.3f, 1, 0.15f}, {1.2f, 1.5f, 0.2f}, {2.5f, 4, 0.5f}};
+constexpr std::uint32_t kCheckedAround = 8;           // quads around a fork that must not fold
 constexpr float kWidestHole = 0.9f;        // sine of half its angle
 constexpr float kHoleMargin = 1.25f;       // rows of the trunk stay outside the hole
 constexpr float kBetweenHoles = 0.3f;      // [radians] around the host
@@ -43,11 +52,13 @@ struct Item {
   }
 };
 
-enum class Fate { none, forked, hidden, tooShort, crowded };
+enum class Fate { none, forked, hidden, tooShort, crowded, folded };
 
 class Planner {
  public:
-  explicit Planner(const Network& network) : network_(network), lines_(makeVesselLines(network)) {
+  using Pair = std::array<VesselId, 2>;
+  Planner(const Network& network, std::span<const Pair> apart)
+      : network_(network), lines_(makeVesselLines(network, apart)) {
     exits_.resize(2 * lines_.lines.size());
     fates_.resize(exits_.size(), Fate::none);
     children_.resize(lines_.lines.size());
@@ -55,12 +66,20 @@ class Planner {
   }
 
   ForkPlan run() {
-    findExits();
-    for (bool dropped = true; dropped;) {
-      dropped = false;
-      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) dropped = !settle(line) || dropped;
+    tries_.resize(exits_.size());
+    for (std::uint32_t end = 0; end < exits_.size(); ++end) {
+      const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
+      if (lineEnd.kind == LineEnd::Kind::branch) children_[lineEnd.host].push_back(end);
+      findExit(end);
     }
-    for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) emit(line);
+    std::vector<quat> frames(network_.sectionCount());
+    networkFrames(network_, network_.points(), restReferences(network_), frames);
+    do {
+      giveRoom();
+      plan_ = {};
+      branchesOf_.clear();
+      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) emit(line);
+    } while (mendFolds(frames));
     std::sort(plan_.tubes.begin(), plan_.tubes.end(), [](const TubeStretch& a, const TubeStretch& b) {
       return a.vessel != b.vessel ? a.vessel < b.vessel : a.from < b.from;
     });
@@ -68,27 +87,54 @@ class Planner {
     return std::move(plan_);
   }
 
+  /// Vessels whose join folds in the plan of run().
+  std::span<const Pair> bent() const { return bent_; }
+
  private:
   struct Range {
     float low, high;
   };
 
-  void findExits() {
-    for (std::uint32_t end = 0; end < exits_.size(); ++end) {
-      const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
-      if (lineEnd.kind != LineEnd::Kind::branch) continue;
-      exits_[end] = findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay);
-      fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
-      children_[lineEnd.host].push_back(end);
-    }
+  void findExit(std::uint32_t end) {
+    const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
+    if (lineEnd.kind != LineEnd::Kind::branch) return;
+    exits_[end] = findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay,
+                               kManners[tries_[end]].clearance, kManners[tries_[end]].longest);
+    fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
+    clearJoin(end);
+  }
+
+  void giveRoom() {
     for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) {
-      clearJoin(2 * line);
-      clearJoin(2 * line + 1);
       if (!forked(2 * line) || !forked(2 * line + 1)) continue;
       const float room = lines_.lines[line].length() - exits_[2 * line].ring - exits_[2 * line + 1].ring;
       if (room < kSliver * exits_[2 * line].radius) fates_[2 * line + 1] = Fate::tooShort;
     }
+    for (bool dropped = true; dropped;) {
+      dropped = false;
+      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) dropped = !settle(line) || dropped;
+    }
   }
+
+  // Branches of forks that fold get a longer collar, or none. @return whether anything changed
+  bool mendFolds(std::span<const quat> frames) {
+    bent_.clear();
+    SweepTable table;
+    table.branches = plan_.branches;
+    const PosedNetwork posed{table, network_.points(), frames};
+    bool changed = false;
+    for (std::size_t i = 0; i < plan_.forks.size(); ++i) {
+      if (foldedTriangles(posed, plan_.forks[i], kCheckedAround) == 0) continue;
+      if (branchesOf_[i].empty()) bent_.push_back({VesselId{plan_.forks[i].vesselA}, VesselId{plan_.forks[i].vesselB}});
+      for (const std::uint32_t end : branchesOf_[i]) {
+        changed = true;
+        if (++tries_[end] < std::size(kManners)) findExit(end);
+        else fates_[end] = Fate::folded;
+      }
+    }
+    return changed;
+  }
+
   bool forked(std::uint32_t end) const { return fates_[end] == Fate::forked; }
 
   // A branch's ring too near a join of its own line moves beyond it.
@@ -132,12 +178,12 @@ class Planner {
     leaving.centre = exit.foot;
     leaving.radius = exit.radius;
     // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the branch is clear.
-    const float radius = std::min(exit.radius, 1.3f * trunk);
+    const float radius = std::min(exit.radius, 1.3f * trunk), fillet = kManners[tries_[end]].fillet;
     const float corner = std::clamp(std::abs(exit.ringFoot - exit.foot), radius, radius * stretched);
-    leaving.hole = corner + kFillet * (0.5f * radius + 0.5f * corner);
-    leaving.around = std::min(exit.radius * (1 + kFillet) / trunk, kWidestHole);
+    leaving.hole = corner + fillet * (0.5f * radius + 0.5f * corner);
+    leaving.around = std::min(exit.radius * (1 + fillet) / trunk, kWidestHole);
     leaving.cornerAlong = corner / leaving.hole;
-    leaving.cornerAround = 1 / (1 + kFillet);
+    leaving.cornerAround = 1 / (1 + fillet);
     const VesselLine& branch = lines_.lines[end / 2];
     const vec3 axis = host.tangent(exit.foot);
     const vec3 out = vec3(branch.point(end % 2 ? branch.length() - exit.cross : exit.cross) - host.point(exit.foot));
@@ -319,6 +365,8 @@ class Planner {
     plan_.report.joins += item.mustLow < 1e30f;
     plan_.forks.push_back(makeForkRecord(network_, course, plan_.branches));
     plan_.vesselOfFork.push_back(course.low.vessel);
+    branchesOf_.emplace_back();
+    for (const Leaving& leaving : item.branches) branchesOf_.back().push_back(leaving.child);
   }
 
   void count() {
@@ -329,6 +377,7 @@ class Planner {
       plan_.report.hidden += fate == Fate::hidden;
       plan_.report.tooShort += fate == Fate::tooShort;
       plan_.report.crowded += fate == Fate::crowded;
+      plan_.report.folded += fate == Fate::folded;
     }
   }
 
@@ -336,15 +385,27 @@ class Planner {
   VesselLines lines_;
   std::vector<ForkExit> exits_;  // 2 * line + end
   std::vector<Fate> fates_;
+  std::vector<std::uint32_t> tries_;
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<Item>> items_;
   ForkPlan plan_;
+  std::vector<Pair> bent_;
+  std::vector<std::vector<std::uint32_t>> branchesOf_;  // of each fork, as in exits_
 };
 
 }  // namespace
 
 ForkPlan planForks(const Network& network) {
-  return Planner(network).run();
+  std::vector<Planner::Pair> apart;
+  for (;;) {
+    Planner planner(network, apart);
+    ForkPlan plan = planner.run();
+    plan.report.bentJoins = std::uint32_t(apart.size());
+    const std::size_t before = apart.size();
+    for (const Planner::Pair& pair : planner.bent())
+      if (pair[0] != pair[1]) apart.push_back(pair);
+    if (apart.size() == before) return plan;
+  }
 }
 
 }  // namespace vasa

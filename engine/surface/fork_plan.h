@@ -35,6 +35,8 @@ struct ForkPlan {
     std::uint32_t hidden = 0;       ///< never come out of it
     std::uint32_t tooShort = 0;     ///< would be used up by the forks at their two ends
     std::uint32_t crowded = 0;      ///< find no room between their neighbours on the host
+    std::uint32_t folded = 0;       ///< would have a fork that folds, at rest, however far out its collar ends
+    std::uint32_t bentJoins = 0;    ///< joins that would fold at rest; one of the two vessels branches off the other instead
   };
   Report report;
 };

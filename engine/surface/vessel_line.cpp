@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kSamplesPerSpan = 8;
 constexpr float kLongestDouble = 8;    // radii
-constexpr float kStraightest = 0.35f;  // greatest cosine between two ends' outward directions that still run on
+constexpr float kStraightest = -0.1f;  // greatest cosine between two ends' outward directions that still run on
 
 // An end of a vessel as a node sees it.
 struct Arm {
@@ -76,8 +76,8 @@ std::optional<Double> doubleOf(const Network& network, const Vessel& vessel) {
 // Which ends run on into which.
 class Joiner {
  public:
-  explicit Joiner(const Network& network)
-      : network_(network), partner_(2 * network.vessels().size(), kNone), group_(network.vessels().size()) {
+  Joiner(const Network& network, std::span<const std::array<VesselId, 2>> apart)
+      : network_(network), apart_(apart), partner_(2 * network.vessels().size(), kNone), group_(network.vessels().size()) {
     std::iota(group_.begin(), group_.end(), 0u);
   }
   static constexpr std::uint32_t kNone = ~0u;
@@ -96,7 +96,9 @@ class Joiner {
     for (std::size_t i = 0; i < arms.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) {
         const float cosine = glm::dot(arms[i].outward, arms[k].outward);
-        if (cosine > kStraightest || root(arms[i].end.vessel.value) == root(arms[k].end.vessel.value)) continue;
+        if (cosine > kStraightest || root(arms[i].end.vessel.value) == root(arms[k].end.vessel.value) ||
+            keptApart(arms[i].end.vessel, arms[k].end.vessel))
+          continue;
         const float score = 1.5f * std::min(arms[i].radius, arms[k].radius) / largest - cosine;
         if (score > best) best = score, one = i, other = k;
       }
@@ -110,11 +112,18 @@ class Joiner {
   std::uint32_t partner(std::uint32_t end) const { return partner_[end]; }
 
  private:
+  bool keptApart(VesselId a, VesselId b) const {
+    return std::any_of(apart_.begin(), apart_.end(), [&](const auto& pair) {
+      return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
+    });
+  }
+
   std::uint32_t root(std::uint32_t v) {
     while (group_[v] != v) v = group_[v] = group_[group_[v]];
     return v;
   }
   const Network& network_;
+  std::span<const std::array<VesselId, 2>> apart_;
   std::vector<std::uint32_t> partner_, group_;
 };
 
@@ -212,7 +221,7 @@ VesselLine::Foot VesselLine::nearest(vec3 point, float around, float reach) cons
   return best;
 }
 
-VesselLines makeVesselLines(const Network& network) {
+VesselLines makeVesselLines(const Network& network, std::span<const std::array<VesselId, 2>> apart) {
   std::vector<std::optional<Double>> doubles;
   for (const Vessel& vessel : network.vessels()) doubles.push_back(doubleOf(network, vessel));
   for (std::uint32_t v = 0; v < doubles.size(); ++v)  // not of one another
@@ -222,7 +231,7 @@ VesselLines makeVesselLines(const Network& network) {
     std::erase_if(ends, [&](const VesselEnd& end) { return !drawn(end); });
     return ends;
   };
-  Joiner joiner(network);
+  Joiner joiner(network, apart);
   for (const Node& node : network.nodes()) {
     const std::vector<VesselEnd> ends = drawnOf(meetingEnds(network, node));
     if (ends.size() >= 2) joiner.joinBest(ends);

@@ -78,6 +78,7 @@ struct VesselLines {
 /// vessel's free end, which it then prolongs. No line is closed. A vessel that leads from another's end to its side a
 /// few radii on is a double of that piece (scanned parts overlap): it is in no line, and what hangs on it hangs on
 /// the other.
-VesselLines makeVesselLines(const Network& network);
+/// @param apart  pairs of vessels that do not become one line
+VesselLines makeVesselLines(const Network& network, std::span<const std::array<VesselId, 2>> apart = {});
 
 }  // namespace vasa
