@@ -1,0 +1,135 @@
+#include "surface/fork_plan.h"
+
+#include <doctest/doctest.h>
+
+#include "network/builder.h"
+#include "support/manifold.h"
+#include "support/networks.h"
+#include "surface/fork_check.h"
+#include "surface/surface_mesh.h"
+
+using namespace vasa;
+
+namespace {
+
+std::vector<vec4> straight(vec3 from, vec3 to, float radius) {
+  std::vector<vec4> points;
+  for (int i = 0; i < 7; ++i) {  // Greville abscissae of four spans
+    const auto knot = [](int k) { return float(std::clamp(k, 0, 4)); };
+    points.emplace_back(glm::mix(from, to, (knot(i - 2) + knot(i - 1) + knot(i)) / 12), radius);
+  }
+  return points;
+}
+
+vec3 direction(float degrees, float turn = 0) {
+  const float a = glm::radians(degrees), t = glm::radians(turn);
+  return {std::sin(a) * std::cos(t), std::sin(a) * std::sin(t), std::cos(a)};
+}
+
+// A trunk along z, radius 1 cm, and branches from its middle.
+Network trunkWith(const std::vector<std::pair<vec3, float>>& branches) {
+  NetworkBuilder builder;
+  const VesselId trunk = builder.addVessel({"trunk"}, straight({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f));
+  for (const auto& [along, radius] : branches)
+    builder.joinToSide({builder.addVessel({"branch"}, straight({0, 0, 0}, 0.2f * along, radius)), false}, {trunk, 2});
+  auto network = builder.build(1);
+  REQUIRE(network.ok());
+  return std::move(*network);
+}
+
+// Ends of several vessels that meet in the origin.
+Network star(const std::vector<std::pair<vec3, float>>& arms) {
+  NetworkBuilder builder;
+  std::vector<VesselEnd> ends;
+  for (const auto& [along, radius] : arms)
+    ends.push_back({builder.addVessel({"arm"}, straight({0, 0, 0}, 0.2f * along, radius)), false});
+  builder.joinEnds(ends);
+  auto network = builder.build(1);
+  REQUIRE(network.ok());
+  return std::move(*network);
+}
+
+struct Outcome {
+  ForkPlan::Report report;
+  std::uint32_t folds = 0;
+};
+
+// The surface is closed at all extremes of m and n.
+Outcome checkedSurface(const Network& network) {
+  Outcome outcome{planForks(network).report, 0};
+  std::vector<quat> frames(network.sectionCount());
+  networkFrames(network, network.points(), restReferences(network), frames);
+  const SweepTable table = makeSweepTable(network);
+  const PosedNetwork posed{table, network.points(), frames};
+  for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{4, 20}, SweepShape{7, 5}, SweepShape{8, 5}, SweepShape{16, 2},
+                                 SweepShape{16, 20}}) {
+    const SurfaceMesh mesh = surfaceMesh(posed, shape);
+    CHECK(test::openEdges(mesh.triangles) == 0);
+    CHECK(test::openEdges(test::weldedByBits(mesh.positions, mesh.triangles)) == 0);
+  }
+  for (const shared::ForkRecord& fork : table.forks) outcome.folds += foldedTriangles(posed, fork, 8);
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("side branches of all sizes at all angles: a fork each, closed, unfolded") {
+  for (const float ratio : {0.05f, 0.3f, 0.7f, 1.0f})
+    for (const float angle : {90.0f, 60.0f, 35.0f, 20.0f, 120.0f}) {
+      CAPTURE(ratio);
+      CAPTURE(angle);
+      const Outcome outcome = checkedSurface(trunkWith({{direction(angle), 0.01f * ratio}}));
+      CHECK(outcome.report.forked == 1);
+      CHECK(outcome.folds == 0);
+    }
+}
+
+TEST_CASE("crossings: two branches at one place, one fork where they leave on different sides") {
+  const Outcome across = checkedSurface(trunkWith({{direction(90), 0.006f}, {direction(90, 180), 0.006f}}));
+  CHECK(across.report.forked == 2);
+  CHECK(across.folds == 0);
+  CHECK(makeSweepTable(trunkWith({{direction(90), 0.006f}, {direction(90, 180), 0.006f}})).forks.size() == 1);
+  const Outcome beside = checkedSurface(trunkWith({{direction(70), 0.004f}, {direction(110), 0.004f}}));
+  CHECK(beside.report.forked == 2);
+  CHECK(beside.folds == 0);
+}
+
+TEST_CASE("vessels that end in one point: in two, three, four and five") {
+  for (const float spread : {25.0f, 40.0f, 60.0f}) {
+    CAPTURE(spread);
+    const Outcome fork = checkedSurface(star({{direction(180), 0.01f}, {direction(spread), 0.008f}, {direction(-spread), 0.007f}}));
+    CHECK(fork.report.forked == 1);
+    CHECK(fork.report.joins == 1);
+    CHECK(fork.folds == 0);
+  }
+  CHECK(checkedSurface(star({{direction(180), 0.01f}, {direction(20), 0.006f}})).report.joins == 1);
+  CHECK(checkedSurface(star({{direction(180), 0.01f}, {direction(0), 0.01f}, {direction(90), 0.008f}, {direction(-90), 0.008f}}))
+            .folds == 0);
+  CHECK(checkedSurface(star({{direction(180), 0.01f}, {direction(0), 0.01f}, {direction(90), 0.004f}, {direction(90, 120), 0.004f},
+                             {direction(90, 240), 0.004f}}))
+            .folds == 0);
+}
+
+TEST_CASE("what cannot be forked stays a closed tube of its own, and is counted") {
+  NetworkBuilder builder;
+  const VesselId trunk = builder.addVessel({"trunk"}, straight({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f));
+  builder.joinToSide({builder.addVessel({"inside"}, straight({0, 0, 0}, {0.003f, 0, 0.1f}, 0.002f)), false}, {trunk, 2});
+  const auto network = builder.build(1);
+  REQUIRE(network.ok());
+  const Outcome outcome = checkedSurface(*network);
+  CHECK(outcome.report.branches == 1);
+  CHECK(outcome.report.hidden == 1);
+}
+
+TEST_CASE("random trees: every branch is accounted for, no fork folds at rest") {
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    const Network network = test::branchingNetwork(20, seed);
+    const ForkPlan::Report report = planForks(network).report;
+    CHECK(report.branches == report.forked + report.hidden + report.tooShort + report.crowded + report.folded);
+    std::vector<quat> frames(network.sectionCount());
+    networkFrames(network, network.points(), restReferences(network), frames);
+    const SweepTable table = makeSweepTable(network);
+    for (const shared::ForkRecord& fork : table.forks)
+      CHECK(foldedTriangles({table, network.points(), frames}, fork, 8) == 0);
+  }
+}
