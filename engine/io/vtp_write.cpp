@@ -18,9 +18,20 @@ std::string block(const std::vector<T>& values) {
   return vtp::encodeBase64(bytes);
 }
 
+// An attribute's text: what XML might take for its own goes by number.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || c == '<' || c == '>' || c == '&' || c == '"' || c == '\'') out += "&#" + std::to_string(code) + ";";
+    else out += c;
+  }
+  return out;
+}
+
 template <class T>
 std::string array(const char* type, const std::string& name, const std::vector<T>& values, int components = 1) {
-  std::string text = std::string("        <DataArray type=\"") + type + "\" Name=\"" + name + "\"";
+  std::string text = std::string("        <DataArray type=\"") + type + "\" Name=\"" + escaped(name) + "\"";
   if (components > 1) text += " NumberOfComponents=\"" + std::to_string(components) + "\"";
   return text + " format=\"binary\">\n          " + block(values) + "\n        </DataArray>\n";
 }

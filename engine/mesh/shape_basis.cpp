@@ -18,7 +18,7 @@ Eigen::MatrixXd gramOf(const Frames& frames) {
   parallelFor(frames.size(), 1, [&](std::size_t i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = 0;
-      for (std::size_t v = 0; v < frames[i].size(); ++v) sum += double(glm::dot(frames[i][v], frames[j][v]));
+      for (std::size_t v = 0; v < frames[i].size(); ++v) sum += glm::dot(dvec3(frames[i][v]), dvec3(frames[j][v]));  // squares of metres must not hide squares of microns
       gram(Eigen::Index(i), Eigen::Index(j)) = sum;
     }
   });

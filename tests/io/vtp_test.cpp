@@ -133,6 +133,19 @@ TEST_CASE("VTP written is read back the same, byte for byte") {
   CHECK(encodeVtp(vtpOfCentrelines(again), kMillimetres) == text);
 }
 
+TEST_CASE("names of arrays that XML might take for its own survive") {
+  VtpLines lines;
+  lines.points = {{0, 0, 0, 1}, {1, 0, 0, 1}};
+  lines.lines = {{0, 1}};
+  lines.cellArrays = {{"a<AppendedData & \"b\"\n", {7}}};
+  const std::string text = encodeVtp(lines);
+  const auto read = parseVtp(bytesOf(text), "a.vtp");
+  if (!read.ok()) FAIL(read.error().message);
+  REQUIRE(read->cellArrays.size() == 1);
+  CHECK(read->cellArrays[0].name == lines.cellArrays[0].name);
+  CHECK(encodeVtp(*read) == text);
+}
+
 TEST_CASE("VMTK's aorta: one tree, radii within 1 % of the source's at every sample") {
   VASA_REQUIRE_SHARED_DATA(data);
   for (const char* name : {"aorta-centerline.vtp", "aorta-centerline-branches.vtp"}) {
