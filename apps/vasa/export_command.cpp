@@ -24,7 +24,7 @@ struct Options {
   std::string output, frames, quads, unit = "mm";
   double budgetMegabytes = 64, toleranceMillimetres = 0.05, clearanceMillimetres = 5;
   std::uint32_t samples = 2;
-  bool noVolume = false, avoid = false;
+  bool noVolume = false, avoid = false, flat = false;
 };
 
 struct Job {
@@ -81,8 +81,7 @@ Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
     bake.shape = {quads->around, quads->along};
   }
   bake.maxBytes = std::size_t(options.budgetMegabytes * 1048576);
-  bake.tolerance = float(1e-3 * options.toleranceMillimetres);
-  bake.colourOf = linearColour;
+  bake.mesh = {float(1e-3 * options.toleranceMillimetres), !options.flat, linearColour};
   bake.stopRequested = stopRequested;
   return bake;
 }
@@ -139,6 +138,7 @@ Result<Report> exportObj(const Options& options, const Job& job) {
     settings->first = settings->last = frame;
     if (options.quads.empty()) settings->finestThatFits = false, settings->shape = {8, 5};
     settings->maxBytes = std::size_t(1) << 34;
+    settings->mesh.normals = true;
     const auto made = bake(job.scene, job.clip, *settings);
     if (!made) return made.error();
     report = describe(*made);
@@ -240,6 +240,7 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_option("--samples", options->samples, "Samples a sweep of .vtp and .swc")->check(CLI::Range(1, 64))->capture_default_str();
   sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")->check(CLI::IsMember({"mm", "cm", "m"}))->capture_default_str();
   sub->add_option("--clearance", options->clearanceMillimetres, "Clearances beyond this are left empty in .csv [mm]")->check(CLI::Range(0.0, 50.0))->capture_default_str();
+  sub->add_flag("--flat", options->flat, "Leave normals out of a .glb: half the size, shaded facet by facet");
   sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart that run through one another (experimental, off by default)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });

@@ -41,8 +41,8 @@ void addWeights(GlbWriter& writer, const AnimatedMesh& mesh) {
 
 std::vector<std::byte> encodeGlb(const AnimatedMesh& mesh) {
   GlbWriter writer;
-  Json attributes = {{"POSITION", writer.add(mesh.positions, GlbWriter::vertices, true)},
-                     {"NORMAL", writer.add(mesh.normals, GlbWriter::vertices)}};
+  Json attributes = {{"POSITION", writer.add(mesh.positions, GlbWriter::vertices, true)}};
+  if (!mesh.normals.empty()) attributes["NORMAL"] = writer.add(mesh.normals, GlbWriter::vertices);
   if (!mesh.labelOfVertex.empty()) attributes["_VESSEL"] = writer.addNumbers(mesh.labelOfVertex);
   Json targets = Json::array();
   const bool moves = !mesh.times.empty() && !mesh.shapes.empty();
@@ -89,7 +89,7 @@ std::string encodeObj(const AnimatedMesh& mesh) {
       text += 'f';
       for (int k = 0; k < 3; ++k) {
         const std::string index = std::to_string(t[k] + 1);
-        text += ' ' + index + "//" + index;
+        text += ' ' + index + (mesh.normals.empty() ? std::string() : "//" + index);
       }
       text += '\n';
     }

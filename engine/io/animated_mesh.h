@@ -18,7 +18,7 @@ struct AnimatedMesh {
     std::string name, kind, ontologyId;
   };
   std::string name;
-  std::vector<vec3> positions, normals;         ///< [m], unit
+  std::vector<vec3> positions, normals;         ///< [m], unit; normals may be empty
   std::vector<Part> parts;                      ///< not empty, none without triangles
   std::vector<std::uint16_t> labelOfVertex;     ///< into labels; one a vertex, or none at all
   std::vector<Label> labels;

@@ -32,8 +32,9 @@ std::optional<Film> poseAll(const Scene& scene, const Clip* clip, const BakeOpti
   return film;
 }
 
-std::size_t vertexBytes(std::size_t vertices, std::size_t triangles, std::size_t shapes) {
-  return vertices * (28 + 24 * shapes) + 12 * triangles;
+std::size_t vertexBytes(std::size_t vertices, std::size_t triangles, std::size_t shapes, bool normals) {
+  const std::size_t vectors = normals ? 24 : 12;
+  return vertices * (4 + vectors * (1 + shapes)) + 12 * triangles;
 }
 
 bool holdable(const FilmBaker::Size& size, std::size_t frames) {
@@ -43,7 +44,7 @@ bool holdable(const FilmBaker::Size& size, std::size_t frames) {
 std::size_t bytesOf(const Bake& bake) {
   std::size_t triangles = 0;
   for (const auto& part : bake.mesh.parts) triangles += part.triangles.size();
-  return vertexBytes(bake.mesh.positions.size(), triangles, bake.mesh.shapes.size());
+  return vertexBytes(bake.mesh.positions.size(), triangles, bake.mesh.shapes.size(), !bake.mesh.normals.empty());
 }
 
 Error tooLarge(const SweepShape& shape, std::size_t bytes, std::size_t most) {
@@ -60,7 +61,7 @@ Result<Bake> finestThatFits(const FilmBaker& baker, std::size_t frames, const Ba
   for (const SweepShape& shape : kShapes) {
     if (shape.around > options.shape.around || shape.along > options.shape.along) continue;
     const auto size = baker.sizeOf(shape);
-    if (!holdable(size, frames) || vertexBytes(size.vertices, size.triangles, trial.mesh.shapes.size()) > options.maxBytes) continue;
+    if (!holdable(size, frames) || vertexBytes(size.vertices, size.triangles, trial.mesh.shapes.size(), options.mesh.normals) > options.maxBytes) continue;
     Bake fine = baker.run(shape);
     if (bytesOf(fine) <= options.maxBytes) return fine;
   }
@@ -72,7 +73,7 @@ Result<Bake> finestThatFits(const FilmBaker& baker, std::size_t frames, const Ba
 Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& options) {
   const auto film = poseAll(scene, clip, options);
   if (!film) return Error{Fault::interrupted, "stopped"};
-  const FilmBaker baker(scene.network, *film, options.tolerance, options.colourOf);
+  const FilmBaker baker(scene.network, *film, options.mesh);
   auto result = [&]() -> Result<Bake> {
     if (options.finestThatFits) return finestThatFits(baker, film->frames.size(), options);
     const auto size = baker.sizeOf(options.shape);

@@ -13,8 +13,7 @@ struct BakeOptions {
   SweepShape shape;
   bool finestThatFits = true;         ///< choose the shape by maxBytes; `shape` is the finest looked at
   std::size_t maxBytes = 64u << 20;   ///< of vertices, triangles and shapes together
-  float tolerance = 5e-5f;            ///< [m] of any vertex in any frame
-  std::function<vec3(VesselKind)> colourOf;                         ///< linear
+  FilmBaker::Options mesh;
   std::function<void(std::uint32_t, std::uint32_t)> progress = {};  ///< frames done, of how many
   std::function<bool()> stopRequested = {};
 };

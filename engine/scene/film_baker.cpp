@@ -50,16 +50,17 @@ Bake FilmBaker::run(const SweepShape& shape) const {
   for (const PosedFrame& frame : film_.frames) {
     SurfaceMesh mesh = surface(table_, frame, shape);
     positions.push_back(std::move(mesh.positions));
-    normals.push_back(std::move(mesh.normals));
+    if (options_.normals) normals.push_back(std::move(mesh.normals));
   }
-  ShapeBasis basis = shapeBasis(positions, tolerance_);
+  ShapeBasis basis = shapeBasis(positions, options_.tolerance);
   AnimatedMesh& mesh = result.mesh;
-  if (!basis.shapes.empty()) mesh.normalShapes = shapesForWeights(normals, basis.weights);
+  if (!basis.shapes.empty() && options_.normals) mesh.normalShapes = shapesForWeights(normals, basis.weights);
   result.error = basis.error;
   mesh.shapes = std::move(basis.shapes);
   mesh.weights = std::move(basis.weights);
   if (!mesh.shapes.empty()) mesh.times = film_.times;
-  describe(network_, colourOf_, first, mesh);
+  if (!options_.normals) first.normals.clear();
+  describe(network_, options_.colourOf, first, mesh);
   result.betweenError = betweenError(mesh, shape);
   return result;
 }

@@ -31,9 +31,13 @@ struct Bake {
 /// Turns a film of a network into a mesh with shapes and weights.
 class FilmBaker {
  public:
-  /// @param tolerance  [m] of any vertex in any frame
-  FilmBaker(const Network& network, const Film& film, float tolerance, std::function<vec3(VesselKind)> colourOf)
-      : network_(network), table_(makeSweepTable(network)), film_(film), tolerance_(tolerance), colourOf_(std::move(colourOf)) {}
+  struct Options {
+    float tolerance = 5e-5f;  ///< [m] of any vertex in any frame
+    bool normals = true;      ///< without them a file is half as large, and viewers shade facet by facet
+    std::function<vec3(VesselKind)> colourOf;  ///< linear
+  };
+  FilmBaker(const Network& network, const Film& film, Options options)
+      : network_(network), table_(makeSweepTable(network)), film_(film), options_(std::move(options)) {}
 
   struct Size {
     std::size_t vertices = 0, triangles = 0;
@@ -49,8 +53,7 @@ class FilmBaker {
   const Network& network_;
   SweepTable table_;
   const Film& film_;
-  float tolerance_;
-  std::function<vec3(VesselKind)> colourOf_;
+  Options options_;
 };
 
 }  // namespace vasa

@@ -49,6 +49,9 @@ TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes f
   const auto small = exported({"--clip", "walk", "--frames", "3:5", "--budget", "25", "-o", file});
   CHECK(small["file_bytes"].get<double>() < 25 * 1048576 + 1e5);
   CHECK(small["vertices"].get<int>() > report["vertices"].get<int>());
+  const auto flat = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--flat", "-o", file});
+  CHECK(flat["file_bytes"].get<double>() < 0.6 * report["file_bytes"].get<double>());
+  CHECK(checkGltf(file).ok());
   const auto refused = runProgram({"export", "--clip", "walk", "--budget", "0.1", "-o", (folder.path() / "c.glb").string()});
   CHECK(refused.exit == 1);
   CHECK(refused.err.find("--budget") != std::string::npos);
