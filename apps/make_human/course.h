@@ -22,7 +22,7 @@ struct Course {
 vec3 placeOn(const Course& course, float at);
 
 struct SettleOptions {
-  float betweenVessels = 0.45e-3f;  ///< [m] clearance of walls
+  float betweenVessels = 0.65e-3f;  ///< [m] clearance of walls
   float fromBone = 0.5e-3f, fromHeart = 0.3e-3f;
   float forkReach =
       2;  ///< near a fork courses may overlap up to this many times the sum of their radii along them

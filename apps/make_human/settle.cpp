@@ -11,9 +11,9 @@ namespace {
 constexpr float kSearchMargin = 4e-3f;  // gaps below this may close within a round
 constexpr float kWidestCoronary = 2.4e-3f;
 constexpr float kStumpLength = 0.045f;  // of a great vessel's course that may lie in the heart
-constexpr float kFinestNodes = 0.005f, kCoarsestNodes = 0.016f;  // [m] between the nodes of a displacement
+constexpr float kFinestNodes = 0.006f, kCoarsestNodes = 0.020f;  // [m] between the nodes of a displacement
 constexpr float kRelaxation = 1.3f, kMemory = 0.975f;            // a displacement that nothing asks for fades
-constexpr float kAnchorWeight = 30, kSolidWeight = 40;           // against a vessel's or the skin's 1
+constexpr float kAnchorWeight = 30, kSolidWeight = 40, kPairWeight = 6;  // against the skin's 1
 constexpr float kFarthest = 0.010f;                              // [m] that a course is displaced
 
 struct PointRef {
@@ -47,7 +47,7 @@ struct Displacement {
     for (std::size_t i = 1; i < origin.size(); ++i)
       arcs.push_back(length += glm::distance(origin[i], origin[i - 1]));
     const int spans =
-        std::max(1, int(std::lround(length / std::clamp(length / 8, kFinestNodes, kCoarsestNodes))));
+        std::max(1, int(std::lround(length / std::clamp(length / 7, kFinestNodes, kCoarsestNodes))));
     for (float arc : arcs) {
       const float u = arc / length * float(spans);
       const std::uint32_t span = std::min(std::uint32_t(u), std::uint32_t(spans - 1));
@@ -228,8 +228,8 @@ class Settler {
     else
       away = anyPerpendicular(glm::normalize(a1 - a0));
     const auto wish = [](Displacement& d, std::uint32_t point, float t, vec3 move) {
-      d.wish(point, 1 - t, move);
-      d.wish(point + 1, t, move);
+      d.wish(point, kPairWeight * (1 - t), move);
+      d.wish(point + 1, kPairWeight * t, move);
     };
     wish(displacements_[pair.a.course], pair.a.point, closest.s, pair.shareA * lack * away);
     wish(displacements_[pair.b.course], pair.b.point, closest.t, (pair.shareA - 1) * lack * away);

@@ -34,7 +34,8 @@ void VesselRows::readRows(const Rig& rig) {
       row.line = r;
       row.side = side;
       row.label.name = std::string(sidePrefix(side)).append(table_.text(r, "name"));
-      row.label.ontologyId = table_.text(r, "ontology");
+      const std::vector<std::string_view> ids = split(table_.text(r, "ontology"), '/');
+      row.label.ontologyId = side == Side::right ? ids.back() : ids.front();
       const std::string_view kind = table_.text(r, "kind");
       if (!parseKind(kind, row.label.kind)) table_.fault(r, "unknown kind " + quoted(kind));
       row.from = table_.text(r, "from");

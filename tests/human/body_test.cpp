@@ -104,7 +104,7 @@ TEST_CASE("the motions are there, thirty frames a second, unit rotations") {
     CHECK(steps);
   }
   for (const char* name :
-       {"stand", "walk", "run", "squat", "wave", "elbow_flex", "fist", "neck_turn", "twist", "arms_overhead"})
+       {"stand", "walk", "run", "squat", "wave", "elbow_flex", "fist", "neck_turn", "twist", "arms_overhead", "dance"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 
