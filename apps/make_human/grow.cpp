@@ -12,7 +12,7 @@ namespace {
 constexpr float kReferenceSweeps = 4030;
 constexpr float kStep = 0.0035f, kClearance = 0.35e-3f, kFromBone = 0.5e-3f,
                 kFitTolerance = 0.12e-3f;  // [m] at the reference
-constexpr int kCandidates = 8;            // places of which the emptiest is chosen
+constexpr int kCandidates = 8;             // places of which the emptiest is chosen
 constexpr int kRelaxations = 8;
 constexpr int kFailuresToClose = 60;  // in a row: the region is full
 constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, for the branches to come

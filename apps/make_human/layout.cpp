@@ -189,7 +189,8 @@ std::vector<vec4> fitCourse(std::span<const vec3> points, std::span<const float>
     for (std::size_t i = 1; i + 1 < count && good; ++i) {
       const vec3 off = vec3(evaluate(result, curve.lengthAt(i) / length * float(spans))) - points[i];
       const vec3 along = glm::normalize(points[i + 1] - points[i - 1]);
-      good = glm::length(off - glm::dot(off, along) * along) <= tolerance + std::min(radii[i] / 8, tolerance / 2) &&
+      good = glm::length(off - glm::dot(off, along) * along) <=
+                 tolerance + std::min(radii[i] / 8, tolerance / 2) &&
              glm::length(off) <= 4 * tolerance;
     }
     if (good) break;

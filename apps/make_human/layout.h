@@ -38,9 +38,9 @@ class VesselLayout {
   std::vector<Course> courses_;
 };
 
-/// The spline with the fewest spans, knots at equal distances, that keeps to a polyline within a tolerance and
-/// an eighth of its radius, or half the tolerance; no span is shorter than 12 tolerances. Tangents at its ends are
-/// those given.
+/// The spline with the fewest spans, knots at equal distances, that keeps to a polyline within a tolerance
+/// and an eighth of its radius, or half the tolerance; no span is shorter than 12 tolerances. Tangents at its
+/// ends are those given.
 std::vector<vec4> fitCourse(std::span<const vec3> points, std::span<const float> radii, vec3 startTangent,
                             vec3 endTangent, float tolerance);
 

@@ -14,7 +14,7 @@ constexpr float kStumpLength = 0.045f;  // of a great vessel's course that may l
 constexpr float kFinestNodes = 0.006f, kCoarsestNodes = 0.020f;  // [m] between the nodes of a displacement
 constexpr float kRelaxation = 1.3f, kMemory = 0.975f;            // a displacement that nothing asks for fades
 constexpr float kAnchorWeight = 30, kSolidWeight = 40, kPairWeight = 6;  // against the skin's 1
-constexpr float kFarthest = 0.010f;                              // [m] that a course is displaced
+constexpr float kFarthest = 0.010f;                                      // [m] that a course is displaced
 
 struct PointRef {
   std::uint32_t course, point;

@@ -103,8 +103,8 @@ TEST_CASE("the motions are there, thirty frames a second, unit rotations") {
     CHECK(units);
     CHECK(steps);
   }
-  for (const char* name :
-       {"stand", "walk", "run", "squat", "wave", "elbow_flex", "fist", "neck_turn", "twist", "arms_overhead", "dance"})
+  for (const char* name : {"stand", "walk", "run", "squat", "wave", "elbow_flex", "fist", "neck_turn",
+                           "twist", "arms_overhead", "dance"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 
