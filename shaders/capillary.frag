@@ -1,5 +1,5 @@
 #version 460
-// A ribbon lit as the round vessel it stands for.
+// A ribbon lit as the round vessel it stands for; in x-ray, light that adds up.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,9 +11,16 @@ layout(location = 0) in vec4 tint;
 layout(location = 1) in vec2 side;
 layout(location = 0) out vec4 pixel;  // premultiplied
 
+const float kXrayCapillaries = 0.55;
+
 void main() {
+  if (kStyle == 2) {
+    pixel = vec4(tint.rgb, 1) * (tint.a * kXrayCapillaries);
+    return;
+  }
   vec3 eye = normalize(vec3(push.eyeCorner + gl_FragCoord.xy * push.eyeStep, 1));
   vec3 worldUp = vec3(push.right.y, push.up.y, push.right.z * push.up.x - push.right.x * push.up.z);
-  vec3 normal = normalize(vec3(side, 0) + sqrt(max(1 - dot(side, side), 0.0)) * eye);
+  vec2 round = side * (tint.a * tint.a);  // thinner than a pixel: lit as if it faced the eye, or its edges glitter
+  vec3 normal = normalize(vec3(round, 0) + sqrt(max(1 - dot(round, round), 0.0)) * eye);
   pixel = vec4(shade(tint.rgb, normal, eye, worldUp) * tint.a, tint.a);
 }

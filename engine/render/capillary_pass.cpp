@@ -74,17 +74,26 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
   if (wish.levels == 0) return;
   grow_ = gpu::ComputePipeline(device, {spirv::capillary_comp, sizeof(shared::CapillaryPush)});
   const RibbonLayout layout;
-  draw_ = gpu::GraphicsPipeline(device, {.name = "capillaries",
-                                         .vertex = spirv::capillary_vert,
-                                         .fragment = spirv::capillary_frag,
-                                         .pushBytes = sizeof(shared::DrawPush),
-                                         .vertexInput = &layout.info,
-                                         .colour = target.colour,
-                                         .depth = target.depth,
-                                         .samples = target.samples,
-                                         .cull = VK_CULL_MODE_NONE,
-                                         .depthTest = VK_COMPARE_OP_GREATER,
-                                         .blend = gpu::Blend::premultiplied});
+  for (const LookStyle style : {LookStyle::atlas, LookStyle::clinical, LookStyle::xray}) {
+    gpu::GraphicsSpec spec{.name = "capillaries",
+                           .vertex = spirv::capillary_vert,
+                           .fragment = spirv::capillary_frag,
+                           .pushBytes = sizeof(shared::DrawPush),
+                           .vertexInput = &layout.info,
+                           .colour = target.colour,
+                           .depth = target.depth,
+                           .samples = target.samples,
+                           .cull = VK_CULL_MODE_NONE,
+                           .depthTest = VK_COMPARE_OP_GREATER,
+                           .blend = gpu::Blend::premultiplied};
+    spec.constants.set(0, std::uint32_t(style));
+    if (style == LookStyle::xray) {
+      spec.depthTest = VK_COMPARE_OP_ALWAYS;
+      spec.depthWrite = false;
+      spec.blend = gpu::Blend::add;
+    }
+    draw_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
+  }
   for (gpu::Buffer& ring : rings_) ring = ringBuffer(device);
   for (std::size_t i = 0; i < kEdges.size(); ++i) {
     const auto indices = ribbonIndices(kEdges[i], shared::kRingCurves);
@@ -135,7 +144,7 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  draw_.bind(commands, input.draw);
+  draw_[std::size_t(input.style)].bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);

@@ -30,6 +30,7 @@ class CapillaryPass {
   struct Input {
     VkDeviceAddress points, knots;  ///< as tessellation reads them
     shared::DrawPush draw;          ///< the frame's constants
+    LookStyle style = LookStyle::atlas;
   };
   /// Copies the plan to the device and makes compute shaders see it.
   void recordUpload(VkCommandBuffer commands) const;
@@ -51,7 +52,7 @@ class CapillaryPass {
   CapillaryWish wish_;
   CapillaryPlan plan_;
   gpu::ComputePipeline grow_;
-  gpu::GraphicsPipeline draw_;
+  std::array<gpu::GraphicsPipeline, 3> draw_;  // one a LookStyle
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 4> indices_;  // of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, siteBuffer_, host_, frame_;

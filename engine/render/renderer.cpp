@@ -21,6 +21,7 @@
 //   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
 //   picture, first stretch: clear, bones and heart
 //   for each batch k: write batch k+1 into the other template; stretch: draw batch k; barrier
+//   ambient occlusion of what is there
 //   likewise batch by batch: capillaries
 //   picture, last stretch: skin; resolve
 // One barrier a batch keeps both templates apart: whatever wrote or read one of them before it is finished
@@ -107,7 +108,8 @@ struct Renderer::State {
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
   void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, LookStyle style);
   void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
-  void recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push);
+  void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
+  void recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push, LookStyle style);
 };
 
 Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
@@ -182,9 +184,19 @@ void Renderer::State::copyDraws(VkCommandBuffer commands, const TubeDraws& from,
   vkCmdCopyBuffer(commands, from.draws.handle(), drawn.handle(), 1, &copy);
 }
 
-void Renderer::State::recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push) {
+// Before the capillaries: curves thinner than a pixel would only lay noise over one another.
+void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInput& input) {
+  const auto scope = timer.scope(commands, kMeshes);
+  occlusionPass->record(commands, target, input.camera, kOcclusionReach, input.look.occlusion);
+  target.begin(commands, {}, 0, gpu::Stretch::middle);
+  occlusionPass->recordApply(commands, target);
+  target.pause(commands);
+  gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+}
+
+void Renderer::State::recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push, LookStyle style) {
   const auto scope = timer.scope(commands, kCapillaries);
-  const CapillaryPass::Input input{upload.points(), upload.knots(), push};
+  const CapillaryPass::Input input{upload.points(), upload.knots(), push, style};
   capillaries->recordUpload(commands);
   for (std::size_t batch = 0; batch < capillaries->batches(); ++batch) {
     if (batch == 0) capillaries->recordGrowth(commands, input, batch);
@@ -226,12 +238,10 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
     recordBatch(commands, push, batch, input.look.style);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
-  if (capillaries && batches > 0) recordCapillaries(commands, push);
+  if (occlusionPass && input.look.occlusion > 0 && input.look.style != LookStyle::xray) recordOcclusion(commands, input);
+  if (capillaries && batches > 0) recordCapillaries(commands, push, input.look.style);
   const auto scope = timer.scope(commands, kMeshes);
-  const bool occluded = occlusionPass && input.look.occlusion > 0 && input.look.style != LookStyle::xray;
-  if (occluded) occlusionPass->record(commands, target, input.camera, kOcclusionReach, input.look.occlusion);
   target.begin(commands, {}, 0, gpu::Stretch::last);
-  if (occluded) occlusionPass->recordApply(commands, target);
   surfacePass.recordSkin(commands, push, meshes, input.look);
   target.end(commands);
 }
