@@ -9,8 +9,8 @@
 namespace vasa::cli {
 namespace {
 
-Result<std::filesystem::path> rulesFolder(const CapillaryOptions& options) {
-  if (!options.rules.empty()) return std::filesystem::path(options.rules);
+Result<std::filesystem::path> rulesFolder(const CapillaryChoice& choice) {
+  if (!choice.rules.empty()) return choice.rules;
   auto folder = dataFolder();
   if (!folder) return folder;
   return *folder / "growth";
@@ -19,47 +19,52 @@ Result<std::filesystem::path> rulesFolder(const CapillaryOptions& options) {
 }  // namespace
 
 void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options) {
-  sub.add_option("--capillaries", options.levels, "Generations of capillaries that grow from the vessels; 0: none")
-      ->check(CLI::Range(0u, shared::kMostGrowthLevels))
-      ->capture_default_str();
-  sub.add_option("--capillary-edges", options.edges, "Edges of a capillary's polyline: 3, 5, 8, 10, or auto by its size in the picture")
-      ->check(CLI::IsMember({"3", "5", "8", "10", "auto"}))
-      ->capture_default_str();
-  sub.add_option("--capillary-budget", options.budget, "Most capillaries in a picture; beyond it all vessels have fewer trees")
-      ->check(CLI::Range(1u, 64'000'000u))
-      ->capture_default_str();
-  sub.add_option("--capillary-detail", options.smallest, "Leave out generations shorter than this in pixels; 0: draw them all")
-      ->check(CLI::Range(0.0f, 1000.0f))
-      ->capture_default_str();
+  const CapillaryChoice usual;
+  sub.add_option("--capillaries", options.levels, "Generations of capillaries that grow from the vessels (default: the scene's, or 0: none)")
+      ->check(CLI::Range(0u, shared::kMostGrowthLevels));
+  sub.add_option("--capillary-edges", options.edges, "Edges of a capillary's polyline: 3, 5, 8, 10, or auto by its size in the picture (default)")
+      ->check(CLI::IsMember({"3", "5", "8", "10", "auto"}));
+  sub.add_option("--capillary-budget", options.budget,
+                 fmt::format("Most capillaries in a picture; beyond it all vessels have fewer trees (default {})", usual.budget))
+      ->check(CLI::Range(1u, 64'000'000u));
+  sub.add_option("--capillary-detail", options.smallest,
+                 fmt::format("Leave out generations shorter than this in pixels; 0: draw them all (default {})", usual.smallest))
+      ->check(CLI::Range(0.0f, 1000.0f));
   sub.add_option("--growth", options.rules, "Folder with capillaries.lsys and regions.csv (default: the program's own)");
 }
 
-CapillaryWish wishOf(const CapillaryOptions& options) {
-  return {.levels = options.levels,
-          .edges = options.edges == "auto" ? 0u : std::uint32_t(std::stoul(options.edges)),
-          .budget = options.budget,
-          .smallest = options.smallest};
+CapillaryChoice chooseCapillaries(CapillaryChoice choice, const CapillaryOptions& options) {
+  if (options.levels) choice.levels = *options.levels;
+  if (options.budget) choice.budget = *options.budget;
+  if (options.smallest) choice.smallest = *options.smallest;
+  if (!options.edges.empty()) choice.edges = options.edges == "auto" ? 0u : unsigned(std::stoul(options.edges));
+  if (!options.rules.empty()) choice.rules = options.rules;
+  return choice;
 }
 
-Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryOptions& options) {
-  if (options.levels == 0) return std::unique_ptr<SceneGrowth>();
-  const auto folder = rulesFolder(options);
+CapillaryWish wishOf(const CapillaryChoice& choice) {
+  return {.levels = choice.levels, .edges = choice.edges, .budget = choice.budget, .smallest = choice.smallest};
+}
+
+Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice) {
+  if (choice.levels == 0) return std::unique_ptr<SceneGrowth>();
+  const auto folder = rulesFolder(choice);
   if (!folder) return folder.error();
   auto growth = loadGrowth(scene, *folder);
   if (!growth) return growth.error();
   return std::make_unique<SceneGrowth>(std::move(*growth));
 }
 
-Result<std::uint64_t> hashOfCapillaries(const CapillaryOptions& options, std::uint64_t hash) {
-  if (options.levels == 0) return hash;
-  const auto folder = rulesFolder(options);
+Result<std::uint64_t> hashOfCapillaries(const CapillaryChoice& choice, std::uint64_t seed, std::uint64_t hash) {
+  if (choice.levels == 0) return hash;
+  const auto folder = rulesFolder(choice);
   if (!folder) return folder.error();
   for (const char* file : {"capillaries.lsys", "regions.csv"}) {
     const auto bytes = readFile(*folder / file);
     if (!bytes) return bytes.error();
     hash = hashBytes(*bytes, hash);
   }
-  const std::string settings = fmt::format("{}|{}|{}|{}", options.levels, options.edges, options.budget, options.smallest);
+  const std::string settings = fmt::format("{}|{}|{}|{}|{}", choice.levels, choice.edges, choice.budget, choice.smallest, seed);
   return hashOf(std::span(settings), hash);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "render/renderer.h"
@@ -8,26 +9,24 @@
 
 namespace vasa::cli {
 
-/// What a person may say about capillaries on the command line.
+/// What a person may say about capillaries on the command line; what is not said comes from the scene.
 struct CapillaryOptions {
-  std::uint32_t levels = 0;
-  std::string edges = "auto";
-  std::uint32_t budget = CapillaryWish{}.budget;
-  float smallest = CapillaryWish{}.smallest;
-  std::string rules;  ///< folder; empty: the program's own
-
-  bool operator==(const CapillaryOptions&) const = default;
+  std::optional<unsigned> levels, budget;
+  std::optional<float> smallest;
+  std::string edges, rules;
 };
 
 /// Declares --capillaries, --capillary-edges, --capillary-budget, --capillary-detail and --growth.
 void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options);
 
-CapillaryWish wishOf(const CapillaryOptions& options);
+CapillaryChoice chooseCapillaries(CapillaryChoice choice, const CapillaryOptions& options);
+
+CapillaryWish wishOf(const CapillaryChoice& choice);
 
 /// What the scene's capillaries grow from; null where none are asked for.
-Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryOptions& options);
+Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice);
 
 /// Everything about them that decides a picture, rules included: tells runs apart.
-Result<std::uint64_t> hashOfCapillaries(const CapillaryOptions& options, std::uint64_t hash);
+Result<std::uint64_t> hashOfCapillaries(const CapillaryChoice& choice, std::uint64_t seed, std::uint64_t hash);
 
 }  // namespace vasa::cli

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "body/body.h"
+#include "capillary_options.h"
 #include "commands.h"
 #include "io/gltf.h"
 #include "network/file.h"
@@ -111,6 +112,28 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels) {
   return Error{Fault::usage, file.string() + ": unknown kind of file; info reads .vasa, .glb, .gltf and scene .json files"};
 }
 
+// What would grow: nothing of it is stored.
+Result<Report> capillaryReport(const SceneFile& file) {
+  const auto scene = loadScene(file);
+  if (!scene) return scene.error();
+  CapillaryChoice choice = file.capillaries;
+  choice.levels = std::max(choice.levels, 3u);
+  const auto growth = growthOf(*scene, choice);
+  if (!growth) return growth.error();
+  const SceneGrowth& grown = **growth;
+  Report report{{"trees", curveCount(grown.rules.tables, grown.sites, 1)}};
+  for (std::uint32_t levels = 1; levels <= choice.levels; ++levels)
+    report[fmt::format("curves_{}_levels", levels)] = curveCount(grown.rules.tables, grown.sites, levels);
+  report["bytes_per_sweep"] = sizeof(shared::GrowthSite);
+  std::vector<std::uint64_t> trees(grown.regions.size());
+  for (std::size_t sweep = 0; sweep < grown.sites.region.size(); ++sweep)
+    if (grown.sites.region[sweep] < trees.size()) trees[grown.sites.region[sweep]] += grown.sites.sprouts[sweep];
+  report["regions"] = Report::array();
+  for (std::size_t r = 0; r < trees.size(); ++r)
+    if (trees[r] > 0) report["regions"].push_back({{"name", grown.regions[r].name}, {"trees_along_vessels", trees[r]}});
+  return report;
+}
+
 Result<Report> sceneReport(const SceneFile& scene, bool vessels) {
   Report report{{"kind", "scene"}};
   auto body = reportOf(scene.body, vessels);
@@ -124,6 +147,9 @@ Result<Report> sceneReport(const SceneFile& scene, bool vessels) {
     named.update(*network);
     report["networks"].push_back(std::move(named));
   }
+  auto capillaries = capillaryReport(scene);
+  if (!capillaries) return capillaries;
+  report["capillaries"] = std::move(*capillaries);
   return report;
 }
 

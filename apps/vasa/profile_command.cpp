@@ -36,6 +36,7 @@ struct Options {
 
 struct Setting {
   Scene scene;
+  CapillaryChoice capillaries;
   std::unique_ptr<SceneGrowth> growth;  // none without capillaries
   const Clip* clip = nullptr;
   CameraMan camera;
@@ -93,7 +94,7 @@ std::string nameOf(Quads quads) {
 Report profileRow(gpu::Device& device, const Setting& setting, const Options& options, Quads quads) {
   const auto meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>();
   RenderOptions render{.width = setting.size.width, .height = setting.size.height, .samples = options.samples,
-                       .shape = {quads.around, quads.along}, .pixelError = quads.pixelError, .growth = setting.growth.get(), .capillaries = wishOf(options.capillaries), .timed = false};
+                       .shape = {quads.around, quads.along}, .pixelError = quads.pixelError, .growth = setting.growth.get(), .capillaries = wishOf(setting.capillaries), .timed = false};
   Stages stages;
   {
     Renderer renderer(device, setting.scene.network, meshes, render);
@@ -183,7 +184,8 @@ Result<Setting> prepare(const Options& options) {
   auto scene = loadScene(*choice);
   if (!scene) return scene.error();
   setting.scene = std::move(*scene);
-  auto growth = growthOf(setting.scene, options.capillaries);
+  setting.capillaries = chooseCapillaries(choice->capillaries, options.capillaries);
+  auto growth = growthOf(setting.scene, setting.capillaries);
   if (!growth) return growth.error();
   setting.growth = std::move(*growth);
   if (!choice->clip.empty()) {

@@ -78,7 +78,7 @@ Look lookOf(const LookChoice& choice, bool transparent) {
 
 // Everything that decides a picture but the frame's number.
 Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed) {
-  std::uint64_t hash = options.capillaries.levels > 0 ? seed : 0;
+  std::uint64_t hash = 0;
   std::vector<std::filesystem::path> files = choice.networks;
   files.push_back(choice.body);
   if (!options.scene.scene.empty()) files.emplace_back(options.scene.scene);
@@ -92,7 +92,7 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, choice.look.preset, options.transparent,
                   options.noVolume, options.avoid, options.highlightContacts) +
       fmt::format("|{}|{}", options.supersample, options.beat);
-  return hashOfCapillaries(options.capillaries, hashOf(std::span(settings), hash));
+  return hashOfCapillaries(choice.capillaries, seed, hashOf(std::span(settings), hash));
 }
 
 Result<Job> prepare(const Globals& globals, const Options& options) {
@@ -108,6 +108,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
   job.choice = std::move(*choice);
+  job.choice.capillaries = chooseCapillaries(job.choice.capillaries, options.capillaries);
   const auto cameraChoice = chooseCamera(job.choice.camera, options.camera);
   if (!cameraChoice) return cameraChoice.error();
   if (!options.look.empty()) job.choice.look.preset = options.look;
@@ -117,7 +118,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   auto scene = loadScene(job.choice);
   if (!scene) return scene.error();
   job.scene = std::move(*scene);
-  auto growth = growthOf(job.scene, options.capillaries);
+  auto growth = growthOf(job.scene, job.choice.capillaries);
   if (!growth) return growth.error();
   job.growth = std::move(*growth);
   if (!job.choice.clip.empty()) {
@@ -143,7 +144,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   job.range = *range;
   job.shard = *shard;
   job.render.growth = job.growth.get();
-  job.render.capillaries = wishOf(options.capillaries);
+  job.render.capillaries = wishOf(job.choice.capillaries);
   job.render.seed = std::uint32_t(globals.seed);
   job.runHash = *hash;
   return job;

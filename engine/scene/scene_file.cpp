@@ -61,6 +61,14 @@ class Reader {
       out = float(x);
     };
   }
+  Field whole(unsigned& out, unsigned low, unsigned high) {
+    return [this, &out, low, high](const Json& value, const std::string& place) {
+      const double x = value.is_number_integer() ? value.get<double>() : NAN;
+      if (!(x >= low && x <= high))
+        return fail(place, "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+      out = unsigned(x);
+    };
+  }
   template <class Vector>
   Field vector(std::optional<Vector>& out, float low, float high) {
     return [this, &out, low, high](const Json& value, const std::string& place) {
@@ -109,6 +117,18 @@ void readCamera(Reader& reader, const Json& value, const std::string& place, Cam
     reader.fail(place + "/view", "must be front, back, left, right or top");
 }
 
+void readCapillaries(Reader& reader, const Json& value, const std::string& place, CapillaryChoice& capillaries) {
+  reader.object(value, place,
+                {{"levels", reader.whole(capillaries.levels, 0, 6)},
+                 {"edges", reader.whole(capillaries.edges, 0, 10)},
+                 {"budget", reader.whole(capillaries.budget, 1, 64'000'000)},
+                 {"smallest", reader.number(capillaries.smallest, 0, 1000)},
+                 {"rules", reader.path(capillaries.rules)}});
+  constexpr std::array kEdges{0u, 3u, 5u, 8u, 10u};
+  if (std::find(kEdges.begin(), kEdges.end(), capillaries.edges) == kEdges.end())
+    reader.fail(place + "/edges", "must be 3, 5, 8, 10, or 0 for the size in the picture to decide");
+}
+
 void readLook(Reader& reader, const Json& value, const std::string& place, LookChoice& look) {
   reader.object(value, place,
                 {{"preset", reader.text(look.preset)},
@@ -148,7 +168,8 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
                  {"clip", reader.text(scene.clip)},
                  {"joint_map", reader.path(scene.jointMap)},
                  {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
-                 {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }}});
+                 {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }},
+                 {"capillaries", [&](const Json& v, const std::string& p) { readCapillaries(reader, v, p, scene.capillaries); }}});
   if (reader.fault)
     return badInput(name + ": " + (reader.fault->place.empty() ? "/" : reader.fault->place) + " " + reader.fault->rule);
   if (isMotionFile(scene.clip)) scene.clip = (folder / scene.clip).string();

@@ -27,11 +27,21 @@ struct LookChoice {
   std::optional<float> skinOpacity;  ///< default: the preset's
 };
 
+/// Which capillaries grow from the vessels (growth/plan.h).
+struct CapillaryChoice {
+  unsigned levels = 0;           ///< generations; 0: none
+  unsigned edges = 0;            ///< of a capillary's polyline: 3, 5, 8, 10; 0: by its size in the picture
+  unsigned budget = 4'000'000;   ///< most of them in a picture
+  float smallest = 0.5f;         ///< [pixels] generations that are shorter are left out
+  std::filesystem::path rules;   ///< folder with capillaries.lsys and regions.csv; empty: the program's own
+};
+
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
-///               "skin_opacity": 0.3 } }
+///               "skin_opacity": 0.3 },
+///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5, "rules": "folder" } }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
@@ -39,6 +49,7 @@ struct SceneFile {
   std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
   CameraChoice camera;
   LookChoice look;
+  CapillaryChoice capillaries;
 };
 
 /// Whether a clip is meant that a file of its own holds.

@@ -67,3 +67,27 @@ TEST_CASE("what is wrong with capillaries is told") {
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("regions.csv:2: there is no system 'b'; use one of -, a") != std::string::npos);
 }
+
+TEST_CASE("info counts what would grow, without drawing it") {
+  const auto outcome = runProgram({"info", "--json"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  const auto report = outcome.json()["capillaries"];
+  CHECK(report["curves_1_levels"] == report["trees"]);
+  CHECK(report["curves_3_levels"].get<std::int64_t>() > 200'000);
+  CHECK(report["regions"].size() >= 5);
+}
+
+TEST_CASE("a scene file may ask for capillaries, and the command line may have it otherwise") {
+  TemporaryFolder folder;
+  const auto scene = folder.path() / "scene.json";
+  write(scene, R"({"body": ")" + humanBody().string() + R"(", "networks": [")" + humanVessels().string() + R"("], "capillaries": {"levels": 1}})");
+  const auto render = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> arguments{"render", scene.string(), "--size", "64x64", "--hide", "skin", "--json", "-o", (folder.path() / "a.png").string()};
+    arguments.insert(arguments.end(), more);
+    return runProgram(arguments).json()["capillaries"].get<std::int64_t>();
+  };
+  const auto asked = render({});
+  CHECK(asked > 0);
+  CHECK(render({"--capillaries", "2"}) > asked);
+  CHECK(render({"--capillaries", "0"}) == 0);
+}

@@ -46,6 +46,19 @@ TEST_CASE("a motion file's path is relative to the scene, a clip's name is no pa
   CHECK(!isMotionFile("walk"));
 }
 
+TEST_CASE("a scene may ask for capillaries") {
+  const auto scene = parseScene(R"({"capillaries": {"levels": 3, "edges": 8, "budget": 1000, "smallest": 2.5, "rules": "mine"}})", "/here", "x.json");
+  REQUIRE(scene.ok());
+  CHECK(scene->capillaries.levels == 3);
+  CHECK(scene->capillaries.edges == 8);
+  CHECK(scene->capillaries.budget == 1000);
+  CHECK(scene->capillaries.smallest == 2.5f);
+  CHECK(scene->capillaries.rules == "/here/mine");
+  CHECK(messageOf(R"({"capillaries": {"levels": 7}})") == "x.json: /capillaries/levels must be a whole number from 0 to 6");
+  CHECK(messageOf(R"({"capillaries": {"levels": 1.5}})") == "x.json: /capillaries/levels must be a whole number from 0 to 6");
+  CHECK(messageOf(R"({"capillaries": {"edges": 4}})").find("must be 3, 5, 8, 10, or 0") != std::string::npos);
+}
+
 TEST_CASE("an empty scene is the default one") {
   const auto scene = parseScene("{}", "", "x.json");
   REQUIRE(scene.ok());
@@ -56,7 +69,7 @@ TEST_CASE("an empty scene is the default one") {
 TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("{").find("x.json: is not valid JSON") == 0);
   CHECK(messageOf("[1]") == "x.json: / must be an object");
-  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, clip, joint_map, look, networks");
+  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, capillaries, clip, joint_map, look, networks");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");
