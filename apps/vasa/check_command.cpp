@@ -43,15 +43,60 @@ Result<Setting> prepare(const Options& options) {
   return setting;
 }
 
-// Largest relative deviation of a vessel's volume from that at rest.
-double volumeError(const Network& network, std::span<const vec4> points) {
-  double largest = 0;
-  for (const Vessel& vessel : network.vessels()) {
+// Volumes by the vessels' points alone, whatever the solver says of them. Those that gave way (a radius at its least or
+// greatest, or a narrow place) cannot keep theirs, and are told apart.
+struct VolumeErrors {
+  double kept = 0, gaveWay = 0;
+  std::uint32_t gaveWayCount = 0;
+};
+
+VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, const Avoider& avoider) {
+  constexpr double kNegligible = 1e-4;
+  VolumeErrors errors;
+  std::vector<char> narrow(network.vessels().size(), 0);
+  for (const NarrowPlace& place : avoider.narrowed()) narrow[place.vessel.value] = 1;
+  for (std::size_t v = 0; v < network.vessels().size(); ++v) {
+    const Vessel& vessel = network.vessels()[v];
     const double rest = volumeOf(network.pointsOf(vessel));
-    if (rest > 0) largest = std::max(largest, std::abs(volumeOf(Network::pointsOf(vessel, points)) - rest) / rest);
+    if (!(rest > 0)) continue;
+    const double error = std::abs(volumeOf(Network::pointsOf(vessel, points)) - rest) / rest;
+    bool atLimit = narrow[v];
+    for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p) {
+      const float factor = points[p].w / network.points()[p].w;
+      atLimit |= factor < 1.001f * VolumeKeeper::kLowestFactor || factor > 0.999f * VolumeKeeper::kHighestFactor;
+    }
+    if (atLimit && error > kNegligible) ++errors.gaveWayCount, errors.gaveWay = std::max(errors.gaveWay, error);
+    else errors.kept = std::max(errors.kept, error);
   }
-  return largest;
+  return errors;
 }
+
+// The correction of each point as its surroundings see it, and how much it differs from another frame's, in radii: what
+// an eye would take for flicker.
+class CorrectionChange {
+ public:
+  // 99th percentile over the points that are corrected in either frame, and the largest.
+  struct Change {
+    double p99 = 0, largest = 0;
+  };
+  Change next(const FrameMaker& maker) {
+    std::vector<vec3> now(maker.points().size());
+    std::vector<double> changes;
+    for (std::size_t p = 0; p < now.size(); ++p) {
+      now[p] = glm::conjugate(maker.rotations()[p]) * (vec3(maker.points()[p]) - vec3(maker.posedPoints()[p]));
+      if (last_.empty() || (now[p] == vec3(0) && last_[p] == vec3(0))) continue;
+      changes.push_back(double(glm::distance(now[p], last_[p])) / std::max(double(maker.points()[p].w), 1e-6));
+    }
+    last_ = std::move(now);
+    if (changes.empty()) return {};
+    const auto at = changes.begin() + std::ptrdiff_t(0.99 * double(changes.size() - 1));
+    std::nth_element(changes.begin(), at, changes.end());
+    return {*at, *std::max_element(at, changes.end())};
+  }
+
+ private:
+  std::vector<vec3> last_;
+};
 
 Report remainingPlaces(const Network& network, const Avoider& avoider) {
   Report list = Report::array();
@@ -61,18 +106,32 @@ Report remainingPlaces(const Network& network, const Avoider& avoider) {
   return list;
 }
 
-Report frameReport(const Scene& scene, const FrameMaker& maker, std::uint32_t frame, const Options& options) {
+Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange& correction, std::uint32_t frame,
+                   const Options& options) {
   const AvoidReport& avoid = maker.report().avoid;
+  const VolumeErrors volume = volumeErrors(scene.network, maker.points(), *maker.avoider());
+  const CorrectionChange::Change change = correction.next(maker);
   Report row{{"frame", frame},
              {"contacts_before", avoid.before.contacts},
              {"contacts_after", avoid.after.contacts},
              {"depth_before_m", avoid.before.depth},
              {"depth_after_m", avoid.after.depth},
              {"certified", avoid.after.holds()},
-             {"volume_error", volumeError(scene.network, maker.points())},
+             {"volume_error", volume.kept},
+             {"volume_gave_way", volume.gaveWayCount},
+             {"volume_gave_way_error", volume.gaveWay},
+             {"correction_change_p99", change.p99},
+             {"correction_change_max", change.largest},
              {"moved_max_m", avoid.movedMax},
              {"moved_rms_m", avoid.movedRms},
              {"kinks", kinkCount(scene.network, maker.points())},
+             {"sides_changed_before", avoid.sidesChanged},
+             {"sides_changed", avoid.sidesChangedAfter},
+             {"obstacle_contacts_before", avoid.boneContacts},
+             {"obstacle_contacts_after", avoid.boneContactsAfter},
+             {"obstacle_depth_before_m", avoid.boneDepth},
+             {"obstacle_depth_after_m", avoid.boneDepthAfter},
+             {"bone_ms", avoid.boneMs},
              {"rest_contacts", avoid.after.restContacts},
              {"narrow_spans", avoid.narrowSpans},
              {"least_lumen", avoid.leastLumen},
@@ -127,14 +186,16 @@ Result<void> run(const Globals& globals, const Options& options) {
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;
+  CorrectionChange correction;
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     if (stopRequested()) return stopError();
     maker.make(setting->clip, setting->clip ? setting->clip->timeOfFrame(frame) : 0);
-    report["frames"].push_back(frameReport(setting->scene, maker, frame, options));
+    report["frames"].push_back(frameReport(setting->scene, maker, correction, frame, options));
     progress.update(frame - first + 1, last - first + 1);
   }
   report["summary"] = summaryOf(report["frames"]);
-  report["summary"]["excluded_pairs"] = maker.avoider()->restPairCount();
+  report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
+  report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
   return globals.json ? printJson(report) : printText(asText(report));
 }
 

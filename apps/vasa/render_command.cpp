@@ -152,7 +152,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
 
 FrameOptions frameOptions(const Options& options) {
   FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts, .beat = options.beat};
-  if (!options.avoid) frame.avoidance.rounds = frame.avoidance.projections = frame.avoidance.lumenRounds = 0;
+  if (!options.avoid) frame.avoidance.rounds = frame.avoidance.lumenRounds = 0;
   return frame;
 }
 

@@ -9,7 +9,7 @@ Certificate certify(Interference& interference, std::span<const vec4> points,
   Certificate certificate;
   if (interfering) interfering->clear();
   for (const Interference::Place& place : interference.find(points, 0)) {
-    if (place.excess() <= (place.allowed < 0 ? kRestTolerance : 0)) {
+    if (!place.interferes()) {
       ++certificate.restContacts;
       continue;
     }

@@ -11,9 +11,6 @@ struct Certificate {
   bool holds() const { return contacts == 0; }
 };
 
-/// A pair that overlaps at rest may be deeper by so much before it counts: rounding of coordinates [m].
-constexpr float kRestTolerance = 1e-6f;
-
 /// Exact to the detector's tolerance (5e-8 m); says nothing of neighbours along the network.
 /// @param interfering  if given, receives the places that count, sorted by pair
 Certificate certify(Interference& interference, std::span<const vec4> points,

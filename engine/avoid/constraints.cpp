@@ -13,13 +13,15 @@ namespace {
 constexpr float kClearanceShare = 0.02f;   // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;   // [m]
 constexpr float kSameParameter = 0.04f;    // constraints of one pair closer than this in s and t are one
-constexpr float kSameOfNeighbours = 0.005f;  // ... of neighbours, whose nearest place may be on a slope of f
-constexpr float kNearAtRest = 4;           // sums of radii: nearer at rest than this, the rest pose says which side
-constexpr float kWrongSide = -0.25f;       // cosine below which two centre lines have changed sides
-constexpr float kCrossing = 0.3f;          // share of the radii below which the present direction is not to be trusted
 constexpr float kSameDirection = 0.98f;    // ... if their normals are about the same too
+constexpr float kSamePlane = 1e-5f;        // [m] ... and, from a bone, the planes they keep to
+constexpr float kBoneClearance = 1e-4f;    // [m]
 constexpr float kNegligible = 2e-6f;       // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can mend the place
+constexpr float kReach = 2;                // how far a multiplier may push on its own: times what is lacking
+constexpr float kBoneReach = 2;            // ... out of a bone: where both cannot be had, vessels come before bones
+constexpr float kMore = 1.5f;              // a limit that was reached in vain grows by so much a round ...
+constexpr float kMost = 4;                 // ... and in all
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 // The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared distance.
@@ -38,32 +40,15 @@ float nearestParameter(const Bezier& tube, vec3 p) {
   return best;
 }
 
-vec3 directionOr(vec3 v, vec3 otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-9f ? v / length : otherwise;
-}
-
-// A direction at right angles to both tubes, on the side of `wish`; where they are parallel, the part of `wish` at
-// right angles to them.
-vec3 acrossBoth(const Bezier& a, float s, const Bezier& b, float t, vec3 wish, vec3 otherwise) {
-  const vec3 u = directionOr(vec3(a.derivative(s)), vec3(0)), v = directionOr(vec3(b.derivative(t)), vec3(0));
-  const vec3 across = glm::cross(u, v);
-  if (glm::length(across) > 0.5f) return glm::normalize(glm::dot(across, wish) < 0 ? -across : across);
-  return directionOr(wish - glm::dot(wish, u) * u, otherwise);
-}
-
 }  // namespace
 
-ConstraintPool::ConstraintPool(const Network& network, const MotionSpace& space, const Interference& interference)
-    : network_(&network), space_(&space), interference_(&interference) {}
+ConstraintPool::ConstraintPool(const Network& network, const MotionSpace& space, const Interference& interference,
+                               const RestSides& sides)
+    : network_(&network), space_(&space), interference_(&interference), sides_(&sides) {}
 
 void ConstraintPool::clear() {
   constraints_.clear();
-}
-
-quat ConstraintPool::rotationAt(std::uint32_t tube, float t, const PosedNetwork& posed) const {
-  const auto [vessel, span] = interference_->layout().address(tube);
-  return posed.rotations[network_->vessel(vessel).firstPoint + span + (t < 0.5f ? 1 : 2)];
+  rows_.clear();
 }
 
 vec3 ConstraintPool::posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const {
@@ -72,89 +57,122 @@ vec3 ConstraintPool::posedPlace(std::uint32_t tube, float t, const PosedNetwork&
   return vec3(bezierOfSpan(posed.points.subspan(own.firstPoint, own.pointCount), span).at(t));
 }
 
-ConstraintPool::Side ConstraintPool::sideOf(const Interference::Place& place, float s, float t,
-                                            std::span<const Bezier> shape, const PosedNetwork& posed) const {
-  const std::uint32_t i = place.contact.i, j = place.contact.j;
-  const vec4 a = shape[i].at(s), b = shape[j].at(t);
-  const vec4 restA = interference_->restTubes()[i].at(s), restB = interference_->restTubes()[j].at(t);
-  const vec3 gap = vec3(a) - vec3(b), restGap = vec3(restA) - vec3(restB);
-  const float distance = glm::length(gap), radii = a.w + b.w;
-  const float restDistance = glm::length(restGap), restRadii = restA.w + restB.w;
-  const vec3 carried = directionOr(rotationAt(i, s, posed) * restGap + rotationAt(j, t, posed) * restGap, vec3(0));
-  const bool sided = restDistance < kNearAtRest * restRadii && restDistance > 0.1f * restRadii && carried != vec3(0);
-
-  vec3 normal = directionOr(gap, acrossBoth(shape[i], s, shape[j], t, place.contact.normal, place.contact.normal));
-  if (sided && distance < kCrossing * radii) {
-    const vec3 across = acrossBoth(shape[i], s, shape[j], t, carried, normal);
-    normal = directionOr(glm::mix(across, normal, std::max(glm::dot(normal, across), 0.0f) * distance / (kCrossing * radii)), across);
-  } else if (sided && glm::dot(carried, normal) < kWrongSide) {
-    normal = -normal;
-  }
-  return {normal, distanceFor({i, j}, s, t, shape), glm::dot(normal, gap)};
-}
-
-float ConstraintPool::distanceFor(TubePair tubes, float s, float t, std::span<const Bezier> shape) const {
+float ConstraintPool::clearanceFor(TubePair tubes, float s, float t, float radii) const {
   const vec4 restA = interference_->restTubes()[tubes.i].at(s), restB = interference_->restTubes()[tubes.j].at(t);
-  const float radii = shape[tubes.i].at(s).w + shape[tubes.j].at(t).w;
-  const float restClearance = glm::distance(vec3(restA), vec3(restB)) - restA.w - restB.w;
-  return radii + std::min(std::max(kClearanceShare * radii, kLeastClearance), restClearance);
+  const float atRest = glm::distance(vec3(restA), vec3(restB)) - restA.w - restB.w;
+  const float wanted = std::max(kClearanceShare * radii, kLeastClearance);
+  return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
 }
 
-void ConstraintPool::refresh(std::span<const Bezier> shape) {
-  for (Constraint& constraint : constraints_)
-    constraint.distance = distanceFor(constraint.tubes, constraint.s, constraint.t, shape);
+bool ConstraintPool::refresh(std::span<const Bezier> shape) {
+  bool grew = false;
+  for (Constraint& constraint : constraints_) {
+    constraint.distance = shape[constraint.tubes.i].at(constraint.s).w + constraint.clearance;
+    if (constraint.tubes.j != kNoTube) constraint.distance += shape[constraint.tubes.j].at(constraint.t).w;
+    if (constraint.multiplier < constraint.limit || constraint.limit >= constraint.mostLimit) continue;
+    constraint.limit = std::min(kMore * constraint.limit, constraint.mostLimit);
+    grew = true;
+  }
+  return grew;
 }
 
-void ConstraintPool::propose(const Interference::Place& place, std::span<const Bezier> shape, const PosedNetwork& posed,
-                             std::vector<Constraint>& found) const {
-  const Contact& contact = place.contact;
-  std::array<std::pair<float, float>, kSamples.size() + 1> where{{{contact.s, contact.t}}};
-  std::size_t count = 1;
-  if (!place.neighbours)
-    for (const float s : kSamples)
-      where[count++] = {s, nearestParameter(shape[contact.j], vec3(shape[contact.i].at(s)))};
-  for (std::size_t k = 0; k < count; ++k) {
+void ConstraintPool::propose(const Contact& contact, bool changed, std::span<const Bezier> shape,
+                             const PosedNetwork& posed, Proposals& found) const {
+  const auto [i, j, contactS, contactT, f, contactNormal] = contact;
+  std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
+  for (std::size_t k = 0; k < kSamples.size(); ++k)
+    where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};
+  for (std::size_t k = 0; k < where.size(); ++k) {
     const auto [s, t] = where[k];
-    const Side side = sideOf(place, s, t, shape, posed);
+    const vec4 a = shape[i].at(s), b = shape[j].at(t);
+    const vec3 gap = vec3(a) - vec3(b);
+    const float clearance = clearanceFor({i, j}, s, t, a.w + b.w), distance = a.w + b.w + clearance;
+    const vec3 carried = sides_->carried({i, j, s, t}, shape, posed.rotations);
     // A point to the side of a tube's end does not say anything about the two tubes' sides.
-    const vec3 gap = vec3(shape[contact.i].at(s)) - vec3(shape[contact.j].at(t));
-    if (k > 0 && glm::length(gap) >= side.distance) continue;
-    if (side.present >= side.distance - kNegligible) continue;
-    Constraint constraint{{contact.i, contact.j}, s, t, side.normal, side.distance};
-    constraint.start = glm::dot(side.normal, posedPlace(contact.i, s, posed) - posedPlace(contact.j, t, posed));
+    const bool wrong = changed && glm::dot(gap, carried) < 0;
+    if (k > 0 && !wrong && glm::length(gap) >= distance) continue;
+    const vec3 normal = partingDirection(gap, carried, distance, contactNormal);
+    const float lack = distance - glm::dot(normal, gap);
+    if (lack <= kNegligible) continue;
+    Constraint constraint{.tubes = {i, j}, .s = s, .t = t, .normal = normal, .clearance = clearance, .distance = distance};
+    constraint.start = glm::dot(normal, posedPlace(i, s, posed) - posedPlace(j, t, posed));
+    constraint.limit = kReach * (lack + a.w + b.w);
+    const auto own = std::span(found.constraints).first(found.count);
     const auto same = [&](const Constraint& other) {
       return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter;
     };
-    if (std::any_of(found.begin(), found.end(), same) || known(constraint, place.neighbours ? kSameOfNeighbours : kSameParameter)) continue;
-    const auto [vesselI, spanI] = interference_->layout().address(contact.i);
-    const auto [vesselJ, spanJ] = interference_->layout().address(contact.j);
-    space_->addPlace(vesselI, spanI, s, 1, constraint.row.terms);
-    space_->addPlace(vesselJ, spanJ, t, -1, constraint.row.terms);
-    space_->finish(constraint.row);
-    if (constraint.row.diagonal > kLeastDiagonal) found.push_back(std::move(constraint));
+    if (std::any_of(own.begin(), own.end(), same) || known(constraint)) continue;
+    found.constraints[found.count++] = constraint;
   }
 }
 
-bool ConstraintPool::known(const Constraint& wanted, float apart) const {
+bool ConstraintPool::known(const Constraint& wanted) const {
   auto own = std::lower_bound(constraints_.begin(), constraints_.end(), wanted.tubes,
                               [](const Constraint& a, TubePair b) { return a.tubes < b; });
   for (; own != constraints_.end() && own->tubes == wanted.tubes; ++own)
-    if (std::abs(own->s - wanted.s) < apart && std::abs(own->t - wanted.t) < apart &&
-        glm::dot(own->normal, wanted.normal) > kSameDirection)
+    if (std::abs(own->s - wanted.s) < kSameParameter && std::abs(own->t - wanted.t) < kSameParameter &&
+        glm::dot(own->normal, wanted.normal) > kSameDirection &&
+        glm::dot(wanted.normal, wanted.anchor - own->anchor) < kSamePlane)
       return true;
   return false;
 }
 
-std::size_t ConstraintPool::add(std::span<const Interference::Place> places, std::span<const Bezier> shape,
-                                const PosedNetwork& posed) {
-  std::vector<std::vector<Constraint>> found(places.size());
-  parallelFor(places.size(), 16, [&](std::size_t k) { propose(places[k], shape, posed, found[k]); });
-  const std::size_t before = constraints_.size();
-  for (auto& own : found)
-    for (Constraint& constraint : own) constraints_.push_back(std::move(constraint));
+// Gives a row to a constraint and takes it in.
+void ConstraintPool::take(Constraint& constraint) {
+  terms_.clear();
+  const auto [vesselI, spanI] = interference_->layout().address(constraint.tubes.i);
+  space_->addPlace(vesselI, spanI, constraint.s, 1, terms_);
+  if (constraint.tubes.j != kNoTube) {
+    const auto [vesselJ, spanJ] = interference_->layout().address(constraint.tubes.j);
+    space_->addPlace(vesselJ, spanJ, constraint.t, -1, terms_);
+  }
+  constraint.row = space_->finish(terms_, rows_);
+  if (constraint.row.diagonal <= kLeastDiagonal) return;
+  constraint.limit /= constraint.row.diagonal;
+  constraint.mostLimit = (constraint.tubes.j == kNoTube ? 1 : kMost) * constraint.limit;
+  constraints_.push_back(constraint);
+}
+
+std::size_t ConstraintPool::sortIn(std::size_t before) {
   std::inplace_merge(constraints_.begin(), constraints_.begin() + std::ptrdiff_t(before), constraints_.end(),
                      [](const Constraint& a, const Constraint& b) { return a.tubes < b.tubes; });
   return constraints_.size() - before;
+}
+
+std::size_t ConstraintPool::add(std::span<const Interference::Place> places, std::span<const Contact> changed,
+                                std::span<const Bezier> shape, const PosedNetwork& posed) {
+  std::size_t added = 0;
+  const auto addAll = [&](std::size_t count, const auto& proposeOne) {
+    proposals_.resize(std::max(proposals_.size(), count));
+    parallelFor(count, 16, [&](std::size_t k) {
+      proposals_[k].count = 0;
+      proposeOne(k, proposals_[k]);
+    });
+    const std::size_t before = constraints_.size();
+    for (Proposals& proposals : std::span(proposals_).first(count))
+      for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint);
+    added += sortIn(before);
+  };
+  addAll(places.size(), [&](std::size_t k, Proposals& found) {
+    if (places[k].interferes()) propose(places[k].contact, false, shape, posed, found);
+  });
+  addAll(changed.size(), [&](std::size_t k, Proposals& found) { propose(changed[k], true, shape, posed, found); });
+  return added;
+}
+
+std::size_t ConstraintPool::add(std::span<const BoneContact> contacts, std::span<const Bezier> shape,
+                                const PosedNetwork& posed) {
+  const std::size_t before = constraints_.size();
+  for (const BoneContact& contact : contacts) {
+    const float radius = shape[contact.tube].at(contact.s).w;
+    Constraint constraint{.tubes = {contact.tube, kNoTube}, .s = contact.s, .normal = contact.normal, .anchor = contact.point};
+    constraint.clearance = contact.allowed < 0 ? contact.allowed : std::max(kClearanceShare * radius, kBoneClearance);
+    constraint.distance = radius + constraint.clearance;
+    constraint.start = glm::dot(contact.normal, posedPlace(contact.tube, contact.s, posed) - contact.point);
+    constraint.limit = kBoneReach * (constraint.clearance - contact.f + radius);
+    if (!known(constraint)) take(constraint);
+  }
+  return sortIn(before);
 }
 
 }  // namespace vasa

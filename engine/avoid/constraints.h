@@ -1,69 +1,80 @@
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
+#include "avoid/bones.h"
 #include "avoid/interference.h"
 #include "avoid/motion_space.h"
+#include "avoid/sides.h"
 
 namespace vasa {
 
-/// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes.
+/// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes, or n · (C_i(s) - anchor) >= distance.
 struct Constraint {
-  TubePair tubes;
+  TubePair tubes;        ///< j is kNoTube where something fixed takes its place
   float s = 0, t = 0;
   vec3 normal{0};        ///< unit, the side of j on which i belongs
-  float distance = 0;    ///< [m]
+  vec3 anchor{0};
+  float clearance = 0;   ///< [m] more than the radii; less where there was less at rest
+  float distance = 0;    ///< [m] radii and clearance
   float start = 0;       ///< n · (C_i(s) - C_j(t)) before the correction
   float multiplier = 0;  ///< >= 0
+  float limit = 0;       ///< of the multiplier
+  float mostLimit = 0;   ///< ... and how far that may grow
   MotionSpace::Row row;
 };
-
-/// Before the correction: where everything was, at rest and in the pose.
-struct PosedNetwork {
-  std::span<const vec4> points;     ///< as Network::points(), in the pose
-  std::span<const quat> rotations;  ///< how each point's surroundings turned since rest (Deformer::rotations)
-};
+constexpr std::uint32_t kNoTube = 0xffffffffu;
 
 /// The constraints of one frame. They only ever become more, and keep their multipliers.
 class ConstraintPool {
  public:
   /// All must outlive this.
-  ConstraintPool(const Network& network, const MotionSpace& space, const Interference& interference);
+  ConstraintPool(const Network& network, const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
   void clear();
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
-  /// side by side, at some more. Where to: the side on which i lay of j at rest, turned with the bones, where the two
-  /// were near each other then; else the side where it is. How far: the radii and a clearance, or what there was at
+  /// side by side, at some more. Where to: partingDirection(). How far: the radii and a clearance, or what there was at
   /// rest between the same two points if that was less.
-  /// @param shape  the tubes in which the places were found
+  /// @param changed  tubes on the wrong side of one another
+  /// @param shape    the tubes in which the places were found
   /// @return how many were added
-  std::size_t add(std::span<const Interference::Place> places, std::span<const Bezier> shape, const PosedNetwork& posed);
+  std::size_t add(std::span<const Interference::Place> places, std::span<const Contact> changed,
+                  std::span<const Bezier> shape, const PosedNetwork& posed);
 
-  /// Distances for the radii of the given shape.
-  void refresh(std::span<const Bezier> shape);
+  /// The same for tubes in bones: away from the bone's nearest point.
+  std::size_t add(std::span<const BoneContact> contacts, std::span<const Bezier> shape, const PosedNetwork& posed);
+
+  /// Distances for the radii of the given shape, and more force for those between tubes that have used all of theirs.
+  /// Returns whether any got more.
+  bool refresh(std::span<const Bezier> shape);
 
   std::span<Constraint> constraints() { return constraints_; }
   std::span<const Constraint> constraints() const { return constraints_; }
+  const MotionSpace::Rows& rows() const { return rows_; }
 
  private:
-  struct Side {
-    vec3 normal;
-    float distance;
-    float present;  // n · (C_i - C_j) now
+  static constexpr std::size_t kPlaces = 5;
+  struct Proposals {
+    std::array<Constraint, kPlaces> constraints;
+    std::size_t count = 0;
   };
-  float distanceFor(TubePair tubes, float s, float t, std::span<const Bezier> shape) const;
-  Side sideOf(const Interference::Place& place, float s, float t, std::span<const Bezier> shape,
-              const PosedNetwork& posed) const;
-  void propose(const Interference::Place& place, std::span<const Bezier> shape, const PosedNetwork& posed,
-               std::vector<Constraint>& found) const;
-  bool known(const Constraint& wanted, float apart) const;
-  quat rotationAt(std::uint32_t tube, float t, const PosedNetwork& posed) const;
+  float clearanceFor(TubePair tubes, float s, float t, float radii) const;
+  void propose(const Contact& contact, bool changed, std::span<const Bezier> shape, const PosedNetwork& posed,
+               Proposals& found) const;
+  bool known(const Constraint& wanted) const;
   vec3 posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const;
+  void take(Constraint& constraint);
+  std::size_t sortIn(std::size_t before);
 
   const Network* network_;
   const MotionSpace* space_;
   const Interference* interference_;
+  const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by pair, then in the order they came
+  MotionSpace::Rows rows_;
+  std::vector<Proposals> proposals_;
+  std::vector<MotionSpace::Term> terms_;
 };
 
 }  // namespace vasa

@@ -8,11 +8,14 @@
 
 namespace vasa {
 
+/// A pair that overlaps at rest may be deeper by so much before it counts [m]: network files round coordinates and
+/// radii by up to 15 µm, so that is how well the depth at rest is known.
+constexpr float kRestTolerance = 2e-5f;
+
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///
-/// Tubes near one another along the network (collide/neighbours.h) are left out: the search between them has no bound
-/// on its memory where the nearest points lie on the limit of what counts. Two other tubes that
-/// overlap at rest may stay as deep as they are there, no deeper: `allowed` is their depth at rest.
+/// Tubes near one another along the network (collide/neighbours.h) are left out: they belong together. Two other tubes
+/// that overlap at rest may stay as deep as they are there, no deeper: `allowed` is their f at rest.
 class Interference {
  public:
   /// @param network  must outlive this
@@ -20,43 +23,39 @@ class Interference {
 
   struct Place {
     Contact contact;
-    float allowed = 0;    ///< [m] <= 0: the pair's f at rest, where that is negative
-    bool neighbours = false;
+    float allowed = 0;  ///< [m] <= 0: the pair's f at rest, where that is negative
     /// How much deeper than it may be [m]; > 0 is interference.
     float excess() const { return allowed - contact.f; }
+    bool interferes() const { return excess() > (allowed < 0 ? kRestTolerance : 0); }
   };
 
   /// Every pair of tubes with f < margin in the given shape, sorted by pair; valid until the next call.
   /// @param points  as Network::points()
-  /// @param which   the neighbours to look at; they take longer than all other pairs together
-  enum class Watch { allNeighbours, neighboursThatMetLastTime };
-  std::span<const Place> find(std::span<const vec4> points, float margin, Watch which = Watch::allNeighbours);
+  std::span<const Place> find(std::span<const vec4> points, float margin);
 
   const NetworkTubes& layout() const { return layout_; }
   /// The shape of the last find(), and that at rest.
   std::span<const Bezier> tubes() const { return tubes_; }
   std::span<const Bezier> restTubes() const { return rest_; }
-  /// Pairs that overlap at rest, and how many of them are neighbours, which are never looked at again.
-  std::size_t restPairCount() const { return restPairs_.size() + restNeighbours_; }
-  std::size_t restNeighbourCount() const { return restNeighbours_; }
+  /// Pairs that overlap at rest, and pairs that are left out as neighbours.
+  std::size_t restPairCount() const { return restPairs_.size(); }
+  std::size_t neighbourCount() const { return layout_.neighbours().pairs().size(); }
+  /// Pairs that lay near one another at rest: no further apart than the sum of their radii, nor 5 mm. With the places
+  /// where they came nearest.
+  std::span<const Contact> nearAtRest() const { return nearAtRest_; }
 
  private:
   struct RestPair {
     TubePair tubes;
     float f;
   };
-  void search(float margin, Watch which);
-  void searchNeighbours(float margin, Watch which);
   float allowed(TubePair pair) const;
 
   NetworkTubes layout_;
   std::vector<Bezier> rest_, tubes_;
   std::unique_ptr<TubeDetector> detector_;
   std::vector<RestPair> restPairs_;  // sorted
-  std::vector<NeighbourPair> watched_;  // neighbours that are apart at rest where points count
-  std::size_t restNeighbours_ = 0;
-  std::vector<char> meets_;      // one a watched pair
-  std::vector<std::uint32_t> met_;  // of the watched pairs, when all were looked at last
+  std::vector<Contact> nearAtRest_;  // sorted
   std::vector<Place> places_;
 };
 

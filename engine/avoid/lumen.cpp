@@ -7,27 +7,28 @@ namespace {
 
 constexpr float kSpare = 0.995f;  // a little more than is asked for, so that it is settled in few rounds
 
-void narrowTube(const Network& network, NetworkTubes::Address at, float factor, std::span<vec4> points) {
+void narrowTube(const Network& network, NetworkTubes::Address at, float factor, std::span<const vec4> points,
+                std::span<float> most) {
   const Vessel& vessel = network.vessel(at.vessel);
   for (std::uint32_t l = at.span; l < at.span + 4; ++l) {
     if ((l == 0 && vessel.start.valid()) || (l + 1 == vessel.pointCount && vessel.end.valid())) continue;
     const std::uint32_t point = vessel.firstPoint + l;
     const float least = std::min(points[point].w, kLeastLumen * network.points()[point].w);
-    points[point].w = std::max(points[point].w * factor, least);
+    most[point] = std::min(most[point], std::max(points[point].w * factor, least));
   }
 }
 
 }  // namespace
 
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
-            std::span<const Bezier> shape, std::span<vec4> points) {
+            std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most) {
   for (const Interference::Place& place : places) {
     const Contact& contact = place.contact;
     const float radii = shape[contact.i].at(contact.s).w + shape[contact.j].at(contact.t).w;
     const float room = radii + contact.f - place.allowed;
     const float factor = std::clamp(kSpare * room / radii, 0.0f, 1.0f);
-    narrowTube(network, layout.address(contact.i), factor, points);
-    narrowTube(network, layout.address(contact.j), factor, points);
+    narrowTube(network, layout.address(contact.i), factor, points, most);
+    narrowTube(network, layout.address(contact.j), factor, points, most);
   }
 }
 

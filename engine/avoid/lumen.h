@@ -17,13 +17,14 @@ struct NarrowPlace {
 /// How thin a vessel may become: a share of its radius at rest.
 constexpr float kLeastLumen = 0.5f;
 
-/// Makes both tubes of each place thinner, as far as the place asks for and kLeastLumen lets it. Points at nodes keep
-/// their radius. The volume is not made up for elsewhere.
+/// Lowers what radii may be at each place, in both tubes, as far as the place asks for and kLeastLumen lets it. Points
+/// at nodes keep their radius.
 /// @param places  that interfere (avoid/certificate.h)
 /// @param shape   the tubes in which they were found
-/// @param points  the posed network; radii change
+/// @param points  the network with them
+/// @param most    the largest radius a point may have, one a point
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
-            std::span<const Bezier> shape, std::span<vec4> points);
+            std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most);
 
 /// Spans one of whose points is thinner than in `before`, in order.
 std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before, std::span<const vec4> points);

@@ -1,7 +1,9 @@
 #include "avoid/metric.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
 namespace vasa {
 namespace {
@@ -45,6 +47,30 @@ void BendingMetric::solve(std::span<float> x) const {
     if (i + 1 < n) x[i] -= lower1_[i + 1] * x[i + 1];
     if (i + 2 < n) x[i] -= lower2_[i + 2] * x[i + 2];
   }
+}
+
+BendingMetric::Range BendingMetric::solveNear(std::span<float> x, Range given, float negligible) const {
+  assert(x.size() == pivot_.size() && given.first < given.last && given.last <= x.size());
+  const std::uint32_t n = count();
+  float largest = 0;
+  std::uint32_t end = given.first;
+  for (std::uint32_t i = given.first; i < n; ++i) {
+    if (i > given.first) x[i] -= lower1_[i] * x[i - 1] + (i >= given.first + 2 ? lower2_[i] * x[i - 2] : 0);
+    largest = std::max(largest, std::abs(x[i]));
+    end = i + 1;
+    if (i > given.last && std::max(std::abs(x[i]), std::abs(x[i - 1])) < negligible * largest) break;
+  }
+  for (std::uint32_t i = given.first; i < end; ++i) x[i] *= pivot_[i];
+  largest = 0;
+  std::uint32_t begin = end;
+  for (std::uint32_t i = end; i-- > 0;) {
+    if (i + 1 < end) x[i] -= lower1_[i + 1] * x[i + 1];
+    if (i + 2 < end) x[i] -= lower2_[i + 2] * x[i + 2];
+    largest = std::max(largest, std::abs(x[i]));
+    begin = i;
+    if (i + 1 < given.first && std::max(std::abs(x[i]), std::abs(x[i + 1])) < negligible * largest) break;
+  }
+  return {begin, end};
 }
 
 float BendingMetric::energy(std::span<const float> z, float beta) {

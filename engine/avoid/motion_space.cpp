@@ -24,7 +24,11 @@ MotionSpace::MotionSpace(const Network& network, float beta)
       vesselOf_(pointCount_),
       startShare_(pointCount_, 0),
       endShare_(pointCount_, 0),
-      nodeWeight_(network.nodes().size(), 0) {
+      nodeWeight_(network.nodes().size(), 0),
+      nodeMotion_(network.nodes().size()) {
+  std::size_t longest = 0;
+  for (const Vessel& vessel : network.vessels()) longest = std::max<std::size_t>(longest, vessel.pointCount);
+  work_.assign(longest, 0);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];
     const bool start = vessel.start.valid(), end = vessel.end.valid();
@@ -66,43 +70,39 @@ void MotionSpace::addNode(NodeId node, float weight, std::vector<Term>& terms) c
   }
 }
 
-void MotionSpace::finish(Row& row) const {
-  auto& terms = row.terms;
+MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const {
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
     return a.variable != b.variable ? a.variable < b.variable : a.weight < b.weight;
   });
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    if (kept > 0 && terms[kept - 1].variable == terms[k].variable) terms[kept - 1].weight += terms[k].weight;
-    else terms[kept++] = terms[k];
+  Row row{std::uint32_t(rows.terms.size()), 0, std::uint32_t(rows.runs.size()), 0, std::uint32_t(rows.responses.size())};
+  for (const Term& term : terms) {
+    if (row.termCount > 0 && rows.terms.back().variable == term.variable) rows.terms.back().weight += term.weight;
+    else rows.terms.push_back(term), ++row.termCount;
   }
-  terms.resize(kept);
-  std::vector<float> x;
-  for (std::size_t k = 0; k < terms.size();) {
-    if (terms[k].variable >= pointCount_) {
-      const float response = terms[k].weight / nodeWeight_[terms[k].variable - pointCount_];
-      row.runs.push_back({terms[k].variable, 1});
-      row.response.push_back(response);
-      row.diagonal += terms[k++].weight * response;
+  const std::span<const Term> own = rows.termsOf(row);
+  for (std::size_t k = 0; k < own.size();) {
+    if (own[k].variable >= pointCount_) {
+      const float response = own[k].weight / nodeWeight_[own[k].variable - pointCount_];
+      rows.runs.push_back({own[k].variable, 1});
+      rows.responses.push_back(response);
+      row.diagonal += own[k++].weight * response;
       continue;
     }
-    const std::uint32_t vessel = vesselOf_[terms[k].variable];
+    const std::uint32_t vessel = vesselOf_[own[k].variable];
     const Block& block = blocks_[vessel];
-    x.assign(block.metric.count(), 0);
+    const std::span<float> x = std::span(work_).first(block.metric.count());
     const std::size_t begin = k;
-    for (; k < terms.size() && terms[k].variable < pointCount_ && vesselOf_[terms[k].variable] == vessel; ++k)
-      x[terms[k].variable - block.first] = terms[k].weight;
-    block.metric.solve(x);
-    for (std::size_t l = begin; l < k; ++l) row.diagonal += terms[l].weight * x[terms[l].variable - block.first];
-    float largest = 0;
-    for (const float value : x) largest = std::max(largest, std::abs(value));
-    const auto matters = [&](float value) { return std::abs(value) > kSmallestResponse * largest; };
-    const auto first = std::find_if(x.begin(), x.end(), matters);
-    const auto last = std::find_if(x.rbegin(), x.rend(), matters).base();
-    if (first >= last) continue;
-    row.runs.push_back({block.first + std::uint32_t(first - x.begin()), std::uint32_t(last - first)});
-    row.response.insert(row.response.end(), first, last);
+    for (; k < own.size() && own[k].variable < pointCount_ && vesselOf_[own[k].variable] == vessel; ++k)
+      x[own[k].variable - block.first] = own[k].weight;
+    const auto [first, last] = block.metric.solveNear(
+        x, {own[begin].variable - block.first, own[k - 1].variable - block.first + 1}, kSmallestResponse);
+    for (std::size_t l = begin; l < k; ++l) row.diagonal += own[l].weight * x[own[l].variable - block.first];
+    rows.runs.push_back({block.first + first, last - first});
+    rows.responses.insert(rows.responses.end(), x.begin() + first, x.begin() + last);
+    std::fill(x.begin() + first, x.begin() + last, 0.0f);
   }
+  row.runCount = std::uint32_t(rows.runs.size()) - row.firstRun;
+  return row;
 }
 
 vec3 MotionSpace::motionOf(const Vessel& vessel, std::uint32_t local, std::span<const vec3> z,
@@ -114,8 +114,9 @@ vec3 MotionSpace::motionOf(const Vessel& vessel, std::uint32_t local, std::span<
   return motion;
 }
 
-void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) const {
-  std::vector<vec3> nodes(network_->nodes().size(), vec3(0));
+void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
+  const std::span<vec3> nodes(nodeMotion_);
+  std::fill(nodes.begin(), nodes.end(), vec3(0));
   for (const NodeId id : network_->pinOrder()) {
     const auto& host = network_->node(id).host;
     vec3& motion = nodes[id.value];

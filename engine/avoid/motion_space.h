@@ -12,7 +12,7 @@ namespace vasa {
 /// where z is free but 0 at an end that hangs on a node, and φ falls smoothly from 1 at the node to 0 some points on.
 /// A node on a host's side moves as the host's centre line there; any other node has a variable of its own. Whatever
 /// z is, every end stays on its node, and what branches off goes along. The price of a motion, ½ zᵀ W z, falls apart
-/// into one banded matrix a vessel and one number a node. Immutable; the network must outlive it.
+/// into one banded matrix a vessel and one number a node. The network must outlive it; one object serves one caller.
 class MotionSpace {
  public:
   explicit MotionSpace(const Network& network, float beta);
@@ -29,19 +29,27 @@ class MotionSpace {
     std::uint32_t first, count;  ///< variables; values lie one after the other
   };
   struct Row {
+    std::uint32_t firstTerm = 0, termCount = 0, firstRun = 0, runCount = 0, firstResponse = 0;
+    float diagonal = 0;  ///< row · response
+  };
+  /// Where the numbers of many rows lie.
+  struct Rows {
     std::vector<Term> terms;
     std::vector<Run> runs;
-    std::vector<float> response;
-    float diagonal = 0;  ///< row · response
+    std::vector<float> responses;
+    void clear() { terms.clear(), runs.clear(), responses.clear(); }
+    std::span<const Term> termsOf(const Row& row) const { return std::span(terms).subspan(row.firstTerm, row.termCount); }
+    std::span<const Run> runsOf(const Row& row) const { return std::span(runs).subspan(row.firstRun, row.runCount); }
   };
 
   /// Adds weight · C(vessel at span, t) to a row's terms.
   void addPlace(VesselId vessel, std::uint32_t span, float t, float weight, std::vector<Term>& terms) const;
-  /// Joins equal variables, and fills response and diagonal. Responses below a thousandth of the largest are left out.
-  void finish(Row& row) const;
+  /// Makes a row of some terms, which it sorts and joins: its response and diagonal. Responses below a thousandth of
+  /// the largest are left out. O(points the response reaches).
+  Row finish(std::vector<Term>& terms, Rows& rows) const;
 
   /// points += Δq(z), ends exactly on their nodes; radii stay. @param z  variableCount()
-  void apply(std::span<const vec3> z, std::span<vec4> points) const;
+  void apply(std::span<const vec3> z, std::span<vec4> points);
 
  private:
   struct Block {
@@ -58,6 +66,8 @@ class MotionSpace {
   std::vector<std::uint32_t> vesselOf_;    // of a point
   std::vector<float> startShare_, endShare_;  // φ, one a point
   std::vector<float> nodeWeight_;          // W of a node's own variable
+  mutable std::vector<float> work_;        // of the longest vessel, zero between calls
+  std::vector<vec3> nodeMotion_;
 };
 
 }  // namespace vasa

@@ -13,31 +13,37 @@ struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
   unsigned rounds = 10;      ///< detections, each followed by sweeps
   unsigned sweeps = 40;      ///< of dual ascent over all constraints, a round
-  unsigned projections = 2;  ///< plain projections at the end, where the rounds did not suffice
-  unsigned lumenRounds = 6;  ///< of making vessels thinner where there is no room
+  unsigned lumenRounds = 8;  ///< of making vessels thinner where there is no room
 };
 
 /// What was done for a frame.
 struct AvoidReport {
   Certificate before, after;
+  std::uint32_t boneContacts = 0, boneContactsAfter = 0;  ///< tubes in bones or the heart, deeper than at rest
+  float boneDepth = 0, boneDepthAfter = 0;                ///< [m] the deepest of them
   std::uint32_t constraints = 0;  ///< in the pool at the end
   std::uint32_t rounds = 0;       ///< detections that asked for a correction
   float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
+  std::uint32_t sidesChanged = 0;      ///< pairs of tubes on the wrong side of one another, before
+  std::uint32_t sidesChangedAfter = 0; ///< ... and after
+  VolumeKeeper::Outcome volume;        ///< after the last change of radii
   std::uint32_t narrowSpans = 0;     ///< spans whose lumen gave way
   float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
-  double detectMs = 0, solveMs = 0, certifyMs = 0;
+  double detectMs = 0, boneMs = 0, solveMs = 0, certifyMs = 0;
 };
 
 /// Moves vessels apart that run through one another in a pose: the nearest admissible shape,
 ///   least ½ zᵀ W z  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
 /// with z and W as in avoid/motion_space.h, so that branches stay joined. Method: dual coordinate ascent (Hildreth 1957)
-/// over a pool of contacts that is detected anew each round and only grows, multipliers >= 0; then plain projections;
-/// then, where there is no room, thinner vessels; then a certificate by an exact query. Budgets are fixed and the order
+/// over a pool of contacts that is detected anew each round and only grows, 0 <= multipliers <= a limit, so that what
+/// cannot be met does not fling vessels about; then, where there is no room, thinner vessels; then a certificate by an
+/// exact query. Budgets are fixed and the order
 /// is that of the pairs: the result depends on the scene and the pose alone.
 class Avoider {
  public:
   /// @param network  must outlive this
-  explicit Avoider(const Network& network, AvoidOptions options = {});
+  /// @param body     whose bones and heart vessels must not enter, or null; read, not kept
+  explicit Avoider(const Network& network, const Body* body = nullptr, AvoidOptions options = {});
 
   /// @param posed   the posed network, before any correction
   /// @param volume  keeps the vessels' volume while they are moved, or null
@@ -53,24 +59,31 @@ class Avoider {
   const NetworkTubes& layout() const { return interference_.layout(); }
   /// Pairs of tubes that overlap at rest.
   std::size_t restPairCount() const { return interference_.restPairCount(); }
+  /// Pairs of tubes that are never looked at, for they are near one another along the network.
+  std::size_t neighbourCount() const { return interference_.neighbourCount(); }
 
  private:
   void ascend();
-  void project();
   void push(Constraint& constraint, float amount);
   float presentOf(const Constraint& constraint) const;
-  float violation() const;
-  void place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points) const;
+  void place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points);
   void separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void giveWay(std::span<vec4> points, AvoidReport& report);
+  void giveWay(const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network* network_;
   AvoidOptions options_;
   Interference interference_;
   MotionSpace space_;
+  RestSides sides_;
+  std::unique_ptr<Bones> bones_;
   ConstraintPool pool_;
   std::vector<vec3> z_;
+  VolumeKeeper::Outcome volumeOutcome_;
+  std::vector<vec4> before_;  // lumen gave way
+  std::vector<float> most_;   // radius of a point, since it did
   std::vector<Interference::Place> found_, remaining_;
+  std::vector<Contact> changed_;
+  std::span<const BoneContact> boneContacts_;
   std::vector<NarrowPlace> narrowed_;
 };
 

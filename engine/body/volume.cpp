@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/quadrature.h"
 
@@ -10,6 +11,8 @@
 // so V(λ) = V0 at λ = -2 (V - V0) / (b + √(b² - 4a (V - V0))), the root that is 0 when V = V0.
 namespace vasa {
 namespace {
+
+constexpr double kNegligible = 2e-5;  // of the volume
 
 struct Quadratic {
   double a = 0, b = 0, volume = 0;
@@ -20,13 +23,15 @@ bool pinned(const Vessel& vessel, std::uint32_t point) {
   return (point == 0 && vessel.start.valid()) || (point + 1 == vessel.pointCount && vessel.end.valid());
 }
 
-Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points) {
+// @param weightOf  w_l r_l of the vessel's point l
+template <class Weight>
+Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points, const Weight& weightOf) {
   Quadratic q;
   for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
     const mat4 matrix = spanToBezier(span, vessel.spanCount());
     Bezier segment = bezierOfSpan(points, span);
     vec4 weighted;
-    for (std::uint32_t l = 0; l < 4; ++l) weighted[int(l)] = pinned(vessel, span + l) ? 0 : points[span + l].w;
+    for (std::uint32_t l = 0; l < 4; ++l) weighted[int(l)] = weightOf(span + l);
     const vec4 delta = matrix * weighted;
     for (const auto& [t, weight] : kGauss4) {
       const double r = segment.at(t).w, d = glm::dot(delta, bernstein(t));
@@ -42,25 +47,47 @@ Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points) {
 }  // namespace
 
 VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
-  for (const Vessel& vessel : network.vessels()) restVolumes_.push_back(quadraticOf(vessel, network.pointsOf(vessel)).volume);
+  for (const Vessel& vessel : network.vessels())
+    restVolumes_.push_back(quadraticOf(vessel, network.pointsOf(vessel), [](std::uint32_t) { return 0.0f; }).volume);
 }
 
-VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points) const {
+VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const float> most) const {
   Outcome outcome;
   for (std::size_t v = 0; v < restVolumes_.size(); ++v) {
     const Vessel& vessel = network_->vessels()[v];
     const auto own = Network::pointsOf(vessel, points);
-    const Quadratic q = quadraticOf(vessel, own);
-    const double excess = q.volume - restVolumes_[v];
-    const double discriminant = q.b * q.b - 4 * q.a * excess;
-    double lambda = -1;  // no root: as thin as it gets
-    if (discriminant >= 0 && q.b > 0) lambda = -2 * excess / (q.b + std::sqrt(discriminant));
-    const double kept = std::clamp(lambda, double(kLowestFactor) - 1, double(kHighestFactor) - 1);
-    outcome.clampedCount += kept != lambda;
-    for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
-      if (!pinned(vessel, l)) own[l].w *= float(1 + kept);
-    const double error = restVolumes_[v] > 0 ? std::abs(q.at(kept) - restVolumes_[v]) / restVolumes_[v] : 0;
-    outcome.largestError = std::max(outcome.largestError, float(error));
+    const auto rest = network_->pointsOf(vessel);
+    const auto limit = [&](std::uint32_t l) { return most.empty() ? std::numeric_limits<float>::infinity() : most[vessel.firstPoint + l]; };
+    // A point that has come to its limit stays there, and the others share what it lacks.
+    const auto held = [&](std::uint32_t l) { return pinned(vessel, l) || own[l].w >= limit(l); };
+    for (std::uint32_t l = 0; l < vessel.pointCount && !most.empty(); ++l)
+      if (!pinned(vessel, l)) own[l].w = std::min(own[l].w, limit(l));
+    for (bool settled = false; !settled;) {
+      settled = true;
+      const Quadratic q = quadraticOf(vessel, own, [&](std::uint32_t l) { return held(l) ? 0.0f : own[l].w; });
+      const double excess = q.volume - restVolumes_[v];
+      const double discriminant = q.b * q.b - 4 * q.a * excess;
+      double lambda = excess > 0 ? -1 : 1;  // no root: as thin, or as wide, as it gets
+      if (discriminant >= 0 && q.b > 0) lambda = -2 * excess / (q.b + std::sqrt(discriminant));
+      double kept = lambda;
+      for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
+        if (held(l)) continue;
+        const double now = own[l].w;
+        if (now > 0) kept = std::clamp(kept, kLowestFactor * rest[l].w / now - 1, std::max(kHighestFactor * rest[l].w / now - 1, 0.0));
+      }
+      for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
+        if (held(l)) continue;
+        const float wanted = own[l].w * float(1 + kept);
+        if (wanted > limit(l)) settled = false;
+        own[l].w = std::min(wanted, limit(l));
+      }
+      if (!settled) continue;
+      const double error = restVolumes_[v] > 0 ? std::abs(q.at(kept) - restVolumes_[v]) / restVolumes_[v] : 0;
+      const bool clamped = error > kNegligible;
+      outcome.clampedCount += clamped;
+      float& worst = clamped ? outcome.clampedError : outcome.largestError;
+      worst = std::max(worst, float(error));
+    }
   }
   return outcome;
 }

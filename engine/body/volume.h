@@ -15,12 +15,14 @@ class VolumeKeeper {
   explicit VolumeKeeper(const Network& network);
 
   struct Outcome {
-    float largestError = 0;        ///< |V - V0| / V0 of the worst vessel afterwards
-    std::uint32_t clampedCount = 0;  ///< vessels whose radii would have left the sane range
+    float largestError = 0;          ///< |V - V0| / V0 of the worst vessel whose radii could do it
+    float clampedError = 0;          ///< ... of the worst that could not
+    std::uint32_t clampedCount = 0;  ///< vessels whose radii would have left the sane range, or were held
   };
 
   /// @param points  a posed network's points; radii must be those at rest. O(spans), no allocation.
-  Outcome run(std::span<vec4> points) const;
+  /// @param most    if given, one a point: radii may not be larger; the rest of the vessel makes up for it
+  Outcome run(std::span<vec4> points, std::span<const float> most = {}) const;
 
   /// How far radii may go: between half and twice those at rest.
   static constexpr float kLowestFactor = 0.5f, kHighestFactor = 2.0f;

@@ -224,6 +224,29 @@ std::uint32_t Obstacle::triangleCount() const {
   return std::uint32_t(state_->triangles.size());
 }
 
+void Obstacle::signedDistances(std::span<const vec3> points, float reach, std::vector<std::uint32_t>& near,
+                               std::span<float> distances) const {
+  Aabb box;
+  for (const vec3& p : points) box.add(p, reach);
+  state_->trianglesNear(box, near);
+  std::vector<vec4> balls(near.size());  // around the triangles
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const uvec3& t = state_->triangles[near[k]];
+    const vec3 &a = state_->positions[t.x], &b = state_->positions[t.y], &c = state_->positions[t.z];
+    const vec3 centre = (a + b + c) / 3.0f;
+    balls[k] = vec4(centre, std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)}));
+  }
+  std::vector<std::uint32_t> nearest;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    float most = std::numeric_limits<float>::infinity();  // the nearest triangle is no further than this
+    for (const vec4& ball : balls) most = std::min(most, glm::distance(points[p], vec3(ball)));
+    nearest.clear();
+    for (std::size_t k = 0; k < near.size(); ++k)
+      if (glm::distance(points[p], vec3(balls[k])) - balls[k].w <= most) nearest.push_back(near[k]);
+    distances[p] = glm::clamp(state_->signedDistance(vec4(points[p], 0), nearest).distance, -reach, reach);
+  }
+}
+
 void Obstacle::update(std::span<const vec3> positions) {
   state_->positions.assign(positions.begin(), positions.end());
   if (state_->triangles.empty()) return;

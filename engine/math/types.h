@@ -13,6 +13,7 @@ using glm::vec3;
 using glm::vec4;
 using glm::dvec3;
 using glm::dvec4;
+using glm::ivec3;
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;

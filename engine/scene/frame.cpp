@@ -29,7 +29,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       deformer_(scene.binding),
       volume_(scene.network),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
-      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, options.avoidance) : nullptr),
+      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance) : nullptr),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
       rotations_(scene.network.points().size()),
@@ -69,7 +69,8 @@ void FrameMaker::make(const Pose& pose, float time) {
     report_.volume = volume_.run(points_);
   }
   if (avoider_)
-    report_.avoid = avoider_->run({posedPoints_, rotations_}, options_.keepVolume ? &volume_ : nullptr, points_);
+    report_.avoid = avoider_->run({posedPoints_, rotations_, jointMatrices_}, options_.keepVolume ? &volume_ : nullptr, points_);
+  if (avoider_ && options_.keepVolume && report_.avoid.rounds > 0) report_.volume = report_.avoid.volume;
   StageClock clock(report_.framesMs);
   networkFrames(scene_->network, points_, references_, knotFrames_);
 }

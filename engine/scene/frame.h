@@ -15,7 +15,7 @@ struct FrameReport {
   double deformMs = 0;  ///< joints to control points
   double volumeMs = 0;  ///< radii
   double framesMs = 0;  ///< knot frames
-  VolumeKeeper::Outcome volume;  ///< before vessels were moved apart
+  VolumeKeeper::Outcome volume;
   AvoidReport avoid;             ///< with the times of its own stages
 };
 
@@ -45,6 +45,8 @@ class FrameMaker {
   const FrameReport& report() const { return report_; }
   /// The network as the body alone moves it, before vessels were moved apart.
   std::span<const vec4> posedPoints() const { return posedPoints_; }
+  /// How the surroundings of each point turned since rest.
+  std::span<const quat> rotations() const { return rotations_; }
   /// Where vessels interfered in the latest frame; null without FrameOptions::avoid.
   const Avoider* avoider() const { return avoider_.get(); }
 

@@ -1,0 +1,51 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "body/body.h"
+#include "curve/bezier.h"
+
+namespace vasa {
+
+/// A place of a tube in a bone or the heart, deeper than the tube is there at rest.
+struct BoneContact {
+  std::uint32_t tube = 0, part = 0;
+  float s = 0;         ///< on the tube
+  float f = 0;         ///< [m] signed distance of the centre line from the surface, less the radius there
+  float allowed = 0;   ///< [m] <= 0: the least f of this tube and this part at rest, where that is negative
+  vec3 point{0};       ///< as far from the centre line along the normal as that should be: n · (C(s) - point) >= r
+  vec3 normal{0};      ///< unit, the way out there
+};
+
+/// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint that
+/// carries them. A part is rigid, so its distance field is made once, and tubes are looked at from the joint; the
+/// field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the joint with the
+/// largest weight at its first corner.
+///
+/// The way out of a part is that of its nearest surface; from within, where the place was outside at rest, it is where
+/// the straight way to that place leaves the part: a vessel is not pushed through a bone.
+class Bones {
+ public:
+  /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
+  Bones(const Body& body, std::span<const Bezier> restTubes);
+  ~Bones();
+  Bones(Bones&&) noexcept;
+
+  /// @param jointMatrices  a joint's world · inverseBind
+  void pose(std::span<const mat4> jointMatrices);
+
+  /// Places where tubes enter a part, deeper than at rest by more than rounding (kRestTolerance); sorted by tube, part
+  /// and parameter. Tubes are looked at every radius and at least five times. Parallel.
+  std::span<const BoneContact> contacts(std::span<const Bezier> tubes);
+
+  std::uint32_t partCount() const;
+  std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest
+  std::size_t bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vasa

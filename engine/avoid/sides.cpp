@@ -1,0 +1,100 @@
+#include "avoid/sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collide/contact_search.h"
+#include "core/parallel.h"
+
+namespace vasa {
+namespace {
+
+constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
+constexpr float kTooClose = 0.25f;              // ... below which the direction at rest is the less sure
+constexpr float kCrossing = 0.7f;               // |u - v| from which two tubes cross (40 degrees)
+constexpr float kTurned = 0.5f;                 // share of the asked distance by which the rest pose turns the way
+constexpr float kSure = 0.5f;                   // how sure the rest pose must be for a change of sides
+constexpr float kWrong = 0.5f;                  // cosine between the gap and the wrong side
+constexpr std::size_t kGrain = 1024;
+
+vec3 unitOr(vec3 v, vec3 otherwise) {
+  const float length = glm::length(v);
+  return length > 1e-9f ? v / length : otherwise;
+}
+
+float fadeOut(float x, float from, float to) {
+  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+  return 1 - t * t * (3 - 2 * t);
+}
+
+// What of c is at right angles to both directions; to their mean alone where they are about the same.
+vec3 sideways(vec3 c, vec3 u, vec3 v) {
+  if (glm::dot(u, v) < 0) v = -v;
+  const vec3 mean = unitOr(u + v, vec3(0)), difference = u - v;
+  c -= mean * glm::dot(c, mean);
+  const float size = glm::length(difference);
+  if (size < 1e-4f) return c;
+  const float share = std::min(1.0f, size / kCrossing);
+  return c - share * share * glm::dot(c, difference / size) * (difference / size);
+}
+
+}  // namespace
+
+RestSides::RestSides(const Network& network, const Interference& interference)
+    : network_(&network), interference_(&interference) {}
+
+quat RestSides::rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const {
+  const auto [vessel, span] = interference_->layout().address(tube);
+  const std::uint32_t first = network_->vessel(vessel).firstPoint + span;
+  const quat a = rotations[first + 1], b = rotations[first + 2];
+  return glm::normalize((1 - t) * a + (glm::dot(a, b) < 0 ? -t : t) * b);
+}
+
+vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const {
+  const vec4 a = interference_->restTubes()[at.i].at(at.s), b = interference_->restTubes()[at.j].at(at.t);
+  const vec3 gap = vec3(a) - vec3(b);
+  const float distance = glm::length(gap), radii = a.w + b.w;
+  if (!(radii > 0) || distance >= kNothingFrom * radii || distance < 1e-9f) return vec3(0);
+  const float sure = fadeOut(distance / radii, kSureTo, kNothingFrom) / std::max(distance, kTooClose * radii);
+  const vec3 turned = rotationAt(at.i, at.s, rotations) * gap + rotationAt(at.j, at.t, rotations) * gap;
+  const vec3 u = unitOr(vec3(shape[at.i].derivative(at.s)), vec3(0)), v = unitOr(vec3(shape[at.j].derivative(at.t)), vec3(0));
+  return sideways(0.5f * sure * turned, u, v);
+}
+
+void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
+                            std::vector<Contact>& changed) const {
+  const std::span<const Contact> near = interference_->nearAtRest();
+  const std::size_t tasks = (near.size() + kGrain - 1) / kGrain;
+  std::vector<std::vector<Contact>> found(tasks);
+  parallelFor(tasks, 1, [&](std::size_t task) {
+    const std::size_t end = std::min(near.size(), (task + 1) * kGrain);
+    for (std::size_t k = task * kGrain; k < end; ++k) {
+      const Contact& rest = near[k];
+      const Bezier &a = shape[rest.i], &b = shape[rest.j];
+      const vec3 gap = vec3(a.at(rest.s)) - vec3(b.at(rest.t));
+      if (glm::dot(gap, carried({rest.i, rest.j, rest.s, rest.t}, shape, rotations)) > 0) continue;
+      Contact now = nearestPlaceFrom(a, b, rest.s, rest.t);
+      const vec3 side = carried({rest.i, rest.j, now.s, now.t}, shape, rotations);
+      const vec3 nearest = vec3(a.at(now.s)) - vec3(b.at(now.t));
+      const float sure = glm::length(side);
+      if (sure < kSure) continue;
+      const float depth = glm::dot(nearest, side) / sure;
+      if (depth > -kWrong * glm::length(nearest) || depth > -1e-6f) continue;
+      now.i = rest.i, now.j = rest.j, now.f = depth;
+      found[task].push_back(now);
+    }
+  });
+  changed.clear();
+  for (const auto& own : found) changed.insert(changed.end(), own.begin(), own.end());
+}
+
+vec3 partingDirection(vec3 gap, vec3 carried, float distance, vec3 otherwise) {
+  const float sure = glm::length(carried);
+  if (sure < 1e-6f) return unitOr(gap, otherwise);
+  const vec3 side = carried / sure;
+  const float beyond = glm::dot(gap, side);
+  const float turn = kTurned * std::clamp(1 - beyond / distance, 0.0f, 1.0f);
+  return unitOr(gap - std::min(sure, 1.0f) * std::min(beyond, 0.0f) * side + turn * distance * carried, otherwise);
+}
+
+}  // namespace vasa

@@ -1,0 +1,52 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "avoid/interference.h"
+
+namespace vasa {
+
+/// Before the correction: where everything was, at rest and in the pose.
+struct PosedNetwork {
+  std::span<const vec4> points;     ///< as Network::points(), in the pose
+  std::span<const quat> rotations;  ///< how each point's surroundings turned since rest (Deformer::rotations)
+  std::span<const mat4> jointMatrices = {};  ///< a joint's world · inverseBind; may be empty without bones
+};
+
+/// Remembers on which side of one another vessels lie at rest, and tells where that is in a pose.
+class RestSides {
+ public:
+  /// All must outlive this.
+  RestSides(const Network& network, const Interference& interference);
+
+  struct Place {
+    std::uint32_t i, j;  ///< tubes
+    float s, t;
+  };
+
+  /// The way from C_j(t) to C_i(s) at rest, turned with what is around them, less what lies along the two tubes as they
+  /// run now. The longer the surer, at most 1; 0 where the rest pose says nothing, for the places were far from one
+  /// another then or their surroundings have turned apart. Continuous in everything.
+  /// @param shape  the tubes now
+  vec3 carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
+
+  /// Tubes that were near one another at rest and have changed sides, whether they overlap or have passed through, with
+  /// the places where they are nearest now, sorted by pair; f of the result is the distance of the centre lines by
+  /// which they are on the wrong side, negative.
+  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed) const;
+
+ private:
+  quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
+
+  const Network* network_;
+  const Interference* interference_;
+};
+
+/// Which way to part two tubes: as they are, but turned to the side where they belong the more, the nearer they are to
+/// one another's centre line or beyond it. Unit. Continuous where one of the two says something.
+/// @param gap       C_i(s) - C_j(t)
+/// @param carried   RestSides::carried
+/// @param distance  [m] that is asked for
+vec3 partingDirection(vec3 gap, vec3 carried, float distance, vec3 otherwise);
+
+}  // namespace vasa

@@ -1,0 +1,129 @@
+#include "collide/distance_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "collide/obstacle.h"
+#include "core/parallel.h"
+
+namespace vasa {
+
+DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options)
+    : options_(options) {
+  for (const uvec3& triangle : triangles)
+    for (int k = 0; k < 3; ++k) box_.add(positions[triangle[k]], options_.band);
+  if (box_.empty()) return;
+  const float side = options_.cell * kBrick;
+  origin_ = box_.low;
+  counts_ = ivec3(glm::ceil(box_.extent() / side)) + 1;
+  bricks_.assign(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z), kUndecided);
+  markBand(positions, triangles);
+  fill(positions, triangles);
+  sortOutInside();
+}
+
+// Numbers the bricks that come within the band of a triangle's box.
+void DistanceField::markBand(std::span<const vec3> positions, std::span<const uvec3> triangles) {
+  const float side = options_.cell * kBrick;
+  for (const uvec3& triangle : triangles) {
+    Aabb box;
+    for (int k = 0; k < 3; ++k) box.add(positions[triangle[k]], options_.band);
+    const ivec3 low = ivec3((box.low - origin_) / side), high = glm::min(ivec3((box.high - origin_) / side), counts_ - 1);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) brick({x, y, z}) = 0;
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t& number : bricks_)
+    if (number == 0) number = count++;
+  values_.resize(std::size_t(count) * kValues);
+}
+
+void DistanceField::fill(std::span<const vec3> positions, std::span<const uvec3> triangles) {
+  Obstacle surface(positions, triangles);
+  const float side = options_.cell * kBrick;
+  parallelFor(std::size_t(counts_.z), 1, [&](std::size_t z) {
+    std::array<vec3, kValues> corners;
+    std::vector<std::uint32_t> near;
+    for (int y = 0; y < counts_.y; ++y)
+      for (int x = 0; x < counts_.x; ++x) {
+        const std::uint32_t number = brick({x, y, int(z)});
+        if (number >= kInside) continue;
+        const vec3 low = origin_ + side * vec3(float(x), float(y), float(z));
+        for (int k = 0; k < kValues; ++k)
+          corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
+        const std::span<float> own = std::span(values_).subspan(std::size_t(number) * kValues, kValues);
+        surface.signedDistances(corners, options_.band, near, own);
+      }
+  });
+}
+
+// Bricks beyond the band hang together in regions, each all outside or all inside: as the values say on the faces that
+// it shares with bricks of the band, by the majority, for meshes have holes.
+void DistanceField::sortOutInside() {
+    constexpr int kMiddle = kBrick / 2;
+  std::vector<ivec3> region;
+  for (int z = 0; z < counts_.z; ++z)
+    for (int y = 0; y < counts_.y; ++y)
+      for (int x = 0; x < counts_.x; ++x) {
+        if (brick({x, y, z}) != kUndecided) continue;
+        int votes = 0;  // for outside
+        brick({x, y, z}) = kOutside;
+        region.assign(1, {x, y, z});
+        for (std::size_t k = 0; k < region.size(); ++k)
+          for (int axis = 0; axis < 3; ++axis)
+            for (const int step : {-1, 1}) {
+              ivec3 next = region[k];
+              next[axis] += step;
+              if (next[axis] < 0 || next[axis] >= counts_[axis]) {
+                votes += 1000;  // the border of the box is outside
+                continue;
+              }
+              std::uint32_t& number = brick(next);
+              if (number == kUndecided) {
+                number = kOutside;
+                region.push_back(next);
+              } else if (number < kInside) {
+                ivec3 corner(kMiddle);
+                corner[axis] = step > 0 ? 0 : kBrick;
+                const float value = values_[std::size_t(number) * kValues + std::size_t((corner.z * kCorners + corner.y) * kCorners + corner.x)];
+                votes += value > 0 ? 1 : -1;
+              }
+            }
+        if (votes < 0)
+          for (const ivec3& at : region) brick(at) = kInside;
+      }
+}
+
+DistanceField::Cell DistanceField::cellAt(vec3 point) const {
+  if (glm::any(glm::lessThan(point, box_.low)) || glm::any(glm::greaterThan(point, box_.high))) return {nullptr, options_.band, {}, {}};
+  const vec3 cells = (point - origin_) / options_.cell;
+  const ivec3 cell = glm::clamp(ivec3(cells), ivec3(0), counts_ * kBrick - 1);
+  const std::uint32_t number = brick(cell / kBrick);
+  if (number >= kInside) return {nullptr, number == kInside ? -options_.band : options_.band, {}, {}};
+  return {values_.data() + std::size_t(number) * kValues, 0, cell % kBrick, cells - vec3(cell)};
+}
+
+float DistanceField::distance(vec3 point) const {
+  return at(point).distance;
+}
+
+DistanceField::Sample DistanceField::at(vec3 point) const {
+  const Cell cell = cellAt(point);
+  if (!cell.values) return {cell.beyond, vec3(0)};
+  const float* v = cell.values + (cell.corner.z * kCorners + cell.corner.y) * kCorners + cell.corner.x;
+  constexpr int kY = kCorners, kZ = kCorners * kCorners;
+  const vec3 f = cell.share;
+  const float x00 = glm::mix(v[0], v[1], f.x), x10 = glm::mix(v[kY], v[kY + 1], f.x);
+  const float x01 = glm::mix(v[kZ], v[kZ + 1], f.x), x11 = glm::mix(v[kZ + kY], v[kZ + kY + 1], f.x);
+  const float y0 = glm::mix(x00, x10, f.y), y1 = glm::mix(x01, x11, f.y);
+  const float dx = glm::mix(glm::mix(v[1] - v[0], v[kY + 1] - v[kY], f.y), glm::mix(v[kZ + 1] - v[kZ], v[kZ + kY + 1] - v[kZ + kY], f.y), f.z);
+  return {glm::mix(y0, y1, f.z), vec3(dx, glm::mix(x10 - x00, x11 - x01, f.z), y1 - y0) / options_.cell};
+}
+
+std::size_t DistanceField::bytes() const {
+  return values_.size() * sizeof(float) + bricks_.size() * sizeof(std::uint32_t);
+}
+
+}  // namespace vasa
