@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "core/log.h"
 #include "frame_output.h"
+#include "network/kinks.h"
 #include "network/measure.h"
 #include "report.h"
 #include "scene/frame.h"
@@ -124,6 +125,7 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"correction_change_max", change.largest},
              {"moved_max_m", avoid.movedMax},
              {"moved_rms_m", avoid.movedRms},
+             {"kinks_before", maker.report().kinks},
              {"kinks", kinkCount(scene.network, maker.points())},
              {"sides_changed_before", avoid.sidesChanged},
              {"sides_changed", avoid.sidesChangedAfter},
@@ -194,6 +196,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     progress.update(frame - first + 1, last - first + 1);
   }
   report["summary"] = summaryOf(report["frames"]);
+  report["summary"]["kinks_at_rest"] = kinkCount(setting->scene.network, setting->scene.network.points());
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
   return globals.json ? printJson(report) : printText(asText(report));

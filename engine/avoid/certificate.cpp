@@ -6,9 +6,13 @@ namespace vasa {
 
 Certificate certify(Interference& interference, std::span<const vec4> points,
                     std::vector<Interference::Place>* interfering) {
+  return certificateOf(interference.find(points), interfering);
+}
+
+Certificate certificateOf(std::span<const Interference::Place> places, std::vector<Interference::Place>* interfering) {
   Certificate certificate;
   if (interfering) interfering->clear();
-  for (const Interference::Place& place : interference.find(points, 0)) {
+  for (const Interference::Place& place : places) {
     if (!place.interferes()) {
       ++certificate.restContacts;
       continue;

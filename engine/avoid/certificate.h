@@ -16,4 +16,8 @@ struct Certificate {
 Certificate certify(Interference& interference, std::span<const vec4> points,
                     std::vector<Interference::Place>* interfering = nullptr);
 
+/// The same from what Interference::find(points) returned.
+Certificate certificateOf(std::span<const Interference::Place> places,
+                          std::vector<Interference::Place>* interfering = nullptr);
+
 }  // namespace vasa

@@ -2,10 +2,21 @@
 
 #include <algorithm>
 
+#include "collide/closest_tubes.h"
+
 namespace vasa {
 namespace {
 
 constexpr float kNearAtRest = 0.005f;  // [m]
+constexpr double kExact = 1e-8;         // [m]
+
+// Newton steps from the nearest chords may end in another local minimum than the one for which the pair was reported.
+Contact deepest(const Contact& contact, std::span<const Bezier> tubes) {
+  if (contact.f < 0) return contact;
+  Contact found = closestOfTubes(tubes[contact.i], tubes[contact.j], kExact);
+  found.i = contact.i, found.j = contact.j;
+  return found;
+}
 
 }  // namespace
 
@@ -15,7 +26,8 @@ Interference::Interference(const Network& network) : layout_(network), rest_(lay
   detector_ = std::make_unique<TubeDetector>(rest_, layout_.neighbours().exclusions());
   detector_->update(rest_, 0);
   if (!detector_->detect().empty())
-    for (const Contact& contact : detector_->contacts()) restPairs_.push_back({{contact.i, contact.j}, contact.f});
+    for (const Contact& contact : detector_->contacts())
+      restPairs_.push_back({{contact.i, contact.j}, std::min(deepest(contact, rest_).f, 0.0f)});
   detector_->update(rest_, kNearAtRest);
   if (detector_->detect().empty()) return;
   for (const Contact& contact : detector_->contacts())
@@ -28,13 +40,13 @@ float Interference::allowed(TubePair pair) const {
   return found != restPairs_.end() && found->tubes == pair ? found->f : 0;
 }
 
-std::span<const Interference::Place> Interference::find(std::span<const vec4> points, float margin) {
+std::span<const Interference::Place> Interference::find(std::span<const vec4> points) {
   layout_.shape(points, tubes_);
-  detector_->update(tubes_, margin);
+  detector_->update(tubes_);
   places_.clear();
   if (!detector_->detect().empty())
     for (const Contact& contact : detector_->contacts())
-      places_.push_back({contact, allowed({contact.i, contact.j})});
+      places_.push_back({deepest(contact, tubes_), allowed({contact.i, contact.j})});
   return places_;
 }
 

@@ -29,9 +29,9 @@ class Interference {
     bool interferes() const { return excess() > (allowed < 0 ? kRestTolerance : 0); }
   };
 
-  /// Every pair of tubes with f < margin in the given shape, sorted by pair; valid until the next call.
+  /// Every pair of tubes that overlaps in the given shape (f < 0), sorted by pair; valid until the next call.
   /// @param points  as Network::points()
-  std::span<const Place> find(std::span<const vec4> points, float margin);
+  std::span<const Place> find(std::span<const vec4> points);
 
   const NetworkTubes& layout() const { return layout_; }
   /// The shape of the last find(), and that at rest.

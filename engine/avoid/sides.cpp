@@ -62,11 +62,12 @@ vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::spa
 }
 
 void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
-                            std::vector<Contact>& changed) const {
+                            std::vector<Contact>& changed) {
   const std::span<const Contact> near = interference_->nearAtRest();
   const std::size_t tasks = (near.size() + kGrain - 1) / kGrain;
-  std::vector<std::vector<Contact>> found(tasks);
+  found_.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
+    found_[task].clear();
     const std::size_t end = std::min(near.size(), (task + 1) * kGrain);
     for (std::size_t k = task * kGrain; k < end; ++k) {
       const Contact& rest = near[k];
@@ -81,11 +82,11 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
       const float depth = glm::dot(nearest, side) / sure;
       if (depth > -kWrong * glm::length(nearest) || depth > -1e-6f) continue;
       now.i = rest.i, now.j = rest.j, now.f = depth;
-      found[task].push_back(now);
+      found_[task].push_back(now);
     }
   });
   changed.clear();
-  for (const auto& own : found) changed.insert(changed.end(), own.begin(), own.end());
+  for (const auto& own : found_) changed.insert(changed.end(), own.begin(), own.end());
 }
 
 vec3 partingDirection(vec3 gap, vec3 carried, float distance, vec3 otherwise) {

@@ -33,13 +33,14 @@ class RestSides {
   /// Tubes that were near one another at rest and have changed sides, whether they overlap or have passed through, with
   /// the places where they are nearest now, sorted by pair; f of the result is the distance of the centre lines by
   /// which they are on the wrong side, negative.
-  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed) const;
+  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed);
 
  private:
   quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
 
   const Network* network_;
   const Interference* interference_;
+  std::vector<std::vector<Contact>> found_;  // a task each
 };
 
 /// Which way to part two tubes: as they are, but turned to the side where they belong the more, the nearer they are to

@@ -29,7 +29,8 @@ struct AvoidReport {
   VolumeKeeper::Outcome volume;        ///< after the last change of radii
   std::uint32_t narrowSpans = 0;     ///< spans whose lumen gave way
   float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
-  double detectMs = 0, boneMs = 0, solveMs = 0, certifyMs = 0;
+  double detectMs = 0, boneMs = 0, solveMs = 0;  ///< over all rounds; bones are looked at apart
+  double certifyMs = 0;                          ///< the last look, which is the certificate
 };
 
 /// Moves vessels apart that run through one another in a pose: the nearest admissible shape,
@@ -63,12 +64,13 @@ class Avoider {
   std::size_t neighbourCount() const { return interference_.neighbourCount(); }
 
  private:
+  void look(const PosedNetwork& posed, std::span<const vec4> points, AvoidReport& report);
   void ascend();
   void push(Constraint& constraint, float amount);
   float presentOf(const Constraint& constraint) const;
   void place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points);
   void separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void giveWay(const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void giveWay(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network* network_;
   AvoidOptions options_;
@@ -82,6 +84,7 @@ class Avoider {
   std::vector<vec4> before_;  // lumen gave way
   std::vector<float> most_;   // radius of a point, since it did
   std::vector<Interference::Place> found_, remaining_;
+  std::span<const Interference::Place> places_;  // of the last look, as the next two
   std::vector<Contact> changed_;
   std::span<const BoneContact> boneContacts_;
   std::vector<NarrowPlace> narrowed_;

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 
-#include "core/parallel.h"
 #include "math/segment_distance.h"
 
 // A piece of a tube is its four control points, halved by de Casteljau. Its curve lies within d = ¾ max(|e1|,
@@ -103,50 +101,24 @@ struct Cones {
   }
 };
 
-// Which points of two neighbours count: those far enough apart along the network. Without links, all.
-struct Admission {
-  std::span<const TubeLink> links = {};
-  double reach = 0, lengthI = 0, lengthJ = 0;
-
-  bool point(double s, double t, double radii) const {
-    for (const TubeLink& link : links)
-      if (std::abs(s - link.s) * lengthI + link.gap + std::abs(t - link.t) * lengthJ < reach * radii)
-        return false;
-    return true;
-  }
-  // False only if no point of the two pieces counts.
-  bool any(const Piece& a, const Piece& b) const {
-    const double radii = a.leastRadius() + b.leastRadius();
-    for (const TubeLink& link : links) {
-      const double s = std::max(std::abs(a.from - link.s), std::abs(a.to - link.s));
-      const double t = std::max(std::abs(b.from - link.t), std::abs(b.to - link.t));
-      if (s * lengthI + link.gap + t * lengthJ < reach * radii) return false;
-    }
-    return true;
-  }
-};
-
 struct Candidate {
   Piece a, b;
   double lower;
 };
 
 constexpr int kNewtonSteps = 6;
-constexpr double kLeastPiece = 1e-6;
 
 struct Search {
   Piece a, b;  // whole tubes
   double tolerance;
   bool asks;  // only whether f < limit
   double limit;
-  Admission admission = {};
   double best = std::numeric_limits<double>::infinity();
   double bestS = 0, bestT = 0;
   std::vector<Candidate> heap = {};
 
   void tryValue(double s, double t) {
     const dvec4 p = at(a, s), q = at(b, t);
-    if (!admission.point(s, t, p.w + q.w)) return;
     const double f = glm::distance(dvec3(p), dvec3(q)) - p.w - q.w;
     if (f < best) best = f, bestS = s, bestT = t;
   }
@@ -154,17 +126,7 @@ struct Search {
   // A pair of pieces is dropped once it cannot hold a value that matters.
   double threshold() const { return std::min(best, asks ? limit : best) - tolerance; }
 
-  // Where only some points count, the nearest may not: the pieces' corners are looked at too, and pieces of
-  // no extent are given up.
-  bool tryCorners(const Piece& pa, const Piece& pb) {
-    if (!admission.any(pa, pb)) return false;
-    for (const double s : {pa.from, pa.to})
-      for (const double t : {pb.from, pb.to}) tryValue(s, t);
-    return pa.to - pa.from > kLeastPiece || pb.to - pb.from > kLeastPiece;
-  }
-
   void add(const Piece& pa, const Piece& pb) {
-    if (!admission.links.empty() && !tryCorners(pa, pb)) return;
     const double slack = pa.slack() + pb.slack();
     const auto near = closestOnSegments(pa.point(0), pa.point(3), pb.point(0), pb.point(3));
     const Cones cones(pa, pb);
@@ -205,10 +167,9 @@ struct Search {
   }
 };
 
-Search searchOf(const Bezier& a, const Bezier& b, double tolerance, bool asks, double limit,
-                const Admission& admission = {}) {
+Search searchOf(const Bezier& a, const Bezier& b, double tolerance, bool asks, double limit) {
   const dvec4 origin(dvec3(a.b[0]), 0);
-  Search search{pieceOf(a, origin), pieceOf(b, origin), tolerance, asks, limit, admission};
+  Search search{pieceOf(a, origin), pieceOf(b, origin), tolerance, asks, limit};
   double size = 0;
   for (int i = 0; i < 4; ++i)
     for (int axis = 0; axis < 4; ++axis)
@@ -216,10 +177,6 @@ Search searchOf(const Bezier& a, const Bezier& b, double tolerance, bool asks, d
   search.tolerance = std::max(tolerance, 1e-12 * size);  // below it, double precision itself gives out
   search.run();
   return search;
-}
-
-Admission admissionOf(const Neighbours& neighbours, const NeighbourPair& pair) {
-  return {neighbours.links(pair), neighbours.reach(), pair.lengthI, pair.lengthJ};
 }
 
 Contact contactOf(const Search& search) {
@@ -238,60 +195,6 @@ bool tubesIntersect(const Bezier& a, const Bezier& b, double tolerance, double m
 
 Contact closestOfTubes(const Bezier& a, const Bezier& b, double tolerance) {
   return contactOf(searchOf(a, b, tolerance, false, 0));
-}
-
-bool neighboursIntersect(const Bezier& a, const Bezier& b, const Neighbours& neighbours,
-                         const NeighbourPair& pair, double tolerance, double margin) {
-  return searchOf(a, b, tolerance, true, margin, admissionOf(neighbours, pair)).best < margin;
-}
-
-Contact closestOfNeighbours(const Bezier& a, const Bezier& b, const Neighbours& neighbours,
-                            const NeighbourPair& pair, double tolerance) {
-  return contactOf(searchOf(a, b, tolerance, false, 0, admissionOf(neighbours, pair)));
-}
-
-// The way from a point of a over the link to a point of b advances along an axis by at least |Δs| m_a + D +
-// |Δt| m_b: m is the least component of a control polygon's steps, taken thrice, and D the advance between
-// the link's two points. Where each of the three is at least c times its arc length, points that count are at
-// least c reach (r_a + r_b) apart.
-bool neighboursRunOn(const Bezier& a, const Bezier& b, const Neighbours& neighbours,
-                     const NeighbourPair& pair, float margin) {
-  for (const TubeLink& link : neighbours.links(pair)) {
-    if ((link.s != 0 && link.s != 1) || (link.t != 0 && link.t != 1)) continue;
-    const float towards = link.s == 1 ? 1.0f : -1.0f, away = link.t == 0 ? 1.0f : -1.0f;
-    const vec3 chordA = towards * vec3(a.b[3] - a.b[0]), chordB = away * vec3(b.b[3] - b.b[0]);
-    const float lengthA = glm::length(chordA), lengthB = glm::length(chordB);
-    if (!(lengthA > 0 && lengthB > 0)) continue;
-    const vec3 sum = chordA / lengthA + chordB / lengthB;
-    if (!(glm::length(sum) > 0.1f)) continue;
-    const vec3 axis = glm::normalize(sum);
-    const vec3 between = vec3(b.b[link.t == 0 ? 0 : 3] - a.b[link.s == 1 ? 3 : 0]);
-    float c = link.gap > 1e-6f * pair.lengthI ? glm::dot(between, axis) / link.gap : 1.0f;
-    float radii = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      c = std::min(c, 3 * towards * glm::dot(vec3(a.b[k + 1] - a.b[k]), axis) / pair.lengthI);
-      c = std::min(c, 3 * away * glm::dot(vec3(b.b[k + 1] - b.b[k]), axis) / pair.lengthJ);
-    }
-    for (const vec4& p : a.b)
-      for (const vec4& q : b.b) radii = std::min(radii, p.w + q.w);
-    if (c > 0 && (c * neighbours.reach() - 1.001f) * radii > margin) return true;
-  }
-  return false;
-}
-
-std::vector<TubePair> intersectingNeighbours(std::span<const Bezier> tubes, const Neighbours& neighbours,
-                                             double tolerance, double margin) {
-  const std::span<const NeighbourPair> pairs = neighbours.pairs();
-  std::vector<char> meets(pairs.size(), 0);
-  parallelFor(pairs.size(), 256, [&](std::size_t k) {
-    const Bezier &a = tubes[pairs[k].tubes.i], &b = tubes[pairs[k].tubes.j];
-    if (neighboursRunOn(a, b, neighbours, pairs[k], float(margin))) return;
-    meets[k] = neighboursIntersect(a, b, neighbours, pairs[k], tolerance, margin);
-  });
-  std::vector<TubePair> found;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (meets[k]) found.push_back(pairs[k].tubes);
-  return found;
 }
 
 std::vector<TubePair> intersectingPairsByBruteForce(std::span<const Bezier> tubes,

@@ -22,9 +22,9 @@ struct NeighbourPair {
   std::uint32_t firstLink = 0, linkCount = 0;
 };
 
-/// Tubes that lie close to one another along the network. Two of their points may overlap, because they
-/// belong together, where the arc length between them is below `reach` times the sum of the radii there; the
-/// rest of the two tubes is tested like any other. Immutable.
+/// Tubes that lie close to one another along the network: the arc length between some of their points is below
+/// `reach` times the sum of the radii there. They belong together and are left out of detection, as whole tubes: where
+/// a vessel folds over itself so tightly, that is a kink (network/kinks.h). Immutable.
 class Neighbours {
  public:
   Neighbours() : exclusions_(0) {}
@@ -37,7 +37,7 @@ class Neighbours {
   std::span<const TubeLink> links(const NeighbourPair& pair) const {
     return std::span(links_).subspan(pair.firstLink, pair.linkCount);
   }
-  /// The same pairs as whole tubes: what the general detection leaves out.
+  /// The same pairs for the detectors.
   const Exclusions& exclusions() const { return exclusions_; }
   /// The entry of a pair, or null.
   const NeighbourPair* find(TubePair pair) const;

@@ -14,7 +14,4 @@ struct NetworkMeasures {
 /// Counts, lengths and volumes of a network in the given shape (rest or posed). O(spans).
 NetworkMeasures measure(const Network& network, std::span<const vec4> points);
 
-/// Spans on which the tube folds over itself on the inside of a bend, r κ >= 1 (looked at in nine places each).
-std::uint32_t kinkCount(const Network& network, std::span<const vec4> points);
-
 }  // namespace vasa

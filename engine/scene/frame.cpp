@@ -27,6 +27,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
     : scene_(&scene),
       options_(options),
       deformer_(scene.binding),
+      kinks_(scene.network),
       volume_(scene.network),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
       avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance) : nullptr),
@@ -59,11 +60,16 @@ void FrameMaker::make(const Pose& pose, float time) {
     StageClock clock(report_.deformMs);
     deformer_.run(scene_->network, pose, posedPoints_);
     beat_.apply(heartScale_, jointMatrices_, posedPoints_);
-    points_ = posedPoints_;
     deformer_.rotations(rotations_);
     for (std::size_t v = 0; v < references_.size(); ++v)
       references_[v] = rotations_[scene_->network.vessels()[v].firstPoint] * restReferences_[v];
   }
+  {
+    StageClock clock(report_.kinksMs);
+    report_.kinks = kinks_.run(posedPoints_);
+    pinEnds(scene_->network, posedPoints_);  // what branches off a straightened vessel goes along
+  }
+  points_ = posedPoints_;
   if (options_.keepVolume) {
     StageClock clock(report_.volumeMs);
     report_.volume = volume_.run(points_);

@@ -4,6 +4,7 @@
 #include "avoid/solver.h"
 #include "body/deform.h"
 #include "body/volume.h"
+#include "network/kinks.h"
 #include "scene/beat.h"
 #include "scene/scene.h"
 
@@ -13,8 +14,10 @@ namespace vasa {
 struct FrameReport {
   double poseMs = 0;    ///< clip to joints (by the caller's clock where a pose is given)
   double deformMs = 0;  ///< joints to control points
+  double kinksMs = 0;   ///< straightening kinks
   double volumeMs = 0;  ///< radii
   double framesMs = 0;  ///< knot frames
+  std::uint32_t kinks = 0;  ///< spans that the pose bent to a kink, before they were straightened
   VolumeKeeper::Outcome volume;
   AvoidReport avoid;             ///< with the times of its own stages
 };
@@ -43,7 +46,7 @@ class FrameMaker {
   std::span<const mat4> jointMatrices() const { return jointMatrices_; }  ///< world · inverse bind
   float heartScale() const { return heartScale_; }  ///< RenderInput::heartScale
   const FrameReport& report() const { return report_; }
-  /// The network as the body alone moves it, before vessels were moved apart.
+  /// The network as the body alone moves it, without kinks, before vessels were moved apart.
   std::span<const vec4> posedPoints() const { return posedPoints_; }
   /// How the surroundings of each point turned since rest.
   std::span<const quat> rotations() const { return rotations_; }
@@ -54,6 +57,7 @@ class FrameMaker {
   const Scene* scene_;
   FrameOptions options_;
   Deformer deformer_;
+  KinkRelaxer kinks_;
   VolumeKeeper volume_;
   HeartBeat beat_;
   float heartScale_ = 1;

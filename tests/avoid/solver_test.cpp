@@ -173,13 +173,13 @@ TEST_CASE("a fork stays joined when its vessels are pushed") {
 
 TEST_CASE("a pack that cannot be parted ends within its budget and says so") {
   const Network network = bundle();
-  AvoidOptions options{.rounds = 1, .sweeps = 1, .projections = 0, .lumenRounds = 0};
+  AvoidOptions options{.rounds = 1, .sweeps = 1, .lumenRounds = 0};
   for (const unsigned lumenRounds : {0u, 6u}) {
     CAPTURE(lumenRounds);
     options.lumenRounds = lumenRounds;
-    Avoider avoider(network, options);
+    Avoider avoider(network, nullptr, options);
     const Solved solved = solve(avoider, network, squeezed(network, 0.02f));
-    CHECK(solved.report.rounds <= options.rounds + options.projections);
+    CHECK(solved.report.rounds <= options.rounds);
     CHECK_FALSE(solved.report.after.holds());
     CHECK(solved.report.after.contacts == avoider.remaining().size());
     CHECK(solved.report.after.depth > 0);
@@ -192,7 +192,7 @@ TEST_CASE("a pack that cannot be parted ends within its budget and says so") {
 
 TEST_CASE("where vessels are short of room their lumen gives way") {
   const Network network = crossing(0.012f);
-  Avoider avoider(network, {.rounds = 0, .projections = 0});
+  Avoider avoider(network, nullptr, {.rounds = 0});
   const Solved solved = solve(avoider, network, lowered(network, 0.006f));  // 6 mm for 8 mm
   CHECK(solved.report.after.holds());
   CHECK(solved.report.movedMax == 0);

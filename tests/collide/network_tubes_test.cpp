@@ -63,20 +63,3 @@ TEST_CASE("neighbours: along a vessel and from a side branch into its host") {
   CHECK(atTheSide);
   CHECK(!tubes.neighbours().find({0, 9}));
 }
-
-TEST_CASE("a straight run and a right-angled branch do not meet where points count; a fold does") {
-  const Network network = tee();
-  const NetworkTubes tubes(network, 2);
-  auto shape = shapeOf(tubes, network);
-  CHECK(intersectingNeighbours(shape, tubes.neighbours(), 1e-8).empty());
-  const NeighbourPair* next = tubes.neighbours().find({6, 7});
-  REQUIRE(next);
-  CHECK(neighboursRunOn(shape[6], shape[7], tubes.neighbours(), *next, 0));
-  // Tube 7 folded back onto tube 6, 0.01 beside it.
-  for (std::size_t k = 0; k < 4; ++k) shape[7].b[k] = shape[6].b[3 - k] + vec4(0, 0.01f * float(k) / 3, 0, 0);
-  CHECK(!neighboursRunOn(shape[6], shape[7], tubes.neighbours(), *next, 0));
-  CHECK(neighboursIntersect(shape[6], shape[7], tubes.neighbours(), *next, 1e-8));
-  const Contact contact = closestOfNeighbours(shape[6], shape[7], tubes.neighbours(), *next, 1e-6);
-  CHECK(contact.f < -0.02f);
-  CHECK((1 - contact.s) * next->lengthI + contact.t * next->lengthJ >= 2 * 0.04f - 1e-5f);
-}

@@ -1,0 +1,84 @@
+#include "network/kinks.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vasa {
+namespace {
+
+constexpr int kSamples = 8;
+constexpr int kPasses = 8;
+constexpr float kShare = 0.5f;  // of the way to the neighbours' middle, a pass
+
+// |C''| <= 6 max|Δ²b|, and |C'| is at least three times the control polygon's least advance along the chord.
+bool surelyStraight(const Bezier& tube) {
+  const vec3 chord = vec3(tube.b[3] - tube.b[0]);
+  const float length = glm::length(chord);
+  if (!(length > 0)) return false;
+  float advance = std::numeric_limits<float>::infinity(), bend = 0, radius = tube.b[0].w;
+  for (std::size_t k = 0; k < 3; ++k) {
+    advance = std::min(advance, glm::dot(vec3(tube.b[k + 1] - tube.b[k]), chord) / length);
+    radius = std::max(radius, tube.b[k + 1].w);
+  }
+  for (std::size_t k = 0; k < 2; ++k) bend = std::max(bend, glm::length(vec3(tube.b[k] - 2.0f * tube.b[k + 1] + tube.b[k + 2])));
+  return advance > 0 && radius * 6 * bend < 9 * advance * advance;
+}
+
+bool fixedEnd(const Vessel& vessel, std::uint32_t l) {
+  return (l == 0 && vessel.start.valid()) || (l + 1 == vessel.pointCount && vessel.end.valid());
+}
+
+}  // namespace
+
+bool kinks(const Bezier& tube) {
+  if (surelyStraight(tube)) return false;
+  for (int k = 0; k <= kSamples; ++k) {
+    const float t = float(k) / kSamples;
+    const vec3 first(tube.derivative(t)), second(tube.secondDerivative(t));
+    const float speed = glm::length(first);
+    if (tube.at(t).w * glm::length(glm::cross(first, second)) >= speed * speed * speed) return true;
+  }
+  return false;
+}
+
+std::uint32_t kinkCount(const Network& network, std::span<const vec4> points) {
+  std::uint32_t count = 0;
+  for (const Vessel& vessel : network.vessels()) {
+    const auto own = Network::pointsOf(vessel, points);
+    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) count += kinks(bezierOfSpan(own, span));
+  }
+  return count;
+}
+
+KinkRelaxer::KinkRelaxer(const Network& network) : network_(&network) {
+  for (const Vessel& vessel : network.vessels())
+    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
+      atRest_.push_back(kinks(bezierOfSpan(network.pointsOf(vessel), span)));
+}
+
+std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
+  std::uint32_t found = 0;
+  std::size_t first = 0;  // span of the vessel
+  for (const Vessel& vessel : network_->vessels()) {
+    const auto own = Network::pointsOf(vessel, points);
+    const auto bent = [&](std::uint32_t span) { return !atRest_[first + span] && kinks(bezierOfSpan(std::span<const vec4>(own), span)); };
+    for (int pass = 0; pass < kPasses; ++pass) {
+      bool any = false;
+      for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
+        if (!bent(span)) continue;
+        any = true;
+        found += pass == 0;
+        for (std::uint32_t l = std::max(span, 1u); l < std::min(span + 4, vessel.pointCount - 1); ++l) {
+          if (fixedEnd(vessel, l)) continue;
+          const vec3 middle = 0.5f * (vec3(own[l - 1]) + vec3(own[l + 1]));
+          own[l] = vec4(glm::mix(vec3(own[l]), middle, kShare), own[l].w);
+        }
+      }
+      if (!any) break;
+    }
+    first += vessel.spanCount();
+  }
+  return found;
+}
+
+}  // namespace vasa
