@@ -92,37 +92,42 @@ struct Bones::State {
   std::vector<BoneContact> contacts;
   std::size_t restContacts = 0;
 
-  void look(std::uint32_t tube, const Bezier& shape, std::uint32_t part, std::vector<BoneContact>& out) const;
-  void leave(const Solid& solid, vec3 from, vec3 towards, const DistanceField::Sample& sample, BoneContact& contact) const;
+  void look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part, std::vector<BoneContact>& out) const;
+  void leave(const Solid& solid, vec3 from, vec3 towards, float radius, const DistanceField::Sample& sample, BoneContact& contact) const;
 };
 
 // Where the way out is, in the part's own space.
-void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, const DistanceField::Sample& sample,
+void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radius, const DistanceField::Sample& sample,
                          BoneContact& contact) const {
   vec3 surface = from, normal = sample.gradient;
   const float way = glm::distance(from, towards);
-  if (sample.distance < 0 && way > 1e-6f && solid.field.distance(towards) > 0) {
-    float inside = 0, outside = 1;
-    for (float at = 0; at < 1; at = std::min(at + kStep / way, 1.0f)) {
-      if (solid.field.distance(glm::mix(from, towards, at)) >= 0) { outside = at; break; }
-      inside = at;
+  const auto distanceAt = [&](float at) { return solid.field.distance(glm::mix(from, towards, at)); };
+  // Through the part to the place at rest: in within a radius, and out again.
+  float inside = 2, outside = 1;
+  if (way > kStep && solid.field.distance(towards) > 0) {
+    for (float at = 0; at < 1; at += kStep / way) {
+      if (distanceAt(at) < 0) inside = at;
+      else if (inside <= 1) { outside = at; break; }
+      else if (at * way > radius) break;
     }
+  }
+  if (inside <= 1) {
     for (int k = 0; k < 8; ++k) {
       const float middle = 0.5f * (inside + outside);
-      (solid.field.distance(glm::mix(from, towards, middle)) >= 0 ? outside : inside) = middle;
+      (distanceAt(middle) >= 0 ? outside : inside) = middle;
     }
     surface = glm::mix(from, towards, outside);
     normal = solid.field.at(surface).gradient;
-  } else if (glm::length(normal) > 1e-6f) {
-    surface = from - sample.distance * glm::normalize(normal);
+  } else {
+    surface = from - sample.distance * unitOr(normal, vec3(0));
   }
-  if (!(glm::length(normal) > 1e-6f)) normal = towards - from;
-  if (!(glm::length(normal) > 1e-6f)) normal = vec3(0, 1, 0);
+  normal = unitOr(normal, unitOr(towards - from, vec3(0, 1, 0)));
   contact.point = placed(solid.matrix, surface);
   contact.normal = glm::normalize(mat3(solid.matrix) * normal);
 }
 
-void Bones::State::look(std::uint32_t tube, const Bezier& shape, std::uint32_t part, std::vector<BoneContact>& out) const {
+void Bones::State::look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part,
+                        std::vector<BoneContact>& out) const {
   const Solid& solid = solids[part];
   const float allowed = solid.allowed(tube);
   const float length = glm::distance(vec3(shape.b[0]), vec3(shape.b[3]));
@@ -131,7 +136,8 @@ void Bones::State::look(std::uint32_t tube, const Bezier& shape, std::uint32_t p
   for (int piece = 0; piece <= pieces; ++piece) {
     const float s = float(piece) / float(pieces);
     const vec4 ball = shape.at(s);
-    const vec3 centre = placed(solid.inverse, vec3(ball)), atRest = placed(toBound[solid.joint], vec3(rest[tube].at(s)));
+    const vec3 centre = placed(solid.inverse, vec3(ball)), before = placed(solid.inverse, vec3(posed.at(s)));
+    const vec3 home = solid.field.distance(before) > 0 ? before : placed(toBound[solid.joint], vec3(rest[tube].at(s)));
     // A tube wider than the field's band is a ring of balls that are not.
     const float small = std::min(ball.w, kWidest * solid.field.band()), off = ball.w - small;
     const vec3 u = off > 0 ? anyPerpendicular(unitOr(mat3(solid.inverse) * vec3(shape.derivative(s)), {0, 0, 1})) : vec3(0);
@@ -144,7 +150,7 @@ void Bones::State::look(std::uint32_t tube, const Bezier& shape, std::uint32_t p
       const float f = sample.distance - small;
       if (f >= deepest.f || sample.distance >= solid.field.band() || allowed - f <= (allowed < 0 ? kRestTolerance : 0)) continue;
       deepest = {.tube = tube, .part = part, .s = s, .f = f, .allowed = allowed};
-      leave(solid, own, atRest + aside, sample, deepest);
+      leave(solid, own, home + aside, small, sample, deepest);
       deepest.point -= mat3(solid.matrix) * aside + off * deepest.normal;
     }
     if (deepest.f < 0) out.push_back(deepest);
@@ -165,7 +171,7 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     state_->toBound.push_back(glm::inverse(matrices.back()));
   }
   pose(matrices);
-  contacts(restTubes);
+  contacts(restTubes, restTubes);
   for (const BoneContact& contact : state_->contacts) {
     auto& atRest = state_->solids[contact.part].atRest;
     if (atRest.empty() || atRest.back().first != contact.tube) atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
@@ -196,7 +202,7 @@ void Bones::pose(std::span<const mat4> jointMatrices) {
   }
 }
 
-std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes) {
+std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed) {
   State& state = *state_;
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
   state.found.resize(std::max(state.found.size(), tasks));
@@ -209,7 +215,7 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes) {
     for (std::uint32_t part = 0; part < state.solids.size(); ++part) {
       if (!state.boxes[part].overlaps(all)) continue;
       for (std::size_t i = task * kTubesPerTask; i < end; ++i)
-        if (state.boxes[part].overlaps(tubes[i].bounds())) state.look(std::uint32_t(i), tubes[i], part, out);
+        if (state.boxes[part].overlaps(tubes[i].bounds())) state.look(std::uint32_t(i), tubes[i], posed[i], part, out);
     }
   });
   state.contacts.clear();

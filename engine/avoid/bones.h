@@ -23,8 +23,9 @@ struct BoneContact {
 /// field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the joint with the
 /// largest weight at its first corner.
 ///
-/// The way out of a part is that of its nearest surface; from within, where the place was outside at rest, it is where
-/// the straight way to that place leaves the part: a vessel is not pushed through a bone.
+/// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way leaves the
+/// part to the place that the pose alone gives, if that is outside, or else to the one at rest: a vessel is not pushed
+/// through a bone.
 class Bones {
  public:
   /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
@@ -37,7 +38,8 @@ class Bones {
 
   /// Places where tubes enter a part, deeper than at rest by more than rounding (kRestTolerance); sorted by tube, part
   /// and parameter. Tubes are looked at every radius and at least five times. Parallel.
-  std::span<const BoneContact> contacts(std::span<const Bezier> tubes);
+  /// @param posed  the tubes before any correction
+  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed);
 
   std::uint32_t partCount() const;
   std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest

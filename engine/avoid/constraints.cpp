@@ -20,8 +20,12 @@ constexpr float kNegligible = 2e-6f;       // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can mend the place
 constexpr float kReach = 2;                // how far a multiplier may push on its own: times what is lacking
 constexpr float kBoneReach = 2;            // ... out of a bone: where both cannot be had, vessels come before bones
+// What asks for a longer way than this from where the pose has put a vessel is not where the vessel belongs: it was
+// pushed there.
+constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
+constexpr std::uint32_t kAlong = 2;        // spans within which two vessels keep to one side of one another
 constexpr float kMore = 1.5f;              // a limit that was reached in vain grows by so much a round ...
-constexpr float kMost = 4;                 // ... and in all
+constexpr float kMost = 2;                 // ... and in all
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 // The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared distance.
@@ -87,15 +91,17 @@ void ConstraintPool::propose(const Contact& contact, bool changed, std::span<con
     const vec4 a = shape[i].at(s), b = shape[j].at(t);
     const vec3 gap = vec3(a) - vec3(b);
     const float clearance = clearanceFor({i, j}, s, t, a.w + b.w), distance = a.w + b.w + clearance;
-    const vec3 carried = sides_->carried({i, j, s, t}, shape, posed.rotations);
+    const Constraint* before = nearest({i, j}, s, t);
+    const vec3 side = sides_->belongs({i, j, s, t}, shape, posed, before ? &before->normal : nullptr);
     // A point to the side of a tube's end does not say anything about the two tubes' sides.
-    const bool wrong = changed && glm::dot(gap, carried) < 0;
+    const bool wrong = changed && glm::dot(gap, side) < 0;
     if (k > 0 && !wrong && glm::length(gap) >= distance) continue;
-    const vec3 normal = partingDirection(gap, carried, distance, contactNormal);
+    const vec3 normal = partingDirection(gap, side, distance, contactNormal);
     const float lack = distance - glm::dot(normal, gap);
     if (lack <= kNegligible) continue;
     Constraint constraint{.tubes = {i, j}, .s = s, .t = t, .normal = normal, .clearance = clearance, .distance = distance};
     constraint.start = glm::dot(normal, posedPlace(i, s, posed) - posedPlace(j, t, posed));
+    if (distance - constraint.start > kFarthest * (a.w + b.w) + kFartherStill) continue;
     constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     const auto same = [&](const Constraint& other) {
@@ -131,6 +137,29 @@ void ConstraintPool::take(Constraint& constraint) {
   constraint.limit /= constraint.row.diagonal;
   constraint.mostLimit = (constraint.tubes.j == kNoTube ? 1 : kMost) * constraint.limit;
   constraints_.push_back(constraint);
+}
+
+// The constraint between the same two vessels that is nearest along them: it has settled on which side they belong.
+const Constraint* ConstraintPool::nearest(TubePair tubes, float s, float t) const {
+  const NetworkTubes& layout = interference_->layout();
+  const auto spansOf = [&](std::uint32_t tube) {
+    const auto [vessel, span] = layout.address(tube);
+    const std::uint32_t count = network_->vessel(vessel).spanCount();
+    return std::pair{tube - std::min(span, kAlong), tube + std::min(count - 1 - span, kAlong)};
+  };
+  const auto [firstI, lastI] = spansOf(tubes.i);
+  const auto [firstJ, lastJ] = spansOf(tubes.j);
+  const Constraint* best = nullptr;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::uint32_t i = firstI; i <= lastI; ++i) {
+    auto own = std::lower_bound(constraints_.begin(), constraints_.end(), TubePair{i, firstJ},
+                                [](const Constraint& a, TubePair b) { return a.tubes < b; });
+    for (; own != constraints_.end() && own->tubes.i == i && own->tubes.j <= lastJ; ++own) {
+      const float away = std::abs(float(i) + own->s - float(tubes.i) - s) + std::abs(float(own->tubes.j) + own->t - float(tubes.j) - t);
+      if (away < least) least = away, best = &*own;
+    }
+  }
+  return best;
 }
 
 std::size_t ConstraintPool::sortIn(std::size_t before) {
@@ -169,6 +198,7 @@ std::size_t ConstraintPool::add(std::span<const BoneContact> contacts, std::span
     constraint.clearance = contact.allowed < 0 ? contact.allowed : std::max(kClearanceShare * radius, kBoneClearance);
     constraint.distance = radius + constraint.clearance;
     constraint.start = glm::dot(contact.normal, posedPlace(contact.tube, contact.s, posed) - contact.point);
+    if (constraint.distance - constraint.start > kFarthest * radius + kFartherStill) continue;
     constraint.limit = kBoneReach * (constraint.clearance - contact.f + radius);
     if (!known(constraint)) take(constraint);
   }

@@ -63,6 +63,7 @@ class ConstraintPool {
   void propose(const Contact& contact, bool changed, std::span<const Bezier> shape, const PosedNetwork& posed,
                Proposals& found) const;
   bool known(const Constraint& wanted) const;
+  const Constraint* nearest(TubePair tubes, float s, float t) const;
   vec3 posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const;
   void take(Constraint& constraint);
   std::size_t sortIn(std::size_t before);

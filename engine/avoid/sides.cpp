@@ -10,7 +10,7 @@ namespace vasa {
 namespace {
 
 constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
-constexpr float kTooClose = 0.25f;              // ... below which the direction at rest is the less sure
+constexpr float kTooClose = 0.25f;              // sums of radii apart, below which the side at rest is the less sure
 constexpr float kCrossing = 0.7f;               // |u - v| from which two tubes cross (40 degrees)
 constexpr float kTurned = 0.5f;                 // share of the asked distance by which the rest pose turns the way
 constexpr float kSure = 0.5f;                   // how sure the rest pose must be for a change of sides
@@ -38,6 +38,10 @@ vec3 sideways(vec3 c, vec3 u, vec3 v) {
   return c - share * share * glm::dot(c, difference / size) * (difference / size);
 }
 
+vec3 directionOf(const Bezier& tube, float t) {
+  return unitOr(vec3(tube.derivative(t)), vec3(0));
+}
+
 }  // namespace
 
 RestSides::RestSides(const Network& network, const Interference& interference)
@@ -50,15 +54,29 @@ quat RestSides::rotationAt(std::uint32_t tube, float t, std::span<const quat> ro
   return glm::normalize((1 - t) * a + (glm::dot(a, b) < 0 ? -t : t) * b);
 }
 
+vec3 RestSides::posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const {
+  const auto [vessel, span] = interference_->layout().address(tube);
+  return vec3(bezierOfSpan(Network::pointsOf(network_->vessel(vessel), posed.points), span).at(t));
+}
+
 vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const {
   const vec4 a = interference_->restTubes()[at.i].at(at.s), b = interference_->restTubes()[at.j].at(at.t);
   const vec3 gap = vec3(a) - vec3(b);
   const float distance = glm::length(gap), radii = a.w + b.w;
   if (!(radii > 0) || distance >= kNothingFrom * radii || distance < 1e-9f) return vec3(0);
-  const float sure = fadeOut(distance / radii, kSureTo, kNothingFrom) / std::max(distance, kTooClose * radii);
-  const vec3 turned = rotationAt(at.i, at.s, rotations) * gap + rotationAt(at.j, at.t, rotations) * gap;
-  const vec3 u = unitOr(vec3(shape[at.i].derivative(at.s)), vec3(0)), v = unitOr(vec3(shape[at.j].derivative(at.t)), vec3(0));
-  return sideways(0.5f * sure * turned, u, v);
+  const vec3 turned = 0.5f * (rotationAt(at.i, at.s, rotations) * gap + rotationAt(at.j, at.t, rotations) * gap);
+  const vec3 side = sideways(turned, directionOf(shape[at.i], at.s), directionOf(shape[at.j], at.t));
+  const float apart = glm::length(side), together = glm::length(turned) / distance;
+  if (!(apart > 1e-9f)) return vec3(0);
+  return side / apart * together * fadeOut(distance / radii, kSureTo, kNothingFrom) * std::min(1.0f, apart / (kTooClose * radii));
+}
+
+vec3 RestSides::belongs(const Place& at, std::span<const Bezier> shape, const PosedNetwork& posed,
+                        const vec3* settled) const {
+  const vec3 rest = carried(at, shape, posed.rotations);
+  const vec3 gap = settled ? *settled : posedPlace(at.i, at.s, posed) - posedPlace(at.j, at.t, posed);
+  const vec3 side = sideways(gap, directionOf(shape[at.i], at.s), directionOf(shape[at.j], at.t));
+  return rest + (1 - glm::length(rest)) * unitOr(side, vec3(0));
 }
 
 void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,

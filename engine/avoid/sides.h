@@ -24,11 +24,17 @@ class RestSides {
     float s, t;
   };
 
-  /// The way from C_j(t) to C_i(s) at rest, turned with what is around them, less what lies along the two tubes as they
-  /// run now. The longer the surer, at most 1; 0 where the rest pose says nothing, for the places were far from one
-  /// another then or their surroundings have turned apart. Continuous in everything.
+  /// On which side of tube j at t tube i at s lay at rest: the way from C_j(t) to C_i(s) then, turned with what is around
+  /// them, less what lies along the two tubes as they run now. Its length, at most 1, is how sure that is: it falls to 0
+  /// where the two were far from one another, or on one another's centre line, or their surroundings have turned apart.
   /// @param shape  the tubes now
   vec3 carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
+
+  /// The same, and where the rest pose says little, the side that was settled on already, or else that in the pose
+  /// before any correction. So one pair of vessels is told the same side again and again, wherever it was pushed in
+  /// between.
+  /// @param settled  a direction, or null
+  vec3 belongs(const Place& at, std::span<const Bezier> shape, const PosedNetwork& posed, const vec3* settled) const;
 
   /// Tubes that were near one another at rest and have changed sides, whether they overlap or have passed through, with
   /// the places where they are nearest now, sorted by pair; f of the result is the distance of the centre lines by
@@ -36,6 +42,7 @@ class RestSides {
   void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed);
 
  private:
+  vec3 posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const;
   quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
 
   const Network* network_;

@@ -80,6 +80,7 @@ class Avoider {
   std::unique_ptr<Bones> bones_;
   ConstraintPool pool_;
   std::vector<vec3> z_;
+  std::vector<Bezier> posedTubes_;
   VolumeKeeper::Outcome volumeOutcome_;
   std::vector<vec4> before_;  // lumen gave way
   std::vector<float> most_;   // radius of a point, since it did
