@@ -14,7 +14,7 @@
 namespace vasa {
 namespace {
 
-constexpr int kLeastPieces = 4, kMostPieces = 16;  // of one tube
+constexpr int kLeastPieces = 3, kMostPieces = 6;  // of one tube
 constexpr std::size_t kTubesPerTask = 64;
 constexpr float kWidest = 0.6f;  // of the field's band: radius of a ball that is looked at
 constexpr int kRing = 8;

@@ -37,7 +37,7 @@ class Bones {
   void pose(std::span<const mat4> jointMatrices);
 
   /// Places where tubes enter a part, deeper than at rest by more than rounding (kRestTolerance); sorted by tube, part
-  /// and parameter. Tubes are looked at every radius and at least five times. Parallel.
+  /// and parameter. Tubes are looked at in four to seven places. Parallel.
   /// @param posed  the tubes before any correction
   std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed);
 

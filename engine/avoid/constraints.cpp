@@ -24,6 +24,9 @@ constexpr float kBoneReach = 2;            // ... out of a bone: where both cann
 // pushed there.
 constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
 constexpr std::uint32_t kAlong = 2;        // spans within which two vessels keep to one side of one another
+constexpr float kStretch = 8;              // spans, along both: places that share one side
+constexpr float kSure = 0.3f;              // length of evidence that counts
+constexpr float kLess = 0.7f;              // ... of bones falls: vessels come first
 constexpr float kMore = 1.5f;              // a limit that was reached in vain grows by so much a round ...
 constexpr float kMost = 2;                 // ... and in all
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
@@ -48,11 +51,14 @@ float nearestParameter(const Bezier& tube, vec3 p) {
 
 ConstraintPool::ConstraintPool(const Network& network, const MotionSpace& space, const Interference& interference,
                                const RestSides& sides)
-    : network_(&network), space_(&space), interference_(&interference), sides_(&sides) {}
+    : network_(&network), space_(&space), interference_(&interference), sides_(&sides) {
+  clear();
+}
 
 void ConstraintPool::clear() {
   constraints_.clear();
   rows_.clear();
+  letThrough_.assign(network_->vessels().size(), 0);
 }
 
 vec3 ConstraintPool::posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const {
@@ -73,16 +79,56 @@ bool ConstraintPool::refresh(std::span<const Bezier> shape) {
   for (Constraint& constraint : constraints_) {
     constraint.distance = shape[constraint.tubes.i].at(constraint.s).w + constraint.clearance;
     if (constraint.tubes.j != kNoTube) constraint.distance += shape[constraint.tubes.j].at(constraint.t).w;
-    if (constraint.multiplier < constraint.limit || constraint.limit >= constraint.mostLimit) continue;
-    constraint.limit = std::min(kMore * constraint.limit, constraint.mostLimit);
-    grew = true;
+    if (constraint.multiplier < constraint.limit) continue;
+    if (constraint.tubes.j == kNoTube) {
+      constraint.limit *= kLess;
+    } else if (constraint.limit < constraint.mostLimit) {
+      constraint.limit = std::min(kMore * constraint.limit, constraint.mostLimit);
+      grew = true;
+    }
   }
   return grew;
+}
+
+ConstraintPool::Evidence ConstraintPool::evidenceAt(const Contact& contact) const {
+  const auto [vesselI, spanI] = interference_->layout().address(contact.i);
+  const auto [vesselJ, spanJ] = interference_->layout().address(contact.j);
+  return {vesselI.value, vesselJ.value, float(spanI) + contact.s, float(spanJ) + contact.t, vec3(0)};
+}
+
+void ConstraintPool::gather(std::span<const Interference::Place> places, std::span<const Contact> changed,
+                            std::span<const Bezier> shape, const PosedNetwork& posed) {
+  evidence_.clear();
+  const auto take = [&](const Contact& contact) {
+    Evidence evidence = evidenceAt(contact);
+    evidence.side = sides_->carried({contact.i, contact.j, contact.s, contact.t}, shape, posed.rotations);
+    if (evidence.side != vec3(0)) evidence_.push_back(evidence);
+  };
+  for (const Interference::Place& place : places)
+    if (place.interferes()) take(place.contact);
+  for (const Contact& contact : changed) take(contact);
+  std::stable_sort(evidence_.begin(), evidence_.end(), [](const Evidence& a, const Evidence& b) {
+    return std::pair{a.vesselI, a.vesselJ} < std::pair{b.vesselI, b.vesselJ};
+  });
+}
+
+// The side of two vessels over the whole stretch where they are in one another's way: one place alone may say nothing,
+// or the wrong thing where they cross.
+vec3 ConstraintPool::evidenceAround(const Contact& contact) const {
+  const Evidence here = evidenceAt(contact);
+  const std::pair vessels{here.vesselI, here.vesselJ};
+  auto own = std::lower_bound(evidence_.begin(), evidence_.end(), vessels,
+                              [](const Evidence& a, const auto& b) { return std::pair{a.vesselI, a.vesselJ} < b; });
+  vec3 sum(0);
+  for (; own != evidence_.end() && std::pair{own->vesselI, own->vesselJ} == vessels; ++own)
+    if (std::abs(own->u - here.u) + std::abs(own->v - here.v) < kStretch) sum += own->side;
+  return sum;
 }
 
 void ConstraintPool::propose(const Contact& contact, bool changed, std::span<const Bezier> shape,
                              const PosedNetwork& posed, Proposals& found) const {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
+  const vec3 around = evidenceAround(contact);
   std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
   for (std::size_t k = 0; k < kSamples.size(); ++k)
     where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};
@@ -92,7 +138,8 @@ void ConstraintPool::propose(const Contact& contact, bool changed, std::span<con
     const vec3 gap = vec3(a) - vec3(b);
     const float clearance = clearanceFor({i, j}, s, t, a.w + b.w), distance = a.w + b.w + clearance;
     const Constraint* before = nearest({i, j}, s, t);
-    const vec3 side = sides_->belongs({i, j, s, t}, shape, posed, before ? &before->normal : nullptr);
+    const vec3 settled = glm::length(around) > kSure || !before ? around : before->normal;
+    const vec3 side = sides_->belongs({i, j, s, t}, shape, posed, glm::length(settled) > kSure ? &settled : nullptr);
     // A point to the side of a tube's end does not say anything about the two tubes' sides.
     const bool wrong = changed && glm::dot(gap, side) < 0;
     if (k > 0 && !wrong && glm::length(gap) >= distance) continue;
@@ -135,7 +182,7 @@ void ConstraintPool::take(Constraint& constraint) {
   constraint.row = space_->finish(terms_, rows_);
   if (constraint.row.diagonal <= kLeastDiagonal) return;
   constraint.limit /= constraint.row.diagonal;
-  constraint.mostLimit = (constraint.tubes.j == kNoTube ? 1 : kMost) * constraint.limit;
+  constraint.mostLimit = kMost * constraint.limit;
   constraints_.push_back(constraint);
 }
 
@@ -171,6 +218,7 @@ std::size_t ConstraintPool::sortIn(std::size_t before) {
 std::size_t ConstraintPool::add(std::span<const Interference::Place> places, std::span<const Contact> changed,
                                 std::span<const Bezier> shape, const PosedNetwork& posed) {
   std::size_t added = 0;
+  gather(places, changed, shape, posed);
   const auto addAll = [&](std::size_t count, const auto& proposeOne) {
     proposals_.resize(std::max(proposals_.size(), count));
     parallelFor(count, 16, [&](std::size_t k) {
@@ -193,6 +241,7 @@ std::size_t ConstraintPool::add(std::span<const BoneContact> contacts, std::span
                                 const PosedNetwork& posed) {
   const std::size_t before = constraints_.size();
   for (const BoneContact& contact : contacts) {
+    if (letThrough_[interference_->layout().address(contact.tube).vessel.value]) continue;
     const float radius = shape[contact.tube].at(contact.s).w;
     Constraint constraint{.tubes = {contact.tube, kNoTube}, .s = contact.s, .normal = contact.normal, .anchor = contact.point};
     constraint.clearance = contact.allowed < 0 ? contact.allowed : std::max(kClearanceShare * radius, kBoneClearance);

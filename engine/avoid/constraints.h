@@ -45,8 +45,21 @@ class ConstraintPool {
   /// The same for tubes in bones: away from the bone's nearest point.
   std::size_t add(std::span<const BoneContact> contacts, std::span<const Bezier> shape, const PosedNetwork& posed);
 
-  /// Distances for the radii of the given shape, and more force for those between tubes that have used all of theirs.
-  /// Returns whether any got more.
+  /// From now on bones do not hold this vessel, which cannot be freed of other vessels otherwise. The constraints that
+  /// did are given to the caller, who must take back what they push, and lose their force.
+  template <class TakeBack>
+  void letThroughBones(VesselId vessel, const TakeBack& takeBack) {
+    if (letThrough_[vessel.value]) return;
+    letThrough_[vessel.value] = 1;
+    for (Constraint& constraint : constraints_) {
+      if (constraint.tubes.j != kNoTube || interference_->layout().address(constraint.tubes.i).vessel != vessel) continue;
+      takeBack(constraint);
+      constraint.multiplier = constraint.limit = constraint.mostLimit = 0;
+    }
+  }
+
+  /// Distances for the radii of the given shape; more force for those between tubes that have used all of theirs, less
+  /// for those in bones: where both cannot be had, vessels come first. Returns whether any got more.
   bool refresh(std::span<const Bezier> shape);
 
   std::span<Constraint> constraints() { return constraints_; }
@@ -60,6 +73,16 @@ class ConstraintPool {
     std::size_t count = 0;
   };
   float clearanceFor(TubePair tubes, float s, float t, float radii) const;
+  /// Of a pair of vessels: what the rest pose says of their side, at one place where they are near now.
+  struct Evidence {
+    std::uint32_t vesselI, vesselJ;
+    float u, v;  ///< along them, in spans
+    vec3 side;
+  };
+  void gather(std::span<const Interference::Place> places, std::span<const Contact> changed,
+              std::span<const Bezier> shape, const PosedNetwork& posed);
+  vec3 evidenceAround(const Contact& contact) const;
+  Evidence evidenceAt(const Contact& contact) const;
   void propose(const Contact& contact, bool changed, std::span<const Bezier> shape, const PosedNetwork& posed,
                Proposals& found) const;
   bool known(const Constraint& wanted) const;
@@ -74,7 +97,9 @@ class ConstraintPool {
   const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by pair, then in the order they came
   MotionSpace::Rows rows_;
+  std::vector<char> letThrough_;  // one a vessel
   std::vector<Proposals> proposals_;
+  std::vector<Evidence> evidence_;  // of this round, sorted by vessels
   std::vector<MotionSpace::Term> terms_;
 };
 

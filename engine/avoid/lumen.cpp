@@ -7,28 +7,44 @@ namespace {
 
 constexpr float kSpare = 0.995f;  // a little more than is asked for, so that it is settled in few rounds
 
-void narrowTube(const Network& network, NetworkTubes::Address at, float factor, std::span<const vec4> points,
-                std::span<float> most) {
-  const Vessel& vessel = network.vessel(at.vessel);
-  for (std::uint32_t l = at.span; l < at.span + 4; ++l) {
-    if ((l == 0 && vessel.start.valid()) || (l + 1 == vessel.pointCount && vessel.end.valid())) continue;
-    const std::uint32_t point = vessel.firstPoint + l;
-    const float least = std::min(points[point].w, kLeastLumen * network.points()[point].w);
-    most[point] = std::min(most[point], std::max(points[point].w * factor, least));
+struct Narrower {
+  const Network& network;
+  std::span<const vec4> points;
+  std::span<float> most;
+
+  void point(std::uint32_t at, float factor) const {
+    const float least = std::min(points[at].w, kLeastLumen * network.points()[at].w);
+    most[at] = std::min(most[at], std::max(points[at].w * factor, least));
   }
-}
+  // All ends that share a ring, so that it stays one.
+  void ring(NodeId id, float factor) const {
+    for (const VesselEnd& end : network.ends(network.node(id))) {
+      const Vessel& vessel = network.vessel(end.vessel);
+      point(vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0), factor);
+    }
+  }
+  void tube(NetworkTubes::Address at, float factor, bool ringsToo) const {
+    const Vessel& vessel = network.vessel(at.vessel);
+    for (std::uint32_t l = at.span; l < at.span + 4; ++l) {
+      const NodeId node = l == 0 ? vessel.start : l + 1 == vessel.pointCount ? vessel.end : NodeId{};
+      if (!node.valid()) point(vessel.firstPoint + l, factor);
+      else if (ringsToo) ring(node, factor);
+    }
+  }
+};
 
 }  // namespace
 
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most) {
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most) {
+  const Narrower narrower{network, points, most};
   for (const Interference::Place& place : places) {
     const Contact& contact = place.contact;
     const float radii = shape[contact.i].at(contact.s).w + shape[contact.j].at(contact.t).w;
     const float room = radii + contact.f - place.allowed;
     const float factor = std::clamp(kSpare * room / radii, 0.0f, 1.0f);
-    narrowTube(network, layout.address(contact.i), factor, points, most);
-    narrowTube(network, layout.address(contact.j), factor, points, most);
+    narrower.tube(layout.address(contact.i), factor, ringsToo);
+    narrower.tube(layout.address(contact.j), factor, ringsToo);
   }
 }
 
