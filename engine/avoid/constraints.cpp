@@ -20,8 +20,8 @@ constexpr float kNegligible = 2e-6f;       // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can mend the place
 constexpr float kReach = 2;                // how far a multiplier may push on its own: times what is lacking
 constexpr float kBoneReach = 2;            // ... out of a bone: where both cannot be had, vessels come before bones
-// What asks for a longer way than this from where the pose has put a vessel is not where the vessel belongs: it was
-// pushed there.
+// What asks for a longer way than this from where the pose has put a vessel, and was not met there, comes of where the
+// vessel was pushed.
 constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
 constexpr std::uint32_t kAlong = 2;        // spans within which two vessels keep to one side of one another
 constexpr float kStretch = 8;              // spans, along both: places that share one side
@@ -55,9 +55,14 @@ ConstraintPool::ConstraintPool(const Network& network, const MotionSpace& space,
   clear();
 }
 
-void ConstraintPool::clear() {
+void ConstraintPool::restart() {
   constraints_.clear();
   rows_.clear();
+  rounds_ = 0;
+}
+
+void ConstraintPool::clear() {
+  restart();
   letThrough_.assign(network_->vessels().size(), 0);
 }
 
@@ -76,6 +81,7 @@ float ConstraintPool::clearanceFor(TubePair tubes, float s, float t, float radii
 
 bool ConstraintPool::refresh(std::span<const Bezier> shape) {
   bool grew = false;
+  ++rounds_;
   for (Constraint& constraint : constraints_) {
     constraint.distance = shape[constraint.tubes.i].at(constraint.s).w + constraint.clearance;
     if (constraint.tubes.j != kNoTube) constraint.distance += shape[constraint.tubes.j].at(constraint.t).w;
@@ -148,7 +154,7 @@ void ConstraintPool::propose(const Contact& contact, bool changed, std::span<con
     if (lack <= kNegligible) continue;
     Constraint constraint{.tubes = {i, j}, .s = s, .t = t, .normal = normal, .clearance = clearance, .distance = distance};
     constraint.start = glm::dot(normal, posedPlace(i, s, posed) - posedPlace(j, t, posed));
-    if (distance - constraint.start > kFarthest * (a.w + b.w) + kFartherStill) continue;
+    if (rounds_ > 1 && distance - constraint.start > kFarthest * (a.w + b.w) + kFartherStill) continue;
     constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     const auto same = [&](const Constraint& other) {
@@ -247,7 +253,7 @@ std::size_t ConstraintPool::add(std::span<const BoneContact> contacts, std::span
     constraint.clearance = contact.allowed < 0 ? contact.allowed : std::max(kClearanceShare * radius, kBoneClearance);
     constraint.distance = radius + constraint.clearance;
     constraint.start = glm::dot(contact.normal, posedPlace(contact.tube, contact.s, posed) - contact.point);
-    if (constraint.distance - constraint.start > kFarthest * radius + kFartherStill) continue;
+    if (rounds_ > 1 && constraint.distance - constraint.start > kFarthest * radius + kFartherStill) continue;
     constraint.limit = kBoneReach * (constraint.clearance - contact.f + radius);
     if (!known(constraint)) take(constraint);
   }

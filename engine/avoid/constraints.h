@@ -45,20 +45,12 @@ class ConstraintPool {
   /// The same for tubes in bones: away from the bone's nearest point.
   std::size_t add(std::span<const BoneContact> contacts, std::span<const Bezier> shape, const PosedNetwork& posed);
 
-  /// From now on bones do not hold this vessel, which cannot be freed of other vessels otherwise. The constraints that
-  /// did are given to the caller, who must take back what they push, and lose their force.
-  template <class TakeBack>
-  void letThroughBones(VesselId vessel, const TakeBack& takeBack) {
-    if (letThrough_[vessel.value]) return;
-    letThrough_[vessel.value] = 1;
-    for (Constraint& constraint : constraints_) {
-      if (constraint.tubes.j != kNoTube || interference_->layout().address(constraint.tubes.i).vessel != vessel) continue;
-      takeBack(constraint);
-      constraint.multiplier = constraint.limit = constraint.mostLimit = 0;
-    }
-  }
+  /// From now on until clear() bones do not hold this vessel.
+  void letThroughBones(VesselId vessel) { letThrough_[vessel.value] = 1; }
+  /// Forgets the constraints.
+  void restart();
 
-  /// Distances for the radii of the given shape; more force for those between tubes that have used all of theirs, less
+  /// To be called before add() in every round. Distances for the radii of the given shape; more force for those between tubes that have used all of theirs, less
   /// for those in bones: where both cannot be had, vessels come first. Returns whether any got more.
   bool refresh(std::span<const Bezier> shape);
 
@@ -98,6 +90,7 @@ class ConstraintPool {
   std::vector<Constraint> constraints_;  // sorted by pair, then in the order they came
   MotionSpace::Rows rows_;
   std::vector<char> letThrough_;  // one a vessel
+  unsigned rounds_ = 0;
   std::vector<Proposals> proposals_;
   std::vector<Evidence> evidence_;  // of this round, sorted by vessels
   std::vector<MotionSpace::Term> terms_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
@@ -129,13 +130,31 @@ void Avoider::separate(const PosedNetwork& posed, const VolumeKeeper* volume, st
   }
 }
 
-// Vessels that bones hold against one another are let through the bones.
-void Avoider::letThroughBones(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points,
-                              AvoidReport& report) {
+// Starts again, but vessels that bones hold against one another, and what hangs together with them within some nodes,
+// are let through the bones.
+void Avoider::letThroughBones(const PosedNetwork& posed, const VolumeKeeper* volume, unsigned nodes,
+                              std::span<vec4> points, AvoidReport& report) {
+  std::vector<VesselId> vessels;
+  std::vector<char> taken(network_->vessels().size(), 0);
+  const auto take = [&](VesselId vessel) {
+    if (!std::exchange(taken[vessel.value], char(1))) vessels.push_back(vessel);
+  };
   for (const Interference::Place& place : remaining_)
-    for (const std::uint32_t tube : {place.contact.i, place.contact.j})
-      pool_.letThroughBones(interference_.layout().address(tube).vessel,
-                            [this](Constraint& constraint) { push(constraint, -constraint.multiplier); });
+    for (const std::uint32_t tube : {place.contact.i, place.contact.j}) take(interference_.layout().address(tube).vessel);
+  for (std::size_t first = 0; nodes-- > 0;) {
+    const std::size_t last = vessels.size();
+    for (; first < last; ++first) {
+      const Vessel& vessel = network_->vessel(vessels[first]);
+      for (const NodeId id : {vessel.start, vessel.end}) {
+        if (!id.valid()) continue;
+        if (const auto& host = network_->node(id).host) take(host->vessel);
+        for (const VesselEnd& end : network_->ends(network_->node(id))) take(end.vessel);
+      }
+    }
+  }
+  for (const VesselId vessel : vessels) pool_.letThroughBones(vessel);
+  pool_.restart();
+  std::fill(z_.begin(), z_.end(), vec3(0));
   narrowed_.clear();
   place(posed, volume, points);
   look(posed, points, report);
@@ -184,8 +203,9 @@ AvoidReport Avoider::run(const PosedNetwork& posed, const VolumeKeeper* volume, 
   if (!report.before.holds() || !changed_.empty() || !boneContacts_.empty()) {
     separate(posed, volume, points, report);
     giveWay(posed, volume, points, report);
-    if (bones_ && !certificateOf(places_, &remaining_).holds()) {
-      letThroughBones(posed, volume, points, report);
+    for (const unsigned nodes : {2u, 1000u}) {
+      if (!bones_ || certificateOf(places_, &remaining_).holds()) break;
+      letThroughBones(posed, volume, nodes, points, report);
       separate(posed, volume, points, report);
       giveWay(posed, volume, points, report);
     }

@@ -70,7 +70,8 @@ class Avoider {
   float presentOf(const Constraint& constraint) const;
   void place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points);
   void separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void letThroughBones(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void letThroughBones(const PosedNetwork& posed, const VolumeKeeper* volume, unsigned nodes, std::span<vec4> points,
+                       AvoidReport& report);
   void giveWay(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network* network_;

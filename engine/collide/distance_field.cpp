@@ -6,11 +6,14 @@
 
 #include "collide/obstacle.h"
 #include "core/parallel.h"
+#include "mesh/weld.h"
 
 namespace vasa {
 
-DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options)
+DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const uvec3> everyTriangle, Options options)
     : options_(options) {
+  const auto [positions, triangles] =
+      weld({{everyVertex.begin(), everyVertex.end()}, {everyTriangle.begin(), everyTriangle.end()}}, 0);
   for (const uvec3& triangle : triangles)
     for (int k = 0; k < 3; ++k) box_.add(positions[triangle[k]], options_.band);
   if (box_.empty()) return;

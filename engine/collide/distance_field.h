@@ -18,7 +18,8 @@ class DistanceField {
     float band = 0.006f;   ///< [m], at least 2 cells
   };
 
-  /// @param triangles  counter-clockwise from outside; the surface should be closed (see Obstacle)
+  /// @param triangles  counter-clockwise from outside; the surface should be closed (see Obstacle), but equal vertices
+  ///                   may be several
   /// O(area · band / cell³), in parallel.
   DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options);
 

@@ -46,3 +46,20 @@ TEST_CASE("a vessel of nothing but fixed ends has nothing to solve") {
   metric.solve(x);
   CHECK(metric.count() == 0);
 }
+
+TEST_CASE("near the push, the short way gives what the whole way gives") {
+  const BendingMetric metric(120, true, false, 30);
+  for (const std::uint32_t at : {0u, 3u, 60u, 116u}) {
+    CAPTURE(at);
+    std::vector<float> whole(120, 0), near(120, 0);
+    for (std::uint32_t k = at; k < at + 4; ++k) whole[k] = near[k] = 0.1f * float(k - at) + 0.2f;
+    metric.solve(whole);
+    const auto [first, last] = metric.solveNear(near, {at, at + 4}, 1e-3f);
+    CHECK(last - first < 80);
+    const float largest = *std::max_element(whole.begin(), whole.end());
+    for (std::uint32_t k = 0; k < 120; ++k) {
+      CHECK(std::abs(near[k] - whole[k]) < 3e-3f * largest);
+      if (k < first || k >= last) CHECK(near[k] == 0);
+    }
+  }
+}

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "network/sample_network.h"
 
 using namespace vasa;
@@ -54,7 +56,26 @@ TEST_CASE("beyond sane radii the rest is reported") {
   auto points = stretched(network, 30);
   const auto outcome = VolumeKeeper(network).run(points);
   CHECK(outcome.clampedCount > 0);
-  CHECK(outcome.largestError > 0.1f);
+  CHECK(outcome.clampedError > 0.1f);
+  CHECK(outcome.largestError < 1e-4f);
   for (std::size_t i = 0; i < points.size(); ++i)
     CHECK(points[i].w >= VolumeKeeper::kLowestFactor * network.points()[i].w * 0.9999f);
+}
+
+TEST_CASE("where a radius is held down the rest of the vessel keeps the volume") {
+  const Network network = sample();
+  const VolumeKeeper keeper(network);
+  auto points = stretched(network, 0.95f);
+  std::vector<float> most(points.size(), std::numeric_limits<float>::infinity());
+  const Vessel& vessel = network.vessels()[0];
+  const std::uint32_t held = vessel.firstPoint + vessel.pointCount / 2;
+  most[held] = 0.8f * network.points()[held].w;
+  const auto outcome = keeper.run(points, most);
+  CHECK(outcome.largestError < 1e-5f);
+  CHECK(outcome.clampedCount == 0);
+  CHECK(points[held].w == most[held]);
+  CHECK(volumeOf(Network::pointsOf(vessel, points)) == doctest::Approx(volumeOf(network.pointsOf(vessel))).epsilon(2e-5));
+  std::fill(most.begin(), most.end(), 0.0005f);
+  points = stretched(network, 0.95f);
+  CHECK(keeper.run(points, most).clampedCount > 0);
 }

@@ -1,0 +1,69 @@
+#include "avoid/sides.h"
+
+#include <doctest/doctest.h>
+
+#include "network/builder.h"
+
+using namespace vasa;
+
+namespace {
+
+// Two vessels that cross at an angle, `height` apart at rest.
+Network crossing(float angle, float height) {
+  NetworkBuilder builder;
+  for (int v = 0; v < 2; ++v) {
+    const vec3 along = v == 0 ? vec3(1, 0, 0) : vec3(std::cos(angle), 0, std::sin(angle));
+    std::vector<vec4> points;
+    for (int k = 0; k < 13; ++k) points.emplace_back(along * (0.012f * float(k - 6)) + vec3(0, v == 0 ? 0 : height, 0), 0.002f);
+    builder.addVessel({"vessel " + std::to_string(v), "", VesselKind::vein}, points);
+  }
+  auto network = builder.build(1);
+  REQUIRE(network.ok());
+  return std::move(*network);
+}
+
+std::size_t changedAfter(const Network& network, float lowered, quat turn = {1, 0, 0, 0}) {
+  Interference interference(network);
+  RestSides sides(network, interference);
+  std::vector<vec4> points(network.points().begin(), network.points().end());
+  for (std::uint32_t p = network.vessels()[1].firstPoint; p < points.size(); ++p) points[p].y -= lowered;
+  for (vec4& p : points) p = vec4(turn * vec3(p), p.w);
+  const std::vector<quat> rotations(points.size(), turn);
+  interference.find(points);
+  std::vector<Contact> changed;
+  sides.findChanged(interference.tubes(), rotations, changed);
+  return changed.size();
+}
+
+}  // namespace
+
+TEST_CASE("vessels that pass through one another have changed sides, overlapping or not") {
+  for (const float angle : {0.2f, 0.8f, 1.57f, 2.6f}) {
+    CAPTURE(angle);
+    const Network network = crossing(angle, 0.006f);
+    CHECK(changedAfter(network, 0) == 0);
+    CHECK(changedAfter(network, 0.004f) == 0);
+    CHECK(changedAfter(network, 0.0075f) > 0);  // overlap beyond one another's centre lines
+    CHECK(changedAfter(network, 0.013f) > 0);   // all the way through
+  }
+}
+
+TEST_CASE("a turn of the whole changes nothing") {
+  const quat turn = glm::angleAxis(2.0f, glm::normalize(vec3(1, 2, -1)));
+  CHECK(changedAfter(crossing(1.2f, 0.006f), 0, turn) == 0);
+  CHECK(changedAfter(crossing(1.2f, 0.006f), 0.013f, turn) > 0);
+}
+
+TEST_CASE("the way to part two tubes turns to their side without a jump") {
+  const vec3 side(0, 1, 0);
+  vec3 before = partingDirection({0.003f, 0.006f, 0}, side, 0.004f, side);
+  for (float y = 0.006f; y > -0.006f; y -= 0.00002f) {
+    const vec3 now = partingDirection({0.003f, y, 0}, side, 0.004f, side);
+    CHECK(glm::length(now) == doctest::Approx(1));
+    CHECK(glm::distance(now, before) < 0.02f);
+    CHECK(now.y > 0);
+    before = now;
+  }
+  CHECK(partingDirection({0, -0.001f, 0}, side, 0.004f, side).y == doctest::Approx(1));
+  CHECK(partingDirection({0.001f, 0, 0}, vec3(0), 0.004f, side).x == doctest::Approx(1));
+}

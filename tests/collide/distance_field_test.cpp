@@ -1,0 +1,64 @@
+#include "collide/distance_field.h"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "support/meshes.h"
+
+using namespace vasa;
+
+namespace {
+
+struct Shell {
+  std::vector<vec3> positions;
+  std::vector<uvec3> triangles;
+  void add(const SkinnedMesh& mesh) {
+    const std::uint32_t first = std::uint32_t(positions.size());
+    positions.insert(positions.end(), mesh.mesh.positions.begin(), mesh.mesh.positions.end());
+    for (const uvec3& t : mesh.mesh.triangles) triangles.push_back(t + first);
+  }
+};
+
+float boxDistance(vec3 p, vec3 low, vec3 high) {
+  const vec3 q = glm::max(low - p, p - high);
+  return glm::length(glm::max(q, vec3(0))) + std::min(std::max({q.x, q.y, q.z}), 0.0f);
+}
+
+}  // namespace
+
+TEST_CASE("the field is the distance from a box, near it") {
+  const vec3 low(-0.02f, -0.03f, 0), high(0.02f, 0.03f, 0.05f);
+  Shell shell;
+  shell.add(test::boxMesh("box", low, high));
+  const DistanceField field(shell.positions, shell.triangles, {.cell = 0.002f, .band = 0.006f});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> any(-0.06f, 0.08f);
+  float worst = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const vec3 p(any(random), any(random), any(random));
+    const float exact = glm::clamp(boxDistance(p, low, high), -0.006f, 0.006f);
+    const auto [distance, gradient] = field.at(p);
+    CHECK(distance == field.distance(p));
+    worst = std::max(worst, std::abs(distance - exact));
+    if (exact > 0.0025f && exact < 0.004f)
+      CHECK(glm::length(gradient) == doctest::Approx(1).epsilon(0.3));
+  }
+  CHECK(worst < 0.0011f);  // half a cell, at the edges
+  CHECK(field.distance(vec3(0, 0, 0.025f)) == doctest::Approx(-0.006f));
+  CHECK(field.distance(vec3(1, 0, 0)) == doctest::Approx(0.006f));
+}
+
+TEST_CASE("a hollow whose ways out are narrower than the band is outside") {
+  // Walls on four sides of a room of 40 mm, with gaps of 8 mm at its corners, a floor and a ceiling.
+  Shell shell;
+  shell.add(test::boxMesh("left", {-0.03f, -0.02f, -0.016f}, {-0.02f, 0.02f, 0.016f}));
+  shell.add(test::boxMesh("right", {0.02f, -0.02f, -0.016f}, {0.03f, 0.02f, 0.016f}));
+  shell.add(test::boxMesh("back", {-0.016f, -0.02f, -0.03f}, {0.016f, 0.02f, -0.02f}));
+  shell.add(test::boxMesh("front", {-0.016f, -0.02f, 0.02f}, {0.016f, 0.02f, 0.03f}));
+  shell.add(test::boxMesh("floor", {-0.03f, -0.04f, -0.03f}, {0.03f, -0.03f, 0.03f}));
+  shell.add(test::boxMesh("ceiling", {-0.03f, 0.03f, -0.03f}, {0.03f, 0.04f, 0.03f}));
+  const DistanceField field(shell.positions, shell.triangles, {.cell = 0.001f, .band = 0.006f});
+  CHECK(field.distance({0, 0, 0}) == doctest::Approx(0.006f));
+  CHECK(field.distance({0.025f, 0, 0}) < -0.004f);
+}
