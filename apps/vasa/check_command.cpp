@@ -99,12 +99,16 @@ class CorrectionChange {
   std::vector<vec3> last_;
 };
 
-Report remainingPlaces(const Network& network, const Avoider& avoider) {
-  Report list = Report::array();
-  const auto nameOf = [&](std::uint32_t tube) { return network.vessel(avoider.layout().address(tube).vessel).name; };
-  for (const Interference::Place& place : avoider.remaining())
-    list.push_back({{"vessels", {nameOf(place.contact.i), nameOf(place.contact.j)}}, {"depth_m", place.excess()}});
-  return list;
+// The places that are left: overlaps, and changed sides with how far beyond one another's centre lines the two are.
+void addPlaces(const Network& network, const Avoider& avoider, Report& row) {
+  const auto describe = [&](const Contact& contact, float depth) {
+    const auto nameOf = [&](std::uint32_t tube) { return network.vessel(avoider.layout().address(tube).vessel).name; };
+    const auto spanOf = [&](std::uint32_t tube) { return avoider.layout().address(tube).span; };
+    return Report{{"vessels", {nameOf(contact.i), nameOf(contact.j)}}, {"spans", {spanOf(contact.i), spanOf(contact.j)}}, {"depth_m", depth}};
+  };
+  row["remaining"] = row["changed_sides"] = Report::array();
+  for (const Interference::Place& place : avoider.remaining()) row["remaining"].push_back(describe(place.contact, place.excess()));
+  for (const Contact& contact : avoider.changedSides()) row["changed_sides"].push_back(describe(contact, -contact.f));
 }
 
 Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange& correction, std::uint32_t frame,
@@ -142,7 +146,7 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"detect_ms", avoid.detectMs},
              {"solve_ms", avoid.solveMs},
              {"certify_ms", avoid.certifyMs}};
-  if (options.places) row["remaining"] = remainingPlaces(scene.network, *maker.avoider());
+  if (options.places) addPlaces(scene.network, *maker.avoider(), row);
   return row;
 }
 
@@ -215,7 +219,7 @@ void addCheck(CLI::App& app, Command& command) {
   addSceneOptions(*sub, options->scene);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--places", options->places, "Name the vessels that still interfere in each frame");
+  sub->add_flag("--places", options->places, "Name the vessels that still interfere or have changed sides in each frame");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 

@@ -24,7 +24,7 @@ struct Options {
   std::string output, frames, quads, unit = "mm";
   double budgetMegabytes = 64, toleranceMillimetres = 0.05, clearanceMillimetres = 5;
   std::uint32_t samples = 2;
-  bool noVolume = false, avoid = false, flat = false;
+  bool noVolume = false, avoid = true, flat = false;
 };
 
 struct Job {
@@ -241,7 +241,7 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")->check(CLI::IsMember({"mm", "cm", "m"}))->capture_default_str();
   sub->add_option("--clearance", options->clearanceMillimetres, "Clearances beyond this are left empty in .csv [mm]")->check(CLI::Range(0.0, 50.0))->capture_default_str();
   sub->add_flag("--flat", options->flat, "Leave normals out of a .glb: half the size, shaded facet by facet");
-  sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart that run through one another (experimental, off by default)");
+  sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart that run through one another or through bones (the default)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

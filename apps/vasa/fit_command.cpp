@@ -8,6 +8,7 @@
 #include "io/bvh.h"
 #include "io/gltf.h"
 #include "network/file.h"
+#include "network/kinks.h"
 #include "network/measure.h"
 #include "network/reshape.h"
 #include "report.h"

@@ -31,7 +31,7 @@ struct Options {
   std::uint32_t frames = 40;
   unsigned samples = 1;
   CapillaryOptions capillaries;
-  bool body = false, avoid = false;
+  bool body = false, avoid = true;
 };
 
 struct Setting {
@@ -108,9 +108,11 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
     const FrameTimes times = renderer.times();
     stages.add("pose_ms", cpu.poseMs);
     stages.add("deform_ms", cpu.deformMs);
+    stages.add("kinks_ms", cpu.kinksMs);
     stages.add("volume_ms", cpu.volumeMs);
     if (options.avoid) {
       stages.add("detect_ms", cpu.avoid.detectMs);
+      stages.add("obstacles_ms", cpu.avoid.boneMs);
       stages.add("avoid_ms", cpu.avoid.solveMs);
       stages.add("certify_ms", cpu.avoid.certifyMs);
     }
@@ -238,7 +240,7 @@ void addProfile(CLI::App& app, Command& command) {
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
-  sub->add_flag("--avoid", options->avoid, "Move vessels apart, too (experimental)");
+  sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart, too (the default)");
   sub->add_flag("--with-body", options->body, "Draw the body's meshes too");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -32,7 +32,7 @@ struct Options {
   std::string look;  // empty: as the scene says
   std::uint32_t supersample = 1;
   bool beat = false;
-  bool resume = false, transparent = false, noVolume = false, avoid = false, highlightContacts = false;
+  bool resume = false, transparent = false, noVolume = false, avoid = true, highlightContacts = false;
 };
 
 // What is to be drawn, settled before the first frame.
@@ -362,7 +362,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
   sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");
   sub->add_flag("--avoid,!--no-avoid", options->avoid,
-                "Move vessels apart that run through one another (experimental, off by default)");
+                "Move vessels apart that run through one another or through bones (the default)");
   sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });

@@ -11,8 +11,8 @@ constexpr float kNearAtRest = 0.005f;  // [m]
 constexpr double kExact = 1e-8;         // [m]
 
 // Newton steps from the nearest chords may end in another local minimum than the one for which the pair was reported.
-Contact deepest(const Contact& contact, std::span<const Bezier> tubes) {
-  if (contact.f < 0) return contact;
+Contact deepest(const Contact& contact, std::span<const Bezier> tubes, float margin = 0) {
+  if (contact.f < margin) return contact;
   Contact found = closestOfTubes(tubes[contact.i], tubes[contact.j], kExact);
   found.i = contact.i, found.j = contact.j;
   return found;
@@ -40,13 +40,13 @@ float Interference::allowed(TubePair pair) const {
   return found != restPairs_.end() && found->tubes == pair ? found->f : 0;
 }
 
-std::span<const Interference::Place> Interference::find(std::span<const vec4> points) {
+std::span<const Interference::Place> Interference::find(std::span<const vec4> points, float margin) {
   layout_.shape(points, tubes_);
-  detector_->update(tubes_);
+  detector_->update(tubes_, margin);
   places_.clear();
   if (!detector_->detect().empty())
     for (const Contact& contact : detector_->contacts())
-      places_.push_back({deepest(contact, tubes_), allowed({contact.i, contact.j})});
+      places_.push_back({deepest(contact, tubes_, margin), allowed({contact.i, contact.j})});
   return places_;
 }
 

@@ -29,9 +29,10 @@ class Interference {
     bool interferes() const { return excess() > (allowed < 0 ? kRestTolerance : 0); }
   };
 
-  /// Every pair of tubes that overlaps in the given shape (f < 0), sorted by pair; valid until the next call.
+  /// Every pair of tubes with f < margin in the given shape, sorted by pair; valid until the next call.
+  /// @param margin  [m] >= 0; at 0 these are the tubes that overlap
   /// @param points  as Network::points()
-  std::span<const Place> find(std::span<const vec4> points);
+  std::span<const Place> find(std::span<const vec4> points, float margin = 0);
 
   const NetworkTubes& layout() const { return layout_; }
   /// The shape of the last find(), and that at rest.

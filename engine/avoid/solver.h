@@ -54,6 +54,8 @@ class Avoider {
   /// Of the last run: where vessels interfere in spite of all, and where they gave way.
   std::span<const Interference::Place> remaining() const { return remaining_; }
   std::span<const NarrowPlace> narrowed() const { return narrowed_; }
+  /// Of the last run: tubes that are on the wrong side of one another in spite of all (RestSides::findChanged).
+  std::span<const Contact> changedSides() const { return changed_; }
   /// Of the last run: where vessels interfered before.
   std::span<const Interference::Place> found() const { return found_; }
 

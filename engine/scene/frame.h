@@ -26,7 +26,7 @@ struct FrameOptions {
   bool keepVolume = true;
   bool avoid = false;        ///< move vessels apart that run through one another
   bool beat = false;         ///< the heart beats (scene/beat.h)
-  AvoidOptions avoidance;    ///< budgets; no rounds, projections and lumen rounds: only look
+  AvoidOptions avoidance;    ///< budgets; no rounds and lumen rounds: only look
 };
 
 /// Turns poses into everything a picture needs: control points, knot frames, joint matrices. A frame depends on the

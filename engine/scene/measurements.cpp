@@ -40,9 +40,9 @@ std::vector<VesselMeasures> VesselMeter::run(std::span<const vec4> points) {
     auto& clearance = all[interference_.layout().address(tube).vessel.value].clearance;
     clearance = std::min(clearance.value_or(gap), gap);
   };
-  for (const auto& place : interference_.find(points, within_, Interference::Watch::neighboursThatMetLastTime)) {
+  for (const auto& place : interference_.find(points, within_)) {
     const auto vesselOf = [&](std::uint32_t tube) { return interference_.layout().address(tube).vessel; };
-    if (place.neighbours || vesselOf(place.contact.i) == vesselOf(place.contact.j)) continue;
+    if (vesselOf(place.contact.i) == vesselOf(place.contact.j)) continue;
     touch(place.contact.i, place.contact.f);
     touch(place.contact.j, place.contact.f);
   }
