@@ -66,7 +66,7 @@ void ConstraintPool::clear() {
   letThrough_.assign(network_->vessels().size(), 0);
 }
 
-vec3 ConstraintPool::posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const {
+vec3 ConstraintPool::posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const {
   const auto [vessel, span] = interference_->layout().address(tube);
   const Vessel& own = network_->vessel(vessel);
   return vec3(bezierOfSpan(posed.points.subspan(own.firstPoint, own.pointCount), span).at(t));
@@ -103,7 +103,7 @@ ConstraintPool::Evidence ConstraintPool::evidenceAt(const Contact& contact) cons
 }
 
 void ConstraintPool::gather(std::span<const Interference::Place> places, std::span<const Contact> changed,
-                            std::span<const Bezier> shape, const PosedNetwork& posed) {
+                            std::span<const Bezier> shape, const PosedVessels& posed) {
   evidence_.clear();
   const auto take = [&](const Contact& contact) {
     Evidence evidence = evidenceAt(contact);
@@ -132,7 +132,7 @@ vec3 ConstraintPool::evidenceAround(const Contact& contact) const {
 }
 
 void ConstraintPool::propose(const Contact& contact, bool changed, std::span<const Bezier> shape,
-                             const PosedNetwork& posed, Proposals& found) const {
+                             const PosedVessels& posed, Proposals& found) const {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
   const vec3 around = evidenceAround(contact);
   std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
@@ -222,7 +222,7 @@ std::size_t ConstraintPool::sortIn(std::size_t before) {
 }
 
 std::size_t ConstraintPool::add(std::span<const Interference::Place> places, std::span<const Contact> changed,
-                                std::span<const Bezier> shape, const PosedNetwork& posed) {
+                                std::span<const Bezier> shape, const PosedVessels& posed) {
   std::size_t added = 0;
   gather(places, changed, shape, posed);
   const auto addAll = [&](std::size_t count, const auto& proposeOne) {
@@ -244,7 +244,7 @@ std::size_t ConstraintPool::add(std::span<const Interference::Place> places, std
 }
 
 std::size_t ConstraintPool::add(std::span<const BoneContact> contacts, std::span<const Bezier> shape,
-                                const PosedNetwork& posed) {
+                                const PosedVessels& posed) {
   const std::size_t before = constraints_.size();
   for (const BoneContact& contact : contacts) {
     if (letThrough_[interference_->layout().address(contact.tube).vessel.value]) continue;

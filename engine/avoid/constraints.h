@@ -40,10 +40,10 @@ class ConstraintPool {
   /// @param shape    the tubes in which the places were found
   /// @return how many were added
   std::size_t add(std::span<const Interference::Place> places, std::span<const Contact> changed,
-                  std::span<const Bezier> shape, const PosedNetwork& posed);
+                  std::span<const Bezier> shape, const PosedVessels& posed);
 
   /// The same for tubes in bones: away from the bone's nearest point.
-  std::size_t add(std::span<const BoneContact> contacts, std::span<const Bezier> shape, const PosedNetwork& posed);
+  std::size_t add(std::span<const BoneContact> contacts, std::span<const Bezier> shape, const PosedVessels& posed);
 
   /// From now on until clear() bones do not hold this vessel.
   void letThroughBones(VesselId vessel) { letThrough_[vessel.value] = 1; }
@@ -72,14 +72,14 @@ class ConstraintPool {
     vec3 side;
   };
   void gather(std::span<const Interference::Place> places, std::span<const Contact> changed,
-              std::span<const Bezier> shape, const PosedNetwork& posed);
+              std::span<const Bezier> shape, const PosedVessels& posed);
   vec3 evidenceAround(const Contact& contact) const;
   Evidence evidenceAt(const Contact& contact) const;
-  void propose(const Contact& contact, bool changed, std::span<const Bezier> shape, const PosedNetwork& posed,
+  void propose(const Contact& contact, bool changed, std::span<const Bezier> shape, const PosedVessels& posed,
                Proposals& found) const;
   bool known(const Constraint& wanted) const;
   const Constraint* nearest(TubePair tubes, float s, float t) const;
-  vec3 posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const;
+  vec3 posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const;
   void take(Constraint& constraint);
   std::size_t sortIn(std::size_t before);
 

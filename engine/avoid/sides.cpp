@@ -54,7 +54,7 @@ quat RestSides::rotationAt(std::uint32_t tube, float t, std::span<const quat> ro
   return glm::normalize((1 - t) * a + (glm::dot(a, b) < 0 ? -t : t) * b);
 }
 
-vec3 RestSides::posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const {
+vec3 RestSides::posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const {
   const auto [vessel, span] = interference_->layout().address(tube);
   return vec3(bezierOfSpan(Network::pointsOf(network_->vessel(vessel), posed.points), span).at(t));
 }
@@ -71,7 +71,7 @@ vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::spa
   return side / apart * together * fadeOut(distance / radii, kSureTo, kNothingFrom) * std::min(1.0f, apart / (kTooClose * radii));
 }
 
-vec3 RestSides::belongs(const Place& at, std::span<const Bezier> shape, const PosedNetwork& posed,
+vec3 RestSides::belongs(const Place& at, std::span<const Bezier> shape, const PosedVessels& posed,
                         const vec3* settled) const {
   const vec3 rest = carried(at, shape, posed.rotations);
   const vec3 gap = settled ? *settled : posedPlace(at.i, at.s, posed) - posedPlace(at.j, at.t, posed);

@@ -7,7 +7,7 @@
 namespace vasa {
 
 /// Before the correction: where everything was, at rest and in the pose.
-struct PosedNetwork {
+struct PosedVessels {
   std::span<const vec4> points;     ///< as Network::points(), in the pose
   std::span<const quat> rotations;  ///< how each point's surroundings turned since rest (Deformer::rotations)
   std::span<const mat4> jointMatrices = {};  ///< a joint's world · inverseBind; may be empty without bones
@@ -34,7 +34,7 @@ class RestSides {
   /// before any correction. So one pair of vessels is told the same side again and again, wherever it was pushed in
   /// between.
   /// @param settled  a direction, or null
-  vec3 belongs(const Place& at, std::span<const Bezier> shape, const PosedNetwork& posed, const vec3* settled) const;
+  vec3 belongs(const Place& at, std::span<const Bezier> shape, const PosedVessels& posed, const vec3* settled) const;
 
   /// Tubes that were near one another at rest and have changed sides, whether they overlap or have passed through, with
   /// the places where they are nearest now, sorted by pair; f of the result is the distance of the centre lines by
@@ -42,7 +42,7 @@ class RestSides {
   void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed);
 
  private:
-  vec3 posedPlace(std::uint32_t tube, float t, const PosedNetwork& posed) const;
+  vec3 posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const;
   quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
 
   const Network* network_;

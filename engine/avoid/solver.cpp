@@ -93,7 +93,7 @@ void Avoider::ascend() {
   }
 }
 
-void Avoider::place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+void Avoider::place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
   const std::span<const vec4> rest = network_->points();
   for (std::size_t p = 0; p < points.size(); ++p)
     points[p] = vec4(vec3(posed.points[p]), volume ? rest[p].w : points[p].w);
@@ -101,7 +101,7 @@ void Avoider::place(const PosedNetwork& posed, const VolumeKeeper* volume, std::
   if (volume) volumeOutcome_ = volume->run(points);
 }
 
-void Avoider::look(const PosedNetwork& posed, std::span<const vec4> points, AvoidReport& report) {
+void Avoider::look(const PosedVessels& posed, std::span<const vec4> points, AvoidReport& report) {
   report.certifyMs = 0;
   {
     Timer timer(report.certifyMs);
@@ -114,7 +114,7 @@ void Avoider::look(const PosedNetwork& posed, std::span<const vec4> points, Avoi
   boneContacts_ = bones_->contacts(interference_.tubes(), posedTubes_);
 }
 
-void Avoider::separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+void Avoider::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
   for (unsigned round = 0; round < options_.rounds; ++round) {
     {
       Timer timer(report.solveMs);
@@ -132,7 +132,7 @@ void Avoider::separate(const PosedNetwork& posed, const VolumeKeeper* volume, st
 
 // Starts again, but vessels that bones hold against one another, and what hangs together with them within some nodes,
 // are let through the bones.
-void Avoider::letThroughBones(const PosedNetwork& posed, const VolumeKeeper* volume, unsigned nodes,
+void Avoider::letThroughBones(const PosedVessels& posed, const VolumeKeeper* volume, unsigned nodes,
                               std::span<vec4> points, AvoidReport& report) {
   std::vector<VesselId> vessels;
   std::vector<char> taken(network_->vessels().size(), 0);
@@ -162,7 +162,7 @@ void Avoider::letThroughBones(const PosedNetwork& posed, const VolumeKeeper* vol
 
 // Radii at interfering places are capped, and the rest of each vessel takes its volume; in the end, where that only
 // moves the trouble about, volume is given up for the certificate.
-void Avoider::giveWay(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+void Avoider::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
   bool gave = false;
   for (unsigned round = 0; round < options_.lumenRounds && !certificateOf(places_, &remaining_).holds(); ++round) {
     {
@@ -187,7 +187,7 @@ void Avoider::giveWay(const PosedNetwork& posed, const VolumeKeeper* volume, std
   for (const NarrowPlace& narrow : narrowed_) report.leastLumen = std::min(report.leastLumen, narrow.factor);
 }
 
-AvoidReport Avoider::run(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
   AvoidReport report;
   pool_.clear();
   narrowed_.clear();

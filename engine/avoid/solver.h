@@ -49,7 +49,7 @@ class Avoider {
   /// @param posed   the posed network, before any correction
   /// @param volume  keeps the vessels' volume while they are moved, or null
   /// @param points  caller-owned; on entry posed.points with the radii they are to have, on return the result
-  AvoidReport run(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points);
+  AvoidReport run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
 
   /// Of the last run: where vessels interfere in spite of all, and where they gave way.
   std::span<const Interference::Place> remaining() const { return remaining_; }
@@ -66,15 +66,15 @@ class Avoider {
   std::size_t neighbourCount() const { return interference_.neighbourCount(); }
 
  private:
-  void look(const PosedNetwork& posed, std::span<const vec4> points, AvoidReport& report);
+  void look(const PosedVessels& posed, std::span<const vec4> points, AvoidReport& report);
   void ascend();
   void push(Constraint& constraint, float amount);
   float presentOf(const Constraint& constraint) const;
-  void place(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points);
-  void separate(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void letThroughBones(const PosedNetwork& posed, const VolumeKeeper* volume, unsigned nodes, std::span<vec4> points,
+  void place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
+  void separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void letThroughBones(const PosedVessels& posed, const VolumeKeeper* volume, unsigned nodes, std::span<vec4> points,
                        AvoidReport& report);
-  void giveWay(const PosedNetwork& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network* network_;
   AvoidOptions options_;
