@@ -26,7 +26,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   CameraOptions camera;
-  std::string frames, size = "1280x720", output, video, quads = "8x5", shard, hide;
+  std::string frames, size = "1280x720", output, video, quads = "auto", shard, hide;
   CapillaryOptions capillaries;
   unsigned samples = 4;
   std::string look;  // empty: as the scene says

@@ -19,7 +19,8 @@ TEST_CASE("help and version succeed, on standard output") {
 TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"dance"}, {"render", "--nonsense"}, {"render"}, {"render", "-o", "x{frame}{frame}.png"},
-        {"render", "--size", "0x5", "-o", "x.png"}, {"render", "--quads", "2x5", "-o", "x.png"},
+        {"render", "--size", "0x5", "-o", "x.png"}, {"render", "--quads", "2x5", "-o", "x.png"}, {"render", "--look", "sepia", "-o", "x.png"},
+        {"render", "--supersample", "5", "-o", "x.png"}, {"render", "--quads", "auto:0", "-o", "x.png"},
         {"render", "--quads", "8x21", "-o", "x.png"}, {"render", "--shard", "3/3", "-o", "x.png"},
         {"render", "--camera", "below", "-o", "x.png"}, {"render", "--body", "b.glb", "-o", "x.png"},
         {"render", "--video", "x.txt"}, {"render", "-o", "-", "--json"}, {"render", "--hide", "hair", "-o", "x.png"},
