@@ -30,6 +30,17 @@ std::ptrdiff_t findByName(const Items& items, const std::string& wanted) {
   return partial;
 }
 
+// The first joint with more than one child, as a rule the hips: some rigs have joints above it that stay behind.
+std::size_t firstFork(const Skeleton& skeleton) {
+  std::vector<int> children(skeleton.joints.size(), 0);
+  std::vector<std::size_t> only(skeleton.joints.size(), 0);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    if (const JointId parent = skeleton.joints[j].parent; parent.valid()) ++children[parent.value], only[parent.value] = j;
+  std::size_t at = 0;
+  while (children[at] == 1) at = only[at];
+  return children[at] > 1 ? at : 0;
+}
+
 void addJoints(Aabb& box, const Pose& pose, vec3 way = vec3(0)) {
   for (const mat4& world : pose.world) box.add(vec3(world[3]) - way);
 }
@@ -116,7 +127,8 @@ Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose,
 
 vec3 wayOverFloor(const Scene& scene, const Pose& pose) {
   if (pose.world.empty()) return vec3(0);
-  const vec3 way = vec3(pose.world[0][3]) - vec3(scene.body.skeleton.joints[0].restWorld[3]);
+  const std::size_t trunk = firstFork(scene.body.skeleton);
+  const vec3 way = vec3(pose.world[trunk][3]) - vec3(scene.body.skeleton.joints[trunk].restWorld[3]);
   return {way.x, 0, way.z};
 }
 

@@ -34,7 +34,8 @@ Result<Subject> findSubject(const Scene& scene, std::string_view name);
 /// Box of a subject in a pose: of the vessel's tubes, or a cube of a seventh of the body height around the joint.
 Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose, std::span<const vec4> points);
 
-/// How far the body has moved over the floor since rest: the way of its first root joint, without its height.
+/// How far the body has moved over the floor since rest: the way of its first joint with several
+/// children, without its height.
 vec3 wayOverFloor(const Scene& scene, const Pose& pose);
 
 /// Box that holds the body and its vessels in every frame of a clip (nullptr: at rest) seen by somebody who goes along
