@@ -34,11 +34,42 @@ Motion standingStill(const Body& body) {
 
 // In a hand with more fingers than the other body's, single fingers would be drawn aside: they go with the palm.
 void releaseLonely(const Skeleton& skeleton, std::vector<std::uint32_t>& match) {
-  std::vector<int> matched(skeleton.joints.size(), 0), released(skeleton.joints.size(), 0);
+  // Branches that end without a match are what counts: a free joint on the way to matched ones is no finger.
+  std::vector<bool> leadsToMatch(match.size());
+  for (std::size_t j = match.size(); j-- > 0;) {
+    if (match[j] != kNone) leadsToMatch[j] = true;
+    if (const JointId parent = skeleton.joints[j].parent; leadsToMatch[j] && parent.valid()) leadsToMatch[parent.value] = true;
+  }
+  std::vector<int> matched(match.size(), 0), released(match.size(), 0);
   for (std::size_t j = 0; j < match.size(); ++j)
-    if (skeleton.joints[j].parent.valid()) (match[j] == kNone ? released : matched)[skeleton.joints[j].parent.value]++;
+    if (skeleton.joints[j].parent.valid()) (leadsToMatch[j] ? matched : released)[skeleton.joints[j].parent.value]++;
   for (std::size_t j = 0; j < match.size(); ++j)
     if (const JointId parent = skeleton.joints[j].parent; parent.valid() && released[parent.value] > matched[parent.value]) match[j] = kNone;
+}
+
+vec3 centreIn(const Skeleton& skeleton, std::size_t joint) { return vec3(skeleton.joints[joint].restWorld[3]); }
+
+// How far up between hips and neck a joint sits.
+float heightInTrunk(const Skeleton& skeleton, std::size_t joint, std::size_t hips, std::size_t neck) {
+  const vec3 trunk = centreIn(skeleton, neck) - centreIn(skeleton, hips);
+  return glm::dot(centreIn(skeleton, joint) - centreIn(skeleton, hips), trunk) / std::max(glm::dot(trunk, trunk), 1e-12f);
+}
+
+// Rigs put the joints of a spine at other vertebrae under the same names: those go with the trunk as a whole.
+void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std::uint32_t>& match) {
+  constexpr float kSameHeight = 0.15f;
+  std::vector<std::string> names;
+  for (const auto& joint : from.joints) names.push_back(joint.name);
+  const HumanoidNames parts = humanoidNames(names);
+  const auto jointOf = [&](std::string_view part) { return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin()); };
+  const std::size_t hips = jointOf("hips"), neck = jointOf("neck");
+  if (hips >= match.size() || neck >= match.size() || match[hips] == kNone || match[neck] == kNone) return;
+  for (const std::string_view part : {"spine", "chest", "upperChest"}) {
+    const std::size_t j = jointOf(part);
+    if (j >= match.size() || match[j] == kNone) continue;
+    const float own = heightInTrunk(from, j, hips, neck), other = heightInTrunk(to, match[j], match[hips], match[neck]);
+    if (std::abs(own - other) > kSameHeight) match[j] = kNone;
+  }
 }
 
 float sizeOf(const Skeleton& skeleton, std::span<const std::uint32_t> joints) {
@@ -78,6 +109,7 @@ class Carrier {
     if (!pairs) return pairs.error();
     match_ = std::move(*pairs);
     releaseLonely(from_.skeleton, match_);
+    releaseMisplaced(from_.skeleton, to_.skeleton, match_);
     auto pose = retarget(standingStill(to_), from_, map);
     if (!pose) return pose.error();
     if (auto posed = poseAll(*pose); !posed) return posed.error();
