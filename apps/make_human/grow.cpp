@@ -16,6 +16,7 @@ constexpr int kCandidates = 8;             // places of which the emptiest is ch
 constexpr int kRelaxations = 8;
 constexpr int kFailuresToClose = 60;  // in a row: the region is full
 constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, for the branches to come
+constexpr float kMuch = 0.9f, kLengthOfStemRadius = 55;
 constexpr float kShareOfHost = 0.62f;
 
 /// Numbers in [0, 1) that depend on a seed and a counter only.
@@ -158,6 +159,7 @@ struct Grower::State {
     struct Root {
       int host;
       float arc, cost;
+      vec3 place;
     };
     std::vector<Root> roots;
     const float nearest = hosts.nearest(target, 2 * state.region->reach).distance;
@@ -168,13 +170,13 @@ struct Grower::State {
       if (distance > state.region->reach || distance < 3 * s.radius + 6 * kClearance * scale_) continue;
       // Blood does not turn back: a branch that leaves against the stream costs more.
       const float along = glm::dot(glm::normalize(target - s.a), glm::normalize(s.b - s.a));
-      roots.push_back({int(s.owner), s.at, distance * (1.15f - 0.35f * along)});
+      roots.push_back({int(s.owner), s.at, distance * (1.15f - 0.35f * along), s.a});
     }
     std::stable_sort(roots.begin(), roots.end(),
                      [](const Root& a, const Root& b) { return a.cost < b.cost; });
     int tries = 0;
     for (const Root& root : roots) {
-      if (!prepare(state, root.host, root.arc, branch)) continue;
+      if (!prepare(state, root.host, root.arc, glm::distance(target, root.place), branch)) continue;
       if (++tries > 4) break;
       branch.points = curveTo(root.host, root.arc, target, state.dice);
       if (settleBranch(state, branch)) return true;
@@ -182,11 +184,14 @@ struct Grower::State {
     return false;
   }
 
-  bool prepare(const RegionState& state, int host, float arc, GrowingTree::Branch& branch) {
+  bool prepare(const RegionState& state, int host, float arc, float length, GrowingTree::Branch& branch) {
     branch.host = host;
     branch.hostArc = arc;
     branch.tip = state.region->tip * scale_;
-    branch.reserve = std::min(kStemReserve * branch.tip, kShareOfHost * tree_.radiusAt(host, arc));
+    // Where much is to grow, long branches become stems.
+    const float stem = scale_ < kMuch ? length / kLengthOfStemRadius : 0;
+    branch.reserve =
+        std::min(std::max(kStemReserve * branch.tip, stem), kShareOfHost * tree_.radiusAt(host, arc));
     return branch.reserve >= branch.tip && tree_.admits(host, arc, branch.reserve, branch.tip);
   }
 
@@ -285,7 +290,8 @@ struct Grower::State {
                      [](const Root& a, const Root& b) { return a.distance < b.distance; });
     int tries = 0;
     for (const Root& from : roots) {
-      if (!prepare(state, from.host, from.arc, companion)) continue;
+      if (!prepare(state, from.host, from.arc, glm::distance(root, leader.points.back()), companion))
+        continue;
       if (++tries > 3) break;
       for (int turn = 0; turn < 4; ++turn) {
         companion.points = beside(leader, companion, 0.5f * kPi * float(turn));

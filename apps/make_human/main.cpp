@@ -19,6 +19,9 @@ vasa::Result<void> generate(const std::filesystem::path& tables, const std::file
     return written;
   const Result<std::size_t> network = writeNetwork(out / "human.vasa", made->vessels, {quantise});
   if (!network.ok()) return network.error();
+  if (const std::uint32_t sweeps = made->vessels.sweepCount(); float(sweeps) < 0.95f * float(options.sweeps))
+    logWarning("the regions are full at " + std::to_string(sweeps) + " sweeps of " +
+               std::to_string(options.sweeps));
   return {};
 }
 
