@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <thread>
 
-#include "collide/obstacle.h"
-#include "core/parallel.h"
 #include "mesh/weld.h"
 
 namespace vasa {
@@ -21,8 +20,8 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
   origin_ = box_.low;
   counts_ = ivec3(glm::ceil(box_.extent() / side)) + 1;
   bricks_.assign(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z), kUndecided);
+  surface_ = std::make_unique<Obstacle>(positions, triangles);
   markBand(positions, triangles);
-  fill(positions, triangles);
   sortOutInside();
 }
 
@@ -40,38 +39,41 @@ void DistanceField::markBand(std::span<const vec3> positions, std::span<const uv
   std::uint32_t count = 0;
   for (std::uint32_t& number : bricks_)
     if (number == 0) number = count++;
-  values_.resize(std::size_t(count) * kValues);
+  filled_ = count;
+  values_ = std::make_unique_for_overwrite<float[]>(std::size_t(count) * kValues);
+  states_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
 }
 
-void DistanceField::fill(std::span<const vec3> positions, std::span<const uvec3> triangles) {
-  Obstacle surface(positions, triangles);
-  const float side = options_.cell * kBrick;
-  parallelFor(std::size_t(counts_.z), 1, [&](std::size_t z) {
-    std::array<vec3, kValues> corners;
-    std::vector<std::uint32_t> near;
-    for (int y = 0; y < counts_.y; ++y)
-      for (int x = 0; x < counts_.x; ++x) {
-        const std::uint32_t number = brick({x, y, int(z)});
-        if (number >= kInside) continue;
-        const vec3 low = origin_ + side * vec3(float(x), float(y), float(z));
-        for (int k = 0; k < kValues; ++k)
-          corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
-        const std::span<float> own = std::span(values_).subspan(std::size_t(number) * kValues, kValues);
-        surface.signedDistances(corners, options_.band, near, own);
-      }
-  });
+const float* DistanceField::valuesOf(std::uint32_t number, ivec3 at) const {
+  if (states_[number].load(std::memory_order_acquire) != full) fill(number, at);
+  return values_.get() + std::size_t(number) * kValues;
 }
 
-// Bricks beyond the band hang together in regions, each all outside or all inside: as the values say on the faces that
-// it shares with bricks of the band, by the majority, for meshes have holes.
+void DistanceField::fill(std::uint32_t number, ivec3 at) const {
+  std::uint8_t found = empty;
+  if (!states_[number].compare_exchange_strong(found, beingFilled, std::memory_order_acquire)) {
+    while (states_[number].load(std::memory_order_acquire) != full) std::this_thread::yield();
+    return;
+  }
+  thread_local std::vector<std::uint32_t> near;
+  std::array<vec3, kValues> corners;
+  const vec3 low = origin_ + options_.cell * kBrick * vec3(at);
+  for (int k = 0; k < kValues; ++k)
+    corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
+  surface_->signedDistances(corners, options_.band, near, std::span(values_.get() + std::size_t(number) * kValues, kValues));
+  states_[number].store(full, std::memory_order_release);
+}
+
+// Bricks beyond the band hang together in regions, each all outside or all inside: as the values say on some of the
+// faces that it shares with bricks of the band, by the majority, for meshes have holes.
 void DistanceField::sortOutInside() {
-    constexpr int kMiddle = kBrick / 2;
+    constexpr int kMiddle = kBrick / 2, kMostAsked = 25;
   std::vector<ivec3> region;
   for (int z = 0; z < counts_.z; ++z)
     for (int y = 0; y < counts_.y; ++y)
       for (int x = 0; x < counts_.x; ++x) {
         if (brick({x, y, z}) != kUndecided) continue;
-        int votes = 0;  // for outside
+        int votes = 0, asked = 0;  // for outside
         brick({x, y, z}) = kOutside;
         region.assign(1, {x, y, z});
         for (std::size_t k = 0; k < region.size(); ++k)
@@ -87,10 +89,11 @@ void DistanceField::sortOutInside() {
               if (number == kUndecided) {
                 number = kOutside;
                 region.push_back(next);
-              } else if (number < kInside) {
+              } else if (number < kInside && asked < kMostAsked) {
+                ++asked;
                 ivec3 corner(kMiddle);
                 corner[axis] = step > 0 ? 0 : kBrick;
-                const float value = values_[std::size_t(number) * kValues + std::size_t((corner.z * kCorners + corner.y) * kCorners + corner.x)];
+                const float value = valuesOf(number, next)[(corner.z * kCorners + corner.y) * kCorners + corner.x];
                 votes += value > 0 ? 1 : -1;
               }
             }
@@ -105,7 +108,7 @@ DistanceField::Cell DistanceField::cellAt(vec3 point) const {
   const ivec3 cell = glm::clamp(ivec3(cells), ivec3(0), counts_ * kBrick - 1);
   const std::uint32_t number = brick(cell / kBrick);
   if (number >= kInside) return {nullptr, number == kInside ? -options_.band : options_.band, {}, {}};
-  return {values_.data() + std::size_t(number) * kValues, 0, cell % kBrick, cells - vec3(cell)};
+  return {valuesOf(number, cell / kBrick), 0, cell % kBrick, cells - vec3(cell)};
 }
 
 float DistanceField::distance(vec3 point) const {
@@ -126,7 +129,7 @@ DistanceField::Sample DistanceField::at(vec3 point) const {
 }
 
 std::size_t DistanceField::bytes() const {
-  return values_.size() * sizeof(float) + bricks_.size() * sizeof(std::uint32_t);
+  return std::size_t(filled_) * kValues * sizeof(float) + bricks_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace vasa

@@ -1,7 +1,10 @@
 #pragma once
+#include <atomic>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "collide/obstacle.h"
 #include "math/aabb.h"
 #include "math/types.h"
 
@@ -10,7 +13,8 @@ namespace vasa {
 /// The signed distance from a rigid closed surface, sampled near it: bricks of 4x4x4 cells that share their corners,
 /// values in between trilinear. Beyond the band it is +band outside and -band inside. Error: h²/8R over a surface
 /// that bends with radius R, up to half a cell at sharp edges. A look-up costs some nanoseconds, however many triangles
-/// there are; that is what it is for (collide/obstacle.h is exact, and a thousand times slower).
+/// there are; that is what it is for (collide/obstacle.h is exact, and a thousand times slower). A brick is filled when it
+/// is first looked at, by whichever thread comes first; what is in it does not depend on that.
 class DistanceField {
  public:
   struct Options {
@@ -20,7 +24,7 @@ class DistanceField {
 
   /// @param triangles  counter-clockwise from outside; the surface should be closed (see Obstacle), but equal vertices
   ///                   may be several
-  /// O(area · band / cell³), in parallel.
+  /// O(triangles); filling all bricks would be O(area · band / cell³).
   DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options);
 
   struct Sample {
@@ -48,7 +52,8 @@ class DistanceField {
   std::uint32_t& brick(ivec3 at) { return bricks_[std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x)]; }
   std::uint32_t brick(ivec3 at) const { return bricks_[std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x)]; }
   void markBand(std::span<const vec3> positions, std::span<const uvec3> triangles);
-  void fill(std::span<const vec3> positions, std::span<const uvec3> triangles);
+  const float* valuesOf(std::uint32_t number, ivec3 at) const;
+  void fill(std::uint32_t number, ivec3 at) const;
   void sortOutInside();
 
   Options options_;
@@ -56,7 +61,11 @@ class DistanceField {
   vec3 origin_{0};
   ivec3 counts_{0};                    // bricks a side
   std::vector<std::uint32_t> bricks_;  // number of its values, or one of the three
-  std::vector<float> values_;          // kValues a brick
+  enum State : std::uint8_t { empty, beingFilled, full };
+  std::unique_ptr<Obstacle> surface_;
+  std::uint32_t filled_ = 0;                             // bricks that have values
+  std::unique_ptr<float[]> values_;                      // kValues a brick
+  std::unique_ptr<std::atomic<std::uint8_t>[]> states_;  // of a brick's values
 };
 
 }  // namespace vasa

@@ -229,21 +229,30 @@ void Obstacle::signedDistances(std::span<const vec3> points, float reach, std::v
   Aabb box;
   for (const vec3& p : points) box.add(p, reach);
   state_->trianglesNear(box, near);
-  std::vector<vec4> balls(near.size());  // around the triangles
-  for (std::size_t k = 0; k < near.size(); ++k) {
+  // Balls around the triangles, as arrays of plain numbers: most of them are told too far in vector registers.
+  const std::size_t count = near.size();
+  std::vector<float> x(count), y(count), z(count), radius(count), squared(count);
+  for (std::size_t k = 0; k < count; ++k) {
     const uvec3& t = state_->triangles[near[k]];
     const vec3 &a = state_->positions[t.x], &b = state_->positions[t.y], &c = state_->positions[t.z];
     const vec3 centre = (a + b + c) / 3.0f;
-    balls[k] = vec4(centre, std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)}));
+    x[k] = centre.x, y[k] = centre.y, z[k] = centre.z;
+    radius[k] = std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
   }
   std::vector<std::uint32_t> nearest;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    float most = std::numeric_limits<float>::infinity();  // the nearest triangle is no further than this
-    for (const vec4& ball : balls) most = std::min(most, glm::distance(points[p], vec3(ball)));
+    const vec3 point = points[p];
+    float least = std::numeric_limits<float>::max();
+    for (std::size_t k = 0; k < count; ++k) {
+      const float dx = x[k] - point.x, dy = y[k] - point.y, dz = z[k] - point.z;
+      squared[k] = dx * dx + dy * dy + dz * dz;
+      least = squared[k] < least ? squared[k] : least;
+    }
+    const float most = std::sqrt(least) * 1.0001f;  // the nearest triangle is no further than this
     nearest.clear();
-    for (std::size_t k = 0; k < near.size(); ++k)
-      if (glm::distance(points[p], vec3(balls[k])) - balls[k].w <= most) nearest.push_back(near[k]);
-    distances[p] = glm::clamp(state_->signedDistance(vec4(points[p], 0), nearest).distance, -reach, reach);
+    for (std::size_t k = 0; k < count; ++k)
+      if (squared[k] <= (most + radius[k]) * (most + radius[k])) nearest.push_back(near[k]);
+    distances[p] = glm::clamp(state_->signedDistance(vec4(point, 0), nearest).distance, -reach, reach);
   }
 }
 
