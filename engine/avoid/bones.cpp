@@ -88,11 +88,15 @@ struct Bones::State {
   std::vector<mat4> toBound;  // a joint's way from the rest pose to where meshes are bound
   std::vector<Bezier> rest;
   std::vector<Aabb> boxes;  // of the parts in the pose
+  struct Near {
+    std::uint32_t tube, part;
+  };
   std::vector<std::vector<BoneContact>> found;  // a task each
+  std::vector<std::vector<Near>> near;          // of the last look at all tubes, a task each
   std::vector<BoneContact> contacts;
   std::size_t restContacts = 0;
 
-  void look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part, std::vector<BoneContact>& out) const;
+  void look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part, std::vector<BoneContact>& out, bool* inBand = nullptr) const;
   void leave(const Solid& solid, vec3 from, vec3 towards, float radius, const DistanceField::Sample& sample, BoneContact& contact) const;
 };
 
@@ -127,7 +131,7 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
 }
 
 void Bones::State::look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part,
-                        std::vector<BoneContact>& out) const {
+                        std::vector<BoneContact>& out, bool* inBand) const {
   const Solid& solid = solids[part];
   const float allowed = solid.allowed(tube);
   const float length = glm::distance(vec3(shape.b[0]), vec3(shape.b[3]));
@@ -148,6 +152,7 @@ void Bones::State::look(std::uint32_t tube, const Bezier& shape, const Bezier& p
       const vec3 aside = off * (std::cos(angle) * u + std::sin(angle) * v), own = centre + aside;
       const DistanceField::Sample sample = solid.field.at(own);
       const float f = sample.distance - small;
+      if (inBand) *inBand |= sample.distance < solid.field.band();
       if (f >= deepest.f || sample.distance >= solid.field.band() || allowed - f <= (allowed < 0 ? kRestTolerance : 0)) continue;
       deepest = {.tube = tube, .part = part, .s = s, .f = f, .allowed = allowed};
       leave(solid, own, home + aside, small, sample, deepest);
@@ -202,20 +207,29 @@ void Bones::pose(std::span<const mat4> jointMatrices) {
   }
 }
 
-std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed) {
+std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed, Which which) {
   State& state = *state_;
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
-  state.found.resize(std::max(state.found.size(), tasks));
+  state.found.resize(tasks);
+  state.near.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
     auto& out = state.found[task];
     out.clear();
+    if (which == Which::nearAtLast) {
+      for (const auto& [tube, part] : state.near[task]) state.look(tube, tubes[tube], posed[tube], part, out);
+      return;
+    }
+    state.near[task].clear();
     const std::size_t end = std::min(tubes.size(), (task + 1) * kTubesPerTask);
     Aabb all;
     for (std::size_t i = task * kTubesPerTask; i < end; ++i) all.add(tubes[i].bounds());
     for (std::uint32_t part = 0; part < state.solids.size(); ++part) {
       if (!state.boxes[part].overlaps(all)) continue;
-      for (std::size_t i = task * kTubesPerTask; i < end; ++i)
-        if (state.boxes[part].overlaps(tubes[i].bounds())) state.look(std::uint32_t(i), tubes[i], posed[i], part, out);
+      for (std::uint32_t i = std::uint32_t(task * kTubesPerTask); i < end; ++i) {
+        bool near = false;
+        if (state.boxes[part].overlaps(tubes[i].bounds())) state.look(i, tubes[i], posed[i], part, out, &near);
+        if (near) state.near[task].push_back({i, part});
+      }
     }
   });
   state.contacts.clear();

@@ -39,7 +39,10 @@ class Bones {
   /// Places where tubes enter a part, deeper than at rest by more than rounding (kRestTolerance); sorted by tube, part
   /// and parameter. Tubes are looked at in four to seven places. Parallel.
   /// @param posed  the tubes before any correction
-  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed);
+  /// @param which  all tubes, or only those that were within a field's band when all were looked at last: what a round
+  ///               of corrections can bring into a bone, much faster
+  enum class Which { all, nearAtLast };
+  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed, Which which = Which::all);
 
   std::uint32_t partCount() const;
   std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest

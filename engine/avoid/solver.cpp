@@ -101,7 +101,7 @@ void Avoider::place(const PosedVessels& posed, const VolumeKeeper* volume, std::
   if (volume) volumeOutcome_ = volume->run(points);
 }
 
-void Avoider::look(const PosedVessels& posed, std::span<const vec4> points, AvoidReport& report) {
+void Avoider::look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report) {
   report.certifyMs = 0;
   {
     Timer timer(report.certifyMs);
@@ -109,9 +109,13 @@ void Avoider::look(const PosedVessels& posed, std::span<const vec4> points, Avoi
     sides_.findChanged(interference_.tubes(), posed.rotations, changed_);
   }
   report.detectMs += report.certifyMs;
+  lookAtBones(which, report);
+}
+
+void Avoider::lookAtBones(Bones::Which which, AvoidReport& report) {
   if (!bones_) return;
   Timer timer(report.boneMs);
-  boneContacts_ = bones_->contacts(interference_.tubes(), posedTubes_);
+  boneContacts_ = bones_->contacts(interference_.tubes(), posedTubes_, which);
 }
 
 void Avoider::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
@@ -126,7 +130,7 @@ void Avoider::separate(const PosedVessels& posed, const VolumeKeeper* volume, st
       ascend();
       place(posed, volume, points);
     }
-    look(posed, points, report);
+    look(posed, points, Bones::Which::nearAtLast, report);
   }
 }
 
@@ -157,7 +161,7 @@ void Avoider::letThroughBones(const PosedVessels& posed, const VolumeKeeper* vol
   std::fill(z_.begin(), z_.end(), vec3(0));
   narrowed_.clear();
   place(posed, volume, points);
-  look(posed, points, report);
+  look(posed, points, Bones::Which::nearAtLast, report);
 }
 
 // Radii at interfering places are capped, and the rest of each vessel takes its volume; in the end, where that only
@@ -178,7 +182,7 @@ void Avoider::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std
         points[p].w = keepVolume ? network_->points()[p].w : std::min(points[p].w, most_[p]);
       if (keepVolume) volumeOutcome_ = volume->run(points, most_);
     }
-    look(posed, points, report);
+    look(posed, points, Bones::Which::nearAtLast, report);
   }
   if (!gave) return;
   narrowed_ = narrowPlaces(*network_, before_, points);
@@ -196,7 +200,7 @@ AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, 
     bones_->pose(posed.jointMatrices);
     interference_.layout().shape(posed.points, posedTubes_);
   }
-  look(posed, points, report);
+  look(posed, points, Bones::Which::all, report);
   report.before = certificateOf(places_, &found_);
   report.sidesChanged = std::uint32_t(changed_.size());
   noteBones(boneContacts_, report.boneContacts, report.boneDepth);
@@ -210,6 +214,7 @@ AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, 
       giveWay(posed, volume, points, report);
     }
   }
+  if (report.rounds > 0) lookAtBones(Bones::Which::all, report);
   report.after = certificateOf(places_, &remaining_);
   report.sidesChangedAfter = std::uint32_t(changed_.size());
   noteBones(boneContacts_, report.boneContactsAfter, report.boneDepthAfter);

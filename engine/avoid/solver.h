@@ -66,7 +66,8 @@ class Avoider {
   std::size_t neighbourCount() const { return interference_.neighbourCount(); }
 
  private:
-  void look(const PosedVessels& posed, std::span<const vec4> points, AvoidReport& report);
+  void look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report);
+  void lookAtBones(Bones::Which which, AvoidReport& report);
   void ascend();
   void push(Constraint& constraint, float amount);
   float presentOf(const Constraint& constraint) const;
