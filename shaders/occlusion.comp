@@ -56,7 +56,7 @@ float lightAt(ivec2 pixel, float depth) {
 }
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
   if (i >= push.width * push.height) return;
   float depth = push.depth.value[i];
   push.light.value[i] = depth > 0 ? lightAt(ivec2(i % push.width, i / push.width), depth) : 1.0;

@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { OcclusionPush push; };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
   if (i >= push.width * push.height) return;
   float depth = push.depth.value[i], sum = 0, weights = 0;
   if (depth <= 0) {

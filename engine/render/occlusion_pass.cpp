@@ -1,5 +1,7 @@
 #include "render/occlusion_pass.h"
 
+#include <algorithm>
+
 #include "gpu/barrier.h"
 #include "spirv/occlude_frag.h"
 #include "spirv/occlusion_comp.h"
@@ -11,6 +13,7 @@ namespace {
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr std::uint32_t kGroup = 64;
+constexpr std::uint32_t kMostAcross = 32768;  // workgroups; devices take at least 65535 in a direction
 
 gpu::GraphicsPipeline applyPipeline(gpu::Device& device, const gpu::TargetSpec& target) {
   return {device,
@@ -48,14 +51,15 @@ void OcclusionPass::record(VkCommandBuffer commands, const gpu::Target& target, 
   gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT, kCompute);
   shared::OcclusionPush push = occlusionConstants(camera, target.spec().size.width, target.spec().size.height, reach, strength);
   const std::uint32_t groups = gpu::groupsFor(push.width * push.height, kGroup);
+  const std::uint32_t across = std::min(groups, kMostAcross), down = gpu::groupsFor(groups, across);
   push.depth = depth_.address();
   push.raw = depth_.address();  // not read
   push.light = raw_.address();
-  find_.dispatch(commands, push, groups);
+  find_.dispatch(commands, push, across, down);
   gpu::stageBarrier(commands, kCompute, kCompute);
   push.raw = raw_.address();
   push.light = light_.address();
-  smooth_.dispatch(commands, push, groups);
+  smooth_.dispatch(commands, push, across, down);
   gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
 }
 
