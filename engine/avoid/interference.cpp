@@ -28,10 +28,15 @@ Interference::Interference(const Network& network) : layout_(network), rest_(lay
   if (!detector_->detect().empty())
     for (const Contact& contact : detector_->contacts())
       restPairs_.push_back({{contact.i, contact.j}, std::min(deepest(contact, rest_).f, 0.0f)});
+}
+
+std::vector<Contact> Interference::findNearAtRest() {
+  std::vector<Contact> near;
   detector_->update(rest_, kNearAtRest);
-  if (detector_->detect().empty()) return;
+  if (detector_->detect().empty()) return near;
   for (const Contact& contact : detector_->contacts())
-    if (contact.f < rest_[contact.i].at(contact.s).w + rest_[contact.j].at(contact.t).w) nearAtRest_.push_back(contact);
+    if (contact.f < rest_[contact.i].at(contact.s).w + rest_[contact.j].at(contact.t).w) near.push_back(contact);
+  return near;
 }
 
 float Interference::allowed(TubePair pair) const {

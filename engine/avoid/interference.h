@@ -42,8 +42,8 @@ class Interference {
   std::size_t restPairCount() const { return restPairs_.size(); }
   std::size_t neighbourCount() const { return layout_.neighbours().pairs().size(); }
   /// Pairs that lay near one another at rest: no further apart than the sum of their radii, nor 5 mm. With the places
-  /// where they came nearest.
-  std::span<const Contact> nearAtRest() const { return nearAtRest_; }
+  /// where they came nearest, sorted by pair. Ends what find() has returned.
+  std::vector<Contact> findNearAtRest();
 
  private:
   struct RestPair {
@@ -56,7 +56,6 @@ class Interference {
   std::vector<Bezier> rest_, tubes_;
   std::unique_ptr<TubeDetector> detector_;
   std::vector<RestPair> restPairs_;  // sorted
-  std::vector<Contact> nearAtRest_;  // sorted
   std::vector<Place> places_;
 };
 

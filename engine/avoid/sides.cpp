@@ -44,8 +44,8 @@ vec3 directionOf(const Bezier& tube, float t) {
 
 }  // namespace
 
-RestSides::RestSides(const Network& network, const Interference& interference)
-    : network_(&network), interference_(&interference) {}
+RestSides::RestSides(const Network& network, Interference& interference)
+    : network_(&network), interference_(&interference), nearAtRest_(interference.findNearAtRest()) {}
 
 quat RestSides::rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const {
   const auto [vessel, span] = interference_->layout().address(tube);
@@ -81,7 +81,7 @@ vec3 RestSides::belongs(const Place& at, std::span<const Bezier> shape, const Po
 
 void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
                             std::vector<Contact>& changed) {
-  const std::span<const Contact> near = interference_->nearAtRest();
+  const std::span<const Contact> near = nearAtRest_;
   const std::size_t tasks = (near.size() + kGrain - 1) / kGrain;
   found_.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {

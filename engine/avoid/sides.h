@@ -17,7 +17,7 @@ struct PosedVessels {
 class RestSides {
  public:
   /// All must outlive this.
-  RestSides(const Network& network, const Interference& interference);
+  RestSides(const Network& network, Interference& interference);
 
   struct Place {
     std::uint32_t i, j;  ///< tubes
@@ -47,6 +47,7 @@ class RestSides {
 
   const Network* network_;
   const Interference* interference_;
+  std::vector<Contact> nearAtRest_;
   std::vector<std::vector<Contact>> found_;  // a task each
 };
 

@@ -151,26 +151,27 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
 
 void SurfacePass::recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes,
                               const TubeBatch& batch, const TubeDraws& draws, LookStyle style) const {
-  push.opacity = kXrayVessels;
   push.colours = tubes.colours();
   push.firstItem = batch.firstSweep;
   push.itemShift = tubes.room().vertexShift;
-  tubes_[std::size_t(style)].bind(commands, push);
-  bindVertices(commands, draws.vertices, 0);
-  vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-  vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
+  drawBatch(commands, push, draws, batch.groups(), style);
 }
 
 void SurfacePass::recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks,
                               const ForkBatch& batch, const TubeDraws& draws, LookStyle style) const {
-  push.opacity = kXrayVessels;
   push.colours = forks.colours();
   push.firstItem = batch.firstFork;
   push.itemShift = forks.room().vertexShift;
+  drawBatch(commands, push, draws, batch.groups(), style);
+}
+
+void SurfacePass::drawBatch(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws,
+                            std::uint32_t groups, LookStyle style) const {
+  push.opacity = kXrayVessels;
   tubes_[std::size_t(style)].bind(commands, push);
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-  vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, batch.groups(), sizeof(shared::DrawCommand));
+  vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, groups, sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,

@@ -36,6 +36,8 @@ class SurfacePass {
   void recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
 
  private:
+  void drawBatch(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws, std::uint32_t groups,
+                 LookStyle style) const;
   // One of each for every LookStyle.
   std::array<gpu::GraphicsPipeline, 3> tubes_, opaque_, skinColour_;
   gpu::GraphicsPipeline skinDepth_;
