@@ -1,16 +1,23 @@
-# vasa_library(NAME SOURCES ... [LINK ...]): the static library of engine/NAME. What it may see of the
-# other engine folders comes from the layer table; LINK names third-party targets.
+# vasa_library(NAME SOURCES ... [HEADERS ...] [LINK ...] [PRIVATE_LINK ...] [BUILD_LINK ...]): the static library of
+# engine/NAME. What it may see of the other engine folders comes from the layer table. LINK, PRIVATE_LINK and
+# BUILD_LINK name third-party targets: those its headers include, those it only links, and those that leave no trace
+# outside the build (headers of its own sources). HEADERS are what other programs may include (cmake/install.cmake).
 function(vasa_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK;PRIVATE_LINK;BUILD_LINK" ${ARGN})
   add_library(vasa_${name} STATIC ${ARG_SOURCES})
   add_library(vasa::${name} ALIAS vasa_${name})
-  target_include_directories(vasa_${name} PUBLIC "${PROJECT_SOURCE_DIR}/engine" "${PROJECT_SOURCE_DIR}/shaders")
-  target_link_libraries(vasa_${name} PUBLIC vasa_compiler ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  target_include_directories(vasa_${name} PUBLIC
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/engine>" "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/shaders>")
+  target_link_libraries(vasa_${name} PUBLIC $<BUILD_INTERFACE:vasa_compiler> ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  foreach(target IN LISTS ARG_BUILD_LINK)
+    target_link_libraries(vasa_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
+  endforeach()
   foreach(layer IN LISTS VASA_MAY_INCLUDE_${name})
     if(EXISTS "${PROJECT_SOURCE_DIR}/engine/${layer}/CMakeLists.txt")
       target_link_libraries(vasa_${name} PUBLIC vasa_${layer})
     endif()
   endforeach()
+  vasa_install_library(${name} ${ARG_HEADERS})
 endfunction()
 
 # vasa_test(NAME SOURCES ... LINK ...): one doctest program, one ctest entry.

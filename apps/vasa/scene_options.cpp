@@ -2,8 +2,8 @@
 
 #include <cstdlib>
 
-// The built-in human is looked for in $VASA_DATA_DIR, beside the installed program (../share/vasa), and where the
-// build put it.
+// The built-in human is looked for in $VASA_DATA_DIR, then from the program's place: where it is installed
+// (../share/vasa) and where the build puts it (../data).
 namespace vasa::cli {
 
 Result<std::filesystem::path> dataFolder() {
@@ -11,8 +11,8 @@ Result<std::filesystem::path> dataFolder() {
   if (const char* set = std::getenv("VASA_DATA_DIR")) places.emplace_back(set);
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  if (!program.empty()) places.push_back(program.parent_path().parent_path() / "share" / "vasa");
-  places.emplace_back(VASA_BUILD_DATA_DIR);
+  const auto prefix = program.parent_path().parent_path();
+  if (!program.empty()) places.insert(places.end(), {prefix / "share" / "vasa", prefix / "data"});
   for (const auto& place : places)
     if (std::filesystem::exists(place / "human.glb", ignored)) return place;
   return ioError("the built-in human (human.glb) is in none of its places; build the project or set VASA_DATA_DIR");

@@ -65,7 +65,7 @@ Result<void> readTube(Lines& lines, Bezier& pose0, Bezier& pose1) {
                               ? std::to_string(k) + " numbers"
                               : "number " + std::to_string(k + 1) + " is unreadable or out of range") +
                          "; a tube needs 32 (4 control points x y z r in each of two poses)");
-    if (!std::isfinite(value) || std::abs(value) > kLargestCoordinate)
+    if (!std::isfinite(value) || std::abs(value) > kLargestTubeCoordinate)
       return lines.fault("number " + std::to_string(k + 1) +
                          " is not a finite number of at most 1e6; correct it");
     if (k % 4 == 3 && !(value > 0))

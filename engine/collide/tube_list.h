@@ -22,7 +22,7 @@ struct TubeList {
 
 /// Largest coordinate and radius a tube list may hold: beyond it, single precision has nothing left to
 /// measure.
-constexpr float kLargestCoordinate = 1e6f;
+constexpr float kLargestTubeCoordinate = 1e6f;
 
 /// Reads and checks a tube list: counts, 32 finite numbers a line, radii above zero, pairs of two different
 /// tubes that exist. Fails with badInput that names file, line, cause and remedy, or io.

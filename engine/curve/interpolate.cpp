@@ -124,12 +124,12 @@ Nearest nearestBetween(std::span<const vec4> points, float from, float to, const
 
 }  // namespace
 
-Interpolation interpolateSamples(std::span<const vec4> samples) {
+SampledSpline interpolateSamples(std::span<const vec4> samples) {
   assert(samples.size() >= 2);
   std::vector<vec4> dense(samples.begin(), samples.end());
   std::vector<std::uint32_t> place(samples.size());
   for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
-  Interpolation result;
+  SampledSpline result;
   for (int round = 0;; ++round) {
     result.points = solve(dense);
     if (round == kRounds) break;
@@ -152,7 +152,7 @@ Interpolation interpolateSamples(std::span<const vec4> samples) {
   return result;
 }
 
-Interpolation followSamples(std::span<const vec4> samples, float centre, float radius) {
+SampledSpline followSamples(std::span<const vec4> samples, float centre, float radius) {
   assert(samples.size() >= 2);
   const Tolerance tolerance{centre, radius};
   std::vector<bool> kept = polylineCorners(samples, {0.5f * centre, 0.5f * radius});
@@ -160,8 +160,8 @@ Interpolation followSamples(std::span<const vec4> samples, float centre, float r
     std::vector<vec4> corners;
     for (std::size_t i = 0; i < samples.size(); ++i)
       if (kept[i]) corners.push_back(samples[i]);
-    const Interpolation through = interpolateSamples(corners);
-    Interpolation result{through.points, {}};
+    const SampledSpline through = interpolateSamples(corners);
+    SampledSpline result{through.points, {}};
     missed = false;
     std::size_t corner = 0;
     float worst = 1;

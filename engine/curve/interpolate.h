@@ -6,7 +6,7 @@
 
 namespace vasa {
 
-struct Interpolation {
+struct SampledSpline {
   std::vector<vec4> points;       ///< de Boor points on clamped uniform knots (curve/bspline.h)
   std::vector<float> parameters;  ///< u of each sample
 };
@@ -18,7 +18,7 @@ struct Interpolation {
 /// again, so that the curve there follows the polyline.
 /// @param samples  (x, y, z, r) [m], at least 2, neighbours distinct, finite, r > 0
 /// O(samples).
-Interpolation interpolateSamples(std::span<const vec4> samples);
+SampledSpline interpolateSamples(std::span<const vec4> samples);
 
 /// A spline that comes within `centre` times its radius of every sample's centre and within `radius` times it of
 /// its radius, through as few of the samples as it needs.
@@ -26,6 +26,6 @@ Interpolation interpolateSamples(std::span<const vec4> samples);
 /// none is. parameters[i] is where the curve is nearest to sample i.
 /// @param samples  as above
 /// O(samples · rounds); few rounds.
-Interpolation followSamples(std::span<const vec4> samples, float centre, float radius);
+SampledSpline followSamples(std::span<const vec4> samples, float centre, float radius);
 
 }  // namespace vasa

@@ -22,6 +22,6 @@ struct ImportFrame {
 };
 
 /// Coordinates beyond this many metres are taken for a wrong unit or a damaged file.
-constexpr double kLargestCoordinate = 1e6;
+constexpr double kLargestImportedCoordinate = 1e6;
 
 }  // namespace vasa

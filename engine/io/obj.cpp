@@ -54,7 +54,7 @@ class LineCheck {
       double value = 0;
       if (!parseNumber(word, value))
         return fail(line_, "a vertex needs three finite numbers, found '" + std::string(word.substr(0, 40)) + "'");
-      if (std::abs(value) * frame_.metresPerUnit > kLargestCoordinate)
+      if (std::abs(value) * frame_.metresPerUnit > kLargestImportedCoordinate)
         return fail(line_, "coordinate " + std::string(word.substr(0, 40)) +
                                " is farther than 1000 km away; give the file's unit with --scale");
     }

@@ -39,7 +39,7 @@ class Welder {
 
 std::string coordinateFault(dvec3 p, const ImportFrame& frame) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return "a coordinate is not finite";
-  if (glm::length(p) * frame.metresPerUnit > kLargestCoordinate)
+  if (glm::length(p) * frame.metresPerUnit > kLargestImportedCoordinate)
     return "a coordinate is farther than 1000 km away; give the file's unit with --scale";
   return {};
 }

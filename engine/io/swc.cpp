@@ -56,7 +56,7 @@ class Reader {
       if (value[column] != std::floor(value[column]) || std::abs(value[column]) > 1e15)
         return fail(line, std::string("the ") + kColumns[column] + " must be a whole number, found " + numberText(value[column]));
     const dvec3 place(value[2], value[3], value[4]);
-    if (std::max(glm::length(place), std::abs(value[5])) * frame_.metresPerUnit > kLargestCoordinate)
+    if (std::max(glm::length(place), std::abs(value[5])) * frame_.metresPerUnit > kLargestImportedCoordinate)
       return fail(line, "lies farther than 1000 km away; give the file's unit with --scale");
     if (value[5] < 0) return fail(line, "radius " + numberText(value[5]) + " must be positive; mend or remove the sample");
     Row row{{std::int64_t(value[0]), std::int64_t(value[1]), frame_.toHouse(place),

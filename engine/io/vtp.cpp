@@ -202,7 +202,7 @@ class Reader {
       breaks(radiusPlace, "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
     for (std::size_t i = 0; i < count; ++i) {
       const dvec3 p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-      if (!(std::max(glm::length(p), std::abs(radius[i])) * frame_.metresPerUnit <= kLargestCoordinate))
+      if (!(std::max(glm::length(p), std::abs(radius[i])) * frame_.metresPerUnit <= kLargestImportedCoordinate))
         breaks(place + "/Points", "point " + std::to_string(i) + " is not finite or farther than 1000 km away; give the file's unit with --scale");
       if (!(radius[i] >= 0))
         breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) + " must be positive");

@@ -39,7 +39,7 @@ void Centrelines::append(Centrelines&& other) {
 
 Result<CentrelineNetwork> networkOfCentrelines(const Centrelines& centrelines, float bodyHeight) {
   if (centrelines.lines.empty()) return badInput("there is no centre line of two samples or more");
-  std::vector<Interpolation> sweeps(centrelines.lines.size());
+  std::vector<SampledSpline> sweeps(centrelines.lines.size());
   parallelFor(sweeps.size(), 4, [&](std::size_t i) { sweeps[i] = followSamples(centrelines.lines[i].samples, kCentreShare, kRadiusShare); });
   NetworkBuilder builder;
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
@@ -56,7 +56,7 @@ Result<CentrelineNetwork> networkOfCentrelines(const Centrelines& centrelines, f
   auto network = builder.build(bodyHeight > 0 ? bodyHeight : heightOf(centrelines));
   if (!network) return network.error();
   CentrelineNetwork result{std::move(*network), {}};
-  for (Interpolation& sweep : sweeps) result.parameters.push_back(std::move(sweep.parameters));
+  for (SampledSpline& sweep : sweeps) result.parameters.push_back(std::move(sweep.parameters));
   return result;
 }
 
