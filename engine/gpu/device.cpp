@@ -11,19 +11,31 @@ Device::Device(const DeviceOptions& options)
   create(options);
   if (options.validation.any()) loadLabels();
   if (options.validation.synchronization) followAddresses();
+  createPipelineCache();
+  VkQueue queue = VK_NULL_HANDLE;
+  vkGetDeviceQueue(handle(), adapter_.queueFamily, 0, &queue);
+  queue_ = std::make_unique<Queue>(*this, queue);
+}
+
+Device::Device(const ForeignDevice& foreign) : instance_(Instance::foreign(foreign.instance)), gpuAssisted_(false) {
+  adopt(foreign);
+  createPipelineCache();
+  queue_ = std::make_unique<Queue>(*this, foreign.queue);
+}
+
+void Device::createPipelineCache() {
   VkPipelineCacheCreateInfo cacheInfo{};
   cacheInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
   VkPipelineCache cache = VK_NULL_HANDLE;
   check(vkCreatePipelineCache(handle(), &cacheInfo, nullptr, &cache), "vkCreatePipelineCache");
   pipelineCache_ = {handle(), cache};
   setName(cache, "pipeline cache");
-  queue_ = std::make_unique<Queue>(*this);
 }
 
 Device::~Device() = default;  // the queue waits
 
 Device::Owner::~Owner() {
-  vkDestroyDevice(device, nullptr);
+  if (ours) vkDestroyDevice(device, nullptr);
 }
 
 void Device::choose(const std::string& choice) {
@@ -34,7 +46,28 @@ void Device::choose(const std::string& choice) {
   const std::size_t chosen = chooseAdapter(adapters, choice);
   physical_ = devices[chosen];
   adapter_ = adapters[chosen];
+  readProperties();
+}
 
+void Device::adopt(const ForeignDevice& foreign) {
+  physical_ = foreign.physical;
+  adapter_ = describe(physical_, 0);
+  features_ = foreign.enabled;
+  std::vector<std::string> lacks = adapter_.lacks;
+  for (const std::string& feature : missingFeatures(features_)) lacks.push_back(feature + " switched on");
+  if (!lacks.empty()) {
+    std::string list;
+    for (const std::string& what : lacks) list += (list.empty() ? "" : ", ") + what;
+    throw Error({Fault::noDevice, "the Vulkan device handed over (" + adapter_.name + ") lacks " + list +
+                                      "; create it with what vasa::gpu::featuresToEnable() says"});
+  }
+  adapter_.queueFamily = foreign.queueFamily;
+  owner_.device = foreign.device;
+  owner_.ours = false;
+  readProperties();
+}
+
+void Device::readProperties() {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical_, &properties);
   limits_ = properties.limits;

@@ -22,6 +22,17 @@ struct DeviceOptions {
   std::vector<const char*> deviceExtensions;
 };
 
+/// A Vulkan 1.3 device that another program made and goes on using. All of it must outlive what vasa makes on it.
+/// The program switches on at least what featuresToEnable() returns for what its physical device offers.
+struct ForeignDevice {
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;  ///< draws and computes; not used by another thread while a call into vasa lasts
+  std::uint32_t queueFamily = 0;
+  Features enabled;  ///< on the device
+};
+
 /// A Vulkan 1.3 device with one queue that draws, computes and copies. Everything else of the layer is made
 /// from it and must go before it. One thread uses a device and its objects.
 ///
@@ -32,7 +43,11 @@ class Device {
  public:
   /// Throws Error: Fault::noDevice if nothing usable is there, Fault::failed if validation is not installed.
   explicit Device(const DeviceOptions& options = {});
-  ~Device();  ///< waits until the device is idle
+  /// Draws on another program's device: that and its instance are used, not owned. Work that the program submitted
+  /// to the queue before comes before vasa's, and the other way round; between the two lies a full barrier as soon as
+  /// vasa records. Throws Error (Fault::noDevice) with what the device lacks or has not enabled.
+  explicit Device(const ForeignDevice& foreign);
+  ~Device();  ///< waits until what vasa submitted is done
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -72,6 +87,7 @@ class Device {
  private:
   struct Owner {
     VkDevice device = VK_NULL_HANDLE;
+    bool ours = true;
     ~Owner();
   };
   struct Labels {
@@ -80,7 +96,10 @@ class Device {
     PFN_vkCmdEndDebugUtilsLabelEXT end = nullptr;
   };
   void choose(const std::string& choice);
+  void adopt(const ForeignDevice& foreign);
+  void readProperties();
   void create(const DeviceOptions& options);
+  void createPipelineCache();
   void loadLabels();
   void followAddresses();
   void setObjectName(VkObjectType type, std::uint64_t handle, std::string_view name) const;

@@ -143,7 +143,7 @@ Instance::~Instance() {
   if (messenger_)
     load<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(
         instance_, messenger_, nullptr);
-  vkDestroyInstance(instance_, nullptr);
+  if (ours_) vkDestroyInstance(instance_, nullptr);
 }
 
 }  // namespace vasa::gpu

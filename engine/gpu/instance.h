@@ -40,6 +40,8 @@ class Instance {
   /// Throws Error: Fault::noDevice if there is no driver, Fault::failed if the validation layer is missing.
   /// With validation.synchronization the process's VK_LAYER_ENABLES is set while the call lasts.
   explicit Instance(const InstanceOptions& options);
+  /// Another program's, which stays its.
+  static Instance foreign(VkInstance handle) { return Instance(handle, false); }
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -50,10 +52,12 @@ class Instance {
   std::shared_ptr<const ValidationLog> validationLog() const { return log_; }
 
  private:
+  Instance(VkInstance handle, bool ours) : instance_(handle), ours_(ours) {}
   void createMessenger();
 
   std::shared_ptr<ValidationLog> log_ = std::make_shared<ValidationLog>();
   VkInstance instance_ = VK_NULL_HANDLE;
+  bool ours_ = true;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 

@@ -25,8 +25,7 @@ Commands::operator VkCommandBuffer() const {
 // GPU-assisted validation (layer 1.3.239) waits for the queue inside vkQueueSubmit2, before the layer itself
 // has noted the timeline's new value: waiting for that value then takes 10 s, ends in a message and may hang.
 // With it on, a submit signals nothing and waits for the queue.
-Queue::Queue(Device& device) : device_(device), immediate_(device.gpuAssisted()) {
-  vkGetDeviceQueue(device.handle(), device.adapter().queueFamily, 0, &queue_);
+Queue::Queue(Device& device, VkQueue queue) : device_(device), immediate_(device.gpuAssisted()), queue_(queue) {
   VkSemaphoreTypeCreateInfo type{};
   type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
   type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;

@@ -44,7 +44,7 @@ class Commands {
 /// each command buffer with a barrier for that.
 class Queue {
  public:
-  explicit Queue(Device& device);
+  Queue(Device& device, VkQueue queue);
   ~Queue();  ///< waits until everything submitted is done
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
@@ -79,7 +79,7 @@ class Queue {
 
   Device& device_;
   bool immediate_;  // each submit waits until it is done
-  VkQueue queue_ = VK_NULL_HANDLE;
+  VkQueue queue_;
   Unique<VkSemaphore> timeline_;
   std::uint64_t submitted_ = 0;
   std::vector<std::unique_ptr<Commands::Slot>> slots_;

@@ -298,6 +298,10 @@ void Renderer::draw(const RenderInput& input) {
   }
 }
 
+const gpu::Image& Renderer::picture() const {
+  return state_->target.picture();
+}
+
 Image Renderer::readBack() {
   State& s = *state_;
   gpu::Commands commands = s.device.queue().begin("read back");

@@ -12,6 +12,7 @@
 
 namespace vasa::gpu {
 class Device;
+class Image;
 }
 
 namespace vasa {
@@ -88,6 +89,10 @@ class Renderer {
 
   /// Draws and waits until the picture is done.
   void draw(const RenderInput& input);
+
+  /// The latest draw()'s picture on the device: RenderOptions::supersample times the size in each direction, sRGB, in
+  /// the layout that copies read from. Until the next draw().
+  const gpu::Image& picture() const;
 
   /// The picture of the latest draw().
   Image readBack();

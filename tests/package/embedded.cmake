@@ -1,0 +1,20 @@
+# usage: cmake -DPROGRAM=embedded -DHUMAN=<human, without ending> -P embedded.cmake
+# The host's own copy of the picture shows something, and the same when all is done again.
+foreach(file picture.ppm again.ppm)
+  execute_process(COMMAND "${PROGRAM}" "${HUMAN}.glb" "${HUMAN}.vasa" walk 0.4 ${file} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+file(SIZE picture.ppm bytes)
+if(NOT bytes EQUAL 921615)
+  message(FATAL_ERROR "the picture has ${bytes} bytes")
+endif()
+file(SHA256 picture.ppm once)
+file(SHA256 again.ppm again)
+if(NOT once STREQUAL again)
+  message(FATAL_ERROR "two runs drew two pictures")
+endif()
+# A picture of one colour compresses to next to nothing.
+file(ARCHIVE_CREATE OUTPUT picture.gz PATHS picture.ppm FORMAT raw COMPRESSION GZip)
+file(SIZE picture.gz packed)
+if(packed LESS 20000)
+  message(FATAL_ERROR "the picture is empty: ${packed} bytes once packed")
+endif()
