@@ -49,27 +49,33 @@ void releaseLonely(const Skeleton& skeleton, std::vector<std::uint32_t>& match) 
 
 vec3 centreIn(const Skeleton& skeleton, std::size_t joint) { return vec3(skeleton.joints[joint].restWorld[3]); }
 
-// How far up between hips and neck a joint sits.
-float heightInTrunk(const Skeleton& skeleton, std::size_t joint, std::size_t hips, std::size_t neck) {
-  const vec3 trunk = centreIn(skeleton, neck) - centreIn(skeleton, hips);
-  return glm::dot(centreIn(skeleton, joint) - centreIn(skeleton, hips), trunk) / std::max(glm::dot(trunk, trunk), 1e-12f);
+// How far from joint a to joint b a joint sits, as a share.
+float shareBetween(const Skeleton& skeleton, std::size_t a, std::size_t b, std::size_t joint) {
+  const vec3 way = centreIn(skeleton, b) - centreIn(skeleton, a);
+  return glm::dot(centreIn(skeleton, joint) - centreIn(skeleton, a), way) / std::max(glm::dot(way, way), 1e-12f);
 }
 
-// Rigs put the joints of a spine at other vertebrae under the same names: those go with the trunk as a whole.
+// Rigs put the joints of a spine at other vertebrae, and those that only twist a limb at other places along it, under
+// the same names: the former go with the trunk as a whole, the latter with the limb.
 void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std::uint32_t>& match) {
-  constexpr float kSameHeight = 0.15f;
+  constexpr float kSamePlace = 0.15f;
+  const auto matched = [&](std::size_t j) { return j < match.size() && match[j] != kNone; };
+  const auto release = [&](std::size_t a, std::size_t b, std::size_t j) {
+    if (!matched(a) || !matched(b) || !matched(j)) return;
+    const float own = shareBetween(from, a, b, j), other = shareBetween(to, match[a], match[b], match[j]);
+    if (std::abs(own - other) > kSamePlace) match[j] = kNone;
+  };
   std::vector<std::string> names;
   for (const auto& joint : from.joints) names.push_back(joint.name);
   const HumanoidNames parts = humanoidNames(names);
   const auto jointOf = [&](std::string_view part) { return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin()); };
-  const std::size_t hips = jointOf("hips"), neck = jointOf("neck");
-  if (hips >= match.size() || neck >= match.size() || match[hips] == kNone || match[neck] == kNone) return;
-  for (const std::string_view part : {"spine", "chest", "upperChest"}) {
-    const std::size_t j = jointOf(part);
-    if (j >= match.size() || match[j] == kNone) continue;
-    const float own = heightInTrunk(from, j, hips, neck), other = heightInTrunk(to, match[j], match[hips], match[neck]);
-    if (std::abs(own - other) > kSameHeight) match[j] = kNone;
-  }
+  for (const std::string_view part : {"spine", "chest", "upperChest"}) release(jointOf("hips"), jointOf("neck"), jointOf(part));
+  for (const std::string_view side : {"left", "right"})
+    for (const auto& [upper, lower] : {std::pair("LowerArm", "Hand"), std::pair("UpperArm", "LowerArm")}) {
+      const std::size_t a = jointOf(std::string(side) + upper), b = jointOf(std::string(side) + lower);
+      if (!matched(a) || !matched(b)) continue;
+      for (JointId j = from.joints[b].parent; j.valid() && j.value != a; j = from.joints[j.value].parent) release(a, b, j.value);
+    }
 }
 
 float sizeOf(const Skeleton& skeleton, std::span<const std::uint32_t> joints) {

@@ -32,8 +32,8 @@ TEST_CASE("a network fitted to the body it lies in stays where it is") {
 TEST_CASE("the built-in human's vessels fit other bodies: less than 2 % of their length outside the skin") {
   VASA_REQUIRE_SHARED_DATA(data);
   const TemporaryFolder folder;
-  for (const char* body : {"makehuman_male_cmu31.glb", "makehuman_female_cmu31.glb"}) {
-    const auto out = (folder.path() / "fitted.vasa").string(), target = (data / "rigs" / body).string();
+  for (const char* body : {"rigs/makehuman_male_cmu31.glb", "rigs/makehuman_female_cmu31.glb", "bp3d/bp3d_body.glb"}) {
+    const auto out = (folder.path() / "fitted.vasa").string(), target = (data / body).string();
     const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to", target, "-o", out, "--json"});
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
     const auto report = outcome.json();
