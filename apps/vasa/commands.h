@@ -27,6 +27,7 @@ struct Command {
 
 void addBench(CLI::App& app, Command& command);
 void addCheck(CLI::App& app, Command& command);
+void addCompare(CLI::App& app, Command& command);
 void addConvert(CLI::App& app, Command& command);
 void addDevices(CLI::App& app, Command& command);
 void addExport(CLI::App& app, Command& command);

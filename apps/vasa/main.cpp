@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   app.fallthrough();
   Command command;
   addGlobals(app, command.globals);
+  addCompare(app, command);
   addConvert(app, command);
   addRender(app, command);
   addExport(app, command);

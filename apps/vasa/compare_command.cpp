@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands.h"
+#include "network/compare.h"
+#include "network/file.h"
+#include "report.h"
+
+// vasa compare: what two networks in one body tell of the vessels that both have.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  std::string network, other;
+  std::size_t rows = 20;
+};
+
+double medianOf(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Report asReport(const std::vector<VesselComparison>& all) {
+  Report report{{"vessels", Report::array()}};
+  std::vector<double> ratios, apart;
+  for (const VesselComparison& vessel : all) {
+    ratios.push_back(vessel.lengthRatio()), apart.push_back(vessel.apart());
+    report["vessels"].push_back({{"name", vessel.name},
+                                 {"kind", kindName(vessel.kind)},
+                                 {"length_m", vessel.length},
+                                 {"other_length_m", vessel.otherLength},
+                                 {"length_ratio", vessel.lengthRatio()},
+                                 {"distance_m", vessel.distance},
+                                 {"other_distance_m", vessel.otherDistance}});
+  }
+  report["summary"] = {{"common", all.size()}, {"length_ratio_median", medianOf(ratios)}, {"apart_median_m", medianOf(apart)}};
+  return report;
+}
+
+std::string asText(const std::vector<VesselComparison>& all, const Report& report, std::size_t rows) {
+  const Report& summary = report["summary"];
+  std::string text = fmt::format("{} vessels in both; in the middle {:.2f} times as long and {:.1f} mm apart\n", all.size(),
+                                 summary["length_ratio_median"].get<double>(), 1e3 * summary["apart_median_m"].get<double>());
+  text += fmt::format("{:<50} {:>9} {:>9} {:>6} {:>9} {:>9}\n", "farthest apart", "length mm", "other mm", "ratio", "apart mm", "back mm");
+  for (std::size_t i = 0; i < std::min(rows, all.size()); ++i)
+    text += fmt::format("{:<50} {:>9.1f} {:>9.1f} {:>6.2f} {:>9.1f} {:>9.1f}\n", all[i].name, 1e3 * all[i].length, 1e3 * all[i].otherLength,
+                        all[i].lengthRatio(), 1e3 * all[i].distance, 1e3 * all[i].otherDistance);
+  return text;
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto network = readNetwork(options.network);
+  if (!network) return network.error();
+  const auto other = readNetwork(options.other);
+  if (!other) return other.error();
+  std::vector<VesselComparison> all = compareVessels(*network, *other);
+  std::ranges::stable_sort(all, std::greater{}, &VesselComparison::apart);
+  const Report report = asReport(all);
+  return globals.json ? printJson(report) : printText(asText(all, report, options.rows));
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("compare", "Lengths and courses of the vessels that two networks both have");
+  sub->footer(
+      "Examples:\n"
+      "  vasa fit theirs.vasa --from theirs.glb --to ours.glb -o fitted.vasa && vasa compare ours.vasa fitted.vasa\n"
+      "  vasa compare ours.vasa fitted.vasa --json\n"
+      "Both networks must lie in one body. Vessels are the same by name, or else by ontology id. `apart`: mean distance of\n"
+      "the first's centre line from the other's, `back`: of the other's from the first's. The farthest apart come first.");
+  sub->add_option("NETWORK", options->network, "The network (.vasa)")->required();
+  sub->add_option("OTHER", options->other, "The one it is compared with (.vasa)")->required();
+  sub->add_option("--rows", options->rows, "Rows of the table")->capture_default_str();
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli
