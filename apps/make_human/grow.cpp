@@ -12,9 +12,12 @@ namespace {
 constexpr float kReferenceSweeps = 4030;
 constexpr float kStep = 0.0035f, kClearance = 0.35e-3f, kFromBone = 0.5e-3f,
                 kFitTolerance = 0.12e-3f;  // [m] at the reference
-constexpr int kCandidates = 8;             // places of which the emptiest is chosen
+constexpr float kHostCell = 0.016f, kObstacleCell = 0.010f, kLeastCell = 0.0015f;  // of grids of segments
+constexpr int kCandidates = 8;  // places of which the emptiest is chosen, at first
 constexpr int kRelaxations = 8;
-constexpr int kFailuresToClose = 60;  // in a row: the region is full
+constexpr int kFailuresToClose = 150;      // in a row: the region is full
+constexpr int kFailuresToLowerSights = 8;  // in a row: half as many candidates, and branches that stop on the way
+constexpr float kShortenings[] = {1, 0.6f, 0.35f};
 constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, for the branches to come
 constexpr float kMuch = 0.9f, kLengthOfStemRadius = 55;
 constexpr float kShareOfHost = 0.62f;
@@ -42,7 +45,7 @@ struct RegionState {
   const Region* region;
   Dice dice;
   Aabb box;
-  SegmentGrid leaders{0.016f}, companions{0.016f};
+  SegmentGrid leaders, companions;
   VesselKind leaderKind{}, companionKind{};
   float grown = 0;  // sweeps over share
   int failures = 0, leaderCount = 0, companionCount = 0;
@@ -58,10 +61,11 @@ struct Grower::State {
         around_(around),
         options_(options),
         scale_(std::min(1.0f, std::cbrt(kReferenceSweeps / float(options.sweeps)))),
-        tree_(vessels, kStep * std::max(scale_, 0.4f), kClearance * scale_),
+        tree_(vessels, kStep * std::max(scale_, 0.4f), kClearance * scale_, std::max(kObstacleCell * scale_, kLeastCell)),
         laidCount_(vessels.size()) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      RegionState state{&regions[i], Dice(options.seed * 1000003 + i), regions[i].bounds(around)};
+      const SegmentGrid hosts(std::max(kHostCell * scale_, kLeastCell));
+      RegionState state{&regions[i], Dice(options.seed * 1000003 + i), regions[i].bounds(around), hosts, hosts};
       for (int leader : regions[i].leaders) enter(state.leaders, leader);
       for (int companion : regions[i].companions) enter(state.companions, companion);
       state.leaderKind = vessels[std::size_t(regions[i].leaders.front())].label.kind;
@@ -110,11 +114,12 @@ struct Grower::State {
       grid.add({v.branch.points[k], v.branch.points[k + 1], v.radii[k], std::uint32_t(vessel), v.arcs[k]});
   }
 
-  /// The emptiest of some places in the region that a branch can reach.
+  /// The emptiest of some places in the region that a branch can reach; of fewer, where the emptiest could not be.
   bool findTarget(RegionState& state, vec3& target) {
     float best = 0;
     int found = 0;
-    for (int tries = 0; found < kCandidates && tries < 40 * kCandidates; ++tries) {
+    const int candidates = std::max(1, kCandidates >> (state.failures / kFailuresToLowerSights));
+    for (int tries = 0; found < candidates && tries < 40 * kCandidates; ++tries) {
       const vec3 p = state.dice.place(state.box);
       if (!state.region->contains(p, around_)) continue;
       ++found;
@@ -154,7 +159,7 @@ struct Grower::State {
     return true;
   }
 
-  /// A branch from the best near place of the leaders to the target.
+  /// A branch from the best near place of the leaders to the target, or towards it.
   bool connect(RegionState& state, const SegmentGrid& hosts, vec3 target, GrowingTree::Branch& branch) {
     struct Root {
       int host;
@@ -164,7 +169,7 @@ struct Grower::State {
     std::vector<Root> roots;
     const float nearest = hosts.nearest(target, 2 * state.region->reach).distance;
     for (std::uint32_t number :
-         hosts.near(target, target, std::min(1.3f * nearest + 0.004f, state.region->reach))) {
+         hosts.near(target, target, std::min(1.3f * nearest + 0.004f * scale_, state.region->reach))) {
       const SegmentGrid::Segment& s = hosts.segments()[number];
       const float distance = glm::distance(target, s.a);
       if (distance > state.region->reach || distance < 3 * s.radius + 6 * kClearance * scale_) continue;
@@ -174,12 +179,19 @@ struct Grower::State {
     }
     std::stable_sort(roots.begin(), roots.end(),
                      [](const Root& a, const Root& b) { return a.cost < b.cost; });
+    const bool mayStop = state.failures >= kFailuresToLowerSights;
     int tries = 0;
+    vec3 tried{0};
     for (const Root& root : roots) {
-      if (!prepare(state, root.host, root.arc, glm::distance(target, root.place), branch)) continue;
+      const float length = glm::distance(target, root.place);
+      if (tries > 0 && glm::distance(root.place, tried) < 0.1f * length) continue;
+      if (!prepare(state, root.host, root.arc, length, branch)) continue;
       if (++tries > 4) break;
-      branch.points = curveTo(root.host, root.arc, target, state.dice);
-      if (settleBranch(state, branch)) return true;
+      tried = root.place;
+      for (float part : mayStop ? std::span<const float>(kShortenings) : std::span<const float>(kShortenings, 1)) {
+        branch.points = curveTo(root.host, root.arc, glm::mix(root.place, target, part), state.dice);
+        if (settleBranch(state, branch)) return true;
+      }
     }
     return false;
   }

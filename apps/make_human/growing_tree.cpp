@@ -31,8 +31,8 @@ Located locateArc(const std::vector<float>& arcs, float arc) {
 
 }  // namespace
 
-GrowingTree::GrowingTree(const std::vector<LaidVessel>& laid, float step, float clearance)
-    : laidCount_(laid.size()), grid_(0.010f), clearance_(clearance) {
+GrowingTree::GrowingTree(const std::vector<LaidVessel>& laid, float step, float clearance, float cell)
+    : laidCount_(laid.size()), grid_(cell), clearance_(clearance) {
   for (const LaidVessel& from : laid) {
     Vessel vessel;
     const float spans = float(spanCount(from.points));

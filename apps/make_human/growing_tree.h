@@ -9,7 +9,8 @@ class GrowingTree {
  public:
   /// @param step  [m] between the points that stand for a curve
   /// @param clearance  [m] between walls
-  GrowingTree(const std::vector<LaidVessel>& laid, float step, float clearance);
+  /// @param cell  [m] of the grid that finds what is near
+  GrowingTree(const std::vector<LaidVessel>& laid, float step, float clearance, float cell);
 
   struct Branch {
     std::vector<vec3> points;
