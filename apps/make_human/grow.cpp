@@ -21,6 +21,8 @@ constexpr float kShortenings[] = {1, 0.6f, 0.35f};
 constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, for the branches to come
 constexpr float kMuch = 0.9f, kLengthOfStemRadius = 55;
 constexpr float kShareOfHost = 0.62f;
+constexpr float kLongest = 1.6f;        // of a branch, over its ends' distance
+constexpr float kFarthestMoved = 1.7f;  // of a branch's point from its middle, over what it was
 
 /// Numbers in [0, 1) that depend on a seed and a counter only.
 class Dice {
@@ -230,10 +232,27 @@ struct Grower::State {
     return points;
   }
 
+  /// How far a branch has to keep from what may be near it.
+  struct Limits {
+    float fromBone, fromHeart, depth;  ///< [m]; 0: it is nowhere near
+  };
+
+  Limits limitsOf(const RegionState& state, const GrowingTree::Branch& branch) const {
+    const vec3 middle = 0.5f * (branch.points.front() + branch.points.back());
+    float reach = 0;
+    for (vec3 p : branch.points) reach = std::max(reach, glm::distance(p, middle));
+    reach *= kFarthestMoved;
+    Limits limits{branch.reserve + kFromBone * scale_, branch.reserve + 0.2e-3f * scale_,
+                  std::max(state.region->leastDepth, branch.reserve + 1e-3f * scale_)};
+    if (!around_.bones.at(middle, reach + 1.3f * limits.fromBone)) limits.fromBone = 0;
+    if (!around_.heart.at(middle, reach + 1.3f * limits.fromHeart)) limits.fromHeart = 0;
+    if (around_.depth(middle) > 2 * (reach + limits.depth)) limits.depth = 0;
+    return limits;
+  }
+
   /// Moves a branch's points off what they touch; whether it is then free everywhere.
   bool settleBranch(const RegionState& state, GrowingTree::Branch& branch) {
-    const float fromBone = branch.reserve + kFromBone * scale_, fromHeart = branch.reserve + 0.2e-3f * scale_;
-    const float depth = std::max(state.region->leastDepth, branch.reserve + 1e-3f * scale_);
+    const Limits limits = limitsOf(state, branch);
     std::vector<vec3>& points = branch.points;
     std::vector<vec3> moves(points.size());
     for (int round = 0; round < kRelaxations; ++round) {
@@ -242,12 +261,13 @@ struct Grower::State {
         arc += glm::distance(points[k], points[k - 1]);
         vec3 move = tree_.push(branch, k, arc) + state.region->back(points[k], branch.reserve, around_);
         for (const auto& [solid, need] :
-             {std::pair(&around_.bones, fromBone), std::pair(&around_.heart, fromHeart)})
-          if (const auto place = solid->at(points[k], 1.3f * need))
-            if (place->distance < 1.2f * need) move += (1.2f * need - place->distance) * place->outwards;
-        const float below = around_.depth(points[k]);
-        if (below < 1.1f * depth)
-          move -= (1.1f * depth - below) * glm::normalize(around_.skin.gradient(points[k]));
+             {std::pair(&around_.bones, limits.fromBone), std::pair(&around_.heart, limits.fromHeart)})
+          if (need > 0)
+            if (const auto place = solid->at(points[k], 1.3f * need))
+              if (place->distance < 1.2f * need) move += (1.2f * need - place->distance) * place->outwards;
+        if (limits.depth > 0)
+          if (const float below = around_.depth(points[k]); below < 1.1f * limits.depth)
+            move -= (1.1f * limits.depth - below) * glm::normalize(around_.skin.gradient(points[k]));
         moves[k] = move;
         largest = std::max(largest, glm::length(move));
       }
@@ -260,10 +280,10 @@ struct Grower::State {
       for (std::size_t k = 1; k + 1 < points.size(); ++k)
         points[k] = 0.7f * points[k] + 0.15f * (points[k - 1] + points[k + 1]);
     }
-    return isFree(branch, fromBone, fromHeart, depth);
+    return isFree(branch, limits);
   }
 
-  bool isFree(const GrowingTree::Branch& branch, float fromBone, float fromHeart, float depth) const {
+  bool isFree(const GrowingTree::Branch& branch, const Limits& limits) const {
     const std::vector<vec3>& points = branch.points;
     float length = 0;
     for (std::size_t k = 1; k < points.size(); ++k) {
@@ -275,13 +295,13 @@ struct Grower::State {
         return false;  // folded up against something
     }
     const float straight = glm::distance(points.front(), points.back());
-    if (length > 1.6f * straight || straight < 8 * branch.tip) return false;
+    if (length > kLongest * straight || straight < 8 * branch.tip) return false;
     for (std::size_t k = 1; k < points.size(); ++k) {
-      const auto bone = around_.bones.at(points[k], fromBone);
-      if (bone && bone->distance < fromBone) return false;
-      const auto heart = around_.heart.at(points[k], fromHeart);
-      if (heart && heart->distance < fromHeart) return false;
-      if (around_.depth(points[k]) < depth) return false;
+      for (const auto& [solid, need] :
+           {std::pair(&around_.bones, limits.fromBone), std::pair(&around_.heart, limits.fromHeart)})
+        if (need > 0)
+          if (const auto place = solid->at(points[k], need); place && place->distance < need) return false;
+      if (limits.depth > 0 && around_.depth(points[k]) < limits.depth) return false;
     }
     return tree_.obstacleOf(branch) < 0;
   }
