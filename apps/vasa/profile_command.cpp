@@ -119,6 +119,7 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
     stages.add("knot_frames_ms", cpu.framesMs);
     stages.add("upload_ms", times.upload);
     stages.add("tessellate_ms", times.tessellate);
+    stages.add("forks_ms", times.forks);
     stages.add("draw_ms", times.draw);
     if (setting.growth) stages.add("capillaries_ms", times.capillaries);
     stages.add("meshes_ms", times.meshes);

@@ -35,6 +35,7 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
 constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
 constexpr const char* kTessellate = "tessellate";
+constexpr const char* kForks = "forks";
 constexpr const char* kDraw = "draw tubes";
 constexpr const char* kCapillaries = "capillaries";
 constexpr const char* kMeshes = "meshes";
@@ -147,8 +148,8 @@ void Renderer::State::setColours(std::span<const std::uint32_t> given) {
 }
 
 void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
-  const auto scope = timer.scope(commands, kTessellate);
   const std::size_t tubeBatches = tubes.batches().size();
+  const auto scope = timer.scope(commands, batch < tubeBatches ? kTessellate : kForks);
   if (batch < tubeBatches)
     tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
                                templates[batch % 2], options.cull});
@@ -292,6 +293,7 @@ void Renderer::draw(const RenderInput& input) {
   for (const auto& [name, ms] : s.timer.results()) {
     const std::string_view stage(name);
     (stage == kTessellate    ? s.times.tessellate
+     : stage == kForks       ? s.times.forks
      : stage == kDraw        ? s.times.draw
      : stage == kCapillaries ? s.times.capillaries
                              : s.times.meshes) += ms;

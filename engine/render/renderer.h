@@ -56,7 +56,8 @@ struct RenderInput {
 struct FrameTimes {
   double upload = 0;      ///< host: points, frames and joints into the device's reach
   double tessellate = 0;  ///< compute passes that write vertices of tubes and caps
-  double draw = 0;        ///< rasterising tubes and caps
+  double forks = 0;       ///< compute passes that write vertices of forks
+  double draw = 0;        ///< rasterising tubes, caps and forks
   double capillaries = 0; ///< growing and drawing capillaries
   double meshes = 0;      ///< skinning and drawing bones, heart, skin; clearing and resolving
   double total = 0;       ///< host: from draw() to the finished picture
