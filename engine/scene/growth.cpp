@@ -14,7 +14,11 @@ namespace {
 
 constexpr float kTableHeight = 1.75f;  // [m] of the body that the tables' lengths are for
 constexpr float kBelowSkin = 0.8f;     // share of the way to the skin that capillaries may take
+constexpr float kFan = 0.1f;          // cosine of the angle about the hub that a tree may spread to
+constexpr float kMargin = 0.03f;       // and this share of kFarFromSkin less
+constexpr float kSunken = 0.6f;        // share of the way to the hub that a tree may be kept below its vessel
 constexpr float kThickTip = 1.6f;      // most radii of a stem that a free end may go on in: thicker ones were cut off
+constexpr float kReach = 3.0f;         // of a tree, in distances between vessel and skin
 constexpr float kFarFromSkin = 0.06f;  // [m] room where the body has no skin
 
 // How far the skin is.
@@ -27,14 +31,27 @@ class SkinDepth {
       tree_->buildIndex();
     }
   }
-  float at(vec3 p, float otherwise) const {
+  // From a vessel at p outwards from the hub. Growing knows one depth of skin about the hub, and a limb is not round: it is
+  // the least within a tree's reach. Below 0 where that lies deeper than the vessel.
+  float room(vec3 p, vec3 hub, float otherwise) const {
     if (!tree_) return otherwise;
     std::size_t index = 0;
     float distance2 = 0;
     nanoflann::KNNResultSet<float> nearest(1);
     nearest.init(&index, &distance2);
     tree_->findNeighbors(nearest, &p.x, nanoflann::SearchParams());
-    return std::sqrt(distance2);
+    const float nearby = std::sqrt(distance2), reach = kReach * nearby + 0.2f * otherwise;
+    const vec3 arm = p - hub;
+    const float shell = glm::length(arm);
+    float depth = shell + nearby;
+    std::vector<std::pair<unsigned, float>> around;
+    tree_->radiusSearch(&p.x, reach * reach, around, nanoflann::SearchParams());
+    for (const auto& [vertex, unused] : around) {
+      const vec3 to = cloud_.points[vertex] - hub;
+      const float height = glm::length(to);
+      if (glm::dot(to, arm) > kFan * height * shell) depth = std::min(depth, height);
+    }
+    return std::max(kBelowSkin * (depth - shell) - kMargin * otherwise, -kSunken * shell);
   }
 
  private:
@@ -114,7 +131,7 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     shared::GrowthSite& site = sites.sites[sweep];
     site.hub = glm::transpose(axes) * (hub - section.centre);
     site.axis = glm::transpose(axes) * limb.axis;
-    site.room = kBelowSkin * skin.at(section.centre, kFarFromSkin * scale);
+    site.room = skin.room(section.centre, hub, kFarFromSkin * scale);
     site.system = region->system | (points.front().w < points.back().w ? 0x100u : 0u);
     sites.region[sweep] = std::uint8_t(region - regions.data());
     const vec4 chord = rest.points[table.sweeps[sweep].point + 2] - rest.points[table.sweeps[sweep].point + 1];
