@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/fork_check.h"
 #include "surface/fork_exit.h"
 #include "surface/fork_record.h"
 #include "surface/fork_room.h"
+#include "surface/fork_trials.h"
 #include "surface/vessel_line.h"
 
 // A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it are given
 // room. A branch without room is dropped; that lengthens its own line again, so lines are gone through until no branch
 // is dropped any more. Then forks that fold are mended, and all is done again. Branches are only ever dropped or tried
-// with another clearance, a few times each, so this ends.
+// in another manner, once each, until the best of them is settled, so this ends.
 namespace vasa {
 namespace {
 
@@ -22,8 +22,8 @@ struct Manner {
   float fillet;
 };
 constexpr Manner kManners[] = {{0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},  {1.4f, 3, 0.5f},   {0.35f, 1.5f, 0.35f},
-                               {0.8f, 2, 0.6f},   {0.3f, 1, 0.15f}, {1.2f, 1.5f, 0.2f}, {2.5f, 4, 0.5f}};
-constexpr std::uint32_t kCheckedAround = 8;           // quads around a fork that must not fold
+                               {0.8f, 2, 0.6f},   {0.3f, 1, 0.15f}, {1.2f, 1.5f, 0.2f}, {2.5f, 4, 0.5f},
+                               {0.5f, 2, 0.15f},   {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
 constexpr float kWidestHole = 0.9f;        // sine of half its angle
 constexpr float kHoleMargin = 1.25f;       // rows of the trunk stay outside the hole
 constexpr float kBetweenHoles = 0.3f;      // [radians] around the host
@@ -57,8 +57,8 @@ enum class Fate { none, forked, hidden, tooShort, crowded, folded };
 class Planner {
  public:
   using Pair = std::array<VesselId, 2>;
-  Planner(const Network& network, std::span<const Pair> apart)
-      : network_(network), lines_(makeVesselLines(network, apart)) {
+  Planner(const Network& network, std::span<const Pair> apart, ForkTrials& shapes)
+      : network_(network), lines_(makeVesselLines(network, apart)), shapes_(shapes) {
     exits_.resize(2 * lines_.lines.size());
     fates_.resize(exits_.size(), Fate::none);
     children_.resize(lines_.lines.size());
@@ -66,20 +66,18 @@ class Planner {
   }
 
   ForkPlan run() {
-    tries_.resize(exits_.size());
+    trials_.resize(exits_.size());
     for (std::uint32_t end = 0; end < exits_.size(); ++end) {
       const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
       if (lineEnd.kind == LineEnd::Kind::branch) children_[lineEnd.host].push_back(end);
       findExit(end);
     }
-    std::vector<quat> frames(network_.sectionCount());
-    networkFrames(network_, network_.points(), restReferences(network_), frames);
     do {
       giveRoom();
       plan_ = {};
       branchesOf_.clear();
       for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) emit(line);
-    } while (mendFolds(frames));
+    } while (mendFolds());
     std::sort(plan_.tubes.begin(), plan_.tubes.end(), [](const TubeStretch& a, const TubeStretch& b) {
       return a.vessel != b.vessel ? a.vessel < b.vessel : a.from < b.from;
     });
@@ -87,7 +85,7 @@ class Planner {
     return std::move(plan_);
   }
 
-  /// Vessels whose join folds in the plan of run().
+  /// Vessels whose join folds at rest in the plan of run().
   std::span<const Pair> bent() const { return bent_; }
 
  private:
@@ -99,7 +97,7 @@ class Planner {
     const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
     if (lineEnd.kind != LineEnd::Kind::branch) return;
     exits_[end] = findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay,
-                               kManners[tries_[end]].clearance, kManners[tries_[end]].longest);
+                               kManners[trials_[end].manner].clearance, kManners[trials_[end].manner].longest);
     fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
     clearJoin(end);
   }
@@ -116,23 +114,40 @@ class Planner {
     }
   }
 
-  // Branches of forks that fold get a longer collar, or none. @return whether anything changed
-  bool mendFolds(std::span<const quat> frames) {
+  // How a branch is made, and what became of other ways to make it.
+  struct Trial {
+    std::uint32_t manner = 0, best = 0;
+    ForkFolds least{~0u, ~0u, ~0u};
+    bool settled = false;
+  };
+
+  // Branches of forks that fold are made in another manner; in the best of all, where each of them folds somewhere; as
+  // tubes of their own where that is at rest. @return whether anything changed
+  bool mendFolds() {
     bent_.clear();
-    SweepTable table;
-    table.branches = plan_.branches;
-    const PosedNetwork posed{table, network_.points(), frames};
+    const std::vector<ForkFolds> folds = shapes_.foldsOf(plan_.forks, plan_.branches);
     bool changed = false;
     for (std::size_t i = 0; i < plan_.forks.size(); ++i) {
-      if (foldedTriangles(posed, plan_.forks[i], kCheckedAround) == 0) continue;
-      if (branchesOf_[i].empty()) bent_.push_back({VesselId{plan_.forks[i].vesselA}, VesselId{plan_.forks[i].vesselB}});
-      for (const std::uint32_t end : branchesOf_[i]) {
-        changed = true;
-        if (++tries_[end] < std::size(kManners)) findExit(end);
-        else fates_[end] = Fate::folded;
-      }
+      if (branchesOf_[i].empty() && folds[i].rest > 0)
+        bent_.push_back({VesselId{plan_.forks[i].vesselA}, VesselId{plan_.forks[i].vesselB}});
+      for (const std::uint32_t end : branchesOf_[i])
+        if (!folds[i].none()) changed = tryOtherwise(end, folds[i]) || changed;
     }
     return changed;
+  }
+
+  bool tryOtherwise(std::uint32_t end, const ForkFolds& folds) {
+    Trial& trial = trials_[end];
+    if (trial.settled) {
+      if (folds.rest > 0) fates_[end] = Fate::folded;
+      return folds.rest > 0;
+    }
+    if (folds < trial.least) trial.least = folds, trial.best = trial.manner;
+    trial.settled = ++trial.manner == std::size(kManners);
+    if (trial.settled) trial.manner = trial.best;
+    findExit(end);
+    if (trial.settled && trial.least.rest > 0) fates_[end] = Fate::folded;
+    return true;
   }
 
   bool forked(std::uint32_t end) const { return fates_[end] == Fate::forked; }
@@ -178,7 +193,7 @@ class Planner {
     leaving.centre = exit.foot;
     leaving.radius = exit.radius;
     // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the branch is clear.
-    const float radius = std::min(exit.radius, 1.3f * trunk), fillet = kManners[tries_[end]].fillet;
+    const float radius = std::min(exit.radius, 1.3f * trunk), fillet = kManners[trials_[end].manner].fillet;
     const float corner = std::clamp(std::abs(exit.ringFoot - exit.foot), radius, radius * stretched);
     leaving.hole = corner + fillet * (0.5f * radius + 0.5f * corner);
     leaving.around = std::min(exit.radius * (1 + fillet) / trunk, kWidestHole);
@@ -383,9 +398,10 @@ class Planner {
 
   const Network& network_;
   VesselLines lines_;
+  ForkTrials& shapes_;
   std::vector<ForkExit> exits_;  // 2 * line + end
   std::vector<Fate> fates_;
-  std::vector<std::uint32_t> tries_;
+  std::vector<Trial> trials_;
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<Item>> items_;
   ForkPlan plan_;
@@ -397,8 +413,9 @@ class Planner {
 
 ForkPlan planForks(const Network& network) {
   std::vector<Planner::Pair> apart;
+  ForkTrials shapes(network);
   for (;;) {
-    Planner planner(network, apart);
+    Planner planner(network, apart, shapes);
     ForkPlan plan = planner.run();
     plan.report.bentJoins = std::uint32_t(apart.size());
     const std::size_t before = apart.size();
