@@ -2,6 +2,7 @@
 // A thread a vessel: how many quads around the picture asks for. CPU reference: engine/surface/detail.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/tubes.h"
 

@@ -2,6 +2,7 @@
 // A thread grows one capillary and writes its ribbon. CPU reference: engine/growth/capillary.h and ribbon.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/growth.glsl"
 #include "lib/octahedral.glsl"
@@ -22,13 +23,13 @@ GrowthJob jobOf(uint curve) {
 // sectionOn of engine/surface/tessellate.cpp.
 Section rootSection(uint sweep, float t) {
   SweepRecord record = push.sweeps.sweep[sweep];
-  Bezier bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], push.points.point[record.point],
-                           push.points.point[record.point + 1], push.points.point[record.point + 2],
-                           push.points.point[record.point + 3]);
-  vec3 chord = push.points.point[record.lastPoint].xyz - push.points.point[record.firstPoint].xyz;
+  Bezier bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], vec4Of(push.points.point[record.point]),
+                           vec4Of(push.points.point[record.point + 1]), vec4Of(push.points.point[record.point + 2]),
+                           vec4Of(push.points.point[record.point + 3]));
+  vec3 chord = vec4Of(push.points.point[record.lastPoint]).xyz - vec4Of(push.points.point[record.firstPoint]).xyz;
   precise float at = record.from + (record.to - record.from) * t;
   if (t == 1) at = record.to;
-  return sectionAt(bezier, chord, push.knots.knot[record.knot], push.knots.knot[record.knot + 1], at);
+  return sectionAt(bezier, chord, vec4Of(push.knots.knot[record.knot]), vec4Of(push.knots.knot[record.knot + 1]), at);
 }
 
 float placeOnSweep(uint sweepKey, uint sprout) {

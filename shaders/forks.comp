@@ -4,6 +4,7 @@
 // CPU references: engine/surface/fork.h, fork_template.h, visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/ring.glsl"
 #include "lib/visible.glsl"
@@ -13,10 +14,11 @@ vec2 stepOf(uint around);
 
 #include "lib/fork_triangles.glsl"
 
+const uint kGroupThreads = kGroupForks;
+#include "lib/group_sum.glsl"
+
 layout(local_size_x = kGroupForks) in;
 layout(push_constant, scalar) uniform Push { ForksPush push; };
-
-shared uint trianglesOf[kGroupForks];
 
 vec2 places[kMostForkVertices];                   // of the vertices, on the picture [samples]
 uint masks[(kMostForkTriangles + 31) / 32];       // a bit a triangle: it may be seen
@@ -202,10 +204,7 @@ void main() {
     shown = build(fork, shape);
   }
   if (shown) addForkTriangles(shape);
-  trianglesOf[local] = kept;
-  barrier();
-  target = group * push.indicesPerGroup;
-  for (uint k = 0; k < local; ++k) target += 3 * trianglesOf[k];
+  target = group * push.indicesPerGroup + 3 * sumBefore(local, kept);
   writing = true;
   triangle = 0;
   if (kept != 0) addForkTriangles(shape);

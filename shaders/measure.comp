@@ -3,6 +3,7 @@
 // CPU reference: engine/surface/detail.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/detail.glsl"
 #include "shared/tubes.h"
@@ -15,8 +16,8 @@ void main() {
   if (i >= push.count) return;
   DetailView view = push.view.view;
   SweepRecord record = push.sweeps.sweep[i];
-  vec4 d0 = push.points.point[record.point], d1 = push.points.point[record.point + 1];
-  vec4 d2 = push.points.point[record.point + 2], d3 = push.points.point[record.point + 3];
+  vec4 d0 = vec4Of(push.points.point[record.point]), d1 = vec4Of(push.points.point[record.point + 1]);
+  vec4 d2 = vec4Of(push.points.point[record.point + 2]), d3 = vec4Of(push.points.point[record.point + 3]);
   Bezier bezier = Bezier(d0, d1, d2, d3);
   if (view.along == 0) bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], d0, d1, d2, d3);
   SweepExtent extent = sweepExtent(d0, d1, d2, d3, bezier, view);

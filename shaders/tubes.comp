@@ -4,14 +4,16 @@
 // CPU references: engine/surface/tessellate.h, engine/surface/visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/ring.glsl"
 #include "lib/visible.glsl"
 
+const uint kGroupThreads = kGroupSweeps;
+#include "lib/group_sum.glsl"
+
 layout(local_size_x = kGroupSweeps) in;
 layout(push_constant, scalar) uniform Push { TubesPush push; };
-
-shared uint trianglesOf[kGroupSweeps];
 
 struct Item {
   uint sweep, along, around, rings, before;  // before: rings of a first cap
@@ -19,6 +21,7 @@ struct Item {
 };
 
 vec2 places[2 * kMaxAround];  // of this ring's vertices and the last one's, on the picture [samples]
+vec2 polars[kCapRings + 1];
 uint masks[kMaxStrips];       // bit 2k + i: triangle i of the quad behind direction k
 
 Item itemOf(uint local) {
@@ -44,7 +47,7 @@ void writeRing(Item it, uint ring, SweepCurve curve, vec2 step, mat4 viewProject
   uint inner = clamp(ring, it.before, it.before + it.along) - it.before;
   uint polarIndex = ring < it.before ? it.before - ring : ring - it.before - inner;
   Section section = ringSection(curve, inner, it.along);
-  vec2 polar = polarIndex == 0 ? vec2(1, 0) : push.tables.tables.polar[polarIndex];
+  vec2 polar = polars[polarIndex];
   float outward = ring < it.before ? -1.0 : 1.0;
   uint target = it.vertex + ring * it.around, row = (ring & 1u) * kMaxAround;
   // Turned step by step as ringDirections() does, since a load costs a CPU device more than a rotation.
@@ -92,6 +95,7 @@ void main() {
     mat4 viewProjection = push.view.view.viewProjection;
     vec2 samples = vec2(push.view.view.columns, push.view.view.rows);
     float snap = push.view.view.snap;
+    for (uint i = 0; i <= kCapRings; ++i) polars[i] = i == 0 ? vec2(1, 0) : push.tables.tables.polar[i];
     vec2 step = push.tables.tables.step[it.around];
     for (uint ring = 0; ring < it.rings; ++ring) {
       writeRing(it, ring, curve, step, viewProjection, samples);
@@ -100,10 +104,7 @@ void main() {
       triangles += uint(bitCount(masks[ring - 1]));
     }
   }
-  trianglesOf[local] = triangles;
-  barrier();
-  uint target = group * push.indicesPerGroup;
-  for (uint k = 0; k < local; ++k) target += 3 * trianglesOf[k];
+  uint target = group * push.indicesPerGroup + 3 * sumBefore(local, triangles);
   for (uint ring = 1; ring < it.rings; ++ring)
     target = writeStrip(masks[ring - 1], it.vertex + (ring - 1) * it.around, it.around, target);
   if (local == kGroupSweeps - 1)

@@ -16,6 +16,7 @@ struct Feature {
 const Feature kRequired[] = {
     VASA_FEATURE(core.features, multiDrawIndirect),
     VASA_FEATURE(core.features, drawIndirectFirstInstance),
+    VASA_FEATURE(core.features, shaderInt64),
     VASA_FEATURE(v11, shaderDrawParameters),
     VASA_FEATURE(v12, bufferDeviceAddress),
     VASA_FEATURE(v12, scalarBlockLayout),
@@ -26,9 +27,8 @@ const Feature kRequired[] = {
     VASA_FEATURE(v13, maintenance4),
 };
 
-// shaderInt64 and the stores and atomics are what GPU-assisted validation writes its findings with.
+// With shaderInt64, the stores and atomics are what GPU-assisted validation writes its findings with.
 const Feature kWelcome[] = {
-    VASA_FEATURE(core.features, shaderInt64),
     VASA_FEATURE(core.features, fragmentStoresAndAtomics),
     VASA_FEATURE(core.features, vertexPipelineStoresAndAtomics),
     VASA_FEATURE(core.features, fillModeNonSolid),

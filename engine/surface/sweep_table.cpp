@@ -49,9 +49,14 @@ SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
     table.spanCount += vessel.spanCount();
   }
   for (const TubeStretch& tube : plan.tubes) addTube(network, tube, firstSpan[tube.vessel], table);
-  table.forks = std::move(plan.forks);
   table.branches = std::move(plan.branches);
-  table.vesselOfFork = std::move(plan.vesselOfFork);
+  // By branches: devices run several forks in step, and those with fewer would wait for the others.
+  for (std::uint32_t branches = 0; branches <= shared::kMostBranches; ++branches)
+    for (std::size_t i = 0; i < plan.forks.size(); ++i) {
+      if (plan.forks[i].branchCount != branches) continue;
+      table.forks.push_back(plan.forks[i]);
+      table.vesselOfFork.push_back(plan.vesselOfFork[i]);
+    }
   for (std::size_t i = 0; i < table.forks.size(); ++i) {
     const std::uint32_t vessel = table.vesselOfFork[i];
     table.spanOfFork.push_back(firstSpan[vessel] + table.forks[i].a.point - network.vessels()[vessel].firstPoint);

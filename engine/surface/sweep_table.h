@@ -20,7 +20,7 @@ struct SweepTable {
   std::vector<std::uint32_t> vesselOfSweep;  ///< one a sweep
   std::vector<std::uint32_t> spanOfSweep;    ///< one a sweep: its span, counted through all vessels of the network
   std::vector<CapEnd> caps;                  ///< every end that no fork carries on
-  std::vector<shared::ForkRecord> forks;
+  std::vector<shared::ForkRecord> forks;     ///< those with fewer branches first
   std::vector<shared::ForkBranch> branches;  ///< fork after fork
   std::vector<std::uint32_t> vesselOfFork, spanOfFork;  ///< those whose colour a fork takes
   std::uint32_t pointCount = 0;              ///< de Boor points of the network

@@ -20,14 +20,14 @@ vec3 unitOr(vec3 a, vec3 otherwise) {
 }
 
 Bezier spanAt(Points points, Tables tables, uint point, uint spanClass) {
-  return bezierOf(tables.tables.spanClass[spanClass], points.point[point], points.point[point + 1],
-                  points.point[point + 2], points.point[point + 3]);
+  return bezierOf(tables.tables.spanClass[spanClass], vec4Of(points.point[point]), vec4Of(points.point[point + 1]),
+                  vec4Of(points.point[point + 2]), vec4Of(points.point[point + 3]));
 }
 
 Ring ringOf(Points points, Knots knots, Tables tables, ForkRing ring) {
   Bezier z = spanAt(points, tables, ring.point, ring.spanClass);
-  vec3 chord = points.point[ring.lastPoint].xyz - points.point[ring.firstPoint].xyz;
-  return Ring(sectionAt(z, chord, knots.knot[ring.knot], knots.knot[ring.knot + 1], ring.t), derivativeAt(z, ring.t),
+  vec3 chord = vec4Of(points.point[ring.lastPoint]).xyz - vec4Of(points.point[ring.firstPoint]).xyz;
+  return Ring(sectionAt(z, chord, vec4Of(knots.knot[ring.knot]), vec4Of(knots.knot[ring.knot + 1]), ring.t), derivativeAt(z, ring.t),
               ring.turn);
 }
 

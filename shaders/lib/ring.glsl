@@ -17,16 +17,16 @@ struct SweepCurve {
 vec3 vesselChord(Points points, SweepRecord record, Bezier bezier) {
   vec3 ownChord = bezier.b3.xyz - bezier.b0.xyz;
   if (dotOf(ownChord, ownChord) > kTiny2) return vec3(0);  // the vessel's chord is never asked for
-  return points.point[record.lastPoint].xyz - points.point[record.firstPoint].xyz;
+  return vec4Of(points.point[record.lastPoint]).xyz - vec4Of(points.point[record.firstPoint]).xyz;
 }
 
 SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord record) {
   SweepCurve curve;
-  vec4 d1 = points.point[record.point + 1], d2 = points.point[record.point + 2], d3 = points.point[record.point + 3];
-  curve.own = bezierOf(tables.tables.spanClass[record.spanClass], points.point[record.point], d1, d2, d3);
+  vec4 d1 = vec4Of(points.point[record.point + 1]), d2 = vec4Of(points.point[record.point + 2]), d3 = vec4Of(points.point[record.point + 3]);
+  curve.own = bezierOf(tables.tables.spanClass[record.spanClass], vec4Of(points.point[record.point]), d1, d2, d3);
   curve.chord = vesselChord(points, record, curve.own);
-  vec4 end = knots.knot[record.knot + 1];
-  curve.knots[0] = knots.knot[record.knot];
+  vec4 end = vec4Of(knots.knot[record.knot + 1]);
+  curve.knots[0] = vec4Of(knots.knot[record.knot]);
   curve.knots[1] = curve.knots[2] = curve.knots[3] = end;
   curve.next = curve.own;
   curve.nextChord = curve.chord;
@@ -34,9 +34,9 @@ SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord rec
   curve.to = record.to;
   curve.hasNext = record.nextClass != kNoSpan && record.to == 1;
   if (curve.hasNext) {
-    curve.next = bezierOf(tables.tables.spanClass[record.nextClass], d1, d2, d3, points.point[record.point + 4]);
+    curve.next = bezierOf(tables.tables.spanClass[record.nextClass], d1, d2, d3, vec4Of(points.point[record.point + 4]));
     curve.nextChord = vesselChord(points, record, curve.next);
-    curve.knots[3] = knots.knot[record.knot + 2];
+    curve.knots[3] = vec4Of(knots.knot[record.knot + 2]);
   }
   return curve;
 }
@@ -47,8 +47,11 @@ Section ringSection(SweepCurve curve, uint ring, uint along) {
   return sectionAt(curve.own, curve.chord, curve.knots[0], curve.knots[1], t);
 }
 
-TubeVertex packVertex(SurfacePoint point) {
-  return TubeVertex(point.position.x, point.position.y, point.position.z, packOctahedral(point.normal));
+// A TubeVertex. A CPU device stores lane by lane and word by word, and that was half the time of tessellation with words
+// of 32 bits.
+u64vec2 packVertex(SurfacePoint point) {
+  uvec3 place = floatBitsToUint(point.position);
+  return u64vec2(pack64(place.xy), pack64(uvec2(place.z, packOctahedral(point.normal))));
 }
 
 #endif

@@ -2,6 +2,7 @@
 // kept from being fused or reordered, so that both round alike.
 #ifndef VASA_SECTION
 #define VASA_SECTION
+#include "lib/words.glsl"
 
 const float kTiny2 = 1e-20;     // squared lengths below this carry no direction
 const float kFoldGuard = 0.1;   // least 1 - r κ·d
@@ -41,12 +42,13 @@ vec3 anyPerpendicular(vec3 n) {
   return p;
 }
 
+// The matrix' other elements are 0 whatever the knots.
 Bezier bezierOf(mat4 m, vec4 d0, vec4 d1, vec4 d2, vec4 d3) {
   precise Bezier z;
-  z.b0 = m[0][0] * d0 + m[1][0] * d1 + m[2][0] * d2 + m[3][0] * d3;
-  z.b1 = m[0][1] * d0 + m[1][1] * d1 + m[2][1] * d2 + m[3][1] * d3;
-  z.b2 = m[0][2] * d0 + m[1][2] * d1 + m[2][2] * d2 + m[3][2] * d3;
-  z.b3 = m[0][3] * d0 + m[1][3] * d1 + m[2][3] * d2 + m[3][3] * d3;
+  z.b0 = m[0][0] * d0 + m[1][0] * d1 + m[2][0] * d2;
+  z.b1 = m[1][1] * d1 + m[2][1] * d2;
+  z.b2 = m[1][2] * d1 + m[2][2] * d2;
+  z.b3 = m[1][3] * d1 + m[2][3] * d2 + m[3][3] * d3;
   return z;
 }
 

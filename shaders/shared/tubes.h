@@ -16,7 +16,7 @@ namespace vasa::shared {
 #endif
 
 /// Sweeps and threads of a workgroup.
-VASA_CONSTANT uint kGroupSweeps = 64;
+VASA_CONSTANT uint kGroupSweeps = 128;
 /// Most strips between the rings of a sweep, its caps included.
 VASA_CONSTANT uint kMaxStrips = kMaxAlong + 2 * kCapRings;
 /// Place of a vertex that has none on the picture.
@@ -41,15 +41,16 @@ struct DrawCommand {
 #ifndef __cplusplus
 #define VASA_READ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer
 #define VASA_WRITE layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer
-VASA_READ Points { vec4 point[]; };
-VASA_READ Knots { vec4 knot[]; };  // x y z w
+// A CPU device loads and stores lane by lane and word by word: these are vec4 (lib/words.glsl) and TubeVertex.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Points { u64vec2 point[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Knots { u64vec2 knot[]; };  // x y z w
 VASA_READ Sweeps { SweepRecord sweep[]; };
 VASA_READ Tables { TubeTables tables; };
 VASA_READ View { DetailView view; };
 VASA_READ Uints { uint value[]; };
 VASA_WRITE UintsOut { uint value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sizes { uint size[]; };
-VASA_WRITE Vertices { TubeVertex vertex[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer Vertices { u64vec2 vertex[]; };
 VASA_WRITE Draws { DrawCommand draw[]; };
 #undef VASA_READ
 #undef VASA_WRITE
