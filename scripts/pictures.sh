@@ -1,0 +1,52 @@
+#!/bin/sh
+# Draws the README's rows of forks and capillaries from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
+# A row is drawn in several pictures, set side by side and reduced to 256 colours by ffmpeg.
+set -eu
+vasa=${1:-build/release/bin/vasa}
+folder=${2:-docs/pictures}
+parts=$(mktemp -d)
+trap 'rm -rf "$parts"' EXIT
+
+# draw NAME SIZE OPTIONS...: the first frame of a clip, closely cut
+draw() {
+  name=$1 size=$2
+  shift 2
+  "$vasa" --quiet render --frames 0 --no-avoid --quads 16x20 --supersample 2 --size "$size" "$@" -o "$parts/$name.png"
+}
+
+# row NAME PARTS...
+row() {
+  name=$1 inputs='' count=0
+  shift
+  for part in "$@"; do
+    inputs="$inputs -i $parts/$part.png"
+    count=$((count + 1))
+  done
+  # shellcheck disable=SC2086
+  ffmpeg -loglevel error -y $inputs -filter_complex \
+    "hstack=$count,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=sierra2_4a" "$folder/$name.png"
+}
+
+only='--clip stand --hide skin,bones,organs'
+# shellcheck disable=SC2086
+{
+  draw y 320x320 $only,veins --camera 0.02,1.085,0.32/0.003,1.07,0.003/16
+  draw t 320x320 $only,veins --camera 0.05,1.2,0.32/0.01,1.183,0/14
+  draw crossing 320x320 $only --camera 0.02,1.40,0.36/-0.01,1.395,0.01/16
+  row forks y t crossing
+
+  draw without 320x480 $only --camera front
+  draw with 320x480 $only --camera front --capillaries 3
+  row whole without with
+
+  for level in 1 2 3; do
+    draw "level$level" 320x240 $only --capillaries "$level" --focus RightHand --distance 1.1
+  done
+  row levels level1 level2 level3
+
+  draw brain 240x240 --clip stand --hide skin,bones --capillaries 3 --camera 0.5,1.68,0.25/0,1.66,0/20
+  draw face 240x240 --clip stand --hide skin,bones --capillaries 3 --camera 0.12,1.62,0.6/0,1.6,0.03/20
+  draw hand 240x240 --clip stand --hide skin --capillaries 3 --focus LeftHand --distance 1.1
+  draw foot 240x240 --clip stand --hide skin --capillaries 3 --focus LeftFoot --distance 1.1
+  row regions brain face hand foot
+}
