@@ -22,7 +22,8 @@ vec3 vesselChord(Points points, SweepRecord record, Bezier bezier) {
 
 SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord record) {
   SweepCurve curve;
-  vec4 d1 = vec4Of(points.point[record.point + 1]), d2 = vec4Of(points.point[record.point + 2]), d3 = vec4Of(points.point[record.point + 3]);
+  vec4 d1 = vec4Of(points.point[record.point + 1]), d2 = vec4Of(points.point[record.point + 2]);
+  vec4 d3 = vec4Of(points.point[record.point + 3]);
   curve.own = bezierOf(tables.tables.spanClass[record.spanClass], vec4Of(points.point[record.point]), d1, d2, d3);
   curve.chord = vesselChord(points, record, curve.own);
   vec4 end = vec4Of(knots.knot[record.knot + 1]);
@@ -47,8 +48,7 @@ Section ringSection(SweepCurve curve, uint ring, uint along) {
   return sectionAt(curve.own, curve.chord, curve.knots[0], curve.knots[1], t);
 }
 
-// A TubeVertex. A CPU device stores lane by lane and word by word, and that was half the time of tessellation with words
-// of 32 bits.
+// A TubeVertex in as few words as can be: storing them is most of what tessellation costs a CPU device.
 u64vec2 packVertex(SurfacePoint point) {
   uvec3 place = floatBitsToUint(point.position);
   return u64vec2(pack64(place.xy), pack64(uvec2(place.z, packOctahedral(point.normal))));
