@@ -22,7 +22,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string output, frames, quads, unit = "mm";
-  double budgetMegabytes = 64, toleranceMillimetres = 0.05, clearanceMillimetres = 5;
+  double budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1, clearanceMillimetres = 5;
   std::uint32_t samples = 2;
   bool noVolume = false, avoid = true, flat = false;
 };
@@ -81,6 +81,7 @@ Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
     bake.shape = {quads->around, quads->along};
   }
   bake.maxBytes = std::size_t(options.budgetMegabytes * 1048576);
+  bake.betweenTolerance = float(1e-3 * options.betweenMillimetres);
   bake.mesh = {float(1e-3 * options.toleranceMillimetres), !options.flat, linearColour};
   bake.stopRequested = stopRequested;
   return bake;
@@ -225,7 +226,7 @@ void addExport(CLI::App& app, Command& command) {
       "  vasa export --clip fist --frames 0:74 -o 'lines/{frame:03}.vtp'\n"
       "  vasa export --clip walk -o walk.csv\n"
       ".glb: the vessels as one mesh with a material a kind; the motion as morph targets, so that any viewer plays what\n"
-      "is drawn here: a key a frame, each vertex within --tolerance. The mesh's extras name the vessels, the vertex\n"
+      "is drawn here: a key a frame and more where motion is fast, each vertex within --tolerance at every key. The mesh's extras name the vessels, the vertex\n"
       "attribute _VESSEL numbers them. Without --quads, as fine as --budget allows.\n"
       ".obj: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
       "Formats of one frame write the first where none is named.");
@@ -236,6 +237,9 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_option("--budget", options->budgetMegabytes, "Largest .glb file [MB]")->check(CLI::Range(0.01, 4000.0))->capture_default_str();
   sub->add_option("--tolerance", options->toleranceMillimetres, "Farthest a vertex of a .glb may be from where it is drawn, in any frame [mm]")
       ->check(CLI::Range(0.001, 100.0))
+      ->capture_default_str();
+  sub->add_option("--between", options->betweenMillimetres, "Keys are added to a .glb where vessels stray farther from the straight way between two frames [mm]")
+      ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a sweep of .vtp and .swc")->check(CLI::Range(1, 64))->capture_default_str();
   sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")->check(CLI::IsMember({"mm", "cm", "m"}))->capture_default_str();

@@ -65,8 +65,9 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (!read) return read.error();
     map = std::move(*read);
   }
-  const auto carried = carryNetwork(*network, *from, *to, options.network, map);
+  auto carried = carryNetwork(*network, *from, *to, options.network, map);
   if (!carried) return carried.error();
+  KinkRelaxer(*network).run(carried->points);
   if (stopRequested()) return stopError();
   const auto fitted = reshapeNetwork(*network, carried->points, carried->bodyHeight);
   if (!fitted) return badInput(options.network + ": " + fitted.error().message);

@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "core/log.h"
 #include "core/parallel.h"
+#include "help_command.h"
 
 namespace vasa::cli {
 namespace {
@@ -77,6 +78,7 @@ int run(int argc, char** argv) {
   addProfile(app, command);
   addBench(app, command);
   addDevices(app, command);
+  addHelp(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

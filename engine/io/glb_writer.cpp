@@ -3,7 +3,7 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr const char* kLists[] = {"scenes", "nodes", "meshes", "materials", "animations", "accessors", "bufferViews"};
+constexpr const char* kLists[] = {"scenes", "nodes", "meshes", "materials", "skins", "animations", "accessors", "bufferViews"};
 
 void append(std::vector<std::byte>& to, const void* from, std::size_t size) {
   const std::byte* first = static_cast<const std::byte*>(from);
@@ -49,6 +49,18 @@ std::size_t GlbWriter::add(std::span<const vec3> values, Use use, bool withRange
   root["accessors"][accessor]["min"] = {low.x, low.y, low.z};
   root["accessors"][accessor]["max"] = {high.x, high.y, high.z};
   return accessor;
+}
+
+std::size_t GlbWriter::add(std::span<const vec4> values, Use use) {
+  return addAccessor(addView(values.data(), values.size_bytes(), use), floating, values.size(), "VEC4");
+}
+
+std::size_t GlbWriter::add(std::span<const glm::u8vec4> values, Use use) {
+  return addAccessor(addView(values.data(), values.size_bytes(), use), unsignedByte, values.size(), "VEC4");
+}
+
+std::size_t GlbWriter::add(std::span<const mat4> values) {
+  return addAccessor(addView(values.data(), values.size_bytes(), data), floating, values.size(), "MAT4");
 }
 
 std::size_t GlbWriter::add(std::span<const uvec3> triangles) {

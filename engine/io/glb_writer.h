@@ -8,7 +8,8 @@
 
 namespace vasa::gltf {
 
-/// Collects a glTF file in memory: JSON that the caller fills, and data that accessors name. Internal to io.
+/// Collects a glTF file in memory: JSON that the caller fills, and data that accessors name. For our own programs;
+/// not installed.
 class GlbWriter {
  public:
   using Json = nlohmann::ordered_json;
@@ -22,6 +23,9 @@ class GlbWriter {
   /// Values of one number each, or of a glm vector. @return the accessor
   std::size_t add(std::span<const float> values, Use use, bool withRange = false);
   std::size_t add(std::span<const vec3> values, Use use, bool withRange = false);
+  std::size_t add(std::span<const vec4> values, Use use);
+  std::size_t add(std::span<const glm::u8vec4> values, Use use);
+  std::size_t add(std::span<const mat4> values);
   std::size_t add(std::span<const uvec3> triangles);
   /// One 16-bit number a vertex, on four bytes as glTF asks of vertices.
   std::size_t addNumbers(std::span<const std::uint16_t> values);

@@ -1,7 +1,8 @@
 #include "scene/bake.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
+#include <optional>
 
 namespace vasa {
 namespace {
@@ -9,28 +10,76 @@ namespace {
 constexpr std::size_t kMostMemory = std::size_t(3) << 29;  // of all frames' vertices and normals while they are worked on
 constexpr SweepShape kShapes[] = {{12, 8}, {10, 6}, {8, 5}, {8, 4}, {6, 4}, {6, 3}, {5, 3}, {4, 3}, {4, 2}, {3, 2}};
 
-std::optional<Film> poseAll(const Scene& scene, const Clip* clip, const BakeOptions& options) {
-  constexpr std::uint32_t kBetween = 5;
-  FrameMaker maker(scene, options.frame);
-  const auto posed = [&](float time) {
-    maker.make(clip, time);
-    return PosedFrame{{maker.points().begin(), maker.points().end()}, {maker.knotFrames().begin(), maker.knotFrames().end()}};
-  };
-  Film film;
-  const std::uint32_t count = options.last - options.first + 1, step = std::max(1u, count / kBetween);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (options.stopRequested && options.stopRequested()) return std::nullopt;
-    const float time = clip ? clip->timeOfFrame(options.first + i) : 0;
-    film.frames.push_back(posed(time));
-    if (clip) film.times.push_back(time - clip->timeOfFrame(options.first));
-    if (clip && i + 1 < count && i % step == step / 2) {
-      film.between.push_back(posed(0.5f * (time + clip->timeOfFrame(options.first + i + 1))));
-      film.betweenAt.push_back(i);
-    }
-    if (options.progress) options.progress(i + 1, count);
-  }
-  return film;
+// How far the middle of two frames is from the pose halfway between them: what a player that moves vertices straight
+// from key to key gets wrong there.
+float sag(const PosedFrame& before, const PosedFrame& middle, const PosedFrame& after) {
+  float worst = 0;
+  for (std::size_t i = 0; i < middle.points.size(); ++i)
+    worst = std::max(worst, glm::distance(vec3(middle.points[i]), 0.5f * vec3(before.points[i] + after.points[i])));
+  return worst;
 }
+
+// Poses a clip: a key a frame, and more keys where the motion between two frames is not straight.
+class FilmMaker {
+ public:
+  FilmMaker(const Scene& scene, const Clip* clip, const BakeOptions& options) : clip_(clip), options_(options), maker_(scene, options.frame) {}
+
+  std::optional<Film> run() {
+    const std::uint32_t count = options_.last - options_.first + 1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (options_.stopRequested && options_.stopRequested()) return std::nullopt;
+      const float time = clip_ ? clip_->timeOfFrame(options_.first + i) : 0;
+      PosedFrame frame = posed(time);
+      if (i > 0) addBetween(film_.times.back() + start(), time, frame, 0);
+      addKey(std::move(frame), time);
+      if (options_.progress) options_.progress(i + 1, count);
+    }
+    for (Between& place : between_) {
+      film_.between.push_back(std::move(place.frame));
+      film_.betweenAt.push_back(place.key);
+    }
+    return std::move(film_);
+  }
+
+ private:
+  static constexpr int kHalvings = 2;             // of the time between two frames
+  static constexpr std::size_t kMostBetween = 5;  // poses between keys that are kept to measure by
+
+  float start() const { return clip_->timeOfFrame(options_.first); }
+  PosedFrame posed(float time) {
+    maker_.make(clip_, time);
+    return {{maker_.points().begin(), maker_.points().end()}, {maker_.knotFrames().begin(), maker_.knotFrames().end()}};
+  }
+  void addKey(PosedFrame frame, float time) {
+    film_.frames.push_back(std::move(frame));
+    if (clip_) film_.times.push_back(time - start());
+  }
+  // From the latest key to `after`, which the caller adds.
+  void addBetween(float timeBefore, float timeAfter, const PosedFrame& after, int halvings) {
+    const float time = 0.5f * (timeBefore + timeAfter);
+    PosedFrame middle = posed(time);
+    const float off = sag(film_.frames.back(), middle, after);
+    if (off <= options_.betweenTolerance || halvings == kHalvings) {
+      between_.push_back({off, std::uint32_t(film_.frames.size() - 1), std::move(middle)});
+      std::ranges::stable_sort(between_, std::greater(), &Between::off);
+      if (between_.size() > kMostBetween) between_.pop_back();
+      return;
+    }
+    addBetween(timeBefore, time, middle, halvings + 1);
+    addKey(std::move(middle), time);
+    addBetween(time, timeAfter, after, halvings + 1);
+  }
+  struct Between {
+    float off;
+    std::uint32_t key;  // the one before
+    PosedFrame frame;
+  };
+  const Clip* clip_;
+  const BakeOptions& options_;
+  FrameMaker maker_;
+  Film film_;
+  std::vector<Between> between_;
+};
 
 std::size_t vertexBytes(std::size_t vertices, std::size_t triangles, std::size_t shapes, bool normals) {
   const std::size_t vectors = normals ? 24 : 12;
@@ -71,7 +120,7 @@ Result<Bake> finestThatFits(const FilmBaker& baker, std::size_t frames, const Ba
 }  // namespace
 
 Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& options) {
-  const auto film = poseAll(scene, clip, options);
+  const auto film = FilmMaker(scene, clip, options).run();
   if (!film) return Error{Fault::interrupted, "stopped"};
   const FilmBaker baker(scene.network, *film, options.mesh);
   auto result = [&]() -> Result<Bake> {

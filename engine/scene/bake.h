@@ -13,13 +13,16 @@ struct BakeOptions {
   SweepShape shape;
   bool finestThatFits = true;         ///< choose the shape by maxBytes; `shape` is the finest looked at
   std::size_t maxBytes = 64u << 20;   ///< of vertices, triangles and shapes together
+  /// [m] Where control points stray farther than this from the straight way between two frames, keys are added between
+  /// them, up to three.
+  float betweenTolerance = 1e-3f;
   FilmBaker::Options mesh;
   std::function<void(std::uint32_t, std::uint32_t)> progress = {};  ///< frames done, of how many
   std::function<bool()> stopRequested = {};
 };
 
 /// The drawn surface of a scene's vessels with its motion through a clip as shapes with weights, a key a frame
-/// (mesh/shape_basis.h). The first frame is the mesh itself.
+/// and more where vertices do not move straight (mesh/shape_basis.h). The first frame is the mesh itself.
 /// Fails with `failed` where even the coarsest shape takes more than maxBytes, and as stopRequested says.
 /// @param clip  nullptr: at rest, not moving
 Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& options);

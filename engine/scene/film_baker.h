@@ -14,18 +14,18 @@ struct PosedFrame {
   std::vector<quat> knotFrames;
 };
 
-/// Every frame of a clip, and a few shapes halfway between two frames.
+/// The keys of a film, and a few shapes halfway between two of them, where motion is least straight.
 struct Film {
   std::vector<PosedFrame> frames, between;
-  std::vector<std::uint32_t> betweenAt;  ///< the frame before each of `between`
-  std::vector<float> times;               ///< [s] of the frames; empty where there is no clip
+  std::vector<std::uint32_t> betweenAt;  ///< the key before each of `between`
+  std::vector<float> times;               ///< [s] of the keys; empty where there is no clip
 };
 
 struct Bake {
   AnimatedMesh mesh;
   SweepShape shape;
   float error = 0;        ///< [m] the farthest a vertex is, in a frame, from where a picture shows it
-  float betweenError = 0; ///< [m] halfway between two frames (looked at in a few places): vertices go straight there
+  float betweenError = 0; ///< [m] halfway between two keys, looked at where motion is least straight
 };
 
 /// Turns a film of a network into a mesh with shapes and weights.

@@ -1,0 +1,86 @@
+#include "help_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "completion.h"
+#include "core/atomic_file.h"
+#include "man_page.h"
+#include "report.h"
+
+// vasa help: the commands' own help, topics beside them, and both as manual pages.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> subject;
+  std::string folder;
+};
+
+std::string overview(const CommandText& program) {
+  std::string text = "vasa help COMMAND explains a command, vasa help TOPIC one of these:\n";
+  for (const Topic& topic : topics()) text += fmt::format("  {:<14} {}\n", topic.name, topic.title());
+  text += "Commands:\n";
+  for (const CommandText& command : program.commands) text += fmt::format("  {:<14} {}\n", command.path.back(), command.description);
+  return text;
+}
+
+Result<std::string> about(const CLI::App& app, const std::vector<std::string>& subject) {
+  if (subject.empty()) return overview(describe(app));
+  for (const Topic& topic : topics())
+    if (subject.size() == 1 && topic.name == subject[0]) return topic.text;
+  const CLI::App* command = &app;
+  for (const std::string& name : subject) {
+    const auto below = command->get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
+    if (below.empty()) return Error{Fault::usage, "there is no help on " + name + "; vasa help lists commands and topics"};
+    command = below.front();
+  }
+  return command->help();
+}
+
+Result<void> writeManuals(const CommandText& command, const CommandText& program, const std::filesystem::path& folder) {
+  if (auto written = writeFileAtomically(folder / (manName(command) + ".1"), manPage(command, program)); !written) return written;
+  for (const CommandText& below : command.commands)
+    if (auto written = writeManuals(below, program, folder); !written) return written;
+  return {};
+}
+
+Result<void> writeAll(const CommandText& program, const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) return ioError(folder.string() + ": " + failed.message());
+  if (auto written = writeManuals(program, program, folder); !written) return written;
+  for (const Topic& topic : topics())
+    if (auto written = writeFileAtomically(folder / (manName(topic) + ".7"), manPage(topic)); !written) return written;
+  const std::pair<const char*, std::string> completions[] = {
+      {"vasa.bash", bashCompletion(program)}, {"_vasa", zshCompletion(program)}, {"vasa.fish", fishCompletion(program)}};
+  for (const auto& [name, text] : completions)
+    if (auto written = writeFileAtomically(folder / name, text); !written) return written;
+  return {};
+}
+
+}  // namespace
+
+void addHelp(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("help", "Explain a command or a topic");
+  sub->footer(
+      "Examples:\n"
+      "  vasa help\n"
+      "  vasa help export\n"
+      "  vasa help formats\n"
+      "  vasa help --write out    (manual pages, and completions for bash, zsh and fish)");
+  sub->add_option("TOPIC", options->subject, "A command or a topic; nothing: lists them");
+  sub->add_option("--write", options->folder, "Write all manual pages and shell completions into this folder");
+  sub->callback([options, &app, &command] {
+    command.run = [options, &app]() -> Result<void> {
+      if (!options->folder.empty()) return writeAll(describe(app), options->folder);
+      const auto text = about(app, options->subject);
+      if (!text) return text.error();
+      return printText(*text);
+    };
+  });
+}
+
+}  // namespace vasa::cli
