@@ -19,7 +19,8 @@ float sag(const PosedFrame& before, const PosedFrame& middle, const PosedFrame& 
   return worst;
 }
 
-// Poses a clip: a key a frame, and more keys where the motion between two frames is not straight.
+// Poses a clip: a key a frame, and more keys where the motion between two frames is curved. Where it jumps (a small
+// vessel gives way all at once) more keys would not bring it nearer, only show poses that the frames do not.
 class FilmMaker {
  public:
   FilmMaker(const Scene& scene, const Clip* clip, const BakeOptions& options) : clip_(clip), options_(options), maker_(scene, options.frame) {}
@@ -59,7 +60,7 @@ class FilmMaker {
     const float time = 0.5f * (timeBefore + timeAfter);
     PosedFrame middle = posed(time);
     const float off = sag(film_.frames.back(), middle, after);
-    if (off <= options_.betweenTolerance || halvings == kHalvings) {
+    if (off <= options_.betweenTolerance || halvings == kHalvings || !curved(film_.frames.back(), timeBefore, middle, timeAfter, after, off)) {
       between_.push_back({off, std::uint32_t(film_.frames.size() - 1), std::move(middle)});
       std::ranges::stable_sort(between_, std::greater(), &Between::off);
       if (between_.size() > kMostBetween) between_.pop_back();
@@ -69,6 +70,12 @@ class FilmMaker {
     addKey(std::move(middle), time);
     addBetween(time, timeAfter, after, halvings + 1);
   }
+  // Halving the time between two keys quarters the sag of smooth motion.
+  bool curved(const PosedFrame& before, float timeBefore, const PosedFrame& middle, float timeAfter, const PosedFrame& after, float off) {
+    const PosedFrame early = posed(0.75f * timeBefore + 0.25f * timeAfter), late = posed(0.25f * timeBefore + 0.75f * timeAfter);
+    return std::max(sag(before, early, middle), sag(middle, late, after)) <= 0.5f * off;
+  }
+
   struct Between {
     float off;
     std::uint32_t key;  // the one before
