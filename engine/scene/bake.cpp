@@ -70,10 +70,10 @@ class FilmMaker {
     addKey(std::move(middle), time);
     addBetween(time, timeAfter, after, halvings + 1);
   }
-  // Halving the time between two keys quarters the sag of smooth motion.
+  // Halving the time between two keys quarters the sag of smooth motion and lessens that of most corners; a jump stays.
   bool curved(const PosedFrame& before, float timeBefore, const PosedFrame& middle, float timeAfter, const PosedFrame& after, float off) {
     const PosedFrame early = posed(0.75f * timeBefore + 0.25f * timeAfter), late = posed(0.25f * timeBefore + 0.75f * timeAfter);
-    return std::max(sag(before, early, middle), sag(middle, late, after)) <= 0.5f * off;
+    return std::max(sag(before, early, middle), sag(middle, late, after)) <= 0.75f * off;
   }
 
   struct Between {
