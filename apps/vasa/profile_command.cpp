@@ -7,6 +7,9 @@
 
 #include "camera_choice.h"
 #include "capillary_options.h"
+#include "collide/box_tree.h"
+#include "collide/network_tubes.h"
+#include "collide/sphere_tree.h"
 #include "commands.h"
 #include "core/log.h"
 #include "frame_output.h"
@@ -139,15 +142,21 @@ Report profileRow(gpu::Device& device, const Setting& setting, const Options& op
   return row;
 }
 
-// What the network takes, beside the triangle mesh that would have to be stored at 8x5 instead (paper, Tables I, II).
+// What the network, its binding and the trees of detection (the paper's and ours) take, beside the triangle mesh that
+// would have to be stored at 8x5 instead (paper, Tables I, II).
 Report storageReport(const Scene& scene) {
   const SweepShape shape{8, 5};
   const std::size_t sweeps = scene.network.sweepCount(), vessels = scene.network.vessels().size();
   const std::size_t vertices = (sweeps * shape.along + vessels) * shape.around;
   const std::size_t triangles = 2 * sweeps * shape.along * shape.around;
+  const NetworkTubes layout(scene.network);
+  std::vector<Bezier> tubes(layout.count());
+  layout.shape(scene.network.points(), tubes);
   return {{"network_bytes", encodeNetwork(scene.network).size()},
           {"network_quantised_bytes", encodeNetwork(scene.network, {.quantise = true}).size()},
           {"binding_bytes", scene.binding.bytes()},
+          {"sphere_tree_bytes", SphereTree(tubes).bytes()},
+          {"box_tree_bytes", BoxTree(tubes).bytes()},
           {"mesh_bytes", vertices * sizeof(vec3) + triangles * sizeof(uvec3)}};
 }
 

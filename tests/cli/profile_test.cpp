@@ -17,5 +17,5 @@ TEST_CASE("profile has a row a tessellation with every stage that exists") {
   }
   CHECK(report["rows"][0]["quads"] == "3x2");
   CHECK(report["rows"][1]["triangles"].get<int>() > report["rows"][0]["triangles"].get<int>());
-  for (const char* key : {"network_bytes", "binding_bytes", "mesh_bytes"}) CHECK(report["storage"].contains(key));
+  for (const char* key : {"network_bytes", "binding_bytes", "sphere_tree_bytes", "box_tree_bytes", "mesh_bytes"}) CHECK(report["storage"].contains(key));
 }
