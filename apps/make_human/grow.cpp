@@ -11,12 +11,13 @@ namespace {
 
 constexpr float kReferenceSweeps = 4030;
 constexpr float kStep = 0.0035f, kClearance = 0.35e-3f, kFromBone = 0.5e-3f,
-                kFitTolerance = 0.12e-3f;  // [m] at the reference
+                kFitTolerance = 0.12e-3f;                                          // [m] at the reference
 constexpr float kHostCell = 0.016f, kObstacleCell = 0.010f, kLeastCell = 0.0015f;  // of grids of segments
 constexpr int kCandidates = 8;  // places of which the emptiest is chosen, at first
 constexpr int kRelaxations = 8;
-constexpr int kFailuresToClose = 150;      // in a row: the region is full
-constexpr int kFailuresToLowerSights = 8;  // in a row: half as many candidates, and branches that stop on the way
+constexpr int kFailuresToClose = 150;  // in a row: the region is full
+constexpr int kFailuresToLowerSights =
+    8;  // in a row: half as many candidates, and branches that stop on the way
 constexpr float kShortenings[] = {1, 0.6f, 0.35f};
 constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, for the branches to come
 constexpr float kMuch = 0.9f, kLengthOfStemRadius = 55;
@@ -63,11 +64,13 @@ struct Grower::State {
         around_(around),
         options_(options),
         scale_(std::min(1.0f, std::cbrt(kReferenceSweeps / float(options.sweeps)))),
-        tree_(vessels, kStep * std::max(scale_, 0.4f), kClearance * scale_, std::max(kObstacleCell * scale_, kLeastCell)),
+        tree_(vessels, kStep * std::max(scale_, 0.4f), kClearance * scale_,
+              std::max(kObstacleCell * scale_, kLeastCell)),
         laidCount_(vessels.size()) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
       const SegmentGrid hosts(std::max(kHostCell * scale_, kLeastCell));
-      RegionState state{&regions[i], Dice(options.seed * 1000003 + i), regions[i].bounds(around), hosts, hosts};
+      RegionState state{&regions[i], Dice(options.seed * 1000003 + i), regions[i].bounds(around), hosts,
+                        hosts};
       for (int leader : regions[i].leaders) enter(state.leaders, leader);
       for (int companion : regions[i].companions) enter(state.companions, companion);
       state.leaderKind = vessels[std::size_t(regions[i].leaders.front())].label.kind;
@@ -116,7 +119,8 @@ struct Grower::State {
       grid.add({v.branch.points[k], v.branch.points[k + 1], v.radii[k], std::uint32_t(vessel), v.arcs[k]});
   }
 
-  /// The emptiest of some places in the region that a branch can reach; of fewer, where the emptiest could not be.
+  /// The emptiest of some places in the region that a branch can reach; of fewer, where the emptiest could
+  /// not be.
   bool findTarget(RegionState& state, vec3& target) {
     float best = 0;
     int found = 0;
@@ -190,7 +194,8 @@ struct Grower::State {
       if (!prepare(state, root.host, root.arc, length, branch)) continue;
       if (++tries > 4) break;
       tried = root.place;
-      for (float part : mayStop ? std::span<const float>(kShortenings) : std::span<const float>(kShortenings, 1)) {
+      for (float part :
+           mayStop ? std::span<const float>(kShortenings) : std::span<const float>(kShortenings, 1)) {
         branch.points = curveTo(root.host, root.arc, glm::mix(root.place, target, part), state.dice);
         if (settleBranch(state, branch)) return true;
       }

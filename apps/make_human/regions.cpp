@@ -58,7 +58,8 @@ vec3 Region::back(vec3 p, float radius, const Surroundings& around) const {
   }
   if (mostDepth > 0.5f) return vec3(0);
   const float depth = around.depth(p);
-  return depth > mostDepth ? glm::normalize(around.skin.gradient(p)) * std::min(depth - mostDepth, 0.004f) : vec3(0);
+  return depth > mostDepth ? glm::normalize(around.skin.gradient(p)) * std::min(depth - mostDepth, 0.004f)
+                           : vec3(0);
 }
 
 Aabb Region::bounds(const Surroundings& around) const {

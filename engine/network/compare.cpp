@@ -30,7 +30,8 @@ std::string_view withoutOrdinal(std::string_view name) {
   const std::size_t at = name.rfind(" (");
   if (at == std::string_view::npos) return name;
   const std::string_view inside = name.substr(at + 2, name.size() - at - 3);
-  const bool number = !inside.empty() && std::ranges::all_of(inside, [](char c) { return c >= '0' && c <= '9'; });
+  const bool number =
+      !inside.empty() && std::ranges::all_of(inside, [](char c) { return c >= '0' && c <= '9'; });
   return number ? name.substr(0, at) : name;
 }
 
