@@ -60,7 +60,7 @@ Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
       pool_(network, space_, interference_, sides_),
       z_(space_.variableCount()),
       posedTubes_(interference_.layout().count()) {
-  if (body && !getenv("NOBONES")) bones_ = std::make_unique<Bones>(*body, interference_.restTubes());
+  if (body) bones_ = std::make_unique<Bones>(*body, interference_.restTubes());
 }
 
 float Avoider::presentOf(const Constraint& constraint) const {
@@ -218,11 +218,6 @@ AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, 
   report.after = certificateOf(places_, &remaining_);
   report.sidesChangedAfter = std::uint32_t(changed_.size());
   noteBones(boneContacts_, report.boneContactsAfter, report.boneDepthAfter);
-  if (getenv("DBGM")) { std::size_t w=0; float m=0; for (std::size_t p=0;p<points.size();++p) { float d=glm::distance(vec3(points[p]),vec3(posed.points[p])); if (d>m) m=d,w=p; }
-    for (std::uint32_t v=0;v<network_->vessels().size();++v) { auto& V=network_->vessels()[v]; if (w>=V.firstPoint && w<V.firstPoint+V.pointCount) { fprintf(stderr,"MOVED %.1f mm %s point %zu/%u\n", m*1e3, V.name.c_str(), w-V.firstPoint, V.pointCount);
-      for (auto& c : pool_.constraints()) { auto a=interference_.layout().address(c.tubes.i); bool bone=c.tubes.j==kNoTube; auto b=interference_.layout().address(bone?c.tubes.i:c.tubes.j); if (a.vessel.value!=v && b.vessel.value!=v) continue; if (c.multiplier*c.row.diagonal<1e-3f) continue;
-        vec3 cr(0); vec4 ra(0),rb(0); if(!bone){cr=sides_.carried({c.tubes.i,c.tubes.j,c.s,c.t}, interference_.tubes(), posed.rotations); ra=interference_.restTubes()[c.tubes.i].at(c.s), rb=interference_.restTubes()[c.tubes.j].at(c.t);} fprintf(stderr,"   carried %.2f %.2f %.2f restdist/radii %.2f\n", cr.x,cr.y,cr.z, glm::distance(vec3(ra),vec3(rb))/(ra.w+rb.w+1e-9f));
-        fprintf(stderr,"  push %.1f/%.1f mm %s[%u] s%.2f - %s[%u] t%.2f n %.2f %.2f %.2f lack0 %.1f diag %.3f\n", c.multiplier*c.row.diagonal*1e3, c.limit*c.row.diagonal*1e3, network_->vessel(a.vessel).name.c_str(), a.span, c.s, bone?"BONE":network_->vessel(b.vessel).name.c_str(), b.span, c.t, c.normal.x,c.normal.y,c.normal.z, (c.distance-c.start)*1e3, c.row.diagonal); } } } }
   report.volume = volumeOutcome_;
   report.constraints = std::uint32_t(pool_.constraints().size());
   noteMovement(posed.points, points, report);
