@@ -7,6 +7,7 @@
 
 #include "body/arcs.h"
 #include "body/belonging.h"
+#include "body/ties.h"
 
 // Along a limb the joints have set in at a point by shares φ_j (bend) and ψ_j (twist), from the root on 1 1 1
 // φ 0 0. Where arcs are apart only one of them is between 0 and 1, and the point has one record; where they
@@ -160,26 +161,6 @@ Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::
     appendRecords(binder.bind(i), binding.records);
   }
   return binding;
-}
-
-std::vector<Tie> tiesOf(const Network& network) {
-  std::vector<Tie> ties;
-  for (const Vessel& vessel : network.vessels())
-    for (std::uint32_t i = 1; i < vessel.pointCount; ++i)
-      ties.push_back({vessel.firstPoint + i - 1, vessel.firstPoint + i});
-  const auto endPoint = [&](VesselEnd end) {
-    const Vessel& vessel = network.vessel(end.vessel);
-    return vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0);
-  };
-  for (const Node& node : network.nodes()) {
-    const std::span<const VesselEnd> ends = network.ends(node);
-    for (std::size_t k = 1; k < ends.size(); ++k) ties.push_back({endPoint(ends[0]), endPoint(ends[k])});
-    if (!node.host || ends.empty()) continue;
-    const Vessel& host = network.vessel(node.host->vessel);
-    const std::uint32_t span = locate(node.host->parameter, host.spanCount()).span;
-    for (std::uint32_t k = 1; k < 3; ++k) ties.push_back({endPoint(ends[0]), host.firstPoint + span + k});
-  }
-  return ties;
 }
 
 Result<Binding> bind(const Body& body, const Network& network, std::string_view name) {

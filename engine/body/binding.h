@@ -57,13 +57,10 @@ struct Binding {
 Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
                            std::span<const Tie> ties = {});
 
-/// The ties along and between a network's vessels.
-std::vector<Tie> tiesOf(const Network& network);
-
 /// The station with the largest share in each point's motion. O(points)
 std::vector<Station> mainStations(const Binding& binding);
 
-/// Binds a network's de Boor points, with ties along its vessels and across its nodes.
+/// Binds a network's de Boor points, with its ties (body/ties.h).
 Result<Binding> bind(const Body& body, const Network& network, std::string_view name);
 
 }  // namespace vasa

@@ -8,6 +8,7 @@
 #include "body/deform.h"
 #include "body/retarget.h"
 #include "body/skin_warp.h"
+#include "body/ties.h"
 #include "core/parallel.h"
 
 namespace vasa {
