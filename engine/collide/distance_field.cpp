@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <thread>
 
 #include "mesh/weld.h"
@@ -23,6 +25,7 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
   surface_ = std::make_unique<Obstacle>(positions, triangles);
   markBand(positions, triangles);
   sortOutInside();
+  measureRings();
 }
 
 // Numbers the bricks that come within the band of a triangle's box.
@@ -67,7 +70,7 @@ void DistanceField::fill(std::uint32_t number, ivec3 at) const {
 // Bricks beyond the band hang together in regions, each all outside or all inside: as the values say on some of the
 // faces that it shares with bricks of the band, by the majority, for meshes have holes.
 void DistanceField::sortOutInside() {
-    constexpr int kMiddle = kBrick / 2, kMostAsked = 25;
+  constexpr int kMiddle = kBrick / 2, kMostAsked = 25;
   std::vector<ivec3> region;
   for (int z = 0; z < counts_.z; ++z)
     for (int y = 0; y < counts_.y; ++y)
@@ -102,6 +105,40 @@ void DistanceField::sortOutInside() {
       }
 }
 
+// Chessboard distance of bricks, a pass an axis.
+void DistanceField::measureRings() {
+  constexpr std::uint8_t kFarthest = 255;
+  rings_.resize(bricks_.size());
+  for (std::size_t k = 0; k < bricks_.size(); ++k) rings_[k] = bricks_[k] == kOutside ? kFarthest : 0;
+  const auto index = [&](ivec3 at) { return std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x); };
+  for (int axis = 0; axis < 3; ++axis) {
+    const int first = (axis + 1) % 3, second = (axis + 2) % 3, count = counts_[axis];
+    std::vector<std::uint8_t> line(static_cast<std::size_t>(count));
+    ivec3 at;
+    for (at[first] = 0; at[first] < counts_[first]; ++at[first])
+      for (at[second] = 0; at[second] < counts_[second]; ++at[second]) {
+        for (int k = 0; k < count; ++k) at[axis] = k, line[std::size_t(k)] = rings_[index(at)];
+        for (int k = 0; k < count; ++k) {
+          int least = kFarthest;
+          for (int other = 0; other < count; ++other) least = std::min(least, std::max(int(line[std::size_t(other)]), std::abs(other - k)));
+          at[axis] = k, rings_[index(at)] = std::uint8_t(least);
+        }
+      }
+  }
+}
+
+float DistanceField::clearance(vec3 point) const {
+  if (box_.empty()) return std::numeric_limits<float>::infinity();
+  const vec3 in = glm::clamp(point, box_.low, box_.high);
+  const ivec3 at = glm::clamp(ivec3((in - origin_) / options_.cell), ivec3(0), counts_ * kBrick - 1) / kBrick;
+  if (in != point) return options_.band + glm::distance(in, point);
+  const std::uint32_t number = brick(at);
+  if (number == kInside) return 0;
+  if (number < kInside) return std::max(distance(point), 0.0f);
+  const int ring = rings_[std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x)];
+  return std::max(options_.band, float(ring - 1) * options_.cell * kBrick);
+}
+
 DistanceField::Cell DistanceField::cellAt(vec3 point) const {
   if (glm::any(glm::lessThan(point, box_.low)) || glm::any(glm::greaterThan(point, box_.high))) return {nullptr, options_.band, {}, {}};
   const vec3 cells = (point - origin_) / options_.cell;
@@ -112,7 +149,12 @@ DistanceField::Cell DistanceField::cellAt(vec3 point) const {
 }
 
 float DistanceField::distance(vec3 point) const {
-  return at(point).distance;
+  const Cell cell = cellAt(point);
+  if (!cell.values) return cell.beyond;
+  const float* v = cell.values + (cell.corner.z * kCorners + cell.corner.y) * kCorners + cell.corner.x;
+  const auto alongX = [&](int at) { return glm::mix(v[at], v[at + 1], cell.share.x); };
+  const auto alongY = [&](int at) { return glm::mix(alongX(at), alongX(at + kCorners), cell.share.y); };
+  return glm::mix(alongY(0), alongY(kCorners * kCorners), cell.share.z);
 }
 
 DistanceField::Sample DistanceField::at(vec3 point) const {

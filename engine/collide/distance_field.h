@@ -33,6 +33,8 @@ class DistanceField {
   };
   Sample at(vec3 point) const;
   float distance(vec3 point) const;
+  /// No more than the distance from the surface, also far beyond the band; 0 inside.
+  float clearance(vec3 point) const;
 
   /// Where the field may be below +band.
   const Aabb& box() const { return box_; }
@@ -55,12 +57,14 @@ class DistanceField {
   const float* valuesOf(std::uint32_t number, ivec3 at) const;
   void fill(std::uint32_t number, ivec3 at) const;
   void sortOutInside();
+  void measureRings();
 
   Options options_;
   Aabb box_;
   vec3 origin_{0};
   ivec3 counts_{0};                    // bricks a side
   std::vector<std::uint32_t> bricks_;  // number of its values, or one of the three
+  std::vector<std::uint8_t> rings_;    // of an outer brick: how many bricks off the nearest with values is
   enum State : std::uint8_t { empty, beingFilled, full };
   std::unique_ptr<Obstacle> surface_;
   std::uint32_t filled_ = 0;                             // bricks that have values

@@ -35,11 +35,13 @@ TEST_CASE("the field is the distance from a box, near it") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> any(-0.06f, 0.08f);
   float worst = 0;
+  CHECK(field.clearance({0, 0, 0.12f}) > 0.05f);
   for (int k = 0; k < 20000; ++k) {
     const vec3 p(any(random), any(random), any(random));
     const float exact = glm::clamp(boxDistance(p, low, high), -0.006f, 0.006f);
     const auto [distance, gradient] = field.at(p);
     CHECK(distance == field.distance(p));
+    CHECK(field.clearance(p) <= std::max(boxDistance(p, low, high), 0.0f) + 0.001f);
     worst = std::max(worst, std::abs(distance - exact));
     if (exact > 0.0025f && exact < 0.004f)
       CHECK(glm::length(gradient) == doctest::Approx(1).epsilon(0.3));
