@@ -1,12 +1,11 @@
 #include "avoid/bones.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
-#include "avoid/interference.h"
 #include "collide/distance_field.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
@@ -18,7 +17,9 @@ constexpr int kLeastPieces = 3, kMostPieces = 6;  // of one tube
 constexpr std::size_t kTubesPerTask = 64;
 constexpr float kWidest = 0.6f;  // of the field's band: radius of a ball that is looked at
 constexpr int kRing = 8;
-constexpr float kStep = 0.001f;  // [m] of the search for the way out
+constexpr float kStep = 0.001f;  // [m] of the search for the way out, at least
+constexpr float kStride = 0.8f;  // ... and of the distance
+constexpr float kNearly = 0.001f;  // [m] places that enter by less than nothing are told too
 
 // One part: what of a mesh one joint carries.
 struct Part {
@@ -62,6 +63,17 @@ vec3 placed(const mat4& matrix, vec3 p) {
   return vec3(matrix * vec4(p, 1));
 }
 
+bool moved(const Bezier& a, const Bezier& b) {
+  for (int k = 0; k < 4; ++k)
+    if (vec3(a.b[k]) != vec3(b.b[k])) return true;
+  return false;
+}
+
+int piecesOf(const Bezier& rest) {
+  const float length = glm::distance(vec3(rest.b[0]), vec3(rest.b[3])), largest = std::max(rest.b[0].w, rest.b[3].w);
+  return largest > 0 ? std::clamp(int(std::ceil(length / largest)), kLeastPieces, kMostPieces) : kMostPieces;
+}
+
 Aabb placed(const mat4& matrix, const Aabb& box) {
   Aabb out;
   for (int corner = 0; corner < 8; ++corner)
@@ -84,35 +96,45 @@ struct Bones::State {
       return at != atRest.end() && at->first == tube ? at->second : 0;
     }
   };
+  struct Near {
+    std::uint32_t tube, part;
+    float allowed;
+    bool entered = false;  // when all were looked at
+  };
+  struct Tubes {
+    std::span<const Bezier> now, posed;
+  };
   std::vector<Solid> solids;
   std::vector<mat4> toBound;  // a joint's way from the rest pose to where meshes are bound
   std::vector<Bezier> rest;
-  std::vector<Aabb> boxes;  // of the parts in the pose
-  struct Near {
-    std::uint32_t tube, part;
-  };
+  std::vector<int> pieces;    // a tube each
+  std::vector<Aabb> boxes;    // of the parts in the pose
   std::vector<std::vector<BoneContact>> found;  // a task each
   std::vector<std::vector<Near>> near;          // of the last look at all tubes, a task each
   std::vector<BoneContact> contacts;
   std::size_t restContacts = 0;
 
-  void look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part, std::vector<BoneContact>& out, bool* inBand = nullptr) const;
-  void leave(const Solid& solid, vec3 from, vec3 towards, float radius, const DistanceField::Sample& sample, BoneContact& contact) const;
+  void findNear(std::size_t task, std::span<const Bezier> tubes);
+  bool look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
+  vec3 home(const Near& at, float s, const Tubes& tubes) const;
+  void leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const;
 };
 
 // Where the way out is, in the part's own space.
-void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radius, const DistanceField::Sample& sample,
-                         BoneContact& contact) const {
-  vec3 surface = from, normal = sample.gradient;
+void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const {
+  const DistanceField::Sample sample = solid.field.at(from);
+  vec3 surface = from - sample.distance * unitOr(sample.gradient, vec3(0)), normal = sample.gradient;
   const float way = glm::distance(from, towards);
   const auto distanceAt = [&](float at) { return solid.field.distance(glm::mix(from, towards, at)); };
   // Through the part to the place at rest: in within a radius, and out again.
   float inside = 2, outside = 1;
   if (way > kStep && solid.field.distance(towards) > 0) {
-    for (float at = 0; at < 1; at += kStep / way) {
-      if (distanceAt(at) < 0) inside = at;
+    for (float at = 0; at < 1;) {
+      const float distance = distanceAt(at);
+      if (distance < 0) inside = at;
       else if (inside <= 1) { outside = at; break; }
       else if (at * way > radius) break;
+      at += std::max(kStep, kStride * std::abs(distance)) / way;
     }
   }
   if (inside <= 1) {
@@ -122,43 +144,74 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
     }
     surface = glm::mix(from, towards, outside);
     normal = solid.field.at(surface).gradient;
-  } else {
-    surface = from - sample.distance * unitOr(normal, vec3(0));
   }
   normal = unitOr(normal, unitOr(towards - from, vec3(0, 1, 0)));
   contact.point = placed(solid.matrix, surface);
   contact.normal = glm::normalize(mat3(solid.matrix) * normal);
 }
 
-void Bones::State::look(std::uint32_t tube, const Bezier& shape, const Bezier& posed, std::uint32_t part,
-                        std::vector<BoneContact>& out, bool* inBand) const {
-  const Solid& solid = solids[part];
-  const float allowed = solid.allowed(tube);
-  const float length = glm::distance(vec3(shape.b[0]), vec3(shape.b[3]));
-  const float largest = std::max(shape.b[0].w, shape.b[3].w);
-  const int pieces = largest > 0 ? std::clamp(int(std::ceil(length / largest)), kLeastPieces, kMostPieces) : kMostPieces;
-  for (int piece = 0; piece <= pieces; ++piece) {
-    const float s = float(piece) / float(pieces);
+// Where the place was before it was pushed, if that is outside; or else at rest.
+vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
+  const Solid& solid = solids[at.part];
+  const vec3 before = placed(solid.inverse, vec3(tubes.posed[at.tube].at(s)));
+  return solid.field.distance(before) > 0 ? before : placed(toBound[solid.joint], vec3(rest[at.tube].at(s)));
+}
+
+// Returns whether the tube is within the field's band somewhere.
+bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const {
+  const Solid& solid = solids[at.part];
+  const DistanceField& field = solid.field;
+  Bezier shape = tubes.now[at.tube];  // from the part's own space
+  for (vec4& b : shape.b) b = vec4(placed(solid.inverse, vec3(b)), b.w);
+  bool inBand = false;
+  for (int piece = 0; piece <= pieces[at.tube]; ++piece) {
+    const float s = float(piece) / float(pieces[at.tube]);
     const vec4 ball = shape.at(s);
-    const vec3 centre = placed(solid.inverse, vec3(ball)), before = placed(solid.inverse, vec3(posed.at(s)));
-    const vec3 home = solid.field.distance(before) > 0 ? before : placed(toBound[solid.joint], vec3(rest[tube].at(s)));
+    const vec3 centre(ball);
     // A tube wider than the field's band is a ring of balls that are not.
-    const float small = std::min(ball.w, kWidest * solid.field.band()), off = ball.w - small;
-    const vec3 u = off > 0 ? anyPerpendicular(unitOr(mat3(solid.inverse) * vec3(shape.derivative(s)), {0, 0, 1})) : vec3(0);
-    const vec3 v = off > 0 ? glm::cross(unitOr(mat3(solid.inverse) * vec3(shape.derivative(s)), {0, 0, 1}), u) : vec3(0);
-    BoneContact deepest{.f = std::numeric_limits<float>::infinity()};
+    const float small = std::min(ball.w, kWidest * field.band()), off = ball.w - small;
+    if (off > 0 && field.clearance(centre) > ball.w + field.band()) continue;
+    const vec3 along = off > 0 ? unitOr(vec3(shape.derivative(s)), {0, 0, 1}) : vec3(0);
+    const vec3 u = off > 0 ? anyPerpendicular(along) : vec3(0), v = glm::cross(along, u);
+    BoneContact deepest{.tube = at.tube, .part = at.part, .s = s, .f = at.allowed + kNearly, .allowed = at.allowed};
+    vec3 deepestAside(0);
+    bool close = false;
     for (int k = 0; k < (off > 0 ? kRing : 1); ++k) {
       const float angle = 2 * kPi * float(k) / kRing;
-      const vec3 aside = off * (std::cos(angle) * u + std::sin(angle) * v), own = centre + aside;
-      const DistanceField::Sample sample = solid.field.at(own);
-      const float f = sample.distance - small;
-      if (inBand) *inBand |= sample.distance < solid.field.band();
-      if (f >= deepest.f || sample.distance >= solid.field.band() || allowed - f <= (allowed < 0 ? kRestTolerance : 0)) continue;
-      deepest = {.tube = tube, .part = part, .s = s, .f = f, .allowed = allowed};
-      leave(solid, own, home + aside, small, sample, deepest);
-      deepest.point -= mat3(solid.matrix) * aside + off * deepest.normal;
+      const vec3 aside = off > 0 ? off * (std::cos(angle) * u + std::sin(angle) * v) : vec3(0);
+      const float distance = field.distance(centre + aside);
+      if (distance >= field.band()) continue;
+      inBand = true;
+      if (distance - small >= deepest.f) continue;
+      close = true;
+      deepest.f = distance - small;
+      deepestAside = aside;
     }
-    if (deepest.f < 0) out.push_back(deepest);
+    if (!close) continue;
+    const vec3 from = centre + deepestAside;
+    leave(solid, from, deepest.enters() ? home(at, s, tubes) + deepestAside : from, small, deepest);
+    deepest.point -= mat3(solid.matrix) * deepestAside + off * deepest.normal;
+    out.push_back(deepest);
+  }
+  return inBand;
+}
+
+// Pairs of tubes and parts that may be near one another.
+void Bones::State::findNear(std::size_t task, std::span<const Bezier> tubes) {
+  near[task].clear();
+  const std::size_t begin = task * kTubesPerTask, end = std::min(tubes.size(), begin + kTubesPerTask);
+  std::array<Aabb, kTubesPerTask> boxesOf;
+  Aabb all;
+  for (std::size_t i = begin; i < end; ++i) boxesOf[i - begin] = tubes[i].bounds(), all.add(boxesOf[i - begin]);
+  for (std::uint32_t part = 0; part < solids.size(); ++part) {
+    if (!boxes[part].overlaps(all)) continue;
+    for (std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
+      const Aabb& box = boxesOf[i - begin];
+      if (!boxes[part].overlaps(box)) continue;
+      const float reach = 0.5f * glm::length(box.extent());
+      if (solids[part].field.clearance(placed(solids[part].inverse, 0.5f * (box.low + box.high))) > reach) continue;
+      near[task].push_back({i, part, solids[part].allowed(i)});
+    }
   }
 }
 
@@ -169,6 +222,7 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
       state_->solids.push_back({part.joint, DistanceField(part.positions, part.triangles, {})});
   }
   state_->rest.assign(restTubes.begin(), restTubes.end());
+  for (const Bezier& tube : restTubes) state_->pieces.push_back(piecesOf(tube));
   std::vector<mat4> matrices;
   const Pose rest = restPose(body.skeleton);
   for (std::size_t j = 0; j < body.skeleton.joints.size(); ++j) {
@@ -178,6 +232,7 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
   pose(matrices);
   contacts(restTubes, restTubes);
   for (const BoneContact& contact : state_->contacts) {
+    if (!contact.enters()) continue;
     auto& atRest = state_->solids[contact.part].atRest;
     if (atRest.empty() || atRest.back().first != contact.tube) atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
     atRest.back().second = std::min(atRest.back().second, contact.f);
@@ -213,24 +268,20 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std:
   state.found.resize(tasks);
   state.near.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
+    state.found[task].clear();
+    if (which == Which::all) state.findNear(task, tubes);
     auto& out = state.found[task];
-    out.clear();
-    if (which == Which::nearAtLast) {
-      for (const auto& [tube, part] : state.near[task]) state.look(tube, tubes[tube], posed[tube], part, out);
-      return;
-    }
-    state.near[task].clear();
-    const std::size_t end = std::min(tubes.size(), (task + 1) * kTubesPerTask);
-    Aabb all;
-    for (std::size_t i = task * kTubesPerTask; i < end; ++i) all.add(tubes[i].bounds());
-    for (std::uint32_t part = 0; part < state.solids.size(); ++part) {
-      if (!state.boxes[part].overlaps(all)) continue;
-      for (std::uint32_t i = std::uint32_t(task * kTubesPerTask); i < end; ++i) {
-        bool near = false;
-        if (state.boxes[part].overlaps(tubes[i].bounds())) state.look(i, tubes[i], posed[i], part, out, &near);
-        if (near) state.near[task].push_back({i, part});
+    std::erase_if(state.near[task], [&](State::Near& at) {
+      const std::size_t before = out.size();
+      if (which == Which::nearAtLast) {
+        // What did not enter then, and was not moved, does not now.
+        if (at.entered || moved(tubes[at.tube], posed[at.tube])) state.look(at, {tubes, posed}, out);
+        return false;
       }
-    }
+      const bool inBand = state.look(at, {tubes, posed}, out);
+      at.entered = std::any_of(out.begin() + std::ptrdiff_t(before), out.end(), [](const BoneContact& c) { return c.enters(); });
+      return !inBand;
+    });
   });
   state.contacts.clear();
   for (std::size_t task = 0; task < tasks; ++task)

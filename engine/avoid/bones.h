@@ -3,19 +3,22 @@
 #include <span>
 #include <vector>
 
+#include "avoid/interference.h"
 #include "body/body.h"
 #include "curve/bezier.h"
 
 namespace vasa {
 
-/// A place of a tube in a bone or the heart, deeper than the tube is there at rest.
+/// A place of a tube in or near a bone or the heart.
 struct BoneContact {
   std::uint32_t tube = 0, part = 0;
-  float s = 0;         ///< on the tube
+  float s = 0;         ///< on the tube: one of a few parameters, the same in every pose
   float f = 0;         ///< [m] signed distance of the centre line from the surface, less the radius there
   float allowed = 0;   ///< [m] <= 0: the least f of this tube and this part at rest, where that is negative
   vec3 point{0};       ///< as far from the centre line along the normal as that should be: n · (C(s) - point) >= r
   vec3 normal{0};      ///< unit, the way out there
+  /// Deeper than at rest by more than rounding.
+  bool enters() const { return allowed - f > (allowed < 0 ? kRestTolerance : 0); }
 };
 
 /// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint that
@@ -36,8 +39,8 @@ class Bones {
   /// @param jointMatrices  a joint's world · inverseBind
   void pose(std::span<const mat4> jointMatrices);
 
-  /// Places where tubes enter a part, deeper than at rest by more than rounding (kRestTolerance); sorted by tube, part
-  /// and parameter. Tubes are looked at in four to seven places. Parallel.
+  /// Places where tubes enter a part or come within a millimetre of that; sorted by tube, part and parameter. Tubes are
+  /// looked at in four to seven places. Parallel.
   /// @param posed  the tubes before any correction
   /// @param which  all tubes, or only those that were within a field's band when all were looked at last: what a round
   ///               of corrections can bring into a bone, much faster

@@ -14,19 +14,15 @@ constexpr float kClearanceShare = 0.02f;   // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;   // [m]
 constexpr float kSameParameter = 0.04f;    // constraints of one pair closer than this in s and t are one
 constexpr float kSameDirection = 0.98f;    // ... if their normals are about the same too
-constexpr float kSamePlane = 1e-5f;        // [m] ... and, from a bone, the planes they keep to
-constexpr float kBoneClearance = 1e-4f;    // [m]
 constexpr float kNegligible = 2e-6f;       // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can mend the place
 constexpr float kReach = 2;                // how far a multiplier may push on its own: times what is lacking
-constexpr float kBoneReach = 2;            // ... out of a bone: where both cannot be had, vessels come before bones
 // What asks for a longer way than this from where the pose has put a vessel, and was not met there, comes of where the
 // vessel was pushed.
 constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
 constexpr std::uint32_t kAlong = 2;        // spans within which two vessels keep to one side of one another
 constexpr float kStretch = 8;              // spans, along both: places that share one side
 constexpr float kSure = 0.3f;              // length of evidence that counts
-constexpr float kLess = 0.7f;              // ... of bones falls: vessels come first
 constexpr float kMore = 1.5f;              // a limit that was reached in vain grows by so much a round ...
 constexpr float kMost = 2;                 // ... and in all
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
@@ -63,7 +59,24 @@ void ConstraintPool::restart() {
 
 void ConstraintPool::clear() {
   restart();
-  letThrough_.assign(network_->vessels().size(), 0);
+  asTheyLie_.clear();
+}
+
+void ConstraintPool::partAsTheyLie(std::span<const Interference::Place> places) {
+  for (const Interference::Place& place : places) asTheyLie_.push_back(vesselsOf({place.contact.i, place.contact.j}));
+  std::ranges::sort(asTheyLie_);
+  const auto [first, last] = std::ranges::unique(asTheyLie_);
+  asTheyLie_.erase(first, last);
+  std::erase_if(constraints_, [&](const Constraint& constraint) { return partedAsTheyLie(constraint.tubes); });
+}
+
+std::pair<std::uint32_t, std::uint32_t> ConstraintPool::vesselsOf(TubePair tubes) const {
+  const NetworkTubes& layout = interference_->layout();
+  return {layout.address(tubes.i).vessel.value, layout.address(tubes.j).vessel.value};
+}
+
+bool ConstraintPool::partedAsTheyLie(TubePair tubes) const {
+  return std::ranges::binary_search(asTheyLie_, vesselsOf(tubes));
 }
 
 vec3 ConstraintPool::posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const {
@@ -84,14 +97,10 @@ bool ConstraintPool::refresh(std::span<const Bezier> shape) {
   ++rounds_;
   for (Constraint& constraint : constraints_) {
     constraint.distance = shape[constraint.tubes.i].at(constraint.s).w + constraint.clearance;
-    if (constraint.tubes.j != kNoTube) constraint.distance += shape[constraint.tubes.j].at(constraint.t).w;
-    if (constraint.multiplier < constraint.limit) continue;
-    if (constraint.tubes.j == kNoTube) {
-      constraint.limit *= kLess;
-    } else if (constraint.limit < constraint.mostLimit) {
-      constraint.limit = std::min(kMore * constraint.limit, constraint.mostLimit);
-      grew = true;
-    }
+    constraint.distance += shape[constraint.tubes.j].at(constraint.t).w;
+    if (constraint.multiplier < constraint.limit || constraint.limit >= constraint.mostLimit) continue;
+    constraint.limit = std::min(kMore * constraint.limit, constraint.mostLimit);
+    grew = true;
   }
   return grew;
 }
@@ -134,6 +143,8 @@ vec3 ConstraintPool::evidenceAround(const Contact& contact) const {
 void ConstraintPool::propose(const Contact& contact, bool changed, std::span<const Bezier> shape,
                              const PosedVessels& posed, Proposals& found) const {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
+  const bool asTheyLie = partedAsTheyLie({contact.i, contact.j});
+  if (asTheyLie && changed) return;
   const vec3 around = evidenceAround(contact);
   std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
   for (std::size_t k = 0; k < kSamples.size(); ++k)
@@ -145,7 +156,7 @@ void ConstraintPool::propose(const Contact& contact, bool changed, std::span<con
     const float clearance = clearanceFor({i, j}, s, t, a.w + b.w), distance = a.w + b.w + clearance;
     const Constraint* before = nearest({i, j}, s, t);
     const vec3 settled = glm::length(around) > kSure || !before ? around : before->normal;
-    const vec3 side = sides_->belongs({i, j, s, t}, shape, posed, glm::length(settled) > kSure ? &settled : nullptr);
+    const vec3 side = asTheyLie ? vec3(0) : sides_->belongs({i, j, s, t}, shape, posed, glm::length(settled) > kSure ? &settled : nullptr);
     // A point to the side of a tube's end does not say anything about the two tubes' sides.
     const bool wrong = changed && glm::dot(gap, side) < 0;
     if (k > 0 && !wrong && glm::length(gap) >= distance) continue;
@@ -170,8 +181,7 @@ bool ConstraintPool::known(const Constraint& wanted) const {
                               [](const Constraint& a, TubePair b) { return a.tubes < b; });
   for (; own != constraints_.end() && own->tubes == wanted.tubes; ++own)
     if (std::abs(own->s - wanted.s) < kSameParameter && std::abs(own->t - wanted.t) < kSameParameter &&
-        glm::dot(own->normal, wanted.normal) > kSameDirection &&
-        glm::dot(wanted.normal, wanted.anchor - own->anchor) < kSamePlane)
+        glm::dot(own->normal, wanted.normal) > kSameDirection)
       return true;
   return false;
 }
@@ -181,10 +191,8 @@ void ConstraintPool::take(Constraint& constraint) {
   terms_.clear();
   const auto [vesselI, spanI] = interference_->layout().address(constraint.tubes.i);
   space_->addPlace(vesselI, spanI, constraint.s, 1, terms_);
-  if (constraint.tubes.j != kNoTube) {
-    const auto [vesselJ, spanJ] = interference_->layout().address(constraint.tubes.j);
-    space_->addPlace(vesselJ, spanJ, constraint.t, -1, terms_);
-  }
+  const auto [vesselJ, spanJ] = interference_->layout().address(constraint.tubes.j);
+  space_->addPlace(vesselJ, spanJ, constraint.t, -1, terms_);
   constraint.row = space_->finish(terms_, rows_);
   if (constraint.row.diagonal <= kLeastDiagonal) return;
   constraint.limit /= constraint.row.diagonal;
@@ -241,23 +249,6 @@ std::size_t ConstraintPool::add(std::span<const Interference::Place> places, std
   });
   addAll(changed.size(), [&](std::size_t k, Proposals& found) { propose(changed[k], true, shape, posed, found); });
   return added;
-}
-
-std::size_t ConstraintPool::add(std::span<const BoneContact> contacts, std::span<const Bezier> shape,
-                                const PosedVessels& posed) {
-  const std::size_t before = constraints_.size();
-  for (const BoneContact& contact : contacts) {
-    if (letThrough_[interference_->layout().address(contact.tube).vessel.value]) continue;
-    const float radius = shape[contact.tube].at(contact.s).w;
-    Constraint constraint{.tubes = {contact.tube, kNoTube}, .s = contact.s, .normal = contact.normal, .anchor = contact.point};
-    constraint.clearance = contact.allowed < 0 ? contact.allowed : std::max(kClearanceShare * radius, kBoneClearance);
-    constraint.distance = radius + constraint.clearance;
-    constraint.start = glm::dot(contact.normal, posedPlace(contact.tube, contact.s, posed) - contact.point);
-    if (rounds_ > 1 && constraint.distance - constraint.start > kFarthest * radius + kFartherStill) continue;
-    constraint.limit = kBoneReach * (constraint.clearance - contact.f + radius);
-    if (!known(constraint)) take(constraint);
-  }
-  return sortIn(before);
 }
 
 }  // namespace vasa

@@ -1,24 +1,23 @@
 #pragma once
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "avoid/bones.h"
 #include "avoid/interference.h"
 #include "avoid/motion_space.h"
 #include "avoid/sides.h"
 
 namespace vasa {
 
-/// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes, or n · (C_i(s) - anchor) >= distance.
+/// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes; or a fixed plane in place of C_j.
 struct Constraint {
   TubePair tubes;        ///< j is kNoTube where something fixed takes its place
   float s = 0, t = 0;
   vec3 normal{0};        ///< unit, the side of j on which i belongs
-  vec3 anchor{0};
   float clearance = 0;   ///< [m] more than the radii; less where there was less at rest
   float distance = 0;    ///< [m] radii and clearance
-  float start = 0;       ///< n · (C_i(s) - C_j(t)) before the correction
+  float start = 0;       ///< n · (C_i(s) - C_j(t)), or the distance from the plane, before the correction
   float multiplier = 0;  ///< >= 0
   float limit = 0;       ///< of the multiplier
   float mostLimit = 0;   ///< ... and how far that may grow
@@ -32,7 +31,6 @@ class ConstraintPool {
   /// All must outlive this.
   ConstraintPool(const Network& network, const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
-  void clear();
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
   /// side by side, at some more. Where to: partingDirection(). How far: the radii and a clearance, or what there was at
   /// rest between the same two points if that was less.
@@ -42,16 +40,15 @@ class ConstraintPool {
   std::size_t add(std::span<const Interference::Place> places, std::span<const Contact> changed,
                   std::span<const Bezier> shape, const PosedVessels& posed);
 
-  /// The same for tubes in bones: away from the bone's nearest point.
-  std::size_t add(std::span<const BoneContact> contacts, std::span<const Bezier> shape, const PosedVessels& posed);
-
-  /// From now on until clear() bones do not hold this vessel.
-  void letThroughBones(VesselId vessel) { letThrough_[vessel.value] = 1; }
+  void clear();
   /// Forgets the constraints.
   void restart();
+  /// Forgets what was asked for between the vessels of these places, and parts them from now on until clear() the way
+  /// they lie, whatever the rest pose says: together with all else that could not be had.
+  void partAsTheyLie(std::span<const Interference::Place> places);
 
-  /// To be called before add() in every round. Distances for the radii of the given shape; more force for those between tubes that have used all of theirs, less
-  /// for those in bones: where both cannot be had, vessels come first. Returns whether any got more.
+  /// To be called before add() in every round. Distances for the radii of the given shape; more force for those that
+  /// have used all of theirs. Returns whether any got more.
   bool refresh(std::span<const Bezier> shape);
 
   std::span<Constraint> constraints() { return constraints_; }
@@ -82,6 +79,8 @@ class ConstraintPool {
   vec3 posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const;
   void take(Constraint& constraint);
   std::size_t sortIn(std::size_t before);
+  std::pair<std::uint32_t, std::uint32_t> vesselsOf(TubePair tubes) const;
+  bool partedAsTheyLie(TubePair tubes) const;
 
   const Network* network_;
   const MotionSpace* space_;
@@ -89,8 +88,8 @@ class ConstraintPool {
   const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by pair, then in the order they came
   MotionSpace::Rows rows_;
-  std::vector<char> letThrough_;  // one a vessel
   unsigned rounds_ = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> asTheyLie_;  // vessels, sorted
   std::vector<Proposals> proposals_;
   std::vector<Evidence> evidence_;  // of this round, sorted by vessels
   std::vector<MotionSpace::Term> terms_;

@@ -15,6 +15,10 @@ constexpr float kCrossing = 0.7f;               // |u - v| from which two tubes 
 constexpr float kTurned = 0.5f;                 // share of the asked distance by which the rest pose turns the way
 constexpr float kSure = 0.5f;                   // how sure the rest pose must be for a change of sides
 constexpr float kWrong = 0.5f;                  // cosine between the gap and the wrong side
+constexpr float kAhead = 0.34f;                 // cosine of the way to what lies ahead of an end (70 degrees)
+constexpr int kMostSteps = 4;                   // from tube to tube
+constexpr float kInto = 0.01f;                  // of a tube, where the search goes on in the next
+constexpr float kNearer = 1e-6f;                // [m]
 constexpr std::size_t kGrain = 1024;
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
@@ -79,6 +83,45 @@ vec3 RestSides::belongs(const Place& at, std::span<const Bezier> shape, const Po
   return rest + (1 - glm::length(rest)) * unitOr(side, vec3(0));
 }
 
+// Where the two vessels are nearest now, near the place where they were at rest: over the ends of tubes into the next.
+Contact RestSides::nearestAlong(const Contact& rest, std::span<const Bezier> shape) const {
+  Contact now = rest;
+  const bool one = interference_->layout().address(rest.i).vessel == interference_->layout().address(rest.j).vessel;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto [i, j] = std::pair{now.i, now.j};
+    now = nearestPlaceFrom(shape[i], shape[j], now.s, now.t);
+    now.i = i, now.j = j;
+    if (one) return now;
+    const auto follow = [&](std::uint32_t& tube, float& at) {
+      const int way = at >= 1 ? 1 : at <= 0 ? -1 : 0;
+      if (way == 0 || endsAt(tube, at)) return false;
+      tube = way > 0 ? tube + 1 : tube - 1;
+      at = way > 0 ? kInto : 1 - kInto;
+      return true;
+    };
+    Contact next = now;
+    const bool left = follow(next.i, next.s), right = follow(next.j, next.t);
+    if ((!left && !right) || interference_->layout().neighbours().find({next.i, next.j})) return now;
+    const Contact there = nearestPlaceFrom(shape[next.i], shape[next.j], next.s, next.t);
+    if (there.f >= now.f - kNearer) return now;
+    now.i = next.i, now.j = next.j, now.s = there.s, now.t = there.t;
+  }
+  return now;
+}
+
+// Whether a vessel ends at a tube's parameter, which is 0 or 1.
+bool RestSides::endsAt(std::uint32_t tube, float at) const {
+  const auto [vessel, span] = interference_->layout().address(tube);
+  return at >= 1 ? span + 1 == network_->vessel(vessel).spanCount() : span == 0;
+}
+
+// Whether a place lies ahead of a vessel's end rather than beside it: what is there can go around the end.
+bool RestSides::beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<const Bezier> shape) const {
+  if ((at > 0 && at < 1) || !endsAt(tube, at)) return false;
+  const float ahead = glm::dot(way, directionOf(shape[tube], at)) * (at >= 1 ? 1.0f : -1.0f);
+  return ahead > kAhead * glm::length(way);
+}
+
 void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
                             std::vector<Contact>& changed) {
   const std::span<const Contact> near = nearAtRest_;
@@ -89,22 +132,25 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
     const std::size_t end = std::min(near.size(), (task + 1) * kGrain);
     for (std::size_t k = task * kGrain; k < end; ++k) {
       const Contact& rest = near[k];
-      const Bezier &a = shape[rest.i], &b = shape[rest.j];
-      const vec3 gap = vec3(a.at(rest.s)) - vec3(b.at(rest.t));
+      const vec3 gap = vec3(shape[rest.i].at(rest.s)) - vec3(shape[rest.j].at(rest.t));
       if (glm::dot(gap, carried({rest.i, rest.j, rest.s, rest.t}, shape, rotations)) > 0) continue;
-      Contact now = nearestPlaceFrom(a, b, rest.s, rest.t);
-      const vec3 side = carried({rest.i, rest.j, now.s, now.t}, shape, rotations);
-      const vec3 nearest = vec3(a.at(now.s)) - vec3(b.at(now.t));
+      Contact now = nearestAlong(rest, shape);
+      const vec3 side = carried({now.i, now.j, now.s, now.t}, shape, rotations);
+      const vec3 nearest = vec3(shape[now.i].at(now.s)) - vec3(shape[now.j].at(now.t));
       const float sure = glm::length(side);
       if (sure < kSure) continue;
       const float depth = glm::dot(nearest, side) / sure;
       if (depth > -kWrong * glm::length(nearest) || depth > -1e-6f) continue;
-      now.i = rest.i, now.j = rest.j, now.f = depth;
+      if (beyondEnd(now.i, now.s, -nearest, shape) || beyondEnd(now.j, now.t, nearest, shape)) continue;
+      now.f = depth;
       found_[task].push_back(now);
     }
   });
   changed.clear();
   for (const auto& own : found_) changed.insert(changed.end(), own.begin(), own.end());
+  const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
+  std::ranges::stable_sort(changed, {}, pairOf);
+  changed.erase(std::ranges::unique(changed, {}, pairOf).begin(), changed.end());
 }
 
 vec3 partingDirection(vec3 gap, vec3 carried, float distance, vec3 otherwise) {

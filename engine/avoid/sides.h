@@ -3,15 +3,9 @@
 #include <vector>
 
 #include "avoid/interference.h"
+#include "avoid/posed_vessels.h"
 
 namespace vasa {
-
-/// Before the correction: where everything was, at rest and in the pose.
-struct PosedVessels {
-  std::span<const vec4> points;     ///< as Network::points(), in the pose
-  std::span<const quat> rotations;  ///< how each point's surroundings turned since rest (Deformer::rotations)
-  std::span<const mat4> jointMatrices = {};  ///< a joint's world · inverseBind; may be empty without bones
-};
 
 /// Remembers on which side of one another vessels lie at rest, and tells where that is in a pose.
 class RestSides {
@@ -36,12 +30,15 @@ class RestSides {
   /// @param settled  a direction, or null
   vec3 belongs(const Place& at, std::span<const Bezier> shape, const PosedVessels& posed, const vec3* settled) const;
 
-  /// Tubes that were near one another at rest and have changed sides, whether they overlap or have passed through, with
-  /// the places where they are nearest now, sorted by pair; f of the result is the distance of the centre lines by
-  /// which they are on the wrong side, negative.
+  /// Vessels that were near one another at rest and have changed sides, whether they overlap or have passed through: the
+  /// pairs of tubes in which they are nearest now (which may lie some tubes on), with the places; sorted. What lies ahead of a vessel's end, and not beside it, is on no side of it. f of the
+  /// result is the distance of the centre lines by which they are on the wrong side, negative.
   void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed);
 
  private:
+  Contact nearestAlong(const Contact& rest, std::span<const Bezier> shape) const;
+  bool endsAt(std::uint32_t tube, float at) const;
+  bool beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<const Bezier> shape) const;
   vec3 posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const;
   quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
 

@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "avoid/bone_constraints.h"
+#include "avoid/constraints.h"
+
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
 // so that z is always the minimiser for the present multipliers. α is a little compliance: where there is no room the
@@ -15,6 +18,10 @@ namespace {
 
 constexpr float kCompliance = 1e-3f;  // α as a share of a·g
 constexpr float kSettled = 1e-6f;     // [m]
+
+// What is tried, one after the other, where there is no room for all that is asked for: the vessels that are still in
+// one another's way are parted the way they lie, and let through bones with what is joined to them within some nodes.
+constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000};
 
 class Timer {
  public:
@@ -43,6 +50,7 @@ void noteBones(std::span<const BoneContact> contacts, std::uint32_t& count, floa
   count = 0, depth = 0;
   std::uint32_t last = kNoTube;
   for (const BoneContact& contact : contacts) {
+    if (!contact.enters()) continue;
     count += contact.tube != last;
     last = contact.tube;
     depth = std::max(depth, contact.allowed - contact.f);
@@ -51,82 +59,129 @@ void noteBones(std::span<const BoneContact> contacts, std::uint32_t& count, floa
 
 }  // namespace
 
-Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
-    : network_(&network),
-      options_(options),
-      interference_(network),
-      space_(network, options.bending),
-      sides_(network, interference_),
-      pool_(network, space_, interference_, sides_),
-      z_(space_.variableCount()),
-      posedTubes_(interference_.layout().count()) {
-  if (body) bones_ = std::make_unique<Bones>(*body, interference_.restTubes());
-}
+struct Avoider::State {
+  State(const Network& own, const Body* body, AvoidOptions chosen)
+      : network(own),
+        options(chosen),
+        interference(own),
+        space(own, chosen.bending),
+        sides(own, interference),
+        pool(own, space, interference, sides),
+        boneConstraints(own, space, interference.layout()),
+        z(space.variableCount()),
+        posedTubes(interference.layout().count()) {
+    if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
+  }
 
-float Avoider::presentOf(const Constraint& constraint) const {
-  vec3 motion(0);
-  for (const auto& [variable, weight] : pool_.rows().termsOf(constraint.row)) motion += weight * z_[variable];
-  return constraint.start + glm::dot(constraint.normal, motion);
-}
+  AvoidReport run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
+  void look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report);
+  void lookAtBones(Bones::Which which, AvoidReport& report);
+  void ascend();
+  float ascend(Constraint& constraint, const MotionSpace::Rows& rows);
+  void push(const Constraint& constraint, const MotionSpace::Rows& rows, float amount);
+  void sumUp();
+  void place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
+  void separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void letThroughBones(unsigned nodes);
+  void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
-void Avoider::push(Constraint& constraint, float amount) {
+  const Network& network;
+  AvoidOptions options;
+  Interference interference;
+  MotionSpace space;
+  RestSides sides;
+  std::unique_ptr<Bones> bones;
+  ConstraintPool pool;
+  BoneConstraints boneConstraints;
+  std::vector<vec3> z;
+  std::vector<Bezier> posedTubes;
+  VolumeKeeper::Outcome volumeOutcome;
+  std::vector<vec4> before;  // lumen gave way
+  std::vector<float> most;   // radius of a point, since it did
+  std::vector<Interference::Place> found, remaining;
+  std::span<const Interference::Place> places;  // of the last look, as the next two
+  std::vector<Contact> changed;
+  std::span<const BoneContact> boneContacts;
+  std::vector<NarrowPlace> narrowed;
+};
+
+void Avoider::State::push(const Constraint& constraint, const MotionSpace::Rows& rows, float amount) {
   const vec3 force = amount * constraint.normal;
-  const float* response = pool_.rows().responses.data() + constraint.row.firstResponse;
-  for (const auto& [first, count] : pool_.rows().runsOf(constraint.row))
-    for (std::uint32_t k = 0; k < count; ++k) z_[first + k] += *response++ * force;
+  const float* response = rows.responses.data() + constraint.row.firstResponse;
+  for (const auto& [first, count] : rows.runsOf(constraint.row))
+    for (std::uint32_t k = 0; k < count; ++k) z[first + k] += *response++ * force;
 }
 
-void Avoider::ascend() {
-  for (unsigned sweep = 0; sweep < options_.sweeps; ++sweep) {
+// What all multipliers move together.
+void Avoider::State::sumUp() {
+  std::fill(z.begin(), z.end(), vec3(0));
+  for (const Constraint& constraint : boneConstraints.constraints())
+    if (constraint.multiplier > 0) push(constraint, boneConstraints.rows(), constraint.multiplier);
+  for (const Constraint& constraint : pool.constraints())
+    if (constraint.multiplier > 0) push(constraint, pool.rows(), constraint.multiplier);
+}
+
+// Returns how far that moved the place.
+float Avoider::State::ascend(Constraint& constraint, const MotionSpace::Rows& rows) {
+  vec3 motion(0);
+  for (const auto& [variable, weight] : rows.termsOf(constraint.row)) motion += weight * z[variable];
+  const float diagonal = constraint.row.diagonal, present = constraint.start + glm::dot(constraint.normal, motion);
+  const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
+  const float step = std::clamp(lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
+                                std::max(constraint.limit - constraint.multiplier, 0.0f));
+  if (step == 0) return 0;
+  constraint.multiplier += step;
+  push(constraint, rows, step);
+  return std::abs(step) * diagonal;
+}
+
+void Avoider::State::ascend() {
+  for (unsigned sweep = 0; sweep < options.sweeps; ++sweep) {
     float largest = 0;
-    for (Constraint& constraint : pool_.constraints()) {
-      const float compliance = kCompliance * constraint.row.diagonal;
-      const float lack = constraint.distance - presentOf(constraint) - compliance * constraint.multiplier;
-      const float step = std::clamp(lack / (constraint.row.diagonal + compliance), -constraint.multiplier,
-                                    std::max(constraint.limit - constraint.multiplier, 0.0f));
-      if (step == 0) continue;
-      constraint.multiplier += step;
-      push(constraint, step);
-      largest = std::max(largest, std::abs(step) * constraint.row.diagonal);
-    }
+    for (Constraint& constraint : boneConstraints.constraints())
+      largest = std::max(largest, ascend(constraint, boneConstraints.rows()));
+    for (Constraint& constraint : pool.constraints())
+      largest = std::max(largest, ascend(constraint, pool.rows()));
     if (largest < kSettled) return;
   }
 }
 
-void Avoider::place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
-  const std::span<const vec4> rest = network_->points();
+void Avoider::State::place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+  const std::span<const vec4> rest = network.points();
   for (std::size_t p = 0; p < points.size(); ++p)
     points[p] = vec4(vec3(posed.points[p]), volume ? rest[p].w : points[p].w);
-  space_.apply(z_, points);
-  if (volume) volumeOutcome_ = volume->run(points);
+  space.apply(z, points);
+  if (volume) volumeOutcome = volume->run(points);
 }
 
-void Avoider::look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report) {
+void Avoider::State::look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report) {
   report.certifyMs = 0;
   {
     Timer timer(report.certifyMs);
-    places_ = interference_.find(points);
-    sides_.findChanged(interference_.tubes(), posed.rotations, changed_);
+    places = interference.find(points);
+    sides.findChanged(interference.tubes(), posed.rotations, changed);
   }
   report.detectMs += report.certifyMs;
   lookAtBones(which, report);
 }
 
-void Avoider::lookAtBones(Bones::Which which, AvoidReport& report) {
-  if (!bones_) return;
+void Avoider::State::lookAtBones(Bones::Which which, AvoidReport& report) {
+  if (!bones) return;
   Timer timer(report.boneMs);
-  boneContacts_ = bones_->contacts(interference_.tubes(), posedTubes_, which);
+  boneContacts = bones->contacts(interference.tubes(), posedTubes, which);
 }
 
-void Avoider::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  for (unsigned round = 0; round < options_.rounds; ++round) {
+void Avoider::State::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+  for (unsigned round = 0; round < options.rounds; ++round) {
     {
       Timer timer(report.solveMs);
-      const std::span<const Bezier> tubes = interference_.tubes();
-      const bool grew = pool_.refresh(tubes);
-      const std::size_t added = pool_.add(places_, changed_, tubes, posed) + pool_.add(boneContacts_, tubes, posed);
-      if (added == 0 && !grew) return;
+      const std::span<const Bezier> tubes = interference.tubes();
+      const bool grew = pool.refresh(tubes);
+      const std::size_t added = pool.add(places, changed, tubes, posed);
+      const std::size_t asking = boneConstraints.update(boneContacts, tubes, posedTubes);
+      if (added + asking == 0 && !grew) return;
       ++report.rounds;
+      sumUp();
       ascend();
       place(posed, volume, points);
     }
@@ -134,94 +189,127 @@ void Avoider::separate(const PosedVessels& posed, const VolumeKeeper* volume, st
   }
 }
 
-// Starts again, but vessels that bones hold against one another, and what hangs together with them within some nodes,
-// are let through the bones.
-void Avoider::letThroughBones(const PosedVessels& posed, const VolumeKeeper* volume, unsigned nodes,
-                              std::span<vec4> points, AvoidReport& report) {
+// Vessels that bones hold against one another, and what hangs together with them within some nodes, are let through the
+// bones.
+void Avoider::State::letThroughBones(unsigned nodes) {
   std::vector<VesselId> vessels;
-  std::vector<char> taken(network_->vessels().size(), 0);
+  std::vector<char> taken(network.vessels().size(), 0);
   const auto take = [&](VesselId vessel) {
     if (!std::exchange(taken[vessel.value], char(1))) vessels.push_back(vessel);
   };
-  for (const Interference::Place& place : remaining_)
-    for (const std::uint32_t tube : {place.contact.i, place.contact.j}) take(interference_.layout().address(tube).vessel);
+  for (const Interference::Place& place : remaining)
+    for (const std::uint32_t tube : {place.contact.i, place.contact.j}) take(interference.layout().address(tube).vessel);
   for (std::size_t first = 0; nodes-- > 0;) {
     const std::size_t last = vessels.size();
     for (; first < last; ++first) {
-      const Vessel& vessel = network_->vessel(vessels[first]);
+      const Vessel& vessel = network.vessel(vessels[first]);
       for (const NodeId id : {vessel.start, vessel.end}) {
         if (!id.valid()) continue;
-        if (const auto& host = network_->node(id).host) take(host->vessel);
-        for (const VesselEnd& end : network_->ends(network_->node(id))) take(end.vessel);
+        if (const auto& host = network.node(id).host) take(host->vessel);
+        for (const VesselEnd& end : network.ends(network.node(id))) take(end.vessel);
       }
     }
   }
-  for (const VesselId vessel : vessels) pool_.letThroughBones(vessel);
-  pool_.restart();
-  std::fill(z_.begin(), z_.end(), vec3(0));
-  narrowed_.clear();
-  place(posed, volume, points);
-  look(posed, points, Bones::Which::nearAtLast, report);
+  for (const VesselId vessel : vessels) boneConstraints.letThrough(vessel);
+  boneConstraints.restart();
+  pool.restart();
 }
 
 // Radii at interfering places are capped, and the rest of each vessel takes its volume; in the end, where that only
 // moves the trouble about, volume is given up for the certificate.
-void Avoider::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+  narrowed.clear();
+  report.narrowSpans = 0, report.leastLumen = 1;
   bool gave = false;
-  for (unsigned round = 0; round < options_.lumenRounds && !certificateOf(places_, &remaining_).holds(); ++round) {
+  for (unsigned round = 0; round < options.lumenRounds && !certificateOf(places, &remaining).holds(); ++round) {
     {
       Timer timer(report.solveMs);
       if (!gave) {
         gave = true;
-        before_.assign(points.begin(), points.end());
-        most_.assign(points.size(), std::numeric_limits<float>::infinity());
+        before.assign(points.begin(), points.end());
+        most.assign(points.size(), std::numeric_limits<float>::infinity());
       }
-      const bool lastResort = 2 * round >= options_.lumenRounds, keepVolume = volume && !lastResort;
-      narrow(*network_, interference_.layout(), remaining_, interference_.tubes(), points, lastResort, most_);
+      const bool lastResort = 2 * round >= options.lumenRounds, keepVolume = volume && !lastResort;
+      narrow(network, interference.layout(), remaining, interference.tubes(), points, lastResort, most);
       for (std::size_t p = 0; p < points.size(); ++p)
-        points[p].w = keepVolume ? network_->points()[p].w : std::min(points[p].w, most_[p]);
-      if (keepVolume) volumeOutcome_ = volume->run(points, most_);
+        points[p].w = keepVolume ? network.points()[p].w : std::min(points[p].w, most[p]);
+      if (keepVolume) volumeOutcome = volume->run(points, most);
     }
     look(posed, points, Bones::Which::nearAtLast, report);
   }
   if (!gave) return;
-  narrowed_ = narrowPlaces(*network_, before_, points);
-  report.narrowSpans = std::uint32_t(narrowed_.size());
+  narrowed = narrowPlaces(network, before, points);
+  report.narrowSpans = std::uint32_t(narrowed.size());
   report.leastLumen = 1;
-  for (const NarrowPlace& narrow : narrowed_) report.leastLumen = std::min(report.leastLumen, narrow.factor);
+  for (const NarrowPlace& narrow : narrowed) report.leastLumen = std::min(report.leastLumen, narrow.factor);
 }
 
-AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
   AvoidReport report;
-  pool_.clear();
-  narrowed_.clear();
-  std::fill(z_.begin(), z_.end(), vec3(0));
-  if (bones_) {
-    bones_->pose(posed.jointMatrices);
-    interference_.layout().shape(posed.points, posedTubes_);
+  pool.clear();
+  boneConstraints.clear();
+  narrowed.clear();
+  std::fill(z.begin(), z.end(), vec3(0));
+  if (bones) {
+    bones->pose(posed.jointMatrices);
+    interference.layout().shape(posed.points, posedTubes);
   }
   look(posed, points, Bones::Which::all, report);
-  report.before = certificateOf(places_, &found_);
-  report.sidesChanged = std::uint32_t(changed_.size());
-  noteBones(boneContacts_, report.boneContacts, report.boneDepth);
-  if (!report.before.holds() || !changed_.empty() || !boneContacts_.empty()) {
+  report.before = certificateOf(places, &found);
+  report.sidesChanged = std::uint32_t(changed.size());
+  noteBones(boneContacts, report.boneContacts, report.boneDepth);
+  if (!report.before.holds() || !changed.empty() || report.boneContacts > 0) {
     separate(posed, volume, points, report);
     giveWay(posed, volume, points, report);
-    for (const unsigned nodes : {2u, 1000u}) {
-      if (!bones_ || certificateOf(places_, &remaining_).holds()) break;
-      letThroughBones(posed, volume, nodes, points, report);
+    for (const unsigned nodes : kResorts) {
+      if (options.rounds == 0 || certificateOf(places, &remaining).holds()) break;
+      if (nodes > 0 && bones) letThroughBones(nodes);
+      pool.partAsTheyLie(remaining);
+      sumUp();
+      place(posed, volume, points);
+      look(posed, points, Bones::Which::nearAtLast, report);
       separate(posed, volume, points, report);
       giveWay(posed, volume, points, report);
     }
   }
   if (report.rounds > 0) lookAtBones(Bones::Which::all, report);
-  report.after = certificateOf(places_, &remaining_);
-  report.sidesChangedAfter = std::uint32_t(changed_.size());
-  noteBones(boneContacts_, report.boneContactsAfter, report.boneDepthAfter);
-  report.volume = volumeOutcome_;
-  report.constraints = std::uint32_t(pool_.constraints().size());
+  report.after = certificateOf(places, &remaining);
+  report.sidesChangedAfter = std::uint32_t(changed.size());
+  noteBones(boneContacts, report.boneContactsAfter, report.boneDepthAfter);
+  report.volume = volumeOutcome;
+  report.constraints = std::uint32_t(pool.constraints().size() + boneConstraints.constraints().size());
   noteMovement(posed.points, points, report);
   return report;
+}
+
+Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
+    : state_(std::make_unique<State>(network, body, options)) {}
+Avoider::~Avoider() = default;
+Avoider::Avoider(Avoider&&) noexcept = default;
+
+AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+  return state_->run(posed, volume, points);
+}
+std::span<const Interference::Place> Avoider::remaining() const {
+  return state_->remaining;
+}
+std::span<const NarrowPlace> Avoider::narrowed() const {
+  return state_->narrowed;
+}
+std::span<const Contact> Avoider::changedSides() const {
+  return state_->changed;
+}
+std::span<const Interference::Place> Avoider::found() const {
+  return state_->found;
+}
+const NetworkTubes& Avoider::layout() const {
+  return state_->interference.layout();
+}
+std::size_t Avoider::restPairCount() const {
+  return state_->interference.restPairCount();
+}
+std::size_t Avoider::neighbourCount() const {
+  return state_->interference.neighbourCount();
 }
 
 }  // namespace vasa

@@ -2,13 +2,14 @@
 #include <memory>
 
 #include "avoid/certificate.h"
-#include "avoid/constraints.h"
 #include "avoid/lumen.h"
+#include "avoid/posed_vessels.h"
+#include "body/body.h"
 #include "body/volume.h"
 
 namespace vasa {
 
-/// Fixed budgets: no frame takes more than these.
+/// Fixed budgets: no frame takes more than these, once, and again at each of five resorts where there is no room.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
   unsigned rounds = 10;      ///< detections, each followed by sweeps
@@ -37,14 +38,17 @@ struct AvoidReport {
 ///   least ½ zᵀ W z  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
 /// with z and W as in avoid/motion_space.h, so that branches stay joined. Method: dual coordinate ascent (Hildreth 1957)
 /// over a pool of contacts that is detected anew each round and only grows, 0 <= multipliers <= a limit, so that what
-/// cannot be met does not fling vessels about; then, where there is no room, thinner vessels; then a certificate by an
-/// exact query. Budgets are fixed and the order
+/// cannot be met does not fling vessels about; then, where there is no room, thinner vessels. Where vessels are in one
+/// another's way even so, what was asked for between them is forgotten, on which sides they belong too, and in the end
+/// bones let them through: the certificate by an exact query, which comes last, goes before all else. Budgets are fixed and the order
 /// is that of the pairs: the result depends on the scene and the pose alone.
 class Avoider {
  public:
   /// @param network  must outlive this
   /// @param body     whose bones and heart vessels must not enter, or null; read, not kept
   explicit Avoider(const Network& network, const Body* body = nullptr, AvoidOptions options = {});
+  ~Avoider();
+  Avoider(Avoider&&) noexcept;
 
   /// @param posed   the posed network, before any correction
   /// @param volume  keeps the vessels' volume while they are moved, or null
@@ -52,48 +56,22 @@ class Avoider {
   AvoidReport run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
 
   /// Of the last run: where vessels interfere in spite of all, and where they gave way.
-  std::span<const Interference::Place> remaining() const { return remaining_; }
-  std::span<const NarrowPlace> narrowed() const { return narrowed_; }
+  std::span<const Interference::Place> remaining() const;
+  std::span<const NarrowPlace> narrowed() const;
   /// Of the last run: tubes that are on the wrong side of one another in spite of all (RestSides::findChanged).
-  std::span<const Contact> changedSides() const { return changed_; }
+  std::span<const Contact> changedSides() const;
   /// Of the last run: where vessels interfered before.
-  std::span<const Interference::Place> found() const { return found_; }
+  std::span<const Interference::Place> found() const;
 
-  const NetworkTubes& layout() const { return interference_.layout(); }
+  const NetworkTubes& layout() const;
   /// Pairs of tubes that overlap at rest.
-  std::size_t restPairCount() const { return interference_.restPairCount(); }
+  std::size_t restPairCount() const;
   /// Pairs of tubes that are never looked at, for they are near one another along the network.
-  std::size_t neighbourCount() const { return interference_.neighbourCount(); }
+  std::size_t neighbourCount() const;
 
  private:
-  void look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report);
-  void lookAtBones(Bones::Which which, AvoidReport& report);
-  void ascend();
-  void push(Constraint& constraint, float amount);
-  float presentOf(const Constraint& constraint) const;
-  void place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
-  void separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void letThroughBones(const PosedVessels& posed, const VolumeKeeper* volume, unsigned nodes, std::span<vec4> points,
-                       AvoidReport& report);
-  void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-
-  const Network* network_;
-  AvoidOptions options_;
-  Interference interference_;
-  MotionSpace space_;
-  RestSides sides_;
-  std::unique_ptr<Bones> bones_;
-  ConstraintPool pool_;
-  std::vector<vec3> z_;
-  std::vector<Bezier> posedTubes_;
-  VolumeKeeper::Outcome volumeOutcome_;
-  std::vector<vec4> before_;  // lumen gave way
-  std::vector<float> most_;   // radius of a point, since it did
-  std::vector<Interference::Place> found_, remaining_;
-  std::span<const Interference::Place> places_;  // of the last look, as the next two
-  std::vector<Contact> changed_;
-  std::span<const BoneContact> boneContacts_;
-  std::vector<NarrowPlace> narrowed_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace vasa

@@ -48,6 +48,24 @@ TEST_CASE("vessels that pass through one another have changed sides, overlapping
   }
 }
 
+TEST_CASE("what lies ahead of a vessel's end is on no side of it") {
+  for (const float ahead : {-0.02f, 0.006f}) {
+    CAPTURE(ahead);
+    NetworkBuilder builder;
+    std::vector<vec4> along, across;
+    for (int k = 0; k < 12; ++k) {
+      const float way = float(k) / 11;
+      along.emplace_back(-0.1f + 0.1f * way, 0, 0, 0.004f);
+      across.emplace_back(ahead, 0.006f, -0.1f + 0.2f * way, 0.004f);
+    }
+    builder.addVessel({"along", "", VesselKind::artery}, along);
+    builder.addVessel({"across", "", VesselKind::artery}, across);
+    const auto network = builder.build(1);
+    REQUIRE(network.ok());
+    CHECK((changedAfter(*network, 0.013f) > 0) == (ahead < 0));
+  }
+}
+
 TEST_CASE("a turn of the whole changes nothing") {
   const quat turn = glm::angleAxis(2.0f, glm::normalize(vec3(1, 2, -1)));
   CHECK(changedAfter(crossing(1.2f, 0.006f), 0, turn) == 0);

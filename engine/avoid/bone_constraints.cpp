@@ -1,0 +1,102 @@
+#include "avoid/bone_constraints.h"
+
+#include <algorithm>
+
+namespace vasa {
+namespace {
+
+constexpr float kClearanceShare = 0.02f;   // of the radius
+constexpr float kLeastClearance = 1e-4f;   // [m]
+constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can mend the place
+constexpr float kReach = 3;                // how far a multiplier may push on its own: times what is lacking
+constexpr float kMore = 1.5f, kMost = 6;   // a limit that was reached in vain grows by so much a round, and in all
+constexpr unsigned kPatient = 8;           // ... in the first rounds; after these it
+constexpr float kLess = 0.6f;              // falls to this a round
+constexpr float kLeastLimit = 1e-4f;       // [m] and asks for no more rounds from here on
+// What asks for a longer way than this from where the pose has put a vessel, and was not met at first, comes of where
+// the vessel was pushed.
+constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
+
+}  // namespace
+
+BoneConstraints::BoneConstraints(const Network& network, const MotionSpace& space, const NetworkTubes& layout)
+    : network_(&network), space_(&space), layout_(&layout) {
+  clear();
+}
+
+void BoneConstraints::restart() {
+  constraints_.clear();
+  keys_.clear();
+  rows_.clear();
+  rounds_ = 0;
+}
+
+void BoneConstraints::clear() {
+  restart();
+  letThrough_.assign(network_->vessels().size(), 0);
+}
+
+bool BoneConstraints::makeRow(Constraint& constraint) {
+  terms_.clear();
+  const auto [vessel, span] = layout_->address(constraint.tubes.i);
+  space_->addPlace(vessel, span, constraint.s, 1, terms_);
+  constraint.row = space_->finish(terms_, rows_);
+  return constraint.row.diagonal > kLeastDiagonal;
+}
+
+void BoneConstraints::keep(std::size_t own) {
+  next_.push_back(constraints_[own]);
+  nextKeys_.push_back(keys_[own]);
+}
+
+// The plane that is nearest now takes the place of the one before.
+void BoneConstraints::renew(Constraint& constraint, const Constraint& before, bool enters) const {
+  constraint.row = before.row;
+  constraint.mostLimit = before.mostLimit;
+  constraint.limit = before.limit;
+  if (before.multiplier >= before.limit && enters)
+    constraint.limit = rounds_ < kPatient ? std::min(kMore * before.limit, before.mostLimit) : kLess * before.limit;
+  constraint.multiplier = std::min(before.multiplier, constraint.limit);
+}
+
+std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::span<const Bezier> shape,
+                                    std::span<const Bezier> posedTubes) {
+  std::size_t asking = 0, old = 0;
+  ++rounds_;
+  next_.clear();
+  nextKeys_.clear();
+  for (const BoneContact& place : places) {
+    const Key key{place.tube, place.part, place.s};
+    for (; old < keys_.size() && keys_[old] < key; ++old) keep(old);
+    const bool held = old < keys_.size() && keys_[old] == key;
+    if ((!held && !place.enters()) || letThrough_[layout_->address(place.tube).vessel.value]) continue;
+    const float radius = shape[place.tube].at(place.s).w;
+    Constraint constraint{.tubes = {place.tube, kNoTube}, .s = place.s, .normal = place.normal};
+    constraint.clearance = place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kLeastClearance);
+    constraint.distance = radius + constraint.clearance;
+    constraint.start = glm::dot(place.normal, vec3(posedTubes[place.tube].at(place.s)) - place.point);
+    if (rounds_ > 1 && constraint.distance - constraint.start > kFarthest * radius + kFartherStill) {
+      if (!held) continue;
+      constraints_[old].limit *= kLess;
+      constraints_[old].multiplier = std::min(constraints_[old].multiplier, constraints_[old].limit);
+      keep(old++);
+      continue;
+    }
+    if (held) {
+      renew(constraint, constraints_[old++], place.enters());
+    } else {
+      if (!makeRow(constraint)) continue;
+      constraint.limit = kReach * (constraint.clearance - place.f + radius) / constraint.row.diagonal;
+      constraint.mostLimit = kMost * constraint.limit;
+    }
+    asking += place.enters() && constraint.limit * constraint.row.diagonal > kLeastLimit;
+    next_.push_back(constraint);
+    nextKeys_.push_back(key);
+  }
+  for (; old < keys_.size(); ++old) keep(old);
+  constraints_.swap(next_);
+  keys_.swap(nextKeys_);
+  return asking;
+}
+
+}  // namespace vasa
