@@ -21,7 +21,7 @@ constexpr float kSettled = 1e-6f;     // [m]
 
 // What is tried, one after the other, where there is no room for all that is asked for: the vessels that are still in
 // one another's way are parted the way they lie, and let through bones with what is joined to them within some nodes.
-constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000};
+constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000, 0, 0, 0};
 
 class Timer {
  public:

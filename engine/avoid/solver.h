@@ -9,7 +9,7 @@
 
 namespace vasa {
 
-/// Fixed budgets: no frame takes more than these, once, and again at each of five resorts where there is no room.
+/// Fixed budgets: no frame takes more than these, once, and again at each of eight resorts where there is no room.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
   unsigned rounds = 10;      ///< detections, each followed by sweeps
