@@ -4,9 +4,8 @@
 #include <limits>
 
 namespace vasa {
-namespace {
 
-VesselMeasures measureOne(std::span<const vec4> points) {
+VesselMeasures measureVessel(std::span<const vec4> points) {
   constexpr int kPerSpan = 8;
   VesselMeasures out;
   out.length = lengthOf(points);
@@ -29,13 +28,11 @@ VesselMeasures measureOne(std::span<const vec4> points) {
   return out;
 }
 
-}  // namespace
-
 VesselMeter::VesselMeter(const Network& network, float within) : network_(&network), within_(within), interference_(network) {}
 
 std::vector<VesselMeasures> VesselMeter::run(std::span<const vec4> points) {
   std::vector<VesselMeasures> all;
-  for (const Vessel& vessel : network_->vessels()) all.push_back(measureOne(Network::pointsOf(vessel, points)));
+  for (const Vessel& vessel : network_->vessels()) all.push_back(measureVessel(Network::pointsOf(vessel, points)));
   const auto touch = [&](std::uint32_t tube, float gap) {
     auto& clearance = all[interference_.layout().address(tube).vessel.value].clearance;
     clearance = std::min(clearance.value_or(gap), gap);

@@ -15,6 +15,9 @@ struct VesselMeasures {
   std::optional<float> clearance;                ///< [m] to the nearest vessel that it is not joined to; negative: into it
 };
 
+/// Of one vessel's de Boor points; clearance is not looked for. O(spans).
+VesselMeasures measureVessel(std::span<const vec4> points);
+
 /// Measures every vessel of a network, frame after frame.
 class VesselMeter {
  public:
