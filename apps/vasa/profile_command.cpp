@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 #include <sstream>
 
 #include "camera_choice.h"
@@ -16,7 +14,7 @@
 #include "gpu/device.h"
 #include "gpu/error.h"
 #include "network/file.h"
-#include "render/renderer.h"
+#include "render/profiler.h"
 #include "report.h"
 #include "scene_options.h"
 
@@ -24,8 +22,6 @@
 // resolution, and beside it the same triangles from ready vertex buffers.
 namespace vasa::cli {
 namespace {
-
-constexpr std::uint32_t kWarmUpFrames = 5;  // shaders compile at their first use
 
 struct Options {
   SceneOptions scene;
@@ -48,98 +44,33 @@ struct Setting {
   std::vector<Quads> quads;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// One list of samples a stage, in the order of the report.
-class Stages {
- public:
-  void add(const std::string& name, double ms) {
-    const auto found = std::find_if(stages_.begin(), stages_.end(), [&](const auto& stage) { return stage.first == name; });
-    if (found == stages_.end()) stages_.push_back({name, {ms}});
-    else found->second.push_back(ms);
+Report asReport(const ProfileRow& measured, bool growing) {
+  Report row{{"quads", measured.name()}, {"sweeps", measured.sweeps}, {"triangles", measured.triangles}};
+  for (const auto& [name, value] : measured.stages) row[name] = value;
+  if (growing) {
+    row["capillaries"] = measured.capillaries.curves;
+    row["capillary_trees"] = measured.capillaries.trees;
+    row["capillary_bytes"] = measured.capillaries.bytes;
   }
-  void report(Report& row) const {
-    for (const auto& [name, samples] : stages_) row[name] = median(samples);
-  }
-
- private:
-  std::vector<std::pair<std::string, std::vector<double>>> stages_;
-};
-
-// Draws the clip's poses one after the other and hands each frame's input to `each` once shaders are warm.
-void drawFrames(Renderer& renderer, const Setting& setting, const Options& options,
-                const std::function<void(const FrameMaker&, const RenderInput&, double frameMs)>& each) {
-  FrameMaker maker(setting.scene, {.avoid = options.avoid});
-  const std::uint32_t clipFrames = setting.clip ? setting.clip->frameCount() : 1;
-  for (std::uint32_t i = 0; i < kWarmUpFrames + options.frames && !stopRequested(); ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    maker.make(setting.clip, setting.clip ? setting.clip->timeOfFrame(i % clipFrames) : 0);
-    const RenderInput input{.points = maker.points(),
-                            .knotFrames = maker.knotFrames(),
-                            .jointMatrices = options.body ? maker.jointMatrices() : std::span<const mat4>(),
-                            .camera = setting.camera.at(setting.scene, maker.pose(), maker.points()),
-                            .look = setting.look};
-    renderer.draw(input);
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    if (i >= kWarmUpFrames) each(maker, input, ms);
-  }
-}
-
-std::string nameOf(Quads quads) {
-  return quads.pixelError > 0 ? "auto" : fmt::format("{}x{}", quads.around, quads.along);
-}
-
-// Stages are timed in one run, whole frames in another: taking the stages' times puts barriers between them.
-Report profileRow(gpu::Device& device, const Setting& setting, const Options& options, Quads quads) {
-  const auto meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>();
-  RenderOptions render{.width = setting.size.width, .height = setting.size.height, .samples = options.samples,
-                       .shape = {quads.around, quads.along}, .pixelError = quads.pixelError, .growth = setting.growth.get(), .capillaries = wishOf(setting.capillaries), .timed = false};
-  Stages stages;
-  {
-    Renderer renderer(device, setting.scene.network, meshes, render);
-    drawFrames(renderer, setting, options, [&](const FrameMaker&, const RenderInput&, double ms) { stages.add("frame_ms", ms); });
-  }
-  render.timed = true;
-  Renderer renderer(device, setting.scene.network, meshes, render);
-  std::uint32_t drawn = 0;
-  drawFrames(renderer, setting, options, [&](const FrameMaker& maker, const RenderInput& input, double) {
-    const FrameReport& cpu = maker.report();
-    const FrameTimes times = renderer.times();
-    stages.add("pose_ms", cpu.poseMs);
-    stages.add("deform_ms", cpu.deformMs);
-    stages.add("kinks_ms", cpu.kinksMs);
-    stages.add("volume_ms", cpu.volumeMs);
-    if (options.avoid) {
-      stages.add("detect_ms", cpu.avoid.detectMs);
-      stages.add("obstacles_ms", cpu.avoid.boneMs);
-      stages.add("avoid_ms", cpu.avoid.solveMs);
-      stages.add("certify_ms", cpu.avoid.certifyMs);
-    }
-    stages.add("knot_frames_ms", cpu.framesMs);
-    stages.add("upload_ms", times.upload);
-    stages.add("tessellate_ms", times.tessellate);
-    stages.add("forks_ms", times.forks);
-    stages.add("draw_ms", times.draw);
-    if (setting.growth) stages.add("capillaries_ms", times.capillaries);
-    stages.add("meshes_ms", times.meshes);
-    stages.add("triangles_drawn", double(renderer.drawnTriangleCount()));
-    if (drawn++ % 8 == 0) stages.add("static_draw_ms", renderer.staticDraw(input, 1));
-  });
-  Report row{{"quads", nameOf(quads)}, {"sweeps", renderer.sweepCount()}, {"triangles", renderer.triangleCount()}};
-  stages.report(row);
-  if (const CapillaryCounts grown = renderer.capillaryCounts(); setting.growth) {
-    row["capillaries"] = grown.curves;
-    row["capillary_trees"] = grown.trees;
-    row["capillary_bytes"] = grown.bytes;
-  }
-  if (quads.pixelError > 0) row["triangles"] = row["triangles_drawn"];  // the picture decides, and leaves no others
-  row["fps"] = 1000 / row.value("frame_ms", 1e9);
-  row["template_bytes"] = renderer.templateBytes();
+  if (measured.quads.pixelError > 0) row["triangles"] = row["triangles_drawn"];  // the picture decides, and leaves no others
+  row["fps"] = measured.fps();
+  row["template_bytes"] = measured.templateBytes;
   return row;
+}
+
+ProfileSetting profileSetting(const Setting& setting, const Options& options) {
+  return {.scene = &setting.scene,
+          .clip = setting.clip,
+          .meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>(),
+          .render = {.width = setting.size.width,
+                     .height = setting.size.height,
+                     .samples = options.samples,
+                     .growth = setting.growth.get(),
+                     .capillaries = wishOf(setting.capillaries)},
+          .look = setting.look,
+          .camera = [&setting](const FrameMaker& maker) { return setting.camera.at(setting.scene, maker.pose(), maker.points()); },
+          .avoid = options.avoid,
+          .frames = options.frames};
 }
 
 // What the network, its binding and the trees of detection (the paper's and ours) take, beside the triangle mesh that
@@ -223,12 +154,12 @@ Result<void> run(const Globals& globals, const Options& options) {
                {"clip", setting->clip ? setting->clip->name : "rest"},
                {"frames", options.frames},
                {"rows", Report::array()}};
+    std::vector<ProfileQuads> quads;
+    for (const Quads& each : setting->quads) quads.push_back({{each.around, each.along}, each.pixelError});
+    Profiler profiler(device, profileSetting(*setting, options), quads);
     ProgressLine progress("profiling");
-    for (const Quads& quads : setting->quads) {
-      if (stopRequested()) break;
-      all["rows"].push_back(profileRow(device, *setting, options, quads));
-      progress.update(all["rows"].size(), setting->quads.size());
-    }
+    while (!stopRequested() && profiler.step()) progress.update(profiler.done(), profiler.total());
+    for (const ProfileRow& row : profiler.rows()) all["rows"].push_back(asReport(row, setting->growth != nullptr));
     all["storage"] = storageReport(setting->scene);
     return all;
   });

@@ -69,6 +69,10 @@ gpu::TargetSpec targetSpec(const RenderOptions& options) {
           .readDepth = options.occlusion};
 }
 
+gpu::BufferSpec readBackSpec(const gpu::Target& target) {
+  return {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack};
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -130,7 +134,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       surfacePass(device, target.spec()),
       templates(drawsFor(device, tubes)),
       forkTemplates(drawsFor(device, forks)),
-      readBack(device, {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack}),
+      readBack(device, readBackSpec(target)),
       drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
                      gpu::MemoryRole::readBack}),
       timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 5) : 0),
@@ -298,6 +302,17 @@ void Renderer::draw(const RenderInput& input) {
      : stage == kCapillaries ? s.times.capillaries
                              : s.times.meshes) += ms;
   }
+}
+
+void Renderer::resize(std::uint32_t width, std::uint32_t height) {
+  State& s = *state_;
+  if (width == s.options.width && height == s.options.height) return;
+  s.options.width = width;
+  s.options.height = height;
+  s.occlusionPass.reset();
+  s.target = gpu::Target(s.device, targetSpec(s.options));
+  s.readBack = gpu::Buffer(s.device, readBackSpec(s.target));
+  if (s.options.occlusion) s.occlusionPass.emplace(s.device, s.target);
 }
 
 const gpu::Image& Renderer::picture() const {

@@ -91,8 +91,11 @@ class Renderer {
   /// Draws and waits until the picture is done.
   void draw(const RenderInput& input);
 
+  /// Pictures of another size from the next frame on. Network, meshes and pipelines stay.
+  void resize(std::uint32_t width, std::uint32_t height);
+
   /// The latest draw()'s picture on the device: RenderOptions::supersample times the size in each direction, sRGB, in
-  /// the layout that copies read from. Until the next draw().
+  /// the layout that copies read from. Until the next draw() or resize().
   const gpu::Image& picture() const;
 
   /// The picture of the latest draw().
