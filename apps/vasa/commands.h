@@ -35,6 +35,7 @@ void addFit(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);
 void addProfile(CLI::App& app, Command& command);
 void addRender(CLI::App& app, Command& command);
+void addView(CLI::App& app, Command& command);
 
 /// Set by SIGINT and SIGTERM. Long loops ask, stop, and return stopError().
 bool stopRequested();

@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
   app.fallthrough();
   Command command;
   addGlobals(app, command.globals);
+  addView(app, command);
   addCompare(app, command);
   addConvert(app, command);
   addRender(app, command);

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include "camera_choice.h"
+#include "capillary_options.h"
+#include "commands.h"
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "frame_output.h"
+#include "gpu/error.h"
+#include "report.h"
+#include "scene_options.h"
+#include "viewer/app.h"
+#include "viewer/shortcuts.h"
+
+// vasa view: the interactive app (apps/viewer), from the command line.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  CapillaryOptions capillaries;
+  std::string look, size, script, record;
+  bool validate = false;
+};
+
+// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it.
+Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
+  const std::string extension = path.extension().string();
+  if (extension == ".json") return readSceneFile(path);
+  SceneFile scene = now;
+  if (extension == ".vasa") scene.networks = {path};
+  else if (extension == ".bvh") scene.clip = path.string();
+  else if (extension == ".glb" || extension == ".gltf") scene.body = path;
+  else return Error{Fault::usage, path.string() + ": drop a scene (.json), vessels (.vasa), a body (.glb) or a motion (.bvh)"};
+  return scene;
+}
+
+Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& options) {
+  viewer::ViewOptions view;
+  if (!options.size.empty()) {
+    const auto size = parseSize(options.size);
+    if (!size) return size.error();
+    view.width = size->width;
+    view.height = size->height;
+  }
+  auto choice = chooseScene(options.scene);
+  if (!choice) return choice.error();
+  choice->capillaries = chooseCapillaries(choice->capillaries, options.capillaries);
+  // A look that nobody asked for is that of the last session.
+  choice->look.preset = !options.look.empty() ? options.look : options.scene.scene.empty() ? "" : choice->look.preset;
+  if (!options.script.empty()) {
+    const auto bytes = readFile(options.script, 1 << 24);
+    if (!bytes) return bytes.error();
+    auto script = viewer::parseScript({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.script);
+    if (!script) return script.error();
+    view.script = std::move(*script);
+  }
+  if (const auto folder = dataFolder()) view.rules = *folder / "growth";
+  view.file = std::move(*choice);
+  view.device = globals.device;
+  view.seed = std::uint32_t(globals.seed);
+  view.validation = {.core = options.validate, .synchronization = options.validate};
+  view.record = options.record;
+  view.open = [file = view.file](const std::filesystem::path& path) { return sceneOf(path, file); };
+  view.stopped = [] { return stopRequested(); };
+  return view;
+}
+
+Report asReport(const viewer::ViewReport& view) {
+  Report files = Report::array();
+  for (const auto& file : view.files) files.push_back(file.string());
+  Report profile = Report::array();
+  for (const ProfileRow& row : view.profile) {
+    Report entry{{"quads", row.name()}, {"fps", row.fps()}};
+    for (const auto& [name, value] : row.stages) entry[name] = value;
+    profile.push_back(std::move(entry));
+  }
+  return {{"frames", view.frames},
+          {"pictures", view.pictures},
+          {"shapes", view.shapes},
+          {"shown_ms", view.frameMs},
+          {"fps", view.frameMs > 0 ? 1000 / view.frameMs : 0},
+          {"shape_ms", view.shapeMs},
+          {"picture_ms", view.pictureMs},
+          {"width", view.width},
+          {"height", view.height},
+          {"selected", view.selected},
+          {"files", files},
+          {"profile", profile},
+          {"validation_messages", view.validation.size()},
+          {"device", view.device}};
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto view = prepare(globals, options);
+  if (!view) return view.error();
+  const auto session = gpu::attempt([&] { return viewer::view(*view); });
+  if (!session) return session.error();
+  if (!*session) return session->error();
+  const viewer::ViewReport& report = **session;
+  if (globals.json)
+    if (auto printed = printJson(asReport(report)); !printed) return printed;
+  if (stopRequested()) return stopError();
+  if (!report.validation.empty())
+    return Error{Fault::failed, fmt::format("{} validation messages, the first: {}", report.validation.size(), report.validation.front())};
+  return {};
+}
+
+std::string footer() {
+  std::string text =
+      "Examples:\n"
+      "  vasa view\n"
+      "  vasa view --clip walk --look clinical\n"
+      "  vasa view --body b.glb --network b.vasa --record-script session.txt\n"
+      "  xvfb-run -a vasa view --script session.txt --json\n"
+      "Mouse and keys:\n";
+  for (const viewer::Shortcut& shortcut : viewer::shortcuts()) text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
+  text +=
+      "Drop a scene (.json), vessels (.vasa), a body (.glb) or a motion (.bvh) on the window to open it.\n"
+      "A script is text, one thing a line: move X Y, press|release left|right|middle, scroll STEPS, key|hold|let NAME,\n"
+      "type TEXT, resize W H, drop FILE, frames N, settle, window FILE.png, picture FILE.png, close.";
+  return text;
+}
+
+}  // namespace
+
+void addView(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("view", "The interactive app");
+  sub->footer(footer());
+  addSceneOptions(*sub, options->scene);
+  addCapillaryOptions(*sub, options->capillaries);
+  sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas")
+      ->check(CLI::IsMember({"atlas", "clinical", "xray"}));
+  sub->add_option("--size", options->size, "Window size in pixels (default: that of the last session, else 1280x720)");
+  sub->add_option("--script", options->script, "Replay a recorded session instead of listening to mouse and keys, then quit");
+  sub->add_option("--record-script", options->record, "Write this session down for --script");
+  sub->add_flag("--validate", options->validate, "Run under Vulkan's validation layer; a message of it fails the run");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli

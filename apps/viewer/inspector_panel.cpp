@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "viewer/panels.h"
+
+// The chosen vessel: what it is, how large, and where it belongs; search by name; measuring along vessels.
+namespace vasa::viewer {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return result;
+}
+
+void choose(const PanelInput& in, VesselId vessel, bool go) {
+  in.state.selected = VesselPlace{vessel, 0};
+  if (go) in.state.wishFocus = true;
+}
+
+void showSearch(const PanelInput& in) {
+  ViewState& state = in.state;
+  if (state.wishSearch) ImGui::SetKeyboardFocusHere();
+  state.wishSearch = false;
+  ImGui::SetNextItemWidth(-1);
+  bool first = ImGui::InputTextWithHint("##search", "Search vessels (Ctrl F)", &state.search, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (state.search.empty()) return;
+  const std::string wanted = lower(state.search);
+  const auto& vessels = in.document->scene.network.vessels();
+  if (ImGui::BeginChild("##found", {0, 130 * in.scale}, true)) {
+    for (std::uint32_t v = 0; v < vessels.size(); ++v) {
+      if (lower(vessels[v].name).find(wanted) == std::string::npos) continue;
+      ImGui::PushID(int(v));
+      const bool chosen = ImGui::Selectable(vessels[v].name.c_str(), state.selected && state.selected->vessel.value == v);
+      if (chosen || std::exchange(first, false)) choose(in, {v}, true);
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
+}
+
+// Two columns: now, at rest.
+class Facts {
+ public:
+  Facts() : open_(ImGui::BeginTable("##facts", 3)) {
+    if (!open_) return;
+    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("now");
+    ImGui::TableSetupColumn("at rest");
+    ImGui::TableHeadersRow();
+  }
+  ~Facts() {
+    if (open_) ImGui::EndTable();
+  }
+  void row(const char* name, const std::string& now, const std::string& rest) {
+    if (!open_) return;
+    for (const char* text : {name, now.c_str(), rest.c_str()}) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(text);
+    }
+  }
+
+ private:
+  bool open_;
+};
+
+void showFacts(const PanelInput& in, VesselId id) {
+  const Network& network = in.document->scene.network;
+  const Vessel& vessel = network.vessel(id);
+  const VesselMeasures now = measureVessel(Network::pointsOf(vessel, in.body->points));
+  const VesselMeasures rest = measureVessel(network.pointsOf(vessel));
+  const auto mm = [](float metres) { return fmt::format("{:.2f} mm", 1000 * metres); };
+  const auto range = [](const VesselMeasures& m) { return fmt::format("{:.2f}-{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius); };
+  Facts facts;
+  facts.row("Length", fmt::format("{:.1f} mm", 1000 * now.length), fmt::format("{:.1f} mm", 1000 * rest.length));
+  facts.row("Radius", range(now), range(rest));
+  facts.row("Mean", mm(now.meanRadius), mm(rest.meanRadius));
+  facts.row("Volume", fmt::format("{:.3f} ml", 1e6 * now.volume), fmt::format("{:.3f} ml", 1e6 * rest.volume));
+  facts.row("Curvature", fmt::format("{:.0f} /m", now.greatestCurvature), fmt::format("{:.0f} /m", rest.greatestCurvature));
+  std::string clearance = "when paused";
+  if (!in.body->measures.empty()) {
+    const auto gap = in.body->measures[id.value].clearance;
+    clearance = gap ? mm(*gap) : "> 10 mm";
+  }
+  facts.row("Clearance", clearance, "");
+}
+
+void showRelatives(const PanelInput& in, const char* title, std::span<const VesselId> relatives) {
+  if (relatives.empty()) return;
+  ImGui::TextDisabled("%s", title);
+  for (const VesselId vessel : relatives) {
+    ImGui::PushID(int(vessel.value));
+    if (ImGui::Selectable(in.document->scene.network.vessel(vessel).name.c_str())) choose(in, vessel, false);
+    ImGui::PopID();
+  }
+}
+
+void showMeasure(const PanelInput& in) {
+  ViewState& state = in.state;
+  ImGui::Checkbox("Measure (M)", &state.measuring);
+  if (!state.measuring) return;
+  const Network& network = in.document->scene.network;
+  const auto name = [&](const std::optional<VesselPlace>& place) { return place ? network.vessel(place->vessel).name.c_str() : "click a vessel"; };
+  ImGui::TextDisabled("from");
+  ImGui::SameLine(50 * in.scale);
+  ImGui::TextUnformatted(name(state.from));
+  ImGui::TextDisabled("to");
+  ImGui::SameLine(50 * in.scale);
+  ImGui::TextUnformatted(name(state.to));
+  if (!state.from || !state.to) return;
+  const auto route = RouteFinder(network, in.body->points).find(*state.from, *state.to);
+  if (!route) ImGui::TextUnformatted("No vessel joins them.");
+  else ImGui::Text("%.1f mm along %zu vessel%s", double(1000 * route->length), route->legs.size(), route->legs.size() == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void showInspectorSection(const PanelInput& in) {
+  if (!in.document || !in.body || !ImGui::CollapsingHeader("Vessel", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  showSearch(in);
+  if (in.state.selected) {
+    const VesselId id = in.state.selected->vessel;
+    const Vessel& vessel = in.document->scene.network.vessel(id);
+    ImGui::PushTextWrapPos();
+    ImGui::TextUnformatted(vessel.name.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::TextDisabled("%s%s%s", std::string(kindName(vessel.kind)).c_str(), vessel.ontologyId.empty() ? "" : ", ", vessel.ontologyId.c_str());
+    showFacts(in, id);
+    if (ImGui::Button("Go to (F)")) in.state.wishFocus = true;
+    ImGui::SameLine();
+    ImGui::Checkbox("Only its tree (I)", &in.state.isolate);
+    const Relatives relatives = relativesOf(in.document->scene.network, id);
+    showRelatives(in, "comes from", relatives.parents);
+    showRelatives(in, "gives off", relatives.children);
+  } else {
+    ImGui::TextDisabled("Click a vessel to choose it.");
+  }
+  showMeasure(in);
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,26 @@
+#pragma once
+#include "math/types.h"
+
+namespace vasa::viewer {
+
+struct Rect {
+  float left = 0, top = 0, width = 0, height = 0;  ///< [pixels]
+  bool holds(vec2 place) const {
+    return place.x >= left && place.y >= top && place.x < left + width && place.y < top + height;
+  }
+};
+
+/// How the window is shared out: the picture, the panels right of it, the clip's time below.
+struct Layout {
+  Rect picture, panels, transport;
+};
+
+/// @param scale  pixels for one of an ordinary screen
+inline Layout layoutOf(float width, float height, float scale, bool panels) {
+  const float side = panels ? glm::min(std::round(320 * scale), width / 2) : 0;
+  const float below = panels ? glm::min(std::round(46 * scale), height / 2) : 0;
+  const float across = glm::max(width - side, 1.0f), down = glm::max(height - below, 1.0f);
+  return {{0, 0, across, down}, {across, 0, side, height}, {0, down, across, below}};
+}
+
+}  // namespace vasa::viewer

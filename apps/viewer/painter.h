@@ -1,0 +1,57 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "gpu/device.h"
+#include "viewer/pose_worker.h"
+#include "render/renderer.h"
+#include "viewer/view_state.h"
+
+namespace vasa::viewer {
+
+/// What a picture shows; two equal ones look the same.
+struct Shot {
+  std::shared_ptr<const PosedBody> body;
+  Camera camera;
+  Look look;
+  std::uint32_t width = 0, height = 0;  ///< [pixels]
+  std::vector<std::uint32_t> colours;   ///< Renderer::setSweepColours()
+  bool fine = false;                    ///< a still: 4 samples a pixel and ambient occlusion
+};
+
+/// Draws a document's pictures with two renderers: a fast one for what moves, and one for stills. They are made when they
+/// are first needed and when the detail changes.
+class Painter {
+ public:
+  Painter(gpu::Device& device, std::uint32_t seed) : device_(device), seed_(seed) {}
+
+  /// @param timed  take the stages' times, which makes pictures a little slower
+  void choose(std::shared_ptr<const Document> document, const Detail& detail, bool timed);
+
+  /// Draws and waits. The shot's body must be of the chosen document.
+  void draw(const Shot& shot);
+  /// The latest picture, null before the first.
+  const gpu::Image* picture() const { return last_ ? &last_->picture() : nullptr; }
+  Image readBack() { return last_->readBack(); }
+
+  FrameTimes times() const { return last_ ? last_->times() : FrameTimes{}; }
+  CapillaryCounts capillaries() const { return last_ ? last_->capillaryCounts() : CapillaryCounts{}; }
+  std::uint64_t triangles() const { return last_ ? last_->drawnTriangleCount() : 0; }
+
+ private:
+  struct Brush {
+    std::unique_ptr<Renderer> renderer;
+    std::vector<std::uint32_t> colours;
+  };
+  Brush& brush(const Shot& shot);
+
+  gpu::Device& device_;
+  std::uint32_t seed_;
+  std::shared_ptr<const Document> document_;
+  Detail detail_;
+  bool timed_ = false;
+  Brush live_, still_;
+  Renderer* last_ = nullptr;
+};
+
+}  // namespace vasa::viewer

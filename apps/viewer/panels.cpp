@@ -1,0 +1,92 @@
+#include "viewer/panels.h"
+
+#include <imgui.h>
+
+#include "viewer/shortcuts.h"
+
+namespace vasa::viewer {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse;
+constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBackground |
+                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+
+void place(const Rect& rect) {
+  ImGui::SetNextWindowPos({rect.left, rect.top});
+  ImGui::SetNextWindowSize({rect.width, rect.height});
+}
+
+void showSide(const PanelInput& in) {
+  place(in.layout.panels);
+  if (ImGui::Begin("##side", nullptr, kFixed)) {
+    showInspectorSection(in);
+    showLookSection(in);
+    showVesselSection(in);
+    showPoseSection(in);
+    showTimingSection(in);
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void showHeads(const PanelInput& in) {
+  const ImVec4 ink = in.state.look.background.x > 0.5f ? ImVec4(0.15f, 0.15f, 0.17f, 1) : ImVec4(0.85f, 0.86f, 0.88f, 1);
+  ImGui::PushStyleColor(ImGuiCol_Text, ink);
+  ImGui::SetNextWindowPos({in.layout.picture.left, in.layout.picture.top});
+  if (ImGui::Begin("##head", nullptr, kText) && in.document) {
+    const Network& network = in.document->scene.network;
+    ImGui::Text("%s", in.document->title.c_str());
+    ImGui::TextDisabled("%zu vessels, %u sweeps", network.vessels().size(), network.sweepCount());
+    if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording, a thirtieth of a second a picture (R ends it)");
+    if (in.state.posing) ImGui::TextUnformatted("drag a joint (P ends it)");
+    if (in.state.measuring) ImGui::TextUnformatted("click two vessels to measure between them (M ends it)");
+    if (!in.message.empty()) ImGui::TextUnformatted(in.message.c_str());
+  }
+  ImGui::End();
+  ImGui::PopStyleColor();
+}
+
+void showLoading(const PanelInput& in) {
+  if (!in.loading) return;
+  const Rect& picture = in.layout.picture;
+  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0, {0.5f, 0.5f});
+  if (ImGui::Begin("##loading", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
+    ImGui::Text("Opening %s", in.loadingTitle.c_str());
+    ImGui::TextDisabled("%s", in.loading);
+    if (ImGui::Button("Cancel")) in.state.wishCancel = true;
+  }
+  ImGui::End();
+}
+
+void showHelp(const PanelInput& in) {
+  if (!in.state.help) return;
+  const Rect& picture = in.layout.picture;
+  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0, {0.5f, 0.5f});
+  if (ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize) && ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const Shortcut& shortcut : shortcuts()) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(shortcut.keys);
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", shortcut.what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+void showPanels(const PanelInput& in) {
+  showHandles(in);
+  showHeads(in);
+  if (in.state.panels) {
+    showSide(in);
+    place(in.layout.transport);
+    if (ImGui::Begin("##transport", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar)) showTransport(in);
+    ImGui::End();
+  }
+  showHelp(in);
+  showLoading(in);
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,45 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "viewer/document.h"
+#include "render/profiler.h"
+#include "viewer/layout.h"
+#include "viewer/pose_worker.h"
+#include "viewer/timings.h"
+#include "viewer/view_state.h"
+
+// What is on the window beside the picture. Each function declares one panel with Dear ImGui: it shows what is, and
+// writes what a person changes into the state. Between UiContext::begin() and end() only.
+namespace vasa::viewer {
+
+struct PanelInput {
+  ViewState& state;
+  const Document* document = nullptr;  ///< null: nothing is loaded
+  const PosedBody* body = nullptr;     ///< null: no shape yet
+  const Timings& timings;
+  Layout layout;
+  float scale = 1;       ///< pixels for one of an ordinary screen
+  Camera camera;         ///< of the picture
+  JointId heldJoint;     ///< that is being dragged
+  const Profiler* profiler = nullptr;  ///< running or done; null: never run
+  bool fine = false;     ///< the picture is a still
+  std::string message;   ///< the latest news, e.g. of a picture that was written
+  const char* loading = nullptr;  ///< what is being done; null: nothing is
+  std::string loadingTitle;
+};
+
+void showPanels(const PanelInput& in);  ///< all of them
+
+void showTransport(const PanelInput& in);
+void showHeads(const PanelInput& in);  ///< texts over the picture
+void showLoading(const PanelInput& in);
+void showHelp(const PanelInput& in);  ///< keys and what they do
+void showLookSection(const PanelInput& in);
+void showVesselSection(const PanelInput& in);
+void showInspectorSection(const PanelInput& in);
+void showPoseSection(const PanelInput& in);
+void showHandles(const PanelInput& in);  ///< joints to drag, over the picture
+void showTimingSection(const PanelInput& in);
+
+}  // namespace vasa::viewer

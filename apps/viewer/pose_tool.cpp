@@ -1,0 +1,76 @@
+#include "viewer/pose_tool.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/humanoid.h"
+
+namespace vasa::viewer {
+namespace {
+
+constexpr float kReach = 9;  // [pixels] of a handle
+
+std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& picture) {
+  const vec4 clip = viewProjection(camera, picture.width / picture.height) * vec4(place, 1);
+  if (clip.w <= 1e-6f) return std::nullopt;
+  return vec2(picture.left, picture.top) + (vec2(clip) / clip.w * 0.5f + 0.5f) * vec2(picture.width, picture.height);
+}
+
+std::string_view roleOf(const Skeleton& skeleton, JointId joint) {
+  std::vector<std::string> names;
+  for (const Skeleton::Joint& each : skeleton.joints) names.push_back(each.name);
+  return humanoidNames(names).of[joint.value];
+}
+
+}  // namespace
+
+std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture) {
+  std::vector<JointHandle> handles;
+  for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) {
+    if (!skeleton.joints[j].parent.valid()) continue;
+    const auto place = seenAt(vec3(pose.world[j][3]), camera, picture);
+    if (place && picture.holds(*place)) handles.push_back({{j}, *place});
+  }
+  return handles;
+}
+
+JointTurn& turnOfJoint(ViewState& state, JointId joint) {
+  const auto found = std::ranges::find(state.turns, joint, &JointTurn::joint);
+  return found != state.turns.end() ? *found : state.turns.emplace_back(JointTurn{joint, vec3(0)});
+}
+
+bool PoseTool::feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
+                    ViewState& state) {
+  const Skeleton& skeleton = document.scene.body.skeleton;
+  if (const auto* moved = std::get_if<PointerMoved>(&event)) {
+    if (held_) drag(moved->place, document, body, camera, picture, state);
+    place_ = moved->place;
+    return held_.has_value();
+  }
+  const auto* button = std::get_if<ButtonChanged>(&event);
+  if (!button || button->button != Button::left) return false;
+  if (!button->down) return std::exchange(held_, std::nullopt).has_value();
+  const auto handles = jointHandles(skeleton, body.pose, camera, picture);
+  const auto nearest = std::ranges::min_element(handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place_); });
+  if (nearest == handles.end() || glm::distance(nearest->place, place_) > kReach) return false;
+  held_ = nearest->joint;
+  state.playback.playing = false;
+  return true;
+}
+
+void PoseTool::drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
+                    ViewState& state) {
+  const Skeleton& skeleton = document.scene.body.skeleton;
+  const JointId turning = skeleton.joints[held_->value].parent;
+  const mat4& world = body.pose.world[turning.value];
+  const auto centre = seenAt(vec3(world[3]), camera, picture);
+  if (!centre) return;
+  const vec2 before = place_ - *centre, after = to - *centre;
+  if (glm::length(before) < 2 || glm::length(after) < 2) return;
+  // Rows run down: what turns right there is a negative turn about the axis towards the eye.
+  const float angle = -std::atan2(before.x * after.y - before.y * after.x, glm::dot(before, after));
+  JointTurn& turn = turnOfJoint(state, turning);
+  turn.angles = turnedFurther(turn.angles, world, cameraAxes(camera)[2], angle, mostTurn(roleOf(skeleton, turning)));
+}
+
+}  // namespace vasa::viewer

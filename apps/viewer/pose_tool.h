@@ -1,0 +1,38 @@
+#pragma once
+#include <optional>
+
+#include "render/camera.h"
+#include "viewer/document.h"
+#include "viewer/input.h"
+#include "viewer/layout.h"
+#include "viewer/pose_worker.h"
+#include "viewer/view_state.h"
+
+namespace vasa::viewer {
+
+/// A joint that can be dragged, where it is in the window [pixels]. Dragging it turns the joint it hangs on.
+struct JointHandle {
+  JointId joint;
+  vec2 place;
+};
+std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture);
+
+/// Poses the body by dragging its joints, in the plane of the picture.
+class PoseTool {
+ public:
+  /// @return whether the event was a drag's: then it is nobody else's
+  bool feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
+            ViewState& state);
+  std::optional<JointId> held() const { return held_; }
+
+ private:
+  void drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture, ViewState& state);
+
+  vec2 place_{0};
+  std::optional<JointId> held_;
+};
+
+/// The turn of a joint in the state, added where there is none yet.
+JointTurn& turnOfJoint(ViewState& state, JointId joint);
+
+}  // namespace vasa::viewer

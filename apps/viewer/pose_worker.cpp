@@ -1,0 +1,142 @@
+#include "viewer/pose_worker.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace vasa::viewer {
+namespace {
+
+constexpr float kClearanceReach = 0.01f;  // [m]
+
+FrameOptions optionsOf(const PoseOrder& order) {
+  FrameOptions options{.keepVolume = order.volume, .avoid = order.avoid || order.contacts, .beat = order.beat};
+  if (!order.avoid) options.avoidance.rounds = options.avoidance.lumenRounds = 0;  // only look
+  return options;
+}
+
+std::vector<std::uint32_t> spansOf(std::span<const Interference::Place> places) {
+  std::vector<std::uint32_t> spans;
+  for (const Interference::Place& place : places) spans.insert(spans.end(), {place.contact.i, place.contact.j});
+  std::ranges::sort(spans);
+  spans.erase(std::unique(spans.begin(), spans.end()), spans.end());
+  return spans;
+}
+
+bool sameTurns(std::span<const JointTurn> a, std::span<const JointTurn> b) {
+  return std::ranges::equal(a, b, [](const JointTurn& x, const JointTurn& y) { return x.joint == y.joint && x.angles == y.angles; });
+}
+
+bool sameOptions(const PoseOrder& a, const PoseOrder& b) {
+  return a.document == b.document && a.volume == b.volume && a.avoid == b.avoid && a.contacts == b.contacts && a.beat == b.beat;
+}
+
+}  // namespace
+
+bool PoseOrder::operator==(const PoseOrder& other) const {
+  return sameOptions(*this, other) && clip == other.clip && time == other.time && measures == other.measures && sameTurns(turns, other.turns);
+}
+
+// Setting up avoidance takes a while, so the ways of making shapes that were used last are kept.
+struct PoseWorker::Maker {
+  explicit Maker(const PoseOrder& like) : order(like), maker(like.document->scene, optionsOf(like)) {}
+
+  std::shared_ptr<const PosedBody> make(const PoseOrder& wanted) {
+    const auto start = std::chrono::steady_clock::now();
+    const Body& body = wanted.document->scene.body;
+    const Clip* clip = wanted.clip >= 0 ? &body.clips[std::size_t(wanted.clip)] : nullptr;
+    if (wanted.turns.empty()) {
+      maker.make(clip, wanted.time);
+    } else {
+      const Pose pose = clip ? samplePose(body.skeleton, *clip, wanted.time) : restPose(body.skeleton);
+      maker.make(turned(body.skeleton, pose, wanted.turns), wanted.time);
+    }
+    auto done = std::make_shared<PosedBody>();
+    done->order = wanted;
+    done->pose = maker.pose();
+    done->points.assign(maker.points().begin(), maker.points().end());
+    done->knotFrames.assign(maker.knotFrames().begin(), maker.knotFrames().end());
+    done->jointMatrices.assign(maker.jointMatrices().begin(), maker.jointMatrices().end());
+    done->heartScale = maker.heartScale();
+    done->report = maker.report();
+    if (maker.avoider() && wanted.contacts) {
+      done->touched = spansOf(maker.avoider()->found());
+      done->touching = spansOf(maker.avoider()->remaining());
+    }
+    done->ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    if (wanted.measures) {
+      if (!meter) meter.emplace(wanted.document->scene.network, kClearanceReach);
+      done->measures = meter->run(maker.points());
+    }
+    return done;
+  }
+
+  PoseOrder order;  // keeps the document alive
+  FrameMaker maker;
+  std::optional<VesselMeter> meter;
+};
+
+PoseWorker::PoseWorker(std::function<void()> done) : done_(std::move(done)), thread_([this] { work(); }) {}
+
+PoseWorker::~PoseWorker() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void PoseWorker::order(PoseOrder order) {
+  {
+    const std::lock_guard lock(mutex_);
+    next_ = std::make_unique<PoseOrder>(std::move(order));
+  }
+  changed_.notify_all();
+}
+
+std::shared_ptr<const PosedBody> PoseWorker::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+bool PoseWorker::busy() const {
+  const std::lock_guard lock(mutex_);
+  return working_ || next_;
+}
+
+void PoseWorker::wait() const {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !working_ && !next_; });
+}
+
+void PoseWorker::work() {
+  constexpr std::size_t kMostMakers = 3;
+  for (;;) {
+    std::unique_ptr<PoseOrder> order;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return ending_ || next_; });
+      if (ending_) return;
+      order = std::move(next_);
+      working_ = true;
+    }
+    const auto found = std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, *order); });
+    if (found != makers_.end()) {
+      std::rotate(found, found + 1, makers_.end());
+    } else {
+      std::erase_if(makers_, [&](const auto& maker) { return maker->order.document != order->document; });
+      if (makers_.size() == kMostMakers) makers_.erase(makers_.begin());
+      makers_.push_back(std::make_unique<Maker>(*order));
+    }
+    auto made = makers_.back()->make(*order);
+    {
+      const std::lock_guard lock(mutex_);
+      latest_ = std::move(made);
+      working_ = false;
+    }
+    changed_.notify_all();
+    done_();
+  }
+}
+
+}  // namespace vasa::viewer

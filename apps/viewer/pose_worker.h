@@ -1,0 +1,72 @@
+#pragma once
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "viewer/document.h"
+#include "viewer/posing.h"
+#include "scene/frame.h"
+#include "scene/measurements.h"
+
+namespace vasa::viewer {
+
+/// A shape of the vessels that is wanted.
+struct PoseOrder {
+  std::shared_ptr<const Document> document;
+  int clip = -1;   ///< -1: at rest
+  float time = 0;  ///< [s] in the clip
+  std::vector<JointTurn> turns;
+  bool volume = true, avoid = true, contacts = false, beat = false;
+  bool measures = false;  ///< of every vessel
+
+  bool operator==(const PoseOrder& other) const;
+};
+
+/// A shape, done.
+struct PosedBody {
+  PoseOrder order;
+  Pose pose;
+  std::vector<vec4> points;
+  std::vector<quat> knotFrames;
+  std::vector<mat4> jointMatrices;
+  float heartScale = 1;
+  FrameReport report;
+  std::vector<std::uint32_t> touched, touching;  ///< spans that ran through others, and that still do
+  std::vector<VesselMeasures> measures;          ///< one a vessel; empty unless ordered
+  double ms = 0;                                 ///< all of it but the measures
+};
+
+/// Makes shapes on a thread of its own while earlier ones are drawn. Of orders that come in faster than they are done
+/// only the latest is.
+class PoseWorker {
+ public:
+  /// @param done  called from the worker's thread after each shape
+  explicit PoseWorker(std::function<void()> done);
+  ~PoseWorker();
+  PoseWorker(const PoseWorker&) = delete;
+  PoseWorker& operator=(const PoseWorker&) = delete;
+
+  void order(PoseOrder order);
+  /// The latest shape; null before the first one.
+  std::shared_ptr<const PosedBody> latest() const;
+  bool busy() const;
+  /// Until nothing is being done.
+  void wait() const;
+
+ private:
+  struct Maker;
+  void work();
+
+  std::function<void()> done_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::unique_ptr<PoseOrder> next_;
+  bool working_ = false, ending_ = false;
+  std::shared_ptr<const PosedBody> latest_;
+  std::vector<std::unique_ptr<Maker>> makers_;  // the worker's alone
+  std::thread thread_;
+};
+
+}  // namespace vasa::viewer

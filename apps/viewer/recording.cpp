@@ -1,0 +1,34 @@
+#include "viewer/recording.h"
+
+#include <fmt/format.h>
+
+namespace vasa::viewer {
+
+Result<void> Recording::start(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {
+  auto video = VideoWriter::create(path, width, height, 30);
+  if (!video) return video.error();
+  video_.emplace(std::move(*video));
+  path_ = path;
+  width_ = width;
+  height_ = height;
+  return {};
+}
+
+Result<void> Recording::add(const Image& picture) {
+  return video_->write(picture);
+}
+
+Result<std::filesystem::path> Recording::finish() {
+  const auto finished = video_->finish();
+  video_.reset();
+  if (!finished) return finished.error();
+  return path_;
+}
+
+std::filesystem::path freeName(const std::string& extension) {
+  std::error_code ignored;
+  for (int i = 1;; ++i)
+    if (std::filesystem::path path = fmt::format("vasa_{:03}.{}", i, extension); !std::filesystem::exists(path, ignored)) return path;
+}
+
+}  // namespace vasa::viewer

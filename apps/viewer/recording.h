@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+
+#include "io/video.h"
+
+namespace vasa::viewer {
+
+/// A video of what is shown.
+class Recording {
+ public:
+  bool running() const { return video_.has_value(); }
+  Result<void> start(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height);
+  /// @param picture  of the size it was started with
+  Result<void> add(const Image& picture);
+  /// Completes the file, and names it.
+  Result<std::filesystem::path> finish();
+  bool fits(std::uint32_t width, std::uint32_t height) const { return width == width_ && height == height_; }
+
+ private:
+  std::optional<VideoWriter> video_;
+  std::filesystem::path path_;
+  std::uint32_t width_ = 0, height_ = 0;
+};
+
+/// The first of vasa_001.ext, vasa_002.ext ... that does not exist yet, in the working folder.
+std::filesystem::path freeName(const std::string& extension);
+
+}  // namespace vasa::viewer

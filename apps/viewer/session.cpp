@@ -1,0 +1,226 @@
+#include "viewer/session.h"
+
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "gpu/error.h"
+
+namespace vasa::viewer {
+
+Session::Session(const ViewOptions& options, const Settings& settings, Window& window)
+    : options_(options),
+      window_(window),
+      ui_(options.script ? 1.0f : window.scale()),
+      device_({.choice = options.device,
+               .validation = options.validation,
+               .instanceExtensions = Window::instanceExtensions(),
+               .deviceExtensions = gpu::Swapchain::deviceExtensions()}),
+      surface_(window, device_.instance()),
+      swapchain_(device_, surface_.handle()),
+      canvas_(device_),
+      painter_(device_, options.seed),
+      state_(settings.state),
+      worker_([] { Window::wake(); }),
+      width_(window.width()),
+      height_(window.height()) {
+  ui_.useClipboard(window);
+  open(options.file);
+}
+
+Result<ViewReport> Session::run() {
+  while (!ending_ && !options_.stopped()) {
+    const auto start = Clock::now();
+    now_ += pass();
+    gather();
+    adopt();
+    orderShape();
+    takeShape();
+    if (width_ > 0 && height_ > 0) {
+      const bool changed = drawScene();
+      if (changed) panelFrames_ = std::max(panelFrames_, 1);
+      if (panelFrames_ > 0 || saving_) drawWindow();
+    }
+    meetWishes();
+    record();
+    profile();
+    if (failure_) return *failure_;
+    rest(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  if (!options_.record.empty())
+    if (auto written = writeFileAtomically(options_.record, recorder_.text()); !written) return written.error();
+  state_.recording = false;
+  record();
+  if (!options_.script)
+    if (const auto kept = saveSettings({width_, height_, state_}); !kept) logWarning(kept.error().message);
+  return report();
+}
+
+// Time as the session knows it.
+double Session::pass() {
+  const auto now = Clock::now();
+  const bool steady = options_.script || recording_.running();
+  const double seconds = steady ? kScriptFrame : std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  if (document_ && state_.playback.clip >= 0 && state_.playback.playing)
+    state_.playback.advance(document_->scene.body.clips[std::size_t(state_.playback.clip)], std::min(seconds, 0.25));
+  still_ += seconds;
+  return seconds;
+}
+
+void Session::open(const SceneFile& file) {
+  loader_.start(file, options_.rules, [] { Window::wake(); });
+  panelFrames_ = kRestingFrames;
+}
+
+// A document that has been loaded takes the place of the one before.
+void Session::adopt() {
+  if (loader_.busy() && options_.script && settling_) loader_.wait();
+  const auto answer = loader_.take();
+  if (!answer) return;
+  if (!*answer) {
+    if (!document_) failure_ = answer->error();
+    else say(answer->error().message);
+    return;
+  }
+  document_ = **answer;
+  body_.reset();
+  shown_.reset();
+  timings_.clear();
+  state_.selected.reset();
+  state_.turns.clear();
+  state_.from = state_.to = std::nullopt;
+  state_.joint = {};
+  profiler_.reset();
+  profiling_ = false;
+  takeChoices();
+  window_.setTitle(document_->title + " - vasa");
+}
+
+// What the scene says of how it is to be shown.
+void Session::takeChoices() {
+  const auto& body = document_->scene.body;
+  const SceneFile& choice = document_->file;
+  const auto clip = choice.clip.empty() ? Result<const Clip*>(nullptr) : findClip(body, choice.clip);
+  if (clip && *clip) state_.playback.clip = int(*clip - body.clips.data());
+  else state_.playback.clip = body.clips.empty() ? -1 : 0;
+  state_.playback.time = state_.playback.clip >= 0 ? body.clips[std::size_t(state_.playback.clip)].start : 0;
+  state_.detail.capillaries = int(choice.capillaries.levels);
+  if (!choice.look.preset.empty() && choice.look.preset != state_.preset) {
+    state_.preset = choice.look.preset;
+    state_.look = lookNamed(state_.preset).value_or(Look{});
+  }
+  Look& look = state_.look;
+  if (choice.look.background) look.background = *choice.look.background;
+  if (choice.look.skinOpacity) look.skinOpacity = *choice.look.skinOpacity;
+  if (!choice.look.skin) look.drawSkin = false;
+  if (!choice.look.bones) look.drawBones = false;
+  if (!choice.look.organs) look.drawHeart = look.drawOther = false;
+  if (!choice.look.arteries) look.drawArteries = false;
+  if (!choice.look.veins) look.drawVeins = false;
+  state_.orbit.look(viewNamed(choice.camera.view).value_or(View::front));
+  state_.wishHome = !choice.camera.position;
+  if (choice.camera.position)
+    state_.orbit.take({.position = *choice.camera.position,
+                       .target = choice.camera.target.value_or(document_->bounds.centre()),
+                       .verticalAngle = glm::radians(choice.camera.angleDegrees)});
+  if (choice.camera.focus.empty()) return;
+  if (const auto subject = findSubject(document_->scene, choice.camera.focus); subject && subject->vessel.valid()) {
+    state_.selected = VesselPlace{subject->vessel, 0};
+    state_.wishFocus = true;
+  }
+}
+
+void Session::orderShape() {
+  if (!document_) return;
+  PoseOrder order{.document = document_,
+                  .clip = state_.playback.clip,
+                  .time = state_.playback.time,
+                  .turns = state_.turns,
+                  .volume = state_.forces.volume,
+                  .avoid = state_.forces.avoid,
+                  .contacts = state_.contacts,
+                  .beat = state_.forces.beat,
+                  .measures = state_.selected && !state_.playback.playing};
+  const bool done = body_ && body_->order == order;
+  // While a shape is being made only a person's wishes go before it, not the next moment of a clip.
+  if (!done && !worker_.busy()) worker_.order(std::move(order));
+  const bool steady = recording_.running() || (options_.script && (body_ || settling_));
+  if (steady) worker_.wait();
+}
+
+void Session::takeShape() {
+  const auto latest = worker_.latest();
+  if (!latest || latest == body_ || latest->order.document != document_) return;
+  body_ = latest;
+  ++report_.shapes;
+  timings_.addShape(body_->report, body_->ms);
+  follow();
+}
+
+void Session::follow() {
+  const vec3 way = wayOverFloor(document_->scene, body_->pose);
+  if (state_.follow && !state_.wishHome) state_.orbit.shift(way - way_);
+  way_ = way;
+}
+
+void Session::meetWishes() {
+  if (state_.wishQuit) ending_ = true;
+  if (state_.wishCancel) {
+    loader_.cancel();
+    if (!document_) ending_ = true;
+    panelFrames_ = kRestingFrames;
+  }
+  if (state_.wishPicture && shown_) save({freeName("png"), false});
+  state_.wishPicture = state_.wishCancel = false;
+  if (saving_) save(*std::exchange(saving_, std::nullopt));
+}
+
+void Session::say(std::string message) {
+  if (!options_.script) logInfo(message);
+  message_ = options_.script ? "" : std::move(message);  // paths would make pictures differ
+  messageUntil_ = now_ + 4;
+  panelFrames_ = kRestingFrames;
+}
+
+bool Session::idle() const {
+  if (loader_.busy() || profiling_ || !document_) return false;
+  return shown_ && !worker_.busy() && (shown_->fine || !state_.fineStills || state_.playback.playing);
+}
+
+// Until there is something to do, but no longer than one can see.
+void Session::rest(double drawn) {
+  if (options_.script) {
+    window_.wait(0);
+    return;
+  }
+  const bool moving = state_.playback.playing || pointer_.dragging() || profiling_ || recording_.running();
+  const bool due = panelFrames_ > 0 || !events_.empty();
+  const bool waiting = loader_.busy() || worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
+  const double longest = moving || due ? std::max(kFrame - drawn, 0.0) : waiting ? 0.05 : 1.0;
+  window_.wait(longest);
+}
+
+ViewReport Session::report() const {
+  ViewReport result = report_;
+  result.frameMs = timings_.shown().median();
+  result.shapeMs = timings_.shape().median();
+  result.pictureMs = timings_.picture().median();
+  result.device = device_.adapter().name;
+  result.title = document_ ? document_->title : "";
+  if (document_ && state_.selected) result.selected = document_->scene.network.vessel(state_.selected->vessel).name;
+  if (shown_) result.width = shown_->width, result.height = shown_->height;
+  result.validation = device_.validationMessages();
+  return result;
+}
+
+Result<ViewReport> view(const ViewOptions& options) {
+  Settings settings;
+  if (!options.script) loadSettings(settings);
+  if (options.width > 0) settings.width = options.width, settings.height = options.height;
+  if (settings.width == 0) settings.width = 1280, settings.height = 720;
+  auto window = Window::open("vasa", settings.width, settings.height);
+  if (!window) return window.error();
+  Session session(options, settings, *window);
+  return session.run();
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,118 @@
+#pragma once
+#include <chrono>
+#include <deque>
+
+#include "gpu/swapchain.h"
+#include "render/profiler.h"
+#include "viewer/app.h"
+#include "viewer/painter.h"
+#include "viewer/panels.h"
+#include "viewer/pointer.h"
+#include "viewer/pose_tool.h"
+#include "viewer/recording.h"
+#include "viewer/settings.h"
+#include "viewer/timings.h"
+#include "viewer/ui_context.h"
+#include "viewer/ui_pass.h"
+
+namespace vasa::viewer {
+
+constexpr double kScriptFrame = 1.0 / 30, kFrame = 1.0 / 60;  ///< [s] of a script's frames, least of a person's
+constexpr int kRestingFrames = 3;  ///< pictures of the panels until they have come to rest
+
+/// A window's surface; goes before the device.
+class Surface {
+ public:
+  Surface(const Window& window, VkInstance instance) : instance_(instance), surface_(window.makeSurface(instance)) {}
+  ~Surface() { vkDestroySurfaceKHR(instance_, surface_, nullptr); }
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+  VkSurfaceKHR handle() const { return surface_; }
+
+ private:
+  VkInstance instance_;
+  VkSurfaceKHR surface_;
+};
+
+/// One run of the app: the loop, and what it holds together. Shapes are made on a thread of their own (PoseWorker) while
+/// this one draws; nothing is drawn while nothing changes. With a script, time goes on by a thirtieth of a second a
+/// frame and shapes are waited for, so that the same script gives the same pictures.
+class Session {
+ public:
+  Session(const ViewOptions& options, const Settings& settings, Window& window);
+  Result<ViewReport> run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // input
+  void gather();
+  void takeWindowEvents();
+  void takeScript();
+  void handle(const InputEvent& event);
+  void click(const Click& click);
+
+  // time and shapes
+  double pass();
+  void open(const SceneFile& file);
+  void adopt();
+  void takeChoices();
+  void orderShape();
+  void takeShape();
+  void follow();
+  bool idle() const;
+
+  // pictures
+  Rect pictureRect() const;
+  Camera cameraNow() const;
+  Shot shotNow() const;
+  void moveCamera();
+  bool drawScene();
+  void drawWindow();
+  void meetWishes();
+  void record();
+  void profile();
+  void save(const SavePicture& wish);
+  void say(std::string message);
+  void rest(double drawn);
+  ViewReport report() const;
+
+  const ViewOptions& options_;
+  Window& window_;
+  UiContext ui_;
+  gpu::Device device_;
+  Surface surface_;
+  gpu::Swapchain swapchain_;
+  UiPass canvas_;
+  Painter painter_;
+  ViewState state_;
+  PointerTool pointer_;
+  PoseTool poseTool_;
+  Recording recording_;
+  std::unique_ptr<Profiler> profiler_;
+  Loader loader_;
+  PoseWorker worker_;
+  std::shared_ptr<const Document> document_;
+  std::shared_ptr<const PosedBody> body_;
+  Timings timings_;
+  ScriptRecorder recorder_;
+  std::deque<InputEvent> events_;
+  std::size_t step_ = 0;            // of the script
+  std::uint32_t passing_ = 0;       // frames that it lets pass
+  bool settling_ = false;
+  std::optional<SavePicture> saving_;
+  std::optional<Shot> shown_;
+  vec3 way_{0};
+  double now_ = 0, still_ = 0;      // [s]
+  Clock::time_point last_ = Clock::now();
+  std::optional<Clock::time_point> lastShown_;
+  std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
+  int panelFrames_ = kRestingFrames;
+  bool ending_ = false, profiling_ = false;
+  std::string message_;
+  double messageUntil_ = 0;
+  std::optional<Error> failure_;
+  ViewReport report_;
+};
+
+}  // namespace vasa::viewer

@@ -1,0 +1,127 @@
+#include <cmath>
+
+#include "network/pick.h"
+#include "viewer/paint.h"
+#include "viewer/session.h"
+#include "viewer/shortcuts.h"
+
+// How a session comes by its input: from the window or from a script, never more than one change of a button or key a
+// frame, and none in the frame of a move, because ImGui sees states, not changes, and learns in a frame what is under the
+// pointer.
+namespace vasa::viewer {
+namespace {
+
+constexpr float kReachPixels = 2.5f;  // of a click
+
+// In the picture's pixels, from its top left corner.
+Ray rayThrough(const Camera& camera, vec2 place, vec2 size) {
+  const mat3 axes = cameraAxes(camera);
+  const float tangent = std::tan(camera.verticalAngle / 2);
+  const vec2 across = vec2(place.x - size.x / 2, size.y / 2 - place.y) * 2.0f / size.y;
+  if (camera.orthographicHeight > 0) {
+    const vec2 metres = across * (camera.orthographicHeight / 2);
+    return {camera.position + metres.x * axes[0] + metres.y * axes[1], -axes[2], camera.nearDistance};
+  }
+  const vec3 way = tangent * (across.x * axes[0] + across.y * axes[1]) - axes[2];
+  return {camera.position, glm::normalize(way), camera.nearDistance * glm::length(way)};
+}
+
+bool changesState(const InputEvent& event) {
+  return std::holds_alternative<ButtonChanged>(event) || std::holds_alternative<KeyChanged>(event);
+}
+
+}  // namespace
+
+void Session::gather() {
+  takeWindowEvents();
+  if (options_.script && events_.empty()) takeScript();
+  bool moved = false;
+  while (!events_.empty() && !(moved && changesState(events_.front()))) {
+    const InputEvent event = std::move(events_.front());
+    events_.pop_front();
+    handle(event);
+    panelFrames_ = kRestingFrames;
+    moved = true;
+    if (changesState(event)) break;
+  }
+  recorder_.endFrame();
+}
+
+// A script's window keeps its size to what is asked of it; of the window's own events only that counts then.
+void Session::takeWindowEvents() {
+  for (InputEvent& event : window_.takeEvents())
+    if (!options_.script || std::holds_alternative<WindowResized>(event)) events_.push_back(std::move(event));
+}
+
+void Session::takeScript() {
+  if (passing_ > 0) {
+    --passing_;
+    return;
+  }
+  if (settling_ && !idle()) return;
+  settling_ = false;
+  while (step_ < options_.script->size()) {
+    const ScriptStep& step = (*options_.script)[step_++];
+    if (const auto* event = std::get_if<InputEvent>(&step)) {
+      events_.push_back(*event);
+      if (changesState(*event)) return;
+    } else if (const auto* frames = std::get_if<LetFrames>(&step)) {
+      passing_ = frames->count - 1;
+      return;
+    } else if (std::holds_alternative<Settle>(step)) {
+      settling_ = true;
+      return;
+    } else if (const auto* size = std::get_if<ResizeWindow>(&step)) {
+      window_.resize(size->width, size->height);
+      for (int i = 0; i < 40 && (window_.width() != size->width || window_.height() != size->height); ++i) window_.wait(0.05);
+      takeWindowEvents();
+      return;
+    } else {
+      saving_ = std::get<SavePicture>(step);
+      return;
+    }
+  }
+  ending_ = true;
+}
+
+void Session::handle(const InputEvent& event) {
+  recorder_.add(event);
+  ui_.feed(event);
+  if (const auto* size = std::get_if<WindowResized>(&event)) {
+    width_ = size->width;
+    height_ = size->height;
+  } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
+    if (key->down && !ui_.wantsKeys()) applyShortcut(key->key, pointer_.control(), state_, document_.get());
+  } else if (const auto* file = std::get_if<FileDropped>(&event)) {
+    const auto scene = options_.open(file->path);
+    if (scene) open(*scene);
+    else say(scene.error().message);
+  } else if (std::holds_alternative<CloseAsked>(event)) {
+    ending_ = true;
+  }
+  const bool free = !ui_.wantsPointer();
+  const bool posing = state_.posing && document_ && body_ && (free || poseTool_.held());
+  const bool posed = posing && poseTool_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
+  if (posed && !std::holds_alternative<PointerMoved>(event)) return;
+  if (const auto clicked = pointer_.feed(event, pictureRect(), free, now_, state_)) click(*clicked);
+}
+
+void Session::click(const Click& click) {
+  if (!document_ || !body_) return;
+  const Rect rect = pictureRect();
+  const Ray ray = rayThrough(cameraNow(), click.place, {rect.width, rect.height});
+  const std::vector<char> shown = shownVessels(*document_, state_);
+  const float slack = kReachPixels * 2 * std::tan(state_.orbit.angle() / 2) / rect.height;
+  const auto hit = pick(document_->scene.network, body_->points, ray, [&](VesselId v) { return shown[v.value] != 0; }, slack);
+  const auto place = hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;
+  if (state_.measuring && place) {
+    if (!state_.from || state_.to) state_.from = place, state_.to.reset();
+    else state_.to = place;
+  } else if (!state_.measuring) {
+    state_.selected = place;
+    if (!place) state_.isolate = false;
+  }
+  if (click.twice && state_.selected) state_.wishFocus = true;
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,162 @@
+#include <array>
+
+#include "io/png.h"
+#include "viewer/paint.h"
+#include "viewer/session.h"
+
+// What a session draws: the scene's picture when anything in it has changed, the window's around it, and copies of both
+// for files and videos.
+namespace vasa::viewer {
+namespace {
+
+constexpr double kStillAfter = 0.25;  // [s] without change
+
+bool same(const Camera& a, const Camera& b) {
+  return a.position == b.position && a.target == b.target && a.up == b.up && a.verticalAngle == b.verticalAngle &&
+         a.orthographicHeight == b.orthographicHeight && a.nearDistance == b.nearDistance && a.farDistance == b.farDistance;
+}
+
+auto shownParts(const Look& look) {
+  return std::array{look.drawArteries, look.drawVeins, look.drawOtherVessels, look.drawBones, look.drawHeart, look.drawSkin, look.drawOther};
+}
+
+bool same(const Look& a, const Look& b) {
+  return a.style == b.style && a.background == b.background && a.transparent == b.transparent && shownParts(a) == shownParts(b) &&
+         a.skinOpacity == b.skinOpacity && a.occlusion == b.occlusion;
+}
+
+bool same(const Shot& a, const Shot& b) {
+  return a.body == b.body && same(a.camera, b.camera) && same(a.look, b.look) && a.width == b.width && a.height == b.height &&
+         a.colours == b.colours;
+}
+
+}  // namespace
+
+Rect Session::pictureRect() const {
+  return layoutOf(float(width_), float(height_), ui_.scale(), state_.panels).picture;
+}
+
+Camera Session::cameraNow() const {
+  return state_.orbit.camera(state_.cut, 0.5f * glm::length(document_->bounds.extent()));
+}
+
+Shot Session::shotNow() const {
+  const Rect rect = pictureRect();
+  Shot shot{.body = body_,
+            .camera = cameraNow(),
+            .look = state_.look,
+            .width = std::uint32_t(rect.width),
+            .height = std::uint32_t(rect.height),
+            .colours = coloursOf(*document_, *body_, state_)};
+  shot.look.occlusion = 0;
+  return shot;
+}
+
+// Where the camera is wished to be.
+void Session::moveCamera() {
+  if (state_.wishHome) {
+    const Rect rect = pictureRect();
+    Aabb box = motionBounds(document_->scene, state_.playback.clip >= 0 ? &document_->scene.body.clips[std::size_t(state_.playback.clip)] : nullptr);
+    box.low += way_;
+    box.high += way_;
+    state_.orbit.frame(box, rect.width / rect.height);
+    state_.wishHome = false;
+  }
+  if (state_.wishFocus && state_.selected) {
+    const Rect rect = pictureRect();
+    state_.orbit.frame(subjectBounds(document_->scene, {state_.selected->vessel, {}}, body_->pose, body_->points), rect.width / rect.height);
+  }
+  state_.wishFocus = false;
+}
+
+// True where there is a new picture.
+bool Session::drawScene() {
+  if (!document_ || !body_) return false;
+  moveCamera();
+  painter_.choose(document_, state_.detail, state_.timing);
+  if (!painter_.picture()) shown_.reset();
+  Shot shot = shotNow();
+  Shot fine = shot;
+  fine.fine = true;
+  fine.look.occlusion = state_.look.occlusion;
+  if (shown_ && shown_->fine && same(*shown_, fine)) return false;
+  if (shown_ && !shown_->fine && same(*shown_, shot)) {
+    const bool moving = state_.playback.playing || worker_.busy() || pointer_.dragging();
+    if (!state_.fineStills || moving || still_ < kStillAfter) return false;
+    shot = fine;
+  } else {
+    still_ = 0;
+  }
+  const auto start = Clock::now();
+  painter_.draw(shot);
+  const auto end = Clock::now();
+  ++report_.pictures;
+  if (!shot.fine) {
+    timings_.addPicture(painter_.times(), std::chrono::duration<double, std::milli>(end - start).count());
+    if (lastShown_ && state_.playback.playing) timings_.addShown(std::chrono::duration<double, std::milli>(end - *lastShown_).count());
+    lastShown_ = end;
+  } else {
+    lastShown_.reset();
+  }
+  shown_ = std::move(shot);
+  return true;
+}
+
+void Session::drawWindow() {
+  canvas_.resize({width_, height_});
+  ui_.begin(width_, height_, options_.script ? kScriptFrame : kFrame);
+  const Layout layout = layoutOf(float(width_), float(height_), ui_.scale(), state_.panels);
+  showPanels({.state = state_,
+              .document = document_.get(),
+              .body = body_.get(),
+              .timings = timings_,
+              .layout = layout,
+              .scale = ui_.scale(),
+              .camera = shown_ ? shown_->camera : Camera{},
+              .heldJoint = poseTool_.held().value_or(JointId{}),
+              .profiler = profiler_.get(),
+              .fine = shown_ && shown_->fine,
+              .message = now_ < messageUntil_ ? message_ : "",
+              .loading = loader_.busy() ? loader_.stage() : nullptr,
+              .loadingTitle = loader_.title()});
+  canvas_.draw(shown_ ? painter_.picture() : nullptr, 0, 0, ui_.end());
+  window_.setPointer(ui_.pointer());
+  swapchain_.present(canvas_.canvas(), {window_.width(), window_.height()});
+  if (panelFrames_ > 0) --panelFrames_;
+  ++report_.frames;
+}
+
+// A picture of the video for every picture that is drawn.
+void Session::record() {
+  if (state_.recording && !recording_.running() && shown_) {
+    if (const auto started = recording_.start(freeName("mp4"), shown_->width, shown_->height); !started) {
+      state_.recording = false;
+      say(started.error().message);
+    }
+  }
+  if (recording_.running() && shown_ && !recording_.fits(shown_->width, shown_->height)) state_.recording = false;
+  if (recording_.running() && state_.recording && shown_)
+    if (const auto added = recording_.add(painter_.readBack()); !added) {
+      state_.recording = false;
+      say(added.error().message);
+    }
+  if (recording_.running() && !state_.recording) {
+    const auto file = recording_.finish();
+    if (file) report_.files.push_back(*file);
+    say(file ? "wrote " + file->string() : file.error().message);
+  }
+}
+
+void Session::save(const SavePicture& wish) {
+  if (!wish.panels && !shown_) return;
+  const auto written = writePng(wish.path, wish.panels ? canvas_.readBack() : painter_.readBack());
+  if (!written) {
+    if (options_.script) failure_ = written.error();
+    say(written.error().message);
+    return;
+  }
+  report_.files.push_back(wish.path);
+  say("wrote " + wish.path.string());
+}
+
+}  // namespace vasa::viewer

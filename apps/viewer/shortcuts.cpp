@@ -1,0 +1,92 @@
+#include "viewer/shortcuts.h"
+
+namespace vasa::viewer {
+namespace {
+
+constexpr Shortcut kShortcuts[] = {
+    {"drag", "turn"},
+    {"shift or right drag", "move"},
+    {"wheel", "nearer, farther"},
+    {"click", "choose a vessel"},
+    {"double click", "go to it"},
+    {"Space", "play, pause"},
+    {"Left, Right", "a frame back, on"},
+    {"Up, Down", "another clip"},
+    {"1 3 7", "from the front, side, top; with Ctrl from the other side"},
+    {"5", "orthographic"},
+    {"Home", "all of the body"},
+    {"F or .", "to the chosen vessel"},
+    {"I", "only the chosen vessel and its tree"},
+    {"M", "measure along the vessels"},
+    {"P", "pose: drag joints"},
+    {"R", "record a video"},
+    {"C", "contacts"},
+    {"Tab", "panels"},
+    {"Ctrl F", "search"},
+    {"F9", "profile: Table III"},
+    {"F12", "picture to a file"},
+    {"Esc", "choose nothing"},
+    {"F1", "these keys"},
+    {"Ctrl Q", "quit"},
+};
+
+void chooseNext(ViewState& state, const Document& document, int way) {
+  const auto& clips = document.scene.body.clips;
+  const int count = int(clips.size()) + 1;  // rest, too
+  state.playback.clip = (state.playback.clip + 1 + way + count) % count - 1;
+  if (state.playback.clip >= 0) state.playback.time = clips[std::size_t(state.playback.clip)].start;
+}
+
+void stepFrames(ViewState& state, const Document& document, int frames) {
+  if (state.playback.clip >= 0) state.playback.step(document.scene.body.clips[std::size_t(state.playback.clip)], frames);
+}
+
+void choose(ViewState& state, bool measuring) {
+  state.measuring = measuring;
+  if (!measuring) state.from = state.to = std::nullopt;
+}
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() {
+  return kShortcuts;
+}
+
+void applyShortcut(Key key, bool control, ViewState& state, const Document* document) {
+  switch (key) {
+    case Key::space: state.playback.playing = document && state.playback.clip >= 0 && !state.playback.playing; return;
+    case Key::tab: state.panels = !state.panels; return;
+    case Key::f1: state.help = !state.help; return;
+    case Key::home: state.wishHome = true; return;
+    case Key::period: state.wishFocus = true; return;
+    case Key::f9: state.wishProfile = true; return;
+    case Key::f12: state.wishPicture = true; return;
+    case Key::escape:
+      state.selected.reset();
+      state.isolate = state.help = false;
+      choose(state, false);
+      return;
+    case Key::left:
+    case Key::right:
+      if (document) stepFrames(state, *document, key == Key::left ? -1 : 1);
+      return;
+    case Key::up:
+    case Key::down:
+      if (document) chooseNext(state, *document, key == Key::up ? -1 : 1);
+      return;
+    default: break;
+  }
+  if (key == keyOf('1')) state.orbit.look(control ? View::back : View::front);
+  if (key == keyOf('3')) state.orbit.look(control ? View::right : View::left);
+  if (key == keyOf('7')) control ? state.orbit.lookFromBelow() : state.orbit.look(View::top);
+  if (key == keyOf('5')) state.orbit.setOrthographic(!state.orbit.orthographic());
+  if (key == keyOf('F')) (control ? state.wishSearch : state.wishFocus) = true;
+  if (key == keyOf('I')) state.isolate = !state.isolate && state.selected;
+  if (key == keyOf('M')) choose(state, !state.measuring);
+  if (key == keyOf('P')) state.posing = !state.posing;
+  if (key == keyOf('R')) state.recording = !state.recording;
+  if (key == keyOf('C') && !control) state.contacts = !state.contacts;
+  if (key == keyOf('Q') && control) state.wishQuit = true;
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "cli/program.h"
+#include "golden/compare.h"
+#include "io/png.h"
+#include "support/shared_data.h"
+#include "view/virtual_display.h"
+
+// vasa view on a display without a screen. The pictures that it must show are in tests/view/pictures;
+// scripts/golden.sh writes them anew.
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+std::string contentOf(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// The script with OUT/ standing for a folder, in a file there.
+std::filesystem::path scriptIn(const std::filesystem::path& folder, std::string text) {
+  for (std::size_t at = 0; (at = text.find("OUT/", at)) != std::string::npos;) text.replace(at, 4, folder.string() + "/");
+  const auto path = folder / "script.txt";
+  std::ofstream(path) << text;
+  return path;
+}
+
+ProgramOptions on(const VirtualDisplay& display, const TemporaryFolder& home) {
+  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(), "XDG_CACHE_HOME=" + home.path().string()}};
+}
+
+void checkPicture(const std::filesystem::path& found, const std::string& name) {
+  CAPTURE(name);
+  const auto picture = readPng(found);
+  REQUIRE_MESSAGE(picture, (picture ? "" : picture.error().message));
+  const auto stored = std::filesystem::path("tests/view/pictures") / (name + ".png");
+  if (std::getenv("VASA_WRITE_GOLDEN")) {
+    std::filesystem::create_directories(stored.parent_path());
+    REQUIRE(writePng(stored, *picture));
+    return;
+  }
+  const auto wanted = readPng(stored);
+  REQUIRE_MESSAGE(wanted, (wanted ? "" : wanted.error().message));
+  REQUIRE(wanted->width == picture->width);
+  REQUIRE(wanted->height == picture->height);
+  const golden::Difference difference = golden::compare(*wanted, *picture);
+  CAPTURE(difference.mean);
+  CAPTURE(difference.changed);
+  CHECK(golden::same(difference));
+}
+
+}  // namespace
+
+TEST_CASE("a session opens, plays, turns, picks, poses, writes pictures, resizes 50 times and quits, and validation is silent") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  std::string text = contentOf("tests/view/session.txt");
+  for (int i = 0; i < 50; ++i) text += "resize " + std::to_string(400 + 13 * (i * 7 % 50)) + " " + std::to_string(300 + 9 * (i * 11 % 50)) + "\n";
+  text += "resize 800 560\nsettle\nwindow OUT/resized.png\nmove 237 200\npress left\nrelease left\nsettle\n";
+  const auto outcome = runProgram({"view", "--clip", "walk", "--size", "800x560", "--validate", "--json", "--script", scriptIn(folder.path(), text)},
+                                  on(display, folder));
+  CHECK_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(outcome.err.empty());
+  const auto report = outcome.json();
+  CHECK(report["validation_messages"] == 0);
+  CHECK(report["files"].size() == 6);
+  CHECK(report["pictures"].get<int>() > 60);  // each new size is drawn
+  CHECK(report["selected"] != "");
+  CHECK(report["width"] == 480);              // the panels have the rest
+  for (const char* name : {"posed", "searched"}) checkPicture(folder.path() / (std::string(name) + ".png"), name);
+  CHECK(readPng(folder.path() / "picked.png")->width == 800);
+}
+
+TEST_CASE("a recorded session does the same again") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto recorded = folder.path() / "recorded.txt";
+  const std::string text = "settle\nkey tab\nkey 3\nmove 100 100\npress left\nmove 140 120\nrelease left\nfrayed";
+  const auto wrong = runProgram({"view", "--script", scriptIn(folder.path(), text)}, on(display, folder));
+  CHECK(wrong.exit == 3);
+  CHECK(wrong.err.find("script.txt:8: 'frayed'") != std::string::npos);
+  const std::string start = "settle\n", end = "settle\nwindow OUT/end.png\n";
+  const std::string middle = "key tab\nkey 3\nmove 100 100\npress left\nmove 140 120\nrelease left\nframes 2\n";
+  const auto session = [&](const std::string& script, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"view", "--size", "400x300", "--json", "--script", scriptIn(folder.path(), script)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto outcome = runProgram(arguments, on(display, folder));
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    return readPng(folder.path() / "end.png");
+  };
+  const auto first = session(start + middle + end, {"--record-script", recorded.string()});
+  const auto again = session(start + contentOf(recorded) + end, {});
+  REQUIRE(first);
+  REQUIRE(again);
+  CHECK(first->rgba == again->rgba);
+}
+
+TEST_CASE("without a display there is a message with a remedy, and no device is asked for") {
+  const auto outcome = runProgram({"view"}, {.environment = {"DISPLAY="}});
+  CHECK(outcome.exit == 1);
+  CHECK(outcome.err.find("xvfb-run") != std::string::npos);
+  CHECK(outcome.out.empty());
+}
+
+TEST_CASE("what is wrong is told before a window opens, or by its closing") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  CHECK(runProgram({"view", "--script", "no-such-script.txt"}, on(display, folder)).exit == 6);
+  CHECK(runProgram({"view", "--look", "sepia"}, on(display, folder)).exit == 2);
+  CHECK(runProgram({"view", "--size", "big"}, on(display, folder)).exit == 2);
+  CHECK(runProgram({"view", "--device", "no such device"}, on(display, folder)).exit == 4);
+  std::ofstream(folder.path() / "bad.json") << "{ \"body\": 3 }";
+  CHECK(runProgram({"view", (folder.path() / "bad.json").string()}, on(display, folder)).exit == 3);
+  const auto missing = runProgram({"view", "--body", "none.glb", "--network", "none.vasa"}, on(display, folder));
+  CHECK(missing.exit == 6);
+}
+
+TEST_CASE("settings are kept when a person ends the session, and only then") {
+  const VirtualDisplay display;
+  const TemporaryFolder home;
+  auto options = on(display, home);
+  const auto scripted = runProgram({"view", "--size", "400x300", "--script", scriptIn(home.path(), "settle\n")}, options);
+  CHECK(scripted.exit == 0);
+  CHECK_FALSE(std::filesystem::exists(home.path() / "vasa"));
+  options.signalAfterMs = 6000;
+  const auto outcome = runProgram({"view", "--size", "410x310"}, options);
+  CHECK(outcome.exit == 130);
+  const auto kept = nlohmann::json::parse(contentOf(home.path() / "vasa" / "view.json"), nullptr, false);
+  REQUIRE(kept.is_object());
+  CHECK(kept["width"] == 410);
+  CHECK(listOf(home.path() / "vasa") == std::vector<std::string>{"view.json"});
+}
