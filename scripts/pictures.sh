@@ -35,18 +35,18 @@ only='--clip stand --hide skin,bones,organs'
   draw crossing 320x320 $only --camera 0.02,1.40,0.36/-0.01,1.395,0.01/16
   row forks y t crossing
 
-  draw without 320x480 $only --camera front
-  draw with 320x480 $only --camera front --capillaries 3
+  draw without 240x480 $only --camera 0,0.88,3.9/0,0.88,0/27
+  draw with 240x480 $only --camera 0,0.88,3.9/0,0.88,0/27 --capillaries 3
   row whole without with
 
   for level in 1 2 3; do
-    draw "level$level" 320x240 $only --capillaries "$level" --focus RightHand --distance 1.1
+    draw "level$level" 320x240 $only --capillaries "$level" --focus RightHand --distance 0.75
   done
   row levels level1 level2 level3
 
   draw brain 240x240 --clip stand --hide skin,bones --capillaries 3 --camera 0.5,1.68,0.25/0,1.66,0/20
   draw face 240x240 --clip stand --hide skin,bones --capillaries 3 --camera 0.12,1.62,0.6/0,1.6,0.03/20
-  draw hand 240x240 --clip stand --hide skin --capillaries 3 --focus LeftHand --distance 1.1
-  draw foot 240x240 --clip stand --hide skin --capillaries 3 --focus LeftFoot --distance 1.1
+  draw hand 240x240 --clip stand --hide skin --capillaries 3 --focus LeftHand --distance 0.7
+  draw foot 240x240 --clip stand --hide skin --capillaries 3 --focus LeftFoot --distance 0.7
   row regions brain face hand foot
 }
