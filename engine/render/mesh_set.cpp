@@ -16,8 +16,12 @@ shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::size_t i) {
   const vec3 position = mesh.mesh.positions[i];
   const SkinInfluence& influence = mesh.influences[i];
   const auto& j = influence.joints;
-  return {position.x, position.y, position.z, packOctahedral(mesh.normals[i]),
-          j[0] | std::uint32_t(j[1]) << 16,   j[2] | std::uint32_t(j[3]) << 16,
+  return {position.x,
+          position.y,
+          position.z,
+          packOctahedral(mesh.normals[i]),
+          j[0] | std::uint32_t(j[1]) << 16,
+          j[2] | std::uint32_t(j[3]) << 16,
           influence.weights};
 }
 
@@ -27,19 +31,31 @@ std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
   return packColour(vec4(vec3(colour), 0));
 }
 
+void addLevel(MeshSet::Part& part, std::vector<uvec3>& triangles, const MeshLevel& level,
+              std::uint32_t firstVertex) {
+  part.levels.push_back(
+      {level.error, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * level.triangles.size())});
+  for (const uvec3& t : level.triangles) triangles.push_back(t + firstVertex);
+}
+
 }  // namespace
 
-MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes) {
+MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, bool coarser) {
   std::vector<shared::SkinVertex> vertices;
   std::vector<uvec3> triangles;
   std::vector<std::uint32_t> colours;
   for (const SkinnedMesh& mesh : meshes) {
-    assert(mesh.normals.size() == mesh.mesh.positions.size() && mesh.influences.size() == mesh.normals.size());
+    assert(mesh.normals.size() == mesh.mesh.positions.size() &&
+           mesh.influences.size() == mesh.normals.size());
     const std::uint32_t firstVertex = std::uint32_t(vertices.size());
     const MeshRole role = roleNamed(mesh.name);
-    parts_.push_back({role, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * mesh.mesh.triangles.size())});
+    Part& part = parts_.emplace_back(Part{.role = role, .levels = {}, .balls = {}});
+    addLevel(part, triangles, {0, mesh.mesh.triangles}, firstVertex);
+    if (coarser) {
+      for (const MeshLevel& level : coarserLevels(mesh.mesh)) addLevel(part, triangles, level, firstVertex);
+      part.balls = jointBalls(mesh);
+    }
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) vertices.push_back(restVertex(mesh, i));
-    for (const uvec3& t : mesh.mesh.triangles) triangles.push_back(t + firstVertex);
     for (const SkinInfluence& influence : mesh.influences)
       for (const std::uint16_t joint : influence.joints) jointCount_ = std::max(jointCount_, joint + 1u);
     if (role == MeshRole::heart && heart_.last == 0)
@@ -53,6 +69,20 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes) {
                                 .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
   indices_ = gpu::makeBuffer(device, "mesh indices", std::span<const uvec3>(triangles));
   colours_ = gpu::makeBuffer(device, "mesh colours", std::span<const std::uint32_t>(colours));
+}
+
+std::vector<MeshSet::Level> MeshSet::levelsFor(std::span<const mat4> jointMatrices, const Camera& camera,
+                                               std::uint32_t pictureHeight, float pixels) const {
+  std::vector<Level> chosen;
+  for (const Part& part : parts_) {
+    std::size_t level = 0;
+    if (pixels > 0 && part.levels.size() > 1) {
+      const float error = pixels * finestPixel(part.balls, jointMatrices, camera, pictureHeight);
+      while (level + 1 < part.levels.size() && part.levels[level + 1].error <= error) ++level;
+    }
+    chosen.push_back(part.levels[level]);
+  }
+  return chosen;
 }
 
 }  // namespace vasa

@@ -1,30 +1,44 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "body/body.h"
 #include "gpu/buffer.h"
 #include "render/look.h"
+#include "render/mesh_levels.h"
 
 namespace vasa {
 
 /// The body's meshes in device memory, one behind the other: at rest, and as posed in this frame.
 class MeshSet {
  public:
+  struct Level {
+    float error;  ///< [m] of the surface; 0 for the mesh itself
+    std::uint32_t firstIndex, indexCount;
+  };
   struct Part {
     MeshRole role;
-    std::uint32_t firstIndex, indexCount;
+    std::vector<Level> levels;     ///< the mesh itself, then ever coarser ones over its vertices
+    std::vector<JointBall> balls;  ///< where it is, if it has several levels
   };
   /// Vertices [first, last) of the heart, and their middle at rest; none without a heart.
   struct Heart {
     std::uint32_t first = 0, last = 0;
     vec3 centre{0};
   };
-  MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes);
+  /// @param coarser  make coarser levels too (mesh_levels.h)
+  MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, bool coarser = false);
 
   std::span<const Part> parts() const { return parts_; }
+  /// For every part the coarsest level whose error shows as `pixels` at most; the meshes themselves for 0
+  /// pixels.
+  std::vector<Level> levelsFor(std::span<const mat4> jointMatrices, const Camera& camera,
+                               std::uint32_t pictureHeight, float pixels) const;
   const Heart& heart() const { return heart_; }
   std::uint32_t vertexCount() const { return vertexCount_; }
-  std::uint32_t jointCount() const { return jointCount_; }  ///< joints that the meshes use: highest number + 1
+  std::uint32_t jointCount() const {
+    return jointCount_;
+  }  ///< joints that the meshes use: highest number + 1
   VkDeviceAddress rest() const { return rest_.address(); }
   const gpu::Buffer& posed() const { return posed_; }  ///< shared::TubeVertex
   const gpu::Buffer& indices() const { return indices_; }

@@ -33,6 +33,8 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+// An outline of bone or skin may be off by more than a vessel's: none is so thin, and normals stay those of the mesh.
+constexpr float kMeshPixels = 3;
 constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
 constexpr const char* kTessellate = "tessellate";
 constexpr const char* kForks = "forks";
@@ -124,7 +126,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       ownColours(kindColours(network)),
       tubes(device, network, {chosen.shape, chosen.pixelError}, chosen.sweepsPerBatch),
       forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
-      meshes(device, skinned),
+      meshes(device, skinned, chosen.pixelError > 0),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
       tubePass(device),
@@ -222,6 +224,9 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
+  const std::vector<MeshSet::Level> levels =
+      meshes.levelsFor(input.jointMatrices, input.camera, target.spec().size.height,
+                       kMeshPixels * options.pixelError);
   timer.begin(commands);
   upload.record(commands);
   if (batches > 0) {
@@ -234,7 +239,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
     if (anyShown(meshes, input.look)) skinPass.record(commands, meshes, upload.joints(), upload.jointCount(), input.heartScale);
     gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
     target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
-    surfacePass.recordOpaque(commands, push, meshes, input.look);
+    surfacePass.recordOpaque(commands, push, meshes, levels, input.look);
     target.pause(commands);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
@@ -247,7 +252,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (capillaries && batches > 0) recordCapillaries(commands, push, input.look.style);
   const auto scope = timer.scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
-  surfacePass.recordSkin(commands, push, meshes, input.look);
+  surfacePass.recordSkin(commands, push, meshes, levels, input.look);
   target.end(commands);
 }
 

@@ -60,18 +60,18 @@ void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDevic
 // Draws the parts that `wanted` takes.
 template <class Wanted>
 void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-               const gpu::GraphicsPipeline& pipeline, const Wanted& wanted) {
+               std::span<const MeshSet::Level> levels, const gpu::GraphicsPipeline& pipeline, const Wanted& wanted) {
   bindVertices(commands, meshes.posed(), 0);
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
   push.colours = meshes.colours();
   push.itemShift = 31;  // a part is one item
   push.hiddenKinds = 0;
   for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
-    const MeshSet::Part& part = meshes.parts()[i];
-    if (part.indexCount == 0 || !wanted(part.role)) continue;
+    const MeshSet::Level& level = levels[i];
+    if (level.indexCount == 0 || !wanted(meshes.parts()[i].role)) continue;
     push.firstItem = i;
     pipeline.bind(commands, push);
-    vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, 0, 0);
+    vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, 0, 0);
   }
 }
 
@@ -175,21 +175,21 @@ void SurfacePass::drawBatch(VkCommandBuffer commands, shared::DrawPush push, con
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                               const Look& look) const {
+                               std::span<const MeshSet::Level> levels, const Look& look) const {
   for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
     push.opacity = xrayLight(role);
-    drawParts(commands, push, meshes, opaque_[std::size_t(look.style)],
+    drawParts(commands, push, meshes, levels, opaque_[std::size_t(look.style)],
               [&](MeshRole part) { return part == role && shown(role, look); });
   }
 }
 
 void SurfacePass::recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                             const Look& look) const {
+                             std::span<const MeshSet::Level> levels, const Look& look) const {
   const auto skin = [&](MeshRole role) { return role == MeshRole::skin && shown(role, look); };
   const bool xray = look.style == LookStyle::xray;
   push.opacity = look.skinOpacity * (xray ? xrayLight(MeshRole::skin) : 1);
-  if (!xray) drawParts(commands, push, meshes, skinDepth_, skin);
-  drawParts(commands, push, meshes, skinColour_[std::size_t(look.style)], skin);
+  if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, skin);
+  drawParts(commands, push, meshes, levels, skinColour_[std::size_t(look.style)], skin);
 }
 
 }  // namespace vasa

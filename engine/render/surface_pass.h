@@ -31,9 +31,12 @@ class SurfacePass {
   void recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks, const ForkBatch& batch,
                    const TubeDraws& draws, LookStyle style = LookStyle::atlas) const;
   /// Bones, heart and others.
-  void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
+  /// @param levels  MeshSet::levelsFor()
+  void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+                    std::span<const MeshSet::Level> levels, const Look& look) const;
   /// The skin: the depth of its nearest side first, then that side's colour over what lies behind.
-  void recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes, const Look& look) const;
+  void recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+                  std::span<const MeshSet::Level> levels, const Look& look) const;
 
  private:
   void drawBatch(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws, std::uint32_t groups,

@@ -1,0 +1,98 @@
+#include "render/mesh_levels.h"
+
+#include <doctest/doctest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "body/body.h"
+
+using namespace vasa;
+
+namespace {
+
+constexpr float kRadius = 0.1f;
+
+// A ball of rings and spokes, closed at its poles.
+TriangleMesh ball(std::uint32_t rings, std::uint32_t spokes) {
+  TriangleMesh mesh;
+  const auto at = [&](std::uint32_t ring, std::uint32_t spoke) {
+    return 1 + (ring - 1) * spokes + spoke % spokes;
+  };
+  mesh.positions.push_back({0, kRadius, 0});
+  for (std::uint32_t i = 1; i < rings; ++i)
+    for (std::uint32_t k = 0; k < spokes; ++k) {
+      const float polar = kPi * float(i) / float(rings), around = 2 * kPi * float(k) / float(spokes);
+      mesh.positions.push_back(kRadius * vec3(std::sin(polar) * std::cos(around), std::cos(polar),
+                                              std::sin(polar) * std::sin(around)));
+    }
+  const std::uint32_t last = std::uint32_t(mesh.positions.size());
+  mesh.positions.push_back({0, -kRadius, 0});
+  for (std::uint32_t k = 0; k < spokes; ++k) {
+    mesh.triangles.push_back({0, at(1, k + 1), at(1, k)});
+    mesh.triangles.push_back({last, at(rings - 1, k), at(rings - 1, k + 1)});
+    for (std::uint32_t i = 1; i + 1 < rings; ++i) {
+      mesh.triangles.push_back({at(i, k), at(i, k + 1), at(i + 1, k)});
+      mesh.triangles.push_back({at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)});
+    }
+  }
+  return mesh;
+}
+
+// How far the middles of the triangles lie from the ball [m].
+float farthest(const TriangleMesh& mesh, const std::vector<uvec3>& triangles) {
+  float worst = 0;
+  for (const uvec3& t : triangles) {
+    const vec3 middle = (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
+    worst = std::max(worst, std::abs(glm::length(middle) - kRadius));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("coarser levels have fewer triangles, keep their error and stay closed") {
+  const TriangleMesh mesh = ball(80, 160);
+  const std::vector<MeshLevel> levels = coarserLevels(mesh);
+  REQUIRE(levels.size() >= 3);
+  std::size_t before = mesh.triangles.size();
+  float error = 0;
+  for (const MeshLevel& level : levels) {
+    CAPTURE(level.error);
+    CHECK(level.triangles.size() < before);
+    CHECK(level.error > error);
+    CHECK(farthest(mesh, level.triangles) <= 2 * level.error);
+    const float volume = TriangleMesh{mesh.positions, level.triangles}.volume();
+    CHECK(volume > 0);  // outward still
+    CHECK(volume == doctest::Approx(mesh.volume()).epsilon(5 * level.error / kRadius));
+    before = level.triangles.size(), error = level.error;
+  }
+  CHECK(levels.back().triangles.size() * 20 < mesh.triangles.size());
+}
+
+TEST_CASE("a mesh of nothing and a triangle have no coarser levels") {
+  CHECK(coarserLevels({}).empty());
+  CHECK(coarserLevels({{{0, 0, 0}, {0.05f, 0, 0}, {0, 0.05f, 0}}, {{0, 1, 2}}}).empty());
+}
+
+TEST_CASE("the finest pixel is that of the nearest ball in front of the camera, where its joint has it") {
+  SkinnedMesh mesh;
+  mesh.mesh = ball(8, 8);
+  for (const vec3& p : mesh.mesh.positions)
+    mesh.influences.push_back({{std::uint16_t(p.y > 0 ? 1 : 0), 0, 0, 0}, {1, 0, 0, 0}});
+  const std::vector<JointBall> balls = jointBalls(mesh);
+  REQUIRE(balls.size() == 2);
+  Camera camera{.position = {0, 0, 4}, .target = {0, 0, 0}};
+  const auto pixelAt = [&](float depth) { return 2 * std::tan(camera.verticalAngle / 2) * depth / 100; };
+  const mat4 still(1);
+  const std::vector<mat4> rest{still, still};
+  const float before = finestPixel(balls, rest, camera, 100);
+  CHECK(before < pixelAt(4));
+  CHECK(before > pixelAt(4 - 3 * kRadius));
+  const std::vector<mat4> nearer{still, glm::translate(still, {0, 0, 2})};
+  CHECK(finestPixel(balls, nearer, camera, 100) ==
+        doctest::Approx(before - (pixelAt(4) - pixelAt(2))).epsilon(1e-3));
+  const std::vector<mat4> behind{still, glm::translate(still, {0, 0, 20})};
+  CHECK(finestPixel(balls, behind, camera, 100) == doctest::Approx(before).epsilon(1e-3));
+  camera.orthographicHeight = 2;
+  CHECK(finestPixel(balls, rest, camera, 100) == doctest::Approx(0.02));
+}
