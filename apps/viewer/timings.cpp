@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/profiler.h"
+
 namespace vasa::viewer {
 
 float History::median() const {
@@ -20,25 +22,12 @@ void Timings::add(const char* name, double ms) {
 }
 
 void Timings::addShape(const FrameReport& report, double ms) {
-  add("pose_ms", report.poseMs);
-  add("deform_ms", report.deformMs);
-  add("kinks_ms", report.kinksMs);
-  add("volume_ms", report.volumeMs);
-  add("detect_ms", report.avoid.detectMs);
-  add("obstacles_ms", report.avoid.boneMs);
-  add("avoid_ms", report.avoid.solveMs);
-  add("certify_ms", report.avoid.certifyMs);
-  add("knot_frames_ms", report.framesMs);
+  for (const auto& [stage, took] : shapeStages(report, true)) add(stage, took);
   shape_.add(float(ms));
 }
 
 void Timings::addPicture(const FrameTimes& times, double ms) {
-  add("upload_ms", times.upload);
-  add("tessellate_ms", times.tessellate);
-  add("forks_ms", times.forks);
-  add("draw_ms", times.draw);
-  add("capillaries_ms", times.capillaries);
-  add("meshes_ms", times.meshes);
+  for (const auto& [stage, took] : pictureStages(times, true)) add(stage, took);
   picture_.add(float(ms));
 }
 

@@ -17,6 +17,30 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+StageTimes shapeStages(const FrameReport& report, bool avoided) {
+  StageTimes stages{{"pose_ms", report.poseMs},
+                    {"deform_ms", report.deformMs},
+                    {"kinks_ms", report.kinksMs},
+                    {"volume_ms", report.volumeMs}};
+  if (avoided)
+    stages.insert(stages.end(), {{"detect_ms", report.avoid.detectMs},
+                                 {"obstacles_ms", report.avoid.boneMs},
+                                 {"avoid_ms", report.avoid.solveMs},
+                                 {"certify_ms", report.avoid.certifyMs}});
+  stages.emplace_back("knot_frames_ms", report.framesMs);
+  return stages;
+}
+
+StageTimes pictureStages(const FrameTimes& times, bool capillaries) {
+  StageTimes stages{{"upload_ms", times.upload},
+                    {"tessellate_ms", times.tessellate},
+                    {"forks_ms", times.forks},
+                    {"draw_ms", times.draw}};
+  if (capillaries) stages.emplace_back("capillaries_ms", times.capillaries);
+  stages.emplace_back("meshes_ms", times.meshes);
+  return stages;
+}
+
 double ProfileRow::fps() const {
   const auto frame = std::ranges::find(stages, "frame_ms", &std::pair<std::string, double>::first);
   return frame == stages.end() || frame->second <= 0 ? 0 : 1000 / frame->second;
@@ -77,25 +101,8 @@ void Profiler::note(double frameMs) {
   };
   Pass& pass = *pass_;
   if (!pass.renderer.options().timed) return add("frame_ms", frameMs);
-  const FrameReport& cpu = pass.maker.report();
-  const FrameTimes times = pass.renderer.times();
-  add("pose_ms", cpu.poseMs);
-  add("deform_ms", cpu.deformMs);
-  add("kinks_ms", cpu.kinksMs);
-  add("volume_ms", cpu.volumeMs);
-  if (setting_.avoid) {
-    add("detect_ms", cpu.avoid.detectMs);
-    add("obstacles_ms", cpu.avoid.boneMs);
-    add("avoid_ms", cpu.avoid.solveMs);
-    add("certify_ms", cpu.avoid.certifyMs);
-  }
-  add("knot_frames_ms", cpu.framesMs);
-  add("upload_ms", times.upload);
-  add("tessellate_ms", times.tessellate);
-  add("forks_ms", times.forks);
-  add("draw_ms", times.draw);
-  if (setting_.render.growth) add("capillaries_ms", times.capillaries);
-  add("meshes_ms", times.meshes);
+  for (const auto& [stage, ms] : shapeStages(pass.maker.report(), setting_.avoid)) add(stage, ms);
+  for (const auto& [stage, ms] : pictureStages(pass.renderer.times(), setting_.render.growth != nullptr)) add(stage, ms);
   add("triangles_drawn", double(pass.renderer.drawnTriangleCount()));
   if ((pass.frame - kWarmUpFrames) % kStaticEvery == 1) add("static_draw_ms", pass.renderer.staticDraw(pass.input, 1));
 }

@@ -29,6 +29,13 @@ struct ProfileRow {
   std::string name() const;  ///< "8x5" or "auto"
 };
 
+/// Stages of a frame under the names that reports use ("detect_ms"), and what they took [ms], in a frame's order.
+using StageTimes = std::vector<std::pair<const char*, double>>;
+/// @param avoided  with the stages of avoidance
+StageTimes shapeStages(const FrameReport& report, bool avoided);
+/// @param capillaries  with theirs
+StageTimes pictureStages(const FrameTimes& times, bool capillaries);
+
 /// What is to be measured.
 struct ProfileSetting {
   const Scene* scene = nullptr;
