@@ -1,7 +1,7 @@
 #version 460
 // A thread a fork, a workgroup a group: its vertices row by row, then those of its triangles that may be seen. What a
 // thread writes has its place by the threads before it in the group, so nothing depends on their timing.
-// CPU references: engine/surface/fork.h, fork_template.h, visible.h.
+// CPU references: engine/surface/fork.h, fork_stump.h, fork_template.h, visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -9,10 +9,11 @@
 #include "lib/ring.glsl"
 #include "lib/visible.glsl"
 
-void add(uint a, uint b, uint c);
+void put(uint vertex, SurfacePoint point);
 vec2 stepOf(uint around);
 
-#include "lib/fork_triangles.glsl"
+#include "lib/fork_collar.glsl"
+#include "lib/fork_stump.glsl"
 
 const uint kGroupThreads = kGroupForks;
 #include "lib/group_sum.glsl"
@@ -20,83 +21,20 @@ const uint kGroupThreads = kGroupForks;
 layout(local_size_x = kGroupForks) in;
 layout(push_constant, scalar) uniform Push { ForksPush push; };
 
-vec2 places[kMostForkVertices];                   // of the vertices, on the picture [samples]
-uint masks[(kMostForkTriangles + 31) / 32];       // a bit a triangle: it may be seen
-uint triangle, kept, target, firstVertex;
-bool writing;
+vec2 places[kMostForkVertices];      // of the vertices, on the picture [samples]
+uint kept, target, firstVertex;
 mat4 viewProjection;
 vec2 samples;
 float snap;
 
-void add(uint a, uint b, uint c) {
-  uint word = triangle >> 5, bit = 1u << (triangle & 31u);
-  ++triangle;
-  if (writing) {
-    if ((masks[word] & bit) == 0u) return;
-    push.indices.value[target++] = firstVertex + a;
-    push.indices.value[target++] = firstVertex + b;
-    push.indices.value[target++] = firstVertex + c;
-  } else if (push.keepAll != 0 || (seenOfQuad(places[a], places[b], places[c], places[c], samples, snap) & 1u) != 0u) {
-    masks[word] |= bit;
-    ++kept;
-  }
-}
-
 void put(uint vertex, SurfacePoint point) {
+  corners[vertex] = point;
   push.vertices.vertex[firstVertex + vertex] = packVertex(point);
   vec4 clip = viewProjection * vec4(point.position, 1);
   places[vertex] = clip.z > clip.w || clip.w <= 0 ? vec2(kBehind) : (clip.xy / clip.w + 1.0) * (0.5 * samples) - 0.5;
 }
 
 vec2 stepOf(uint around) { return push.tables.tables.step[around]; }
-
-void collar(ForkBranch record, uint start, uint around, vec2 towards, Trunk trunk, Section middle) {
-  setDirections(stepOf(around), around);
-  Ring branch = ringOf(push.points, push.knots, push.tables, record.ring);
-  Section at = wallAt(trunk, middle, record.centre);
-  precise vec3 outward = branch.turn * branch.section.tangent;
-  precise vec3 wanted = towards.x * at.u + towards.y * at.v, side = towards.x * at.v - towards.y * at.u;
-  precise vec3 sum = wanted + outward;
-  precise float fold = max(1.0 + dotOf(wanted, outward), 1e-3);
-  precise vec3 across = side - (dotOf(side, sum) / fold) * sum;
-  uint first = seamAt(branch, across, around);
-  for (uint k = 0; k < around; ++k) {
-    vec2 polar = directions[k];
-    precise float x = record.holeAround * polar.x;
-    precise float depth = sqrt(1.0 - x * x);
-    precise float s = record.centre + record.holeAlong * polar.y;
-    Section section = wallAt(trunk, middle, s);
-    SurfacePoint hole = surfacePoint(section, turned(towards, vec2(depth, x)));
-    precise float cornerX = record.cornerAround * x;
-    precise float cornerS = record.centre + (record.cornerAlong * record.holeAlong) * polar.y;
-    precise float cornerDepth = sqrt(1.0 - cornerX * cornerX);
-    SurfacePoint corner = surfacePoint(wallAt(trunk, middle, cornerS), turned(towards, vec2(cornerDepth, cornerX)));
-    precise vec3 chord = corner.position - hole.position;
-    precise vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
-
-    vec2 direction = seamDirection(branch, first, k, around);
-    SurfacePoint end = surfacePoint(branch.section, direction);
-    vec3 d = ringDirection(branch.section, direction);
-    precise float bend = max(1.0 - branch.section.radius * dotOf(branch.section.curvature, d), 0.1);
-    precise vec3 along = bend * outward + (branch.turn * branch.section.slope) * d;
-    vec3 ruling = unitOr(along, outward);
-    precise vec3 reach = end.position - (hole.position + inwards);
-    precise float rise = max(dotOf(reach, ruling), 0.35 * sqrt(dotOf(reach, reach)));
-    precise vec3 h1 = hole.position + kRound * inwards, p1 = end.position - (kRound * rise) * ruling;
-    precise float slide = -(record.holeAround * polar.y);
-    precise vec2 slip = vec2(-(slide * x / depth), slide);
-    vec2 sideways = turned(towards, slip);
-    vec3 velocity = derivativeAt(trunk.bezier, s).xyz;
-    precise vec3 aroundH = section.radius * (sideways.x * section.u + sideways.y * section.v) +
-                           (record.holeAlong * polar.x) * velocity;
-    precise vec3 aroundP = (branch.turn * branch.section.radius) *
-                           (direction.x * branch.section.v - direction.y * branch.section.u);
-    CollarCurve curve = CollarCurve(hole.position, h1, p1, end.position, aroundH, aroundP);
-    put(start + k, hole);
-    for (uint row = 1; row < kCollarRows; ++row) put(start + row * around + k, collarAt(curve, collarParameter(row)));
-    put(start + kCollarRows * around + k, end);
-  }
-}
 
 // Puts the branch's hole between columns; `directions` have to be the trunk's.
 void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Trunk trunk, Section middle) {
@@ -144,6 +82,8 @@ void trunkRow(uint start, uint around, float s, Trunk trunk, Section middle) {
   for (uint k = 0; k < around; ++k) put(start + k, surfacePoint(section, directions[k]));
 }
 
+Ring branchRing(ForkBranch branch) { return ringOf(push.points, push.knots, push.tables, branch.ring); }
+
 // @return false where the fork is not drawn
 bool build(ForkRecord fork, ForkShape shape) {
   Ring a = ringOf(push.points, push.knots, push.tables, fork.a), b = ringOf(push.points, push.knots, push.tables, fork.b);
@@ -170,10 +110,35 @@ bool build(ForkRecord fork, ForkShape shape) {
   trunkRow(rowStart(shape, 3), shape.a, fork.row3, trunk, middle);
   for (uint i = 0; i < fork.branchCount; ++i)
     placeWindow(i, fork, push.branches.branch[fork.firstBranch + i], shape, trunk, middle);
-  for (uint i = 0; i < fork.branchCount; ++i)
-    collar(push.branches.branch[fork.firstBranch + i], rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole,
-           trunk, middle);
+  uint seams[kMostBranches];
+  for (uint i = 0; i < fork.branchCount; ++i) {
+    ForkBranch branch = push.branches.branch[fork.firstBranch + i];
+    seams[i] = collar(branch, branchRing(branch), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
+  }
+  addForkTriangles(shape);
+  if (cut) {
+    addStump(shape, a, 0, tangentA, b.section.centre, 0, 1, 2);
+    addStump(shape, b, first, -tangentB, a.section.centre, kTrunkRows - 1, kTrunkRows - 2, kTrunkRows - 2);
+  }
+  for (uint i = 0; i < fork.branchCount; ++i) {
+    stumps[i] = stumps[i] || cut;
+    if (!stumps[i]) continue;
+    ForkBranch branch = push.branches.branch[fork.firstBranch + i];
+    Ring ring = branchRing(branch);
+    precise vec3 inward = -ring.turn * ring.section.tangent;
+    addStump(shape, ring, seams[i], inward, wallAt(trunk, middle, branch.centre).centre, branchRow(i), branchRow(i) - 1,
+             branchRow(i) - 2);
+  }
   return true;
+}
+
+// Triangles that may be seen move up in the list.
+void keepSeen() {
+  for (uint i = 0; i < triangles; ++i) {
+    uvec3 t = triangleAt(i);
+    if (push.keepAll != 0 || (seenOfQuad(places[t.x], places[t.y], places[t.z], places[t.z], samples, snap) & 1u) != 0u)
+      list[kept++] = list[i];
+  }
 }
 
 ForkShape shapeOf(ForkRecord fork) {
@@ -189,25 +154,25 @@ ForkShape shapeOf(ForkRecord fork) {
 void main() {
   uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, item = group * kGroupForks + local;
   bool shown = item < push.forkCount;
-  ForkShape shape;
-  triangle = kept = 0;
-  writing = false;
+  kept = 0;
   if (shown) shown = (push.view.view.hiddenKinds >> (push.colours.value[push.firstFork + item] >> 24) & 1u) == 0u;
   if (shown) {
     ForkRecord fork = push.forks.fork[push.firstFork + item];
-    shape = shapeOf(fork);
+    ForkShape shape = shapeOf(fork);
     viewProjection = push.view.view.viewProjection;
     samples = vec2(push.view.view.columns, push.view.view.rows);
     snap = push.view.view.snap;
     firstVertex = item << push.vertexShift;
-    for (uint i = 0; i < masks.length(); ++i) masks[i] = 0u;
     shown = build(fork, shape);
   }
-  if (shown) addForkTriangles(shape);
+  if (shown) keepSeen();
   target = group * push.indicesPerGroup + 3 * sumBefore(local, kept);
-  writing = true;
-  triangle = 0;
-  if (kept != 0) addForkTriangles(shape);
+  for (uint i = 0; i < kept; ++i) {
+    uvec3 corner = triangleAt(i);
+    push.indices.value[target++] = firstVertex + corner.x;
+    push.indices.value[target++] = firstVertex + corner.y;
+    push.indices.value[target++] = firstVertex + corner.z;
+  }
   if (local == kGroupForks - 1)
     push.draws.draw[group] = DrawCommand(target - group * push.indicesPerGroup, 1, group * push.indicesPerGroup, 0, 0);
 }

@@ -8,8 +8,9 @@
 namespace vasa {
 namespace {
 
+// All frames share their triangles, so forks stay open.
 SurfaceMesh surface(const SweepTable& table, const PosedFrame& frame, const SweepShape& shape) {
-  return surfaceMesh({table, frame.points, frame.knotFrames}, shape);
+  return surfaceMesh({table, frame.points, frame.knotFrames}, shape, ForkForm::open);
 }
 
 // A part for each kind of vessel that there is.

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "surface/fork_stump.h"
+
 // The specification of shaders/lib/fork.glsl and forks.comp: same operations in the same order.
 //
 // With u(s) a direction of ring a carried to the trunk's middle and from there to s, each time by one double reflection
@@ -177,8 +179,8 @@ struct CollarCurve {
 // A branch's hole and collar.
 class Collar {
  public:
-  Collar(const PosedNetwork& network, const Wall& wall, const shared::ForkBranch& branch, vec2 direction)
-      : wall_(wall), branch_(branch), direction_(direction), ring_(ringOf(network, branch.ring)) {}
+  Collar(const Wall& wall, const shared::ForkBranch& branch, vec2 direction, const Ring& ring)
+      : wall_(wall), branch_(branch), direction_(direction), ring_(ring) {}
 
   ForkSeam write(const ForkShape& shape, std::uint32_t index, std::span<SurfacePoint> vertices) const {
     const std::uint32_t around = shape.branch[index];
@@ -245,7 +247,7 @@ class Collar {
   const Wall& wall_;
   const shared::ForkBranch& branch_;
   vec2 direction_;
-  Ring ring_;
+  const Ring& ring_;
 };
 
 }  // namespace
@@ -256,8 +258,9 @@ std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t bran
 }
 
 ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                        std::span<SurfacePoint> vertices) {
+                        std::span<SurfacePoint> vertices, ForkForm form) {
   assert(vertices.size() == shape.vertices());
+  ForkStumps stumps;
   const std::vector<vec2> columns = ringDirections(shape.a), ringB = ringDirections(shape.b);
   const Ring a = ringOf(network, fork.a), b = ringOf(network, fork.b);
   const vec4 endA(a.section.centre, a.section.radius), endB(b.section.centre, b.section.radius);
@@ -303,7 +306,14 @@ ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& f
     window.hole = direction;
     window.wide = branch.holeAround;
     window.rows = (vec3(fork.row1, fork.row2, fork.row3) - branch.centre) / branch.holeAlong;
-    layout.branch[i] = Collar(network, wall, branch, direction).write(shape, i, vertices);
+    const Ring ring = ringOf(network, branch.ring);
+    layout.branch[i] = Collar(wall, branch, direction, ring).write(shape, i, vertices);
+    stumps.branch[i] = {ring.section, -ring.turn * ring.section.frame.tangent, at.centre};
+  }
+  if (form == ForkForm::fitting) {
+    stumps.a = {a.section, tangentA, b.section.centre};
+    stumps.b = {b.section, -tangentB, a.section.centre};
+    stumps.replaceFolds(shape, layout, vertices);
   }
   return layout;
 }

@@ -9,7 +9,11 @@
 // vertices of ring a. A hole lies where a branch's axis pierces the wall, between columns of its own: its window. The
 // collar is a cubic from each of the hole's vertices along the wall, then around a fillet and into the branch's ring
 // along the branch's wall: tangent planes agree at both ends. Which columns are a hole's window, and which of a ring's
-// vertices a row begins at, is found anew in each pose, so that nothing twists; the number of triangles stays.
+// vertices a row begins at, is found anew in each pose, so that nothing twists.
+//
+// Where a pose makes a collar fold, the branch is a stump instead: its tube runs straight on to the trunk's axis and is
+// closed there, and the wall has no hole. Where the trunk itself folds, its two tubes and all branches are stumps. A
+// stump cannot fold: surface/fork_stump.h.
 namespace vasa {
 
 /// Rows of a fork: kTrunkRows of trunk, of which the first and the last are the tubes' rings; then for each branch the
@@ -73,11 +77,19 @@ struct ForkLayout {
   ForkSeam a, b;
   std::array<ForkSeam, shared::kMostBranches> branch;
   std::array<ForkWindow, shared::kMostBranches> window;
+  std::array<bool, shared::kMostBranches> stump{};  ///< the branch is one
+  bool cut = false;                                 ///< the trunk's ends are, and all branches
+};
+
+/// Whether a pose may turn parts of a fork into stumps.
+enum class ForkForm {
+  fitting,  ///< those that fold
+  open      ///< none: triangles belong to the same parts in all poses
 };
 
 /// The CPU reference of shaders/forks.comp. Vertices at rings are the tubes' own, bit for bit.
 /// @param vertices  shape.vertices()
 ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                        std::span<SurfacePoint> vertices);
+                        std::span<SurfacePoint> vertices, ForkForm form = ForkForm::fitting);
 
 }  // namespace vasa

@@ -2,18 +2,31 @@
 
 #include "surface/fork_template.h"
 
+// The specification of shaders/lib/fork_stump.glsl: same operations in the same order.
 namespace vasa {
+namespace {
 
-std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around) {
+constexpr float kFlat2 = 1e-10f;  // square of the share
+
+float dotOf(vec3 a, vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+}  // namespace
+
+bool folds(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
+  const vec3 first = b.position - a.position, second = c.position - a.position;
+  const vec3 normals = a.normal + b.normal + c.normal;
+  const float along = dotOf(glm::cross(first, second), normals);
+  return along <= 0 || along * along <= kFlat2 * dotOf(first, first) * dotOf(second, second);
+}
+
+std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around, ForkForm form) {
   const ForkShape shape = forkShape(network.table, fork, [around](std::uint32_t) { return around; });
   std::vector<SurfacePoint> points(shape.vertices());
-  const ForkLayout layout = evaluateFork(network, fork, shape, points);
+  const ForkLayout layout = evaluateFork(network, fork, shape, points, form);
   std::uint32_t count = 0;
-  for (const uvec3& t : forkTriangles(shape, std::span(layout.window).first(fork.branchCount))) {
-    const dvec3 a(points[t.x].position), b(points[t.y].position), c(points[t.z].position);
-    const dvec3 normals(points[t.x].normal + points[t.y].normal + points[t.z].normal);
-    count += glm::dot(glm::cross(b - a, c - a), normals) <= 0;
-  }
+  for (const uvec3& t : forkTriangles(shape, layout)) count += folds(points[t.x], points[t.y], points[t.z]);
   return count;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-#include <span>
-
-#include "network/network.h"
 #include "surface/fork.h"
 
 namespace vasa {
 
-/// Triangles of a fork that look the other way than the normals of their corners: the surface folds there.
-std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around);
+/// Whether a triangle looks the other way than the normals of its corners, or almost: by a 100,000th of its edges. The
+/// same on any device that rounds alike.
+bool folds(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c);
+
+/// Triangles of a fork that fold. @param form  see evaluateFork()
+std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around, ForkForm form);
 
 }  // namespace vasa

@@ -17,7 +17,43 @@ float squareWay(vec2 d) {
 
 class Writer {
  public:
-  Writer(const ForkShape& shape, std::span<const ForkWindow> windows) : shape_(shape), windows_(windows), columns_(ringDirections(shape.a)) {}
+  Writer(const ForkShape& shape, const ForkLayout& layout) : shape_(shape), layout_(layout), columns_(ringDirections(shape.a)) {}
+
+  void trunk() {
+    quads(0);
+    if (layout_.cut) {
+      tipOfFirst(1);
+      tipOfLast(shared::kTrunkRows - 2);
+    } else {
+      quads(1, true);
+      quads(2, true);
+      strip(3);
+    }
+  }
+
+  void branch(std::uint32_t index) {
+    if (layout_.stump[index]) {
+      tipOfLast(branchRow(index) - 2);
+      quads(branchRow(index) - 1);
+    } else {
+      wall(index);
+      for (std::uint32_t row = holeRow(index); row < branchRow(index); ++row) quads(row);
+    }
+  }
+
+  std::vector<uvec3> triangles;
+
+ private:
+  // A stump's tip in the row behind its wide one, or before it.
+  void tipOfFirst(std::uint32_t row) {
+    const std::uint32_t m = shape_.rowSize(row), low = shape_.rowStart(row), tip = shape_.rowStart(row + 1);
+    for (std::uint32_t k = 0; k < m; ++k) add(low + k, low + (k + 1 == m ? 0 : k + 1), tip + k);
+  }
+  void tipOfLast(std::uint32_t row) {
+    const std::uint32_t m = shape_.rowSize(row + 1), tip = shape_.rowStart(row), high = shape_.rowStart(row + 1);
+    const std::uint32_t tips = shape_.rowSize(row);
+    for (std::uint32_t k = 0; k < m; ++k) add(tip + k * tips / m, high + (k + 1 == m ? 0 : k + 1), high + k);
+  }
 
   void quads(std::uint32_t row, bool aroundWindows = false) {
     const std::uint32_t m = shape_.rowSize(row), low = shape_.rowStart(row), high = shape_.rowStart(row + 1);
@@ -46,7 +82,7 @@ class Writer {
   }
 
   void wall(std::uint32_t branch) {
-    window_ = windows_[branch];
+    window_ = layout_.window[branch];
     const std::uint32_t outline = 2 * window_.count + 4, hole = shape_.branch[branch];
     const std::uint32_t first = shape_.rowStart(holeRow(branch));
     const std::vector<vec2> directions = ringDirections(hole);
@@ -68,12 +104,9 @@ class Writer {
     }
   }
 
-  std::vector<uvec3> triangles;
-
- private:
   bool inWindow(std::uint32_t column) const {
-    for (const ForkWindow& window : windows_)
-      if (window.holds(column, shape_.a)) return true;
+    for (std::uint32_t i = 0; i < shape_.branchCount; ++i)
+      if (!layout_.stump[i] && layout_.window[i].holds(column, shape_.a)) return true;
     return false;
   }
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) { triangles.push_back({a, b, c}); }
@@ -98,23 +131,29 @@ class Writer {
   }
 
   const ForkShape& shape_;
-  std::span<const ForkWindow> windows_;
+  const ForkLayout& layout_;
   std::vector<vec2> columns_;
   ForkWindow window_;
 };
 
 }  // namespace
 
-std::vector<uvec3> forkTriangles(const ForkShape& shape, std::span<const ForkWindow> windows) {
-  Writer writer(shape, windows);
-  writer.quads(0);
-  writer.quads(1, true);
-  writer.quads(2, true);
-  writer.strip(3);
-  for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch) {
-    writer.wall(branch);
-    for (std::uint32_t row = holeRow(branch); row < branchRow(branch); ++row) writer.quads(row);
-  }
+std::vector<uvec3> trunkTriangles(const ForkShape& shape, const ForkLayout& layout) {
+  Writer writer(shape, layout);
+  writer.trunk();
+  return std::move(writer.triangles);
+}
+
+std::vector<uvec3> branchTriangles(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch) {
+  Writer writer(shape, layout);
+  writer.branch(branch);
+  return std::move(writer.triangles);
+}
+
+std::vector<uvec3> forkTriangles(const ForkShape& shape, const ForkLayout& layout) {
+  Writer writer(shape, layout);
+  for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch) writer.branch(branch);
+  writer.trunk();
   return std::move(writer.triangles);
 }
 

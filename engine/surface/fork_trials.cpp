@@ -47,9 +47,9 @@ ForkFolds ForkTrials::tried(const SweepTable& table, const shared::ForkRecord& f
   ForkFolds folds;
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const PosedNetwork posed{table, shapes_[i].points, shapes_[i].frames};
-    const std::uint32_t found = foldedTriangles(posed, fork, kAround);
+    const std::uint32_t found = foldedTriangles(posed, fork, kAround, ForkForm::open);
     (i == 0 ? folds.rest : folds.strained) += found;
-    if (i == 0) folds.coarse = foldedTriangles(posed, fork, kCoarseAround);
+    if (i == 0) folds.coarse = foldedTriangles(posed, fork, kCoarseAround, ForkForm::open);
     if (folds.rest > 0) break;  // not to be drawn anyway
   }
   return folds;

@@ -15,8 +15,8 @@ namespace {
 
 class MeshLayout {
  public:
-  MeshLayout(const PosedNetwork& network, const SweepShape& shape, SurfaceMesh& mesh)
-      : network_(network), shape_(shape), mesh_(mesh) {
+  MeshLayout(const PosedNetwork& network, const SweepShape& shape, ForkForm form, SurfaceMesh& mesh)
+      : network_(network), shape_(shape), form_(form), mesh_(mesh) {
     placeTubes();
     placeCaps();
     placeForks();
@@ -30,18 +30,21 @@ class MeshLayout {
     const SweepTable& table = network_.table;
     parallelFor(table.sweeps.size(), 16, [&](std::size_t i) { writeTube(std::uint32_t(i)); });
     parallelFor(table.caps.size(), 16, [&](std::size_t i) { writeCap(std::uint32_t(i)); });
-    parallelFor(table.forks.size(), 16, [&](std::size_t i) { writeFork(std::uint32_t(i)); });
+    std::vector<std::vector<uvec3>> triangles(table.forks.size());
+    parallelFor(table.forks.size(), 16, [&](std::size_t i) { triangles[i] = writeFork(std::uint32_t(i)); });
+    for (const auto& of : triangles) mesh_.triangles.insert(mesh_.triangles.end(), of.begin(), of.end());
   }
 
  private:
   struct Place {
     std::uint32_t vertex = 0, triangle = 0;
   };
-  struct ForkPlace : Place {
+  struct ForkPlace {
     struct Ring {
       std::uint32_t first = 0;  // its first vertex
       bool own = false;         // written by the fork
     };
+    std::uint32_t vertex = 0;
     Ring a, b;
     std::array<Ring, shared::kMostBranches> branch;
   };
@@ -91,16 +94,10 @@ class MeshLayout {
       ForkPlace place;
       place.a = ringFor(fork.a);
       place.b = ringFor(fork.b);
-      std::uint32_t columns = 0;
-      for (std::uint32_t i = 0; i < fork.branchCount; ++i) {
-        const shared::ForkBranch& branch = network_.table.branches[fork.firstBranch + i];
-        place.branch[i] = ringFor(branch.ring);
-        columns += windowColumns(branch, fork.branchCount, m);
-      }
+      for (std::uint32_t i = 0; i < fork.branchCount; ++i)
+        place.branch[i] = ringFor(network_.table.branches[fork.firstBranch + i].ring);
       place.vertex = vertices_;
-      place.triangle = triangles_;
       vertices_ += (shared::kTrunkRows - 2 + fork.branchCount * shared::kCollarRows) * m;
-      triangles_ += forkTriangleCount(shapeOf(fork), columns);
       forks_.push_back(place);
     }
   }
@@ -138,9 +135,17 @@ class MeshLayout {
     for (const uvec3& t : capTriangles(shape_)) mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
   }
 
+  // A stump's tip: a row of vertices in one place, one vertex here.
+  static bool isTip(const ForkLayout& layout, std::uint32_t row) {
+    if (row < shared::kTrunkRows) return layout.cut && (row == 2 || row == 3);
+    const std::uint32_t branch = (row - shared::kTrunkRows) / kBranchRows;
+    return layout.stump[branch] && row == branchRow(branch) - 2;
+  }
+
   // Where a fork's vertex is in the mesh, and whether the fork writes it.
   std::pair<std::uint32_t, bool> targetOf(const ForkPlace& place, const ForkLayout& layout, std::uint32_t vertex) const {
-    const std::uint32_t m = shape_.around, row = vertex / m, k = vertex % m;
+    const std::uint32_t m = shape_.around, row = vertex / m;
+    const std::uint32_t k = isTip(layout, row) ? 0 : vertex % m;
     if (row == 0) return {place.a.first + layout.a.direction(k, m), place.a.own};
     if (row < shared::kTrunkRows - 1) return {place.vertex + (row - 1) * m + k, true};
     if (row == shared::kTrunkRows - 1) return {place.b.first + layout.b.direction(k, m), place.b.own};
@@ -150,24 +155,25 @@ class MeshLayout {
     return {place.vertex + (row - 2 - branch) * m + k, true};
   }
 
-  void writeFork(std::uint32_t index) {
+  std::vector<uvec3> writeFork(std::uint32_t index) {
     const ForkPlace& place = forks_[index];
     const shared::ForkRecord& fork = network_.table.forks[index];
     const ForkShape shape = shapeOf(fork);
     std::vector<SurfacePoint> points(shape.vertices());
-    const ForkLayout layout = evaluateFork(network_, fork, shape, points);
+    const ForkLayout layout = evaluateFork(network_, fork, shape, points, form_);
     for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
       const auto [target, own] = targetOf(place, layout, vertex);
       if (own) put(target, points[vertex], network_.table.vesselOfFork[index]);
     }
-    std::uint32_t triangle = place.triangle;
-    for (const uvec3& t : forkTriangles(shape, std::span(layout.window).first(fork.branchCount)))
-      mesh_.triangles[triangle++] = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first,
-                                     targetOf(place, layout, t.z).first};
+    std::vector<uvec3> triangles = forkTriangles(shape, layout);
+    for (uvec3& t : triangles)
+      t = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first, targetOf(place, layout, t.z).first};
+    return triangles;
   }
 
   const PosedNetwork& network_;
   SweepShape shape_;
+  ForkForm form_;
   SurfaceMesh& mesh_;
   std::uint32_t vertices_ = 0, triangles_ = 0;
   std::vector<Place> tubes_, caps_;
@@ -177,10 +183,10 @@ class MeshLayout {
 
 }  // namespace
 
-SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape) {
+SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape, ForkForm form) {
   assert(shape.valid());
   SurfaceMesh mesh;
-  MeshLayout(network, shape, mesh).write();
+  MeshLayout(network, shape, form, mesh).write();
   return mesh;
 }
 

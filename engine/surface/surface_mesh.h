@@ -1,11 +1,12 @@
 #pragma once
-#include "surface/tessellate.h"
+#include "surface/fork.h"
 
 namespace vasa {
 
 /// The whole drawn surface of a network as one indexed mesh: what `export` writes and what a picture shows. Tubes, then
-/// caps, then forks; every edge belongs to two triangles. From pose to pose the numbers of vertices and triangles and
-/// what they belong to stay the same, but a fork's triangles may begin at another vertex of a ring.
+/// caps, then forks; every edge belongs to two triangles. From pose to pose the vertices and what they belong to stay the
+/// same, and the number of triangles, too, where forks stay open; a fork's triangles may begin at another vertex of a ring.
+/// Some vertices of a stump belong to no triangle.
 struct SurfaceMesh {
   std::vector<vec3> positions, normals;        ///< one a vertex [m], unit
   std::vector<uvec3> triangles;                ///< counter-clockwise seen from outside
@@ -18,6 +19,6 @@ struct SurfaceMesh {
 SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
                         const SweepShape& shape);
 /// With a table that is there already.
-SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape);
+SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape, ForkForm form = ForkForm::fitting);
 
 }  // namespace vasa

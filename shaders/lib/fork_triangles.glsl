@@ -1,5 +1,4 @@
 // Mirrors engine/surface/fork_template.cpp. The shader that includes it has
-//   void add(uint a, uint b, uint c)   takes a triangle
 //   vec2 stepOf(uint around)           (cos, sin) of 2π/m
 #ifndef VASA_FORK_TRIANGLES
 #define VASA_FORK_TRIANGLES
@@ -21,9 +20,13 @@ struct ForkShape {
 const uint kBranchRows = 1 + kCollarRows;
 
 ForkWindow windows[kMostBranches];
+bool stumps[kMostBranches], cut;   // parts that are stumps
+uint list[kMostForkTriangles];     // of triangles, 8 bits a corner
+uint triangles;                    // how many
 vec2 columns[kMaxAround];  // the trunk's directions
 
 uint holeRow(uint branch) { return kTrunkRows + branch * kBranchRows; }
+uint branchRow(uint branch) { return holeRow(branch) + kCollarRows; }
 
 uint rowSize(ForkShape shape, uint row) {
   if (row < kTrunkRows) return row + 1 < kTrunkRows ? shape.a : shape.b;
@@ -37,9 +40,12 @@ uint rowStart(ForkShape shape, uint row) {
   return start + kBranchRows * shape.branch[0] + (rest - kBranchRows) * shape.branch[1];
 }
 
+void add(uint a, uint b, uint c) { list[triangles++] = a | b << 8 | c << 16; }
+uvec3 triangleAt(uint i) { return uvec3(list[i], list[i] >> 8, list[i] >> 16) & 255u; }
+
 bool inWindow(ForkShape shape, uint column) {
   for (uint i = 0; i < shape.branchCount; ++i)
-    if ((column + shape.a - windows[i].first) % shape.a < windows[i].count) return true;
+    if (!stumps[i] && (column + shape.a - windows[i].first) % shape.a < windows[i].count) return true;
   return false;
 }
 
@@ -129,16 +135,39 @@ void addWall(ForkShape shape, uint branch) {
   }
 }
 
-void addForkTriangles(ForkShape shape) {
+// A stump's tip in the row behind its wide one, or before it.
+void addTipOfFirst(ForkShape shape, uint row) {
+  uint m = rowSize(shape, row), low = rowStart(shape, row), tip = rowStart(shape, row + 1);
+  for (uint k = 0; k < m; ++k) add(low + k, low + (k + 1 == m ? 0 : k + 1), tip + k);
+}
+
+void addTipOfLast(ForkShape shape, uint row) {
+  uint m = rowSize(shape, row + 1), tip = rowStart(shape, row), high = rowStart(shape, row + 1), tips = rowSize(shape, row);
+  for (uint k = 0; k < m; ++k) add(tip + k * tips / m, high + (k + 1 == m ? 0 : k + 1), high + k);
+}
+
+void addTrunk(ForkShape shape) {
   addQuads(shape, 0, false);
-  addQuads(shape, 1, true);
-  addQuads(shape, 2, true);
-  addStrip(shape, 3);
-  for (uint branch = 0; branch < shape.branchCount; ++branch) {
-    setDirections(stepOf(shape.branch[branch]), shape.branch[branch]);
-    addWall(shape, branch);
-    for (uint row = holeRow(branch); row < holeRow(branch) + kCollarRows; ++row) addQuads(shape, row, false);
+  if (cut) {
+    addTipOfFirst(shape, 1);
+    addTipOfLast(shape, kTrunkRows - 2);
+  } else {
+    addQuads(shape, 1, true);
+    addQuads(shape, 2, true);
+    addStrip(shape, 3);
   }
+}
+
+void addBranch(ForkShape shape, uint branch) {
+  uint ring = branchRow(branch);
+  if (stumps[branch]) {
+    addTipOfLast(shape, ring - 2);
+    addQuads(shape, ring - 1, false);
+    return;
+  }
+  setDirections(stepOf(shape.branch[branch]), shape.branch[branch]);
+  addWall(shape, branch);
+  for (uint row = holeRow(branch); row < ring; ++row) addQuads(shape, row, false);
 }
 
 #endif

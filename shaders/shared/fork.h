@@ -51,7 +51,7 @@ struct ForkRecord {
 
 /// Forks and threads of a workgroup.
 VASA_CONSTANT uint kGroupForks = 64;
-/// Most vertices and triangles of a fork.
+/// Most vertices (8 bits number them) and triangles of a fork.
 VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + kMostBranches * (1 + kCollarRows)) * kMaxAround;
 VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + kMostBranches * (2 * kCollarRows + 2)) * kMaxAround;
 

@@ -1,0 +1,57 @@
+// Mirrors the collars of engine/surface/fork.cpp: the same operations in the same order. The shader that includes it has
+//   void put(uint vertex, SurfacePoint point)   takes a vertex
+//   vec2 stepOf(uint around)                    (cos, sin) of 2π/m
+#ifndef VASA_FORK_COLLAR
+#define VASA_FORK_COLLAR
+#include "lib/fork.glsl"
+
+// @return the ring's first vertex
+uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 towards, Trunk trunk, Section middle) {
+  setDirections(stepOf(around), around);
+  Section at = wallAt(trunk, middle, record.centre);
+  precise vec3 outward = branch.turn * branch.section.tangent;
+  precise vec3 wanted = towards.x * at.u + towards.y * at.v, side = towards.x * at.v - towards.y * at.u;
+  precise vec3 sum = wanted + outward;
+  precise float fold = max(1.0 + dotOf(wanted, outward), 1e-3);
+  precise vec3 across = side - (dotOf(side, sum) / fold) * sum;
+  uint first = seamAt(branch, across, around);
+  for (uint k = 0; k < around; ++k) {
+    vec2 polar = directions[k];
+    precise float x = record.holeAround * polar.x;
+    precise float depth = sqrt(1.0 - x * x);
+    precise float s = record.centre + record.holeAlong * polar.y;
+    Section section = wallAt(trunk, middle, s);
+    SurfacePoint hole = surfacePoint(section, turned(towards, vec2(depth, x)));
+    precise float cornerX = record.cornerAround * x;
+    precise float cornerS = record.centre + (record.cornerAlong * record.holeAlong) * polar.y;
+    precise float cornerDepth = sqrt(1.0 - cornerX * cornerX);
+    SurfacePoint corner = surfacePoint(wallAt(trunk, middle, cornerS), turned(towards, vec2(cornerDepth, cornerX)));
+    precise vec3 chord = corner.position - hole.position;
+    precise vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
+
+    vec2 direction = seamDirection(branch, first, k, around);
+    SurfacePoint end = surfacePoint(branch.section, direction);
+    vec3 d = ringDirection(branch.section, direction);
+    precise float bend = max(1.0 - branch.section.radius * dotOf(branch.section.curvature, d), 0.1);
+    precise vec3 along = bend * outward + (branch.turn * branch.section.slope) * d;
+    vec3 ruling = unitOr(along, outward);
+    precise vec3 reach = end.position - (hole.position + inwards);
+    precise float rise = max(dotOf(reach, ruling), 0.35 * sqrt(dotOf(reach, reach)));
+    precise vec3 h1 = hole.position + kRound * inwards, p1 = end.position - (kRound * rise) * ruling;
+    precise float slide = -(record.holeAround * polar.y);
+    precise vec2 slip = vec2(-(slide * x / depth), slide);
+    vec2 sideways = turned(towards, slip);
+    vec3 velocity = derivativeAt(trunk.bezier, s).xyz;
+    precise vec3 aroundH = section.radius * (sideways.x * section.u + sideways.y * section.v) +
+                           (record.holeAlong * polar.x) * velocity;
+    precise vec3 aroundP = (branch.turn * branch.section.radius) *
+                           (direction.x * branch.section.v - direction.y * branch.section.u);
+    CollarCurve curve = CollarCurve(hole.position, h1, p1, end.position, aroundH, aroundP);
+    put(start + k, hole);
+    for (uint row = 1; row < kCollarRows; ++row) put(start + row * around + k, collarAt(curve, collarParameter(row)));
+    put(start + kCollarRows * around + k, end);
+  }
+  return first;
+}
+
+#endif
