@@ -79,14 +79,19 @@ void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std:
     }
 }
 
-float sizeOf(const Skeleton& skeleton, std::span<const std::uint32_t> joints) {
-  // Sum of the distances from matched joints to their mean: no single link decides.
-  dvec3 mean(0);
-  for (const std::uint32_t j : joints) mean += dvec3(skeleton.joints[j].restWorld[3]);
-  mean /= double(joints.size());
+// How long the ways from each matched joint to the matched one before it are in all. Unlike how far apart joints lie,
+// it does not change with how the arms are held at rest.
+float linksLength(const Skeleton& skeleton, const Skeleton& from, std::span<const std::uint32_t> match, bool matched) {
   double sum = 0;
-  for (const std::uint32_t j : joints) sum += glm::distance(dvec3(skeleton.joints[j].restWorld[3]), mean);
-  return float(sum / double(joints.size()));
+  for (std::size_t j = 0; j < match.size(); ++j) {
+    if (match[j] == kNone) continue;
+    JointId before = from.joints[j].parent;
+    while (before.valid() && match[before.value] == kNone) before = from.joints[before.value].parent;
+    if (!before.valid()) continue;
+    const auto centre = [&](std::size_t joint) { return dvec3(centreIn(skeleton, matched ? match[joint] : joint)); };
+    sum += glm::distance(centre(j), centre(before.value));
+  }
+  return float(sum);
 }
 
 // x -> target + linear (x - centre)
@@ -148,13 +153,10 @@ class Carrier {
   }
 
   void measureSizes() {
-    std::vector<std::uint32_t> own, theirs;
-    for (std::uint32_t j = 0; j < match_.size(); ++j) {
-      if (match_[j] != kNone) own.push_back(j), theirs.push_back(match_[j]);
+    for (std::uint32_t j = 0; j < match_.size(); ++j)
+      if (match_[j] != kNone) ++out_.jointsMatched;
       else out_.jointsFree.push_back(from_.skeleton.joints[j].name);
-    }
-    out_.jointsMatched = std::uint32_t(own.size());
-    out_.radiusFactor = sizeOf(to_.skeleton, theirs) / sizeOf(from_.skeleton, own);
+    out_.radiusFactor = linksLength(to_.skeleton, from_.skeleton, match_, true) / linksLength(from_.skeleton, from_.skeleton, match_, false);
   }
 
   vec3 centreOf(std::uint32_t joint) const { return vec3(pose_.world[joint][3]); }
