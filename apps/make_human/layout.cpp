@@ -11,7 +11,7 @@ namespace vasa::human {
 namespace {
 
 constexpr float kSampleStep = 0.0035f;
-constexpr float kFitTolerance = 0.5e-3f;
+constexpr float kFitTolerance = 0.8e-3f;
 
 constexpr float kSinkReach = 0.025f;  // of the course, to either side, that goes down along with a place
 
