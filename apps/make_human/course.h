@@ -22,8 +22,8 @@ struct Course {
 vec3 placeOn(const Course& course, float at);
 
 struct SettleOptions {
-  float betweenVessels = 0.65e-3f;  ///< [m] clearance of walls
-  float fromBone = 0.5e-3f, fromHeart = 0.3e-3f;
+  float betweenVessels = 0.8e-3f;  ///< [m] clearance of walls
+  float fromBone = 0.7e-3f, fromHeart = 0.3e-3f;
   float forkReach =
       2;  ///< near a fork courses may overlap up to this many times the sum of their radii along them
   int rounds = 8, stepsPerRound = 30;

@@ -379,7 +379,11 @@ struct Grower::State {
 
   void setRadii(std::size_t number) {
     const GrowingTree::Vessel& vessel = tree_.vessels()[number];
-    vessels_[number].points = fitted(vessel.branch.points, tree_.murrayRadii(int(number)));
+    if (vessel.removed) return;
+    std::vector<vec4>& points = vessels_[number].points;
+    sweeps_ -= spanCount(points);
+    points = fitted(vessel.branch.points, tree_.murrayRadii(int(number)));
+    sweeps_ += spanCount(points);
   }
 
   std::vector<LaidVessel>& vessels_;

@@ -11,7 +11,14 @@ namespace vasa::human {
 namespace {
 
 constexpr float kSampleStep = 0.0035f;
-constexpr float kFitTolerance = 0.8e-3f;
+// Tolerances of splines [m]. Thin vessels lie where there is little room: in fingers, toes and face.
+constexpr float kFitOfRadius = 1.2f, kCoarsestFit = 1.2e-3f, kFitOfThin = 0.5e-3f, kThin = 0.7e-3f;
+constexpr float kFinestFit = 0.2e-3f, kRefinement = 0.65f;
+
+float toleranceOf(const VesselRow& row) {
+  const float radius = 0.5f * (row.startRadius + row.endRadius);
+  return radius < kThin ? kFitOfThin : std::min(kFitOfRadius * radius, kCoarsestFit);
+}
 
 constexpr float kSinkReach = 0.025f;  // of the course, to either side, that goes down along with a place
 
@@ -27,6 +34,7 @@ class LayoutMaker {
     layout_.rows_ = rows_;
     layout_.around_ = &around;
     stretches_.resize(rows_.size());
+    for (const VesselRow& row : rows_) layout_.tolerances_.push_back(toleranceOf(row));
   }
 
   Result<VesselLayout> run() {
@@ -145,6 +153,13 @@ void VesselLayout::sink(std::size_t vessel, float share, float by) {
   }
 }
 
+bool VesselLayout::refine(std::size_t vessel) {
+  float& tolerance = tolerances_[vessel];
+  if (tolerance <= kFinestFit) return false;
+  tolerance = std::max(kRefinement * tolerance, kFinestFit);
+  return true;
+}
+
 std::vector<LaidVessel> VesselLayout::fitted() const {
   std::vector<LaidVessel> result;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -160,7 +175,7 @@ std::vector<LaidVessel> VesselLayout::fitted() const {
       radii.push_back(glm::mix(row.startRadius, row.endRadius, float(k) / float(count - 1)));
     result.push_back({row.label,
                       fitCourse(std::span(all).subspan(stretch.first, count), radii, tangent(stretch.first),
-                                tangent(stretch.last), kFitTolerance),
+                                tangent(stretch.last), tolerances_[i]),
                       row.source, row.target});
   }
   return result;

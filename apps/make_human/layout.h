@@ -21,6 +21,8 @@ class VesselLayout {
   void settle() { human::settle(courses_, *around_); }
   /// From now on the vessel has to lie deeper around a place than it does. @param share  of its length
   void sink(std::size_t vessel, float share, float by);
+  /// From now on the vessel's spline keeps closer to its course. False: it does so already as well as it may.
+  bool refine(std::size_t vessel);
   /// The vessels with splines fitted to their courses, numbered as the table's rows.
   std::vector<LaidVessel> fitted() const;
 
@@ -36,6 +38,7 @@ class VesselLayout {
   const Surroundings* around_ = nullptr;
   std::vector<Stretch> stretches_;
   std::vector<Course> courses_;
+  std::vector<float> tolerances_;  // [m] of the splines, one a row
 };
 
 /// The spline with the fewest spans, knots at equal distances, that keeps to a polyline within a tolerance

@@ -1,11 +1,12 @@
 #include "make_human/vessels.h"
 
 #include "make_human/layout.h"
+#include "make_human/rest_faults.h"
 
 namespace vasa::human {
 namespace {
 
-constexpr int kSinkings = 2, kPrunings = 2;
+constexpr int kSinkings = 2, kPrunings = 3, kRefinements = 4;
 constexpr float kAllowedOut = 0.2e-3f;  // [m] of a centre line, in the poses looked at
 constexpr float kDeeper = 2.5e-3f;      // [m] than would just do
 constexpr float kDeepest = 6e-3f;       // at a time
@@ -27,6 +28,19 @@ Result<void> sinkEscapes(VesselLayout& layout, const MotionProbe& probe, float b
     layout.settle();
   }
   return {};
+}
+
+/// Fits anew, more closely, what the fit to the courses made to run through another.
+Result<std::vector<LaidVessel>> fittedApart(VesselLayout& layout, float bodyHeight) {
+  for (int round = 0;; ++round) {
+    std::vector<LaidVessel> vessels = layout.fitted();
+    const Result<Network> network = joinVessels(vessels, bodyHeight);
+    if (!network.ok()) return network.error();
+    bool any = false;
+    if (round < kRefinements)
+      for (const VesselId vessel : restFaults(*network)) any |= layout.refine(vessel.value);
+    if (!any) return vessels;
+  }
 }
 
 Result<void> pruneEscapes(Grower& grower, const std::vector<LaidVessel>& vessels, const MotionProbe& probe,
@@ -56,7 +70,9 @@ Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig,
   Result<VesselLayout> layout = VesselLayout::make(*rows, around);
   if (!layout.ok()) return layout.error();
   if (const Result<void> sunk = sinkEscapes(*layout, probe, bodyHeight); !sunk.ok()) return sunk.error();
-  std::vector<LaidVessel> vessels = layout->fitted();
+  Result<std::vector<LaidVessel>> fitted = fittedApart(*layout, bodyHeight);
+  if (!fitted.ok()) return fitted.error();
+  std::vector<LaidVessel> vessels = std::move(fitted).value();
   Grower grower(vessels, *regions, around, options);
   if (const Result<void> pruned = pruneEscapes(grower, vessels, probe, bodyHeight); !pruned.ok())
     return pruned.error();
