@@ -25,7 +25,7 @@ constexpr Manner kManners[] = {{0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},  {1.4f, 3, 0
                                {0.8f, 2, 0.6f},   {0.3f, 1, 0.15f}, {1.2f, 1.5f, 0.2f}, {2.5f, 4, 0.5f},
                                {0.5f, 2, 0.15f},   {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
 constexpr float kWidestHole = 0.9f;        // sine of half its angle
-constexpr float kHoleMargin = 1.25f;       // rows of the trunk stay outside the hole
+constexpr float kHoleMargin = 1.1f;       // rows of the trunk stay outside the hole
 constexpr float kBetweenHoles = 0.3f;      // [radians] around the host
 constexpr float kSliver = 0.1f;            // of the radius: shorter tubes go to the forks beside them
 constexpr float kBesideJoin = 0.15f;       // of the radius: the least a join takes
@@ -210,7 +210,7 @@ class Planner {
     item.room.centre = exit.foot;
     item.room.before = item.room.after = kHoleMargin * leaving.hole + 0.08f * trunk;
     item.room.want = (kHoleMargin + 0.2f) * leaving.hole + 0.35f * trunk;
-    item.shiftLimit = 1.3f * leaving.hole + trunk;
+    item.shiftLimit = 2.6f * leaving.hole + 2 * trunk;
     return item;
   }
 
