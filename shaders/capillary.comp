@@ -21,41 +21,87 @@ GrowthJob jobOf(uint curve) {
 }
 
 // sectionOn of engine/surface/tessellate.cpp.
-Section rootSection(uint sweep, float t) {
-  SweepRecord record = push.sweeps.sweep[sweep];
+Section rootSection(uint span, float t) {
+  SweepRecord record = push.spans.sweep[span];
   Bezier bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], vec4Of(push.points.point[record.point]),
                            vec4Of(push.points.point[record.point + 1]), vec4Of(push.points.point[record.point + 2]),
                            vec4Of(push.points.point[record.point + 3]));
   vec3 chord = vec4Of(push.points.point[record.lastPoint]).xyz - vec4Of(push.points.point[record.firstPoint]).xyz;
-  precise float at = record.from + (record.to - record.from) * t;
-  if (t == 1) at = record.to;
-  return sectionAt(bezier, chord, vec4Of(push.knots.knot[record.knot]), vec4Of(push.knots.knot[record.knot + 1]), at);
+  return sectionAt(bezier, chord, vec4Of(push.knots.knot[record.knot]), vec4Of(push.knots.knot[record.knot + 1]), t);
 }
 
-float placeOnSweep(uint sweepKey, uint sprout) {
+// Word by word: GPU-assisted validation takes a struct that is loaded whole for larger than it is.
+GrowthSite siteOf(uint span) {
+  GrowthSite site;
+  site.hub = push.sites.site[span].hub;
+  site.reach = push.sites.site[span].reach;
+  site.axis = push.sites.site[span].axis;
+  site.system = push.sites.site[span].system;
+  for (uint i = 0; i < kGrowthWalls; ++i) site.wall[i] = push.sites.site[span].wall[i];
+  site.key = push.sites.site[span].key;
+  site.sprouts = push.sites.site[span].sprouts;
+  site.partner = push.sites.site[span].partner;
+  return site;
+}
+
+float placeOnSpan(uint siteKey, uint sprout) {
   if ((sprout & kTipSprout) != 0u) return (sprout & kLastSprout) != 0u ? 1.0 : 0.0;
-  return unitFloat(scramble(sweepKey) + sprout * 0x9e3779b9u);
+  return unitFloat(scramble(siteKey) + sprout * 0x9e3779b9u);
+}
+
+Capillary treeCurve(uint span, GrowthSite site, uint sprout, uint levels, uint number) {
+  uint key = keyOf(push.view.view.seed, site.key);
+  return grownAt(push.growth, site, rootSection(span, placeOnSpan(key, sprout)), sprout, keyOf(key, sprout), levels, number);
+}
+
+uint treeSize(GrowthSite site, uint levels) {
+  return push.growth.growth.symbol[push.growth.growth.system[site.system & 0xffu].axiom].treeSize[levels];
+}
+
+const uint kPartners = 8;
+
+// Ends a last curve where a curve of the partner's tree ends.
+void join(GrowthSite site, uint sprout, uint levels, inout Capillary capillary) {
+  GrowthSite other = siteOf(site.partner);
+  uint seed = push.view.view.seed, best = 0, size = treeSize(other, levels - 1);
+  float wanted = placeOnSpan(keyOf(seed, site.key), sprout), nearest = 2;
+  for (uint k = 0; k < min(other.sprouts, kPartners); ++k) {
+    float away = abs(placeOnSpan(keyOf(seed, other.key), k) - wanted);
+    if (away < nearest) {
+      nearest = away;
+      best = k;
+    }
+  }
+  if (size == 0u) return;
+  Capillary target = treeCurve(site.partner, other, best, levels - 1, scramble(capillary.key) % size);
+  if (!target.branches) return;
+  capillary.curve.b3.xyz = target.curve.b3.xyz;
+  capillary.curve.b2.xyz = 0.5 * (capillary.curve.b2.xyz + capillary.curve.b3.xyz);
+  capillary.joined = true;
+  capillary.farPhase = phaseAt(target.phase, 1);
 }
 
 const float kOverlap = 0.5, kPoint = 0.3;
 
-void writeRibbon(Capillary capillary, uint rootColour, uint target) {
+void writeRibbon(Capillary capillary, uint rootColour, uint farColour, uint target) {
   GrowthView view = push.view.view;
-  vec3 from = unpackUnorm4x8(rootColour).rgb, to = unpackUnorm4x8(view.capillary).rgb;
+  vec3 root = unpackUnorm4x8(rootColour).rgb, bed = unpackUnorm4x8(view.capillary).rgb;
+  vec3 from = mix(root, bed, capillary.phase);
+  vec3 to = capillary.joined ? mix(unpackUnorm4x8(farColour).rgb, bed, capillary.farPhase) : mix(root, bed, phaseAt(capillary.phase, 1));
   for (uint i = 0; i <= push.edges; ++i) {
     float t = float(i) / float(push.edges);
     vec4 point = pointAt(capillary.curve, t);
     vec3 along = derivativeAt(capillary.curve, t).xyz;
     float speed = sqrt(dotOf(along, along)), beyond = i == 0 ? -kOverlap : i == push.edges ? kOverlap : 0;
     point.xyz += (speed > 0 ? beyond * point.w / speed : 0) * along;
-    if (capillary.leaf && i == push.edges) point.w *= kPoint;
+    if (capillary.leaf && !capillary.joined && i == push.edges) point.w *= kPoint;
     vec3 toEye = view.perspective * (view.eye - point.xyz) + (1 - view.perspective) * view.eye;
     vec3 side = crossOf(along, toEye);
     float length2 = dotOf(side, side);
     side = length2 > 1e-20 ? side / sqrt(length2) : view.right;
     float depth = max(dotOf(view.depth.xyz, point.xyz) + view.depth.w, 1e-6);
     float radius = max(point.w, 0.5 * view.thinnest * (depth / view.focal));
-    uint packed = packUnorm4x8(vec4(mix(from, to, phaseAt(capillary.phase, t)), point.w / radius));
+    uint packed = packUnorm4x8(vec4(mix(from, to, t), point.w / radius));
     vec2 across = vec2(dotOf(side, view.right), dotOf(side, view.up));
     push.vertices.vertex[target + 2 * i] =
         CapillaryVertex(view.viewProjection * vec4(point.xyz + radius * side, 1), packed,
@@ -70,21 +116,17 @@ void main() {
   uint curve = gl_GlobalInvocationID.x;
   if (curve >= push.curveCount) return;
   GrowthJob job = jobOf(curve);
-  // Word by word: GPU-assisted validation takes a struct that is loaded whole for larger than it is.
-  GrowthSite site = GrowthSite(push.sites.site[job.sweep].hub, push.sites.site[job.sweep].room,
-                               push.sites.site[job.sweep].axis, push.sites.site[job.sweep].system);
-  uint axiom = push.growth.growth.system[site.system & 0xffu].axiom;
-  uint size = push.growth.growth.symbol[axiom].treeSize[job.levels];
-  uint target = curve * 2 * (push.edges + 1), colour = push.colours.colour[job.sweep];
+  GrowthSite site = siteOf(job.span);
+  uint size = treeSize(site, job.levels);
+  uint target = curve * 2 * (push.edges + 1), colour = push.colours.colour[job.span];
   if ((push.hiddenKinds >> (colour >> 24) & 1u) != 0u) {
     for (uint i = 0; i < 2 * (push.edges + 1); ++i)
       push.vertices.vertex[target + i] = CapillaryVertex(vec4(2, 2, 2, 1), 0, 0);  // outside the picture
     return;
   }
   uint within = curve - job.firstCurve, sprout = job.firstSprout + within / size;
-  uint sweepKey = keyOf(push.view.view.seed, job.sweep);
-  Section section = rootSection(job.sweep, placeOnSweep(sweepKey, sprout));
-  Capillary capillary =
-      capillaryAt(push.growth, site, section, sprout, keyOf(sweepKey, sprout), job.levels, within % size);
-  writeRibbon(capillary, colour, target);
+  Capillary capillary = treeCurve(job.span, site, sprout, job.levels, within % size);
+  bool joins = job.levels > 1 && job.levels == push.view.view.joinLevels && site.partner != kNoPartner;
+  if (capillary.leaf && joins) join(site, sprout, job.levels, capillary);
+  writeRibbon(capillary, colour, capillary.joined ? push.colours.colour[site.partner] : colour, target);
 }

@@ -127,7 +127,7 @@ Result<Report> capillaryReport(const SceneFile& file) {
   report["bytes_per_sweep"] = sizeof(shared::GrowthSite);
   std::vector<std::uint64_t> trees(grown.regions.size());
   for (std::size_t sweep = 0; sweep < grown.sites.region.size(); ++sweep)
-    if (grown.sites.region[sweep] < trees.size()) trees[grown.sites.region[sweep]] += grown.sites.sprouts[sweep];
+    if (grown.sites.region[sweep] < trees.size()) trees[grown.sites.region[sweep]] += grown.sites.sites[sweep].sprouts;
   report["regions"] = Report::array();
   for (std::size_t r = 0; r < trees.size(); ++r)
     if (trees[r] > 0) report["regions"].push_back({{"name", grown.regions[r].name}, {"trees_along_vessels", trees[r]}});

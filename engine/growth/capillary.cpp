@@ -11,7 +11,8 @@
 // A curve is a walk of three steps, which are the legs of its Bézier polygon. The first goes the way that the branching
 // asks for; before each of the others the direction strays (meander), turns (curl), and yields to its surroundings: to
 // the limb's axis, away from or around the hub, back from the skin. Every pull is continuous in the curve's place,
-// so that a moving vessel's capillaries move smoothly.
+// so that a moving vessel's capillaries move smoothly. Points of the polygon that got beyond the ball or a wall all the
+// same are drawn in towards the centre: ball and walls bound a convex piece of the body, which holds the curve with them.
 namespace vasa {
 namespace {
 
@@ -19,14 +20,36 @@ using shared::GrowthChild;
 using shared::GrowthSymbol;
 
 constexpr float kRootDepth = 0.5f;     // in radii from the axis: inside of the coarsest tube of quads, too
+constexpr std::uint32_t kPartners = 8;  // sprouts of the partner that are looked at
 constexpr float kTiny2 = 1e-12f;
 
 // The surroundings of a tree, in the world.
 struct Surroundings {
-  vec3 hub, axis;
+  vec3 hub, axis, centre;
   float shell;  // [m] from the hub to the root
-  float limit;  // [m] from the hub to the skin
+  float reach;
+  std::array<vec4, shared::kGrowthWalls> walls;  // offsets count from the centre
 };
+
+Surroundings surroundingsOf(const shared::GrowthSite& site, const Section& section) {
+  const mat3 axes(section.frame.u, section.frame.v, section.frame.tangent);
+  Surroundings around{section.centre + axes * site.hub, axes * site.axis, section.centre, 0, site.reach, {}};
+  around.shell = glm::distance(around.hub, section.centre);
+  for (std::size_t i = 0; i < around.walls.size(); ++i) around.walls[i] = vec4(axes * vec3(site.wall[i]), site.wall[i].w);
+  return around;
+}
+
+// A place drawn in towards the centre as far as ball and walls ask for.
+vec3 keptInside(const Surroundings& around, vec3 place) {
+  const vec3 arm = place - around.centre;
+  const float length = glm::length(arm);
+  float share = length > around.reach ? around.reach / length : 1;
+  for (const vec4& wall : around.walls) {
+    const float along = glm::dot(vec3(wall), arm);
+    if (along > wall.w) share = std::min(share, wall.w / along);
+  }
+  return share < 1 ? around.centre + share * arm : place;
+}
 
 // What a curve starts from.
 struct Bud {
@@ -58,9 +81,11 @@ vec3 bent(const GrowthSymbol& symbol, const Surroundings& around, vec3 place, ve
   const float back = std::clamp((around.shell - height) / (3 * step), -1.0f, 1.0f);
   v += (symbol.outward + symbol.hug * (back - glm::dot(v, outward))) * outward;
   v = unitOr(v, direction);
-  const float over = height + step * glm::dot(v, outward) - around.limit;
-  if (over <= 0) return v;
-  return unitOr(v - std::min(over / step, 2.0f) * outward, direction);
+  for (const vec4& wall : around.walls) {
+    const float over = glm::dot(vec3(wall), place + step * v - around.centre) - wall.w;
+    if (over > 0) v = unitOr(v - std::min(over / step, 2.0f) * vec3(wall), direction);
+  }
+  return v;
 }
 
 // Draws a letter as a curve; `direction` comes out as the curve's last one.
@@ -72,7 +97,7 @@ Bezier grown(const GrowthSymbol& symbol, const Surroundings& around, const Bud& 
   curve.b[0] = vec4(place, bud.radius);
   for (std::uint32_t leg = 1; leg <= 3; ++leg) {
     if (leg > 1) direction = bent(symbol, around, place, direction, step, key, leg);
-    place += step * direction;
+    place = keptInside(around, place + step * direction);
     curve.b[leg] = vec4(place, bud.radius * (1 + (symbol.taper - 1) * (float(leg) / 3)));
   }
   return curve;
@@ -89,13 +114,13 @@ Bud budOf(const GrowthChild& child, const Surroundings& around, const Bezier& pa
 }
 
 std::uint32_t sproutKey(const GrowthScene& scene, Sprout sprout) {
-  return keyOf(keyOf(scene.seed, sprout.sweep), sprout.number);
+  return keyOf(keyOf(scene.seed, scene.sites[sprout.span].key), sprout.number);
 }
 
-// Sprouts of a sweep follow one another by the golden section, so that any first few of them are spread evenly.
-float placeOnSweep(const GrowthScene& scene, Sprout sprout) {
+// Sprouts of a span follow one another by the golden section, so that any first few of them are spread evenly.
+float placeOnSpan(const GrowthScene& scene, Sprout sprout) {
   if (sprout.number & shared::kTipSprout) return sprout.number & shared::kLastSprout ? 1.0f : 0.0f;
-  return unitFloat(scramble(keyOf(scene.seed, sprout.sweep)) + sprout.number * 0x9e3779b9u);
+  return unitFloat(scramble(keyOf(scene.seed, scene.sites[sprout.span].key)) + sprout.number * 0x9e3779b9u);
 }
 
 Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sprout& sprout, bool againstFlow,
@@ -117,23 +142,26 @@ Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sp
           std::min(section.radius * system.share, system.mostRadius) * (1 - system.shareSpread * unitOf(key, 3)), 1};
 }
 
-}  // namespace
-
-Section rootSection(const GrowthScene& scene, Sprout sprout) {
-  return sectionOn(scene.network, sprout.sweep, placeOnSweep(scene, sprout));
+// The sprout of the partner that stands as far on its way as this one, or nearly.
+Sprout partnerOf(const GrowthScene& scene, Sprout sprout) {
+  const std::uint32_t span = scene.sites[sprout.span].partner;
+  const float wanted = placeOnSpan(scene, sprout);
+  Sprout best{span, 0};
+  float nearest = 2;
+  for (std::uint32_t k = 0; k < std::min(scene.sites[span].sprouts, kPartners); ++k) {
+    const float away = std::abs(placeOnSpan(scene, {span, k}) - wanted);
+    if (away < nearest) nearest = away, best.number = k;
+  }
+  return best;
 }
 
-Capillary capillaryAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, std::uint32_t number) {
-  const shared::GrowthSite& site = scene.sites[sprout.sweep];
+Capillary grownAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, std::uint32_t number) {
+  const shared::GrowthSite& site = scene.sites[sprout.span];
   const shared::GrowthSystem& system = scene.tables.system[site.system & 0xffu];
-  assert(levels > 0 && number < scene.tables.symbol[system.axiom].treeSize[levels]);
   const Section section = rootSection(scene, sprout);
-  const mat3 axes(section.frame.u, section.frame.v, section.frame.tangent);
   Capillary capillary{.symbol = system.axiom, .key = sproutKey(scene, sprout)};
   Bud bud = rootBud(system, section, sprout, (site.system & 0x100u) != 0, capillary.key);
-  Surroundings around{section.centre + axes * site.hub, axes * site.axis, 0, 0};
-  around.shell = glm::distance(around.hub, section.centre);
-  around.limit = around.shell + site.room;
+  const Surroundings around = surroundingsOf(site, section);
   for (;;) {
     const GrowthSymbol& symbol = scene.tables.symbol[capillary.symbol];
     capillary.curve = grown(symbol, around, bud, capillary.key);
@@ -153,6 +181,36 @@ Capillary capillaryAt(const GrowthScene& scene, Sprout sprout, std::uint32_t lev
     capillary.symbol = child.symbol;
     ++capillary.generation;
   }
+}
+
+// Ends a last curve where a curve of the partner's tree of a generation less ends: one that has branches, so that it stays
+// as it is.
+void join(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, Capillary& capillary) {
+  const Sprout other = partnerOf(scene, sprout);
+  const shared::GrowthSystem& system = scene.tables.system[scene.sites[other.span].system & 0xffu];
+  const std::uint32_t size = scene.tables.symbol[system.axiom].treeSize[levels - 1];
+  if (size == 0) return;  // their trees are not that deep
+  const Capillary target = grownAt(scene, other, levels - 1, scramble(capillary.key) % size);
+  if (scene.tables.symbol[target.symbol].childCount == 0) return;
+  Bezier& curve = capillary.curve;
+  curve.b[3] = vec4(vec3(target.curve.b[3]), curve.b[3].w);
+  curve.b[2] = vec4(0.5f * (vec3(curve.b[2]) + vec3(curve.b[3])), curve.b[2].w);
+  capillary.joined = true;
+  capillary.farPhase = target.phaseAt(1);
+}
+
+}  // namespace
+
+Section rootSection(const GrowthScene& scene, Sprout sprout) {
+  return sectionOn(scene.network, scene.spans[sprout.span], placeOnSpan(scene, sprout));
+}
+
+Capillary capillaryAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, std::uint32_t number) {
+  assert(levels > 0);
+  Capillary capillary = grownAt(scene, sprout, levels, number);
+  const bool joins = levels > 1 && levels == scene.joinLevels && scene.sites[sprout.span].partner != shared::kNoPartner;
+  if (capillary.leaf && joins) join(scene, sprout, levels, capillary);
+  return capillary;
 }
 
 }  // namespace vasa

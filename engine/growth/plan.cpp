@@ -57,10 +57,10 @@ std::array<Plane, 5> planesOf(const mat4& m) {
   return planes;
 }
 
-// A sweep's trees as this picture sees them.
+// A span's trees as this picture sees them.
 struct Seen {
   float distance;  // the farthest come first
-  std::uint32_t sweep, levels, edges, size;
+  std::uint32_t span, levels, edges, size;
 };
 
 // By the size of the longest stem of all systems, so that trees side by side share a batch.
@@ -78,17 +78,17 @@ class Planner {
     }
   }
 
-  bool see(std::uint32_t sweep, Seen& seen) const {
-    const std::uint32_t number = in_.sites.sites[sweep].system & 0xffu;
+  bool see(std::uint32_t span, Seen& seen) const {
+    const std::uint32_t number = in_.sites.sites[span].system & 0xffu;
     const shared::GrowthSystem& system = in_.tables.system[number];
-    const vec4* p = &in_.points[in_.table.sweeps[sweep].point];
+    const vec4* p = &in_.points[in_.sites.spans[span].point];
     const vec3 centre = vec3(p[0] + p[1] + p[2] + p[3]) * 0.25f;
     float wide = 0, thick = 0;
     for (int i = 0; i < 4; ++i) {
       wide = std::max(wide, glm::distance(centre, vec3(p[i])));
       thick = std::max(thick, p[i].w);
     }
-    const bool ends = in_.sites.freeEnds[sweep] != 0;
+    const bool ends = in_.sites.freeEnds[span] != 0;
     const float root = std::max(std::min(thick * system.share, system.mostRadius), ends ? thick * system.tipRadius : 0.0f);
     const Sizes& sizes = sizes_[number];
     std::uint32_t levels = levelsOf(in_.tables, number, wish_.levels);
@@ -101,12 +101,12 @@ class Planner {
     if (root * sizes.longest[0] * pixels < wish_.smallest) return false;
     const float distance = in_.view.perspective > 0 ? depth : -glm::dot(in_.view.eye, centre);
     const std::uint32_t edges = wish_.edges ? wish_.edges : edgesFor(longestStem_ * in_.view.focal / std::max(depth, 0.01f));
-    seen = {distance, sweep, levels, edges, in_.tables.symbol[system.axiom].treeSize[levels]};
+    seen = {distance, span, levels, edges, in_.tables.symbol[system.axiom].treeSize[levels]};
     return true;
   }
 
-  std::uint32_t tipsOf(std::uint32_t sweep) const {
-    return in_.tables.system[in_.sites.sites[sweep].system & 0xffu].tips;
+  std::uint32_t tipsOf(std::uint32_t span) const {
+    return in_.tables.system[in_.sites.sites[span].system & 0xffu].tips;
   }
 
  private:
@@ -128,7 +128,7 @@ class BatchWriter {
         plan_.batches.push_back({std::uint32_t(plan_.jobs.size()), 0, 0, seen.edges});
       CapillaryBatch& batch = plan_.batches.back();
       const std::uint32_t trees = std::min(count, room() / seen.size);
-      plan_.jobs.push_back({batch.curves, seen.sweep, firstSprout, seen.levels});
+      plan_.jobs.push_back({batch.curves, seen.span, firstSprout, seen.levels});
       ++batch.jobCount;
       batch.curves += trees * seen.size;
       plan_.curves += std::uint64_t(trees) * seen.size;
@@ -159,17 +159,17 @@ std::uint32_t levelsOf(const shared::GrowthTables& tables, std::uint32_t system,
 std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites, std::uint32_t levels) {
   if (levels == 0) return 0;
   std::uint64_t count = 0;
-  for (std::size_t sweep = 0; sweep < sites.sites.size(); ++sweep) {
-    const std::uint32_t system = sites.sites[sweep].system & 0xffu;
-    const std::uint32_t trees = sites.sprouts[sweep] + tables.system[system].tips * endsIn(sites.freeEnds[sweep]);
+  for (std::size_t span = 0; span < sites.sites.size(); ++span) {
+    const std::uint32_t system = sites.sites[span].system & 0xffu;
+    const std::uint32_t trees = sites.sites[span].sprouts + tables.system[system].tips * endsIn(sites.freeEnds[span]);
     if (trees > 0) count += std::uint64_t(trees) * tables.symbol[tables.system[system].axiom].treeSize[levelsOf(tables, system, levels)];
   }
   return count;
 }
 
-std::uint32_t mostJobs(const SweepTable& table, std::uint32_t budget) {
-  // A job a sweep and a free end; one more where a batch is full, and batches are at least half full or change edges.
-  return 3 * std::uint32_t(table.sweeps.size()) + 2 * (budget / shared::kRingCurves + 2);
+std::uint32_t mostJobs(const CapillarySites& sites, std::uint32_t budget) {
+  // A job a span and a free end; one more where a batch is full, and batches are at least half full or change edges.
+  return 3 * std::uint32_t(sites.spans.size()) + 2 * (budget / shared::kRingCurves + 2);
 }
 
 void planCapillaries(const PlanInput& input, const CapillaryWish& wish, CapillaryPlan& plan) {
@@ -179,15 +179,15 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
   if (wish.levels == 0) return;
   const Planner planner(input, wish);
   std::vector<Seen> seen;
-  for (std::uint32_t sweep = 0; sweep < input.sites.sites.size(); ++sweep) {
+  for (std::uint32_t span = 0; span < input.sites.sites.size(); ++span) {
     Seen one;
-    if (input.sites.sprouts[sweep] + input.sites.freeEnds[sweep] == 0 || !planner.see(sweep, one)) continue;
+    if (input.sites.sites[span].sprouts + input.sites.freeEnds[span] == 0 || !planner.see(span, one)) continue;
     seen.push_back(one);
-    const std::uint32_t trees = input.sites.sprouts[sweep] + planner.tipsOf(sweep) * endsIn(input.sites.freeEnds[sweep]);
+    const std::uint32_t trees = input.sites.sites[span].sprouts + planner.tipsOf(span) * endsIn(input.sites.freeEnds[span]);
     plan.wishedCurves += std::uint64_t(trees) * one.size;
   }
   std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
-    return a.distance != b.distance ? a.distance > b.distance : a.sweep < b.sweep;
+    return a.distance != b.distance ? a.distance > b.distance : a.span < b.span;
   });
   const double share = plan.wishedCurves > wish.budget ? double(wish.budget) / double(plan.wishedCurves) : 1;
   BatchWriter writer(plan);
@@ -195,12 +195,12 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
     const auto granted = [&](std::uint32_t wished) {
       if (share >= 1) return wished;
       const std::uint64_t left = (wish.budget - std::min<std::uint64_t>(plan.curves, wish.budget)) / one.size;
-      return std::uint32_t(std::min<std::uint64_t>(std::uint64_t(wished * share + unitFloat(scramble(one.sweep))), left));
+      return std::uint32_t(std::min<std::uint64_t>(std::uint64_t(wished * share + unitFloat(scramble(one.span))), left));
     };
-    writer.add(one, 0, granted(input.sites.sprouts[one.sweep]));
+    writer.add(one, 0, granted(input.sites.sites[one.span].sprouts));
     for (const std::uint32_t end : {0u, 1u})
-      if (input.sites.freeEnds[one.sweep] >> end & 1u)
-        writer.add(one, shared::kTipSprout | (end ? shared::kLastSprout : 0u), granted(planner.tipsOf(one.sweep)));
+      if (input.sites.freeEnds[one.span] >> end & 1u)
+        writer.add(one, shared::kTipSprout | (end ? shared::kLastSprout : 0u), granted(planner.tipsOf(one.span)));
   }
 }
 

@@ -7,12 +7,13 @@
 
 namespace vasa {
 
-/// Where on a network capillaries grow; constant over time. All spans are as long as the network has sweeps.
+/// Where on a network capillaries grow; constant over time, and the same however forks cut its tubes. All lists are as
+/// long as the network has spans.
 struct CapillarySites {
+  std::vector<shared::SweepRecord> spans;  ///< wholeSpans() (surface/sweep_table.h)
   std::vector<shared::GrowthSite> sites;
-  std::vector<std::uint16_t> sprouts;  ///< trees along each sweep; 0 where nothing grows
-  std::vector<std::uint8_t> freeEnds;  ///< bit 0: trees at the sweep's first section, bit 1: at its last
-  std::vector<std::uint8_t> region;    ///< number of the sweep's region, or 255
+  std::vector<std::uint8_t> freeEnds;  ///< bit 0: trees at the span's first section, bit 1: at its last
+  std::vector<std::uint8_t> region;    ///< number of the span's region, or 255
 };
 
 /// What a network's capillaries grow from; constant over time.
@@ -25,7 +26,7 @@ struct Growth {
 struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
   std::uint32_t edges = 0;   ///< of every curve's polyline: 3, 5, 8 or 10; 0: by its size in the picture
-  std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every sweep has fewer trees
+  std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every span has fewer trees
   float smallest = 0.5f;     ///< [pixels] generations with shorter curves are left out; 0: none is
 };
 
@@ -46,7 +47,6 @@ struct CapillaryPlan {
 
 /// What planning looks at.
 struct PlanInput {
-  const SweepTable& table;
   std::span<const vec4> points;  ///< de Boor points of the frame
   const shared::GrowthTables& tables;
   const CapillarySites& sites;
@@ -57,10 +57,10 @@ struct PlanInput {
 std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites, std::uint32_t levels);
 
 /// Most jobs that a plan has on a network: what its buffer must hold.
-std::uint32_t mostJobs(const SweepTable& table, std::uint32_t budget);
+std::uint32_t mostJobs(const CapillarySites& sites, std::uint32_t budget);
 
 /// Chooses what is drawn: trees that may be seen, as many generations as have some size in the picture, within the
-/// budget. The work and the memory grow with the sweeps, not with the curves. The result depends on the input alone.
+/// budget. The work and the memory grow with the spans, not with the curves. The result depends on the input alone.
 void planCapillaries(const PlanInput& input, const CapillaryWish& wish, CapillaryPlan& plan);
 
 /// Levels that a system's trees may have: wished levels, or fewer where a tree would not fit the ring.

@@ -24,17 +24,19 @@ vec3 rgbOf(std::uint32_t packed) {
 
 }  // namespace
 
-void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t edges,
+void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t far, std::uint32_t edges,
                  std::span<shared::CapillaryVertex> vertices) {
   assert(vertices.size() == 2 * (edges + 1));
-  const vec3 from = rgbOf(root), to = rgbOf(view.capillary);
+  const vec3 bed = rgbOf(view.capillary), from = glm::mix(rgbOf(root), bed, capillary.phase);
+  const vec3 to = capillary.joined ? glm::mix(rgbOf(far), bed, capillary.farPhase)
+                                   : glm::mix(rgbOf(root), bed, capillary.phaseAt(1));
   for (std::uint32_t i = 0; i <= edges; ++i) {
     const float t = float(i) / float(edges);
     const vec4 point = capillary.curve.at(t);
     const vec3 along(capillary.curve.derivative(t));
     const float speed = glm::length(along), beyond = i == 0 ? -kOverlap : i == edges ? kOverlap : 0;
     const vec3 place = vec3(point) + (speed > 0 ? beyond * point.w / speed : 0) * along;
-    const float radius = capillary.leaf && i == edges ? kPoint * point.w : point.w;
+    const float radius = capillary.leaf && !capillary.joined && i == edges ? kPoint * point.w : point.w;
     const vec3 toEye = view.perspective * (view.eye - place) + (1 - view.perspective) * view.eye;
     vec3 side = glm::cross(along, toEye);
     const float length2 = glm::dot(side, side);
@@ -42,7 +44,7 @@ void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std
     const float depth = std::max(glm::dot(vec3(view.depth), place) + view.depth.w, 1e-6f);
     const float pixel = depth / view.focal;
     const float half = std::max(radius, 0.5f * view.thinnest * pixel);
-    const vec3 colour = glm::mix(from, to, capillary.phaseAt(t));
+    const vec3 colour = glm::mix(from, to, t);
     const std::uint32_t packed = unorm8(colour.x) | unorm8(colour.y) << 8 | unorm8(colour.z) << 16 |
                                  unorm8(radius / half) << 24;
     for (int k = 0; k < 2; ++k) {

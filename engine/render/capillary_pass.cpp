@@ -70,7 +70,7 @@ shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32
 CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes,
                              const GrowthRules& rules, const CapillarySites& sites, const CapillaryWish& wish)
     : tubes_(tubes), sites_(sites), rules_(rules), wish_(wish) {
-  assert(sites.sites.size() == tubes.table().sweeps.size());
+  assert(sites.sites.size() == tubes.table().spanCount);
   if (wish.levels == 0) return;
   grow_ = gpu::ComputePipeline(device, {spirv::capillary_comp, sizeof(shared::CapillaryPush)});
   const RibbonLayout layout;
@@ -101,16 +101,24 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
   }
   tables_ = gpu::makeBuffer(device, "growth tables", std::span(&rules.tables, 1));
   siteBuffer_ = gpu::makeBuffer(device, "growth sites", std::span<const shared::GrowthSite>(sites.sites));
-  const VkDeviceSize frameBytes = sizeof(shared::GrowthView) + mostJobs(tubes.table(), wish.budget) * sizeof(shared::GrowthJob);
+  spans_ = gpu::makeBuffer(device, "growth spans", std::span<const shared::SweepRecord>(sites.spans));
+  colours_ = gpu::Buffer(device, {"growth colours", 4 * VkDeviceSize(sites.spans.size())});
+  const VkDeviceSize frameBytes = sizeof(shared::GrowthView) + mostJobs(sites, wish.budget) * sizeof(shared::GrowthJob);
   host_ = gpu::Buffer(device, {"capillary frame, host", frameBytes, gpu::MemoryRole::upload});
   frame_ = gpu::Buffer(device, {"capillary frame", frameBytes});
 }
 
-void CapillaryPass::prepare(std::span<const vec4> points, const shared::GrowthView& view) {
-  planCapillaries({tubes_.table(), points, rules_.tables, sites_, view}, wish_, plan_);
+void CapillaryPass::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
+  assert(spanColours.size() == sites_.spans.size());
+  if (colours_.bytes() > 0) gpu::uploadBytes(device, colours_, std::as_bytes(spanColours));
+}
+
+void CapillaryPass::prepare(std::span<const vec4> points, shared::GrowthView view) {
+  view.joinLevels = wish_.levels;
+  planCapillaries({points, rules_.tables, sites_, view}, wish_, plan_);
   if (plan_.jobs.empty()) return;
-  assert(plan_.jobs.size() <= mostJobs(tubes_.table(), wish_.budget));
-  host_.write(std::span(&view, 1));
+  assert(plan_.jobs.size() <= mostJobs(sites_, wish_.budget));
+  host_.write(std::span<const shared::GrowthView>(&view, 1));
   host_.write(std::span<const shared::GrowthJob>(plan_.jobs), sizeof view);
 }
 
@@ -126,11 +134,11 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
   const shared::CapillaryPush push{
       .points = input.points,
       .knots = input.knots,
-      .sweeps = tubes_.sweeps(),
+      .spans = spans_.address(),
       .tables = tubes_.tables(),
       .growth = tables_.address(),
       .sites = siteBuffer_.address(),
-      .colours = tubes_.colours(),
+      .colours = colours_.address(),
       .view = frame_.address(),
       .jobs = frame_.address() + sizeof(shared::GrowthView) + batch.firstJob * sizeof(shared::GrowthJob),
       .vertices = ring(number).address(),
@@ -157,7 +165,7 @@ std::uint64_t CapillaryPass::ringBytes() const {
 }
 
 std::uint64_t CapillaryPass::bytes() const {
-  std::uint64_t sum = ringBytes() + tables_.bytes() + siteBuffer_.bytes() + host_.bytes() + frame_.bytes();
+  std::uint64_t sum = ringBytes() + tables_.bytes() + siteBuffer_.bytes() + spans_.bytes() + colours_.bytes() + host_.bytes() + frame_.bytes();
   for (const gpu::Buffer& indices : indices_) sum += indices.bytes();
   return sum;
 }

@@ -24,8 +24,11 @@ class CapillaryPass {
   CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes, const GrowthRules& rules,
                 const CapillarySites& sites, const CapillaryWish& wish);
 
+  /// Before the first frame; waits for the device. @param spanColours  one a span of the network, kind in the highest 8 bits
+  void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
+
   /// Plans a frame and writes the plan to host memory. The device must have finished the frame before.
-  void prepare(std::span<const vec4> points, const shared::GrowthView& view);
+  void prepare(std::span<const vec4> points, shared::GrowthView view);
 
   struct Input {
     VkDeviceAddress points, knots;  ///< as tessellation reads them
@@ -42,7 +45,7 @@ class CapillaryPass {
 
   const CapillaryPlan& plan() const { return plan_; }
   const gpu::Buffer& ring(std::size_t batch) const { return rings_[batch % 2]; }
-  std::uint64_t bytes() const;      ///< all device and upload memory: depends on the network's sweeps and the budget's jobs
+  std::uint64_t bytes() const;      ///< all device and upload memory: depends on the network's spans and the budget's jobs
   std::uint64_t ringBytes() const;  ///< of vertices
 
  private:
@@ -55,7 +58,7 @@ class CapillaryPass {
   std::array<gpu::GraphicsPipeline, 3> draw_;  // one a LookStyle
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 4> indices_;  // of 3, 5, 8 and 10 edges
-  gpu::Buffer tables_, siteBuffer_, host_, frame_;
+  gpu::Buffer tables_, siteBuffer_, spans_, colours_, host_, frame_;
 };
 
 }  // namespace vasa

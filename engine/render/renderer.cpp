@@ -141,16 +141,17 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
                      gpu::MemoryRole::readBack}),
       timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 5) : 0),
       staticTimer(device, 1) {
-  setColours({});
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
     capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites, options.capillaries);
+  setColours({});
 }
 
 void Renderer::State::setColours(std::span<const std::uint32_t> given) {
   const std::vector<std::uint32_t> colours = recoloured(ownColours, given);
   tubes.setSpanColours(device, colours);
   forks.setSpanColours(device, colours);
+  if (capillaries) capillaries->setSpanColours(device, colours);
 }
 
 void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {

@@ -11,8 +11,9 @@ struct SceneGrowth : Growth {
 };
 
 /// Reads the rules of a folder (capillaries.lsys, regions.csv) and settles what grows where on the scene's vessels:
-/// each sweep's region by the vessel's name and the joint it moves with, its hub and axis by the body's limbs, its
-/// room by the nearest skin. All of that is 36 bytes a sweep; capillaries themselves are stored nowhere.
+/// each span's region by the vessel's name and the joint it moves with, its hub and axis by the body's limbs, its
+/// walls by the nearest skin, its partner by the nearest vessel of the other kind. All of that is 150 bytes a span;
+/// capillaries themselves are stored nowhere.
 Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder);
 
 /// The same from rules at hand.

@@ -64,6 +64,14 @@ SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
   return table;
 }
 
+std::vector<shared::SweepRecord> wholeSpans(const Network& network) {
+  SweepTable table;
+  const auto vessels = network.vessels();
+  for (std::uint32_t i = 0; i < vessels.size(); ++i)
+    addTube(network, {i, 0, float(vessels[i].spanCount()), false, false}, std::uint32_t(table.sweeps.size()), table);
+  return std::move(table.sweeps);
+}
+
 std::uint32_t firstKnot(const Network& network, VesselId vessel) {
   // spans + 3 points but spans + 1 knots a vessel
   return network.vessel(vessel).firstPoint - 2 * vessel.value;

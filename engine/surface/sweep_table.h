@@ -31,6 +31,9 @@ struct SweepTable {
 SweepTable makeSweepTable(const Network& network);
 SweepTable makeSweepTable(const Network& network, ForkPlan plan);
 
+/// Every span of every vessel, whole, whatever forks take of it: what places on a network are counted by.
+std::vector<shared::SweepRecord> wholeSpans(const Network& network);
+
 /// Index of a vessel's first knot quaternion (it has one for each span and one more).
 std::uint32_t firstKnot(const Network& network, VesselId vessel);
 

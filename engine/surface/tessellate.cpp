@@ -31,7 +31,10 @@ Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint3
 }
 
 Section sectionOn(const PosedNetwork& network, std::uint32_t sweep, float t) {
-  const shared::SweepRecord& record = network.table.sweeps[sweep];
+  return sectionOn(network, network.table.sweeps[sweep], t);
+}
+
+Section sectionOn(const PosedNetwork& network, const shared::SweepRecord& record, float t) {
   const vec3 chord(network.points[record.lastPoint] - network.points[record.firstPoint]);
   const quat* knots = &network.knotFrames[record.knot];
   const float at = t == 1 ? record.to : record.from + (record.to - record.from) * t;

@@ -21,6 +21,7 @@ Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint3
 
 /// The section at a share t in [0, 1] of a sweep's part of its span.
 Section sectionOn(const PosedNetwork& network, std::uint32_t sweep, float t);
+Section sectionOn(const PosedNetwork& network, const shared::SweepRecord& sweep, float t);
 
 /// The vertices of one sweep's template: the CPU reference of shaders/tessellate.comp.
 /// @param vertices  shape.sweepVertices(), ring after ring

@@ -9,8 +9,9 @@ const float kGrowthTiny2 = 1e-12;
 const float kWholeTurn = 6.28318530717958647692;
 
 struct Surroundings {
-  vec3 hub, axis;
-  float shell, limit;
+  vec3 hub, axis, centre;
+  float shell, reach;
+  vec4 walls[kGrowthWalls];  // offsets count from the centre
 };
 
 struct Bud {
@@ -21,7 +22,10 @@ struct Bud {
 struct Capillary {
   Bezier curve;
   float phase;
-  bool leaf;
+  bool leaf, joined;
+  float farPhase;
+  uint key;
+  bool branches;  // its letter has some
 };
 
 uint scramble(uint value) {
@@ -58,17 +62,30 @@ vec3 bent(GrowthSymbol symbol, Surroundings around, vec3 place, vec3 direction, 
   float back = clamp((around.shell - height) / (3 * step), -1.0, 1.0);
   v += (symbol.outward + symbol.hug * (back - dotOf(v, outward))) * outward;
   v = unitOr(v, direction);
-  float over = height + step * dotOf(v, outward) - around.limit;
-  if (over <= 0) return v;
-  return unitOr(v - min(over / step, 2.0) * outward, direction);
+  for (uint i = 0; i < kGrowthWalls; ++i) {
+    vec4 wall = around.walls[i];
+    float over = dotOf(wall.xyz, place + step * v - around.centre) - wall.w;
+    if (over > 0) v = unitOr(v - min(over / step, 2.0) * wall.xyz, direction);
+  }
+  return v;
+}
+
+vec3 keptInside(Surroundings around, vec3 place) {
+  vec3 arm = place - around.centre;
+  float size = sqrt(dotOf(arm, arm)), share = size > around.reach ? around.reach / size : 1;
+  for (uint i = 0; i < kGrowthWalls; ++i) {
+    float along = dotOf(around.walls[i].xyz, arm);
+    if (along > around.walls[i].w) share = min(share, around.walls[i].w / along);
+  }
+  return share < 1 ? around.centre + share * arm : place;
 }
 
 Bezier grown(GrowthSymbol symbol, Surroundings around, Bud bud, uint key) {
   float step = symbol.reach * bud.stretch * bud.radius * (1 + symbol.reachSpread * randomSigned(key, 0)) / 3;
   float thinner = symbol.taper - 1;
-  vec3 d1 = bud.direction, p1 = bud.place + step * d1;
-  vec3 d2 = bent(symbol, around, p1, d1, step, key, 2), p2 = p1 + step * d2;
-  vec3 d3 = bent(symbol, around, p2, d2, step, key, 3), p3 = p2 + step * d3;
+  vec3 d1 = bud.direction, p1 = keptInside(around, bud.place + step * d1);
+  vec3 d2 = bent(symbol, around, p1, d1, step, key, 2), p2 = keptInside(around, p1 + step * d2);
+  vec3 d3 = bent(symbol, around, p2, d2, step, key, 3), p3 = keptInside(around, p2 + step * d3);
   return Bezier(vec4(bud.place, bud.radius), vec4(p1, bud.radius * (1 + thinner * (1.0 / 3))),
                 vec4(p2, bud.radius * (1 + thinner * (2.0 / 3))), vec4(p3, bud.radius * (1 + thinner)));
 }
@@ -102,21 +119,30 @@ Bud rootBud(GrowthSystem system, Section section, uint number, bool againstFlow,
 
 vec3 inFrame(Section section, vec3 v) { return v.x * section.u + v.y * section.v + v.z * section.tangent; }
 
-Capillary capillaryAt(Growth tables, GrowthSite site, Section section, uint sprout, uint rootKey, uint levels, uint number) {
+Surroundings surroundingsOf(GrowthSite site, Section section) {
+  Surroundings around;
+  around.hub = section.centre + inFrame(section, site.hub);
+  around.axis = inFrame(section, site.axis);
+  around.centre = section.centre;
+  vec3 arm = section.centre - around.hub;
+  around.shell = sqrt(dotOf(arm, arm));
+  around.reach = site.reach;
+  for (uint i = 0; i < kGrowthWalls; ++i) around.walls[i] = vec4(inFrame(section, site.wall[i].xyz), site.wall[i].w);
+  return around;
+}
+
+Capillary grownAt(Growth tables, GrowthSite site, Section section, uint sprout, uint rootKey, uint levels, uint number) {
   GrowthSystem system = tables.growth.system[site.system & 0xffu];
   uint key = rootKey, symbolNumber = system.axiom;
   Bud bud = rootBud(system, section, sprout, (site.system & 0x100u) != 0u, key);
-  Surroundings around = Surroundings(section.centre + inFrame(section, site.hub), inFrame(section, site.axis), 0, 0);
-  vec3 arm = section.centre - around.hub;
-  around.shell = sqrt(dotOf(arm, arm));
-  around.limit = around.shell + site.room;
+  Surroundings around = surroundingsOf(site, section);
   float phase = 0;
   for (uint generation = 0; generation < kMostGrowthLevels; ++generation) {
     GrowthSymbol symbol = tables.growth.symbol[symbolNumber];
     Bezier curve = grown(symbol, around, bud, key);
     --levels;
     bool leaf = levels == 0u || symbol.childCount == 0u;
-    if (number == 0u || leaf) return Capillary(curve, phase, leaf);
+    if (number == 0u || leaf) return Capillary(curve, phase, leaf, false, 0, key, symbol.childCount != 0u);
     --number;
     uint branch = 0;
     for (; branch + 1 < symbol.childCount; ++branch) {
@@ -130,7 +156,7 @@ Capillary capillaryAt(Growth tables, GrowthSite site, Section section, uint spro
     phase = phaseAt(phase, child.at);
     symbolNumber = child.symbol;
   }
-  return Capillary(Bezier(vec4(0), vec4(0), vec4(0), vec4(0)), 0, true);  // not reached
+  return Capillary(Bezier(vec4(0), vec4(0), vec4(0), vec4(0)), 0, true, false, 0, 0, false);  // not reached
 }
 
 #endif

@@ -61,19 +61,28 @@ struct GrowthTables {
   GrowthChild child[kMostGrowthChildren];
 };
 
-/// What capillaries know of their surroundings, one a sweep, in the axes u, v, tangent of the sweep's section where they
-/// sprout, from its centre.
+/// Planes that keep a site's capillaries below the skin.
+VASA_CONSTANT uint kGrowthWalls = 4;
+/// GrowthSite::partner of a site whose capillaries end freely.
+VASA_CONSTANT uint kNoPartner = 0xffffffffu;
+
+/// What capillaries know of their surroundings, one a span of the network, in the axes u, v, tangent of the span's
+/// section where they sprout, from its centre.
 struct GrowthSite {
   vec3 hub;      // [m] middle of the part of the body: the limb's axis, the brain
-  float room;    // [m] from the vessel's axis outwards to the skin
+  float reach;   // [m] no curve leaves the ball about the centre
   vec3 axis;     // unit: direction of the limb
   uint system;   // lowest 8 bits: number of the L-system; bit 8: blood flows against the tangent
+  vec4 wall[kGrowthWalls];  // nor does one cross dot(xyz, p) = w, w >= 0
+  uint key;      // of the vessel and the place on it
+  uint sprouts;  // trees along the span
+  uint partner;  // span, vein beside artery and the other way round, whose trees the last curves run into
 };
 
-/// Trees of one sweep that are drawn one after another.
+/// Trees of one span that are drawn one after another.
 struct GrowthJob {
   uint firstCurve;   // of the batch's curves
-  uint sweep;
+  uint span;
   uint firstSprout;
   uint levels;
 };
@@ -89,6 +98,7 @@ struct GrowthView {
   float thinnest;     // [pixels] least width of what is drawn: thinner curves fade instead
   uint seed;
   uint capillary;     // colour half way between artery and vein, sRGB, red lowest
+  uint joinLevels;    // trees of so many generations run into their partners', others end freely
 };
 
 /// A vertex of a ribbon: 24 bytes.
@@ -103,7 +113,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Gro
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sites { GrowthSite site[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Jobs { GrowthJob job[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Views { GrowthView view; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SweepColours { uint colour[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SpanColours { uint colour[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ribbons { CapillaryVertex vertex[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
@@ -112,11 +122,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ri
 struct CapillaryPush {
   VASA_ADDRESS(Points) points;
   VASA_ADDRESS(Knots) knots;
-  VASA_ADDRESS(Sweeps) sweeps;
+  VASA_ADDRESS(Sweeps) spans;        // whole
   VASA_ADDRESS(Tables) tables;
   VASA_ADDRESS(Growth) growth;
   VASA_ADDRESS(Sites) sites;
-  VASA_ADDRESS(SweepColours) colours;
+  VASA_ADDRESS(SpanColours) colours;
   VASA_ADDRESS(Views) view;
   VASA_ADDRESS(Jobs) jobs;        // from the batch's first on
   VASA_ADDRESS(Ribbons) vertices;
@@ -128,8 +138,8 @@ struct CapillaryPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GrowthChild) == 32 && sizeof(GrowthSymbol) == 72 && sizeof(GrowthSystem) == 32);
-static_assert(sizeof(GrowthSite) == 32 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
-static_assert(sizeof(GrowthView) == 64 + 16 + 16 + 24 + 16 && sizeof(CapillaryPush) == 96);
+static_assert(sizeof(GrowthSite) == 108 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
+static_assert(sizeof(GrowthView) == 64 + 16 + 16 + 24 + 20 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

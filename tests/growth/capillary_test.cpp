@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <glm/gtc/quaternion.hpp>
+#include <algorithm>
 #include <map>
 
 #include "core/hash.h"
@@ -17,7 +18,7 @@ constexpr std::uint32_t kLevels = 3;
 
 // All curves of one tree, in the order of their numbers.
 std::vector<Capillary> treeOf(const GrowthScene& scene, Sprout sprout, std::uint32_t levels = kLevels) {
-  const auto& system = scene.tables.system[scene.sites[sprout.sweep].system & 0xffu];
+  const auto& system = scene.tables.system[scene.sites[sprout.span].system & 0xffu];
   std::vector<Capillary> tree;
   for (std::uint32_t k = 0; k < scene.tables.symbol[system.axiom].treeSize[levels]; ++k)
     tree.push_back(capillaryAt(scene, sprout, levels, k));
@@ -27,12 +28,12 @@ std::vector<Capillary> treeOf(const GrowthScene& scene, Sprout sprout, std::uint
 // Every sprout of a network, those at free ends too.
 template <class Visit>
 void forEachSprout(const test::GrownNetwork& grown, const Visit& visit) {
-  for (std::uint32_t sweep = 0; sweep < grown.sites.sites.size(); ++sweep) {
-    for (std::uint32_t k = 0; k < grown.sites.sprouts[sweep]; ++k) visit(Sprout{sweep, k});
-    const std::uint32_t tips = grown.rules.tables.system[grown.sites.sites[sweep].system & 0xffu].tips;
+  for (std::uint32_t span = 0; span < grown.sites.sites.size(); ++span) {
+    for (std::uint32_t k = 0; k < grown.sites.sites[span].sprouts; ++k) visit(Sprout{span, k});
+    const std::uint32_t tips = grown.rules.tables.system[grown.sites.sites[span].system & 0xffu].tips;
     for (std::uint32_t end = 0; end < 2; ++end)
-      for (std::uint32_t k = 0; (grown.sites.freeEnds[sweep] >> end & 1u) && k < tips; ++k)
-        visit(Sprout{sweep, shared::kTipSprout | (end ? shared::kLastSprout : 0) | k});
+      for (std::uint32_t k = 0; (grown.sites.freeEnds[span] >> end & 1u) && k < tips; ++k)
+        visit(Sprout{span, shared::kTipSprout | (end ? shared::kLastSprout : 0) | k});
   }
 }
 
@@ -163,4 +164,65 @@ TEST_CASE("a vessel that grows wider has thicker and longer capillaries") {
   const auto narrow = capillaryAt(grown.scene(a), {1, 0}, 1, 0).curve, wide = capillaryAt(wider.scene(b), {1, 0}, 1, 0).curve;
   CHECK(wide.b[0].w / narrow.b[0].w == doctest::Approx(1.5f));
   CHECK(glm::distance(vec3(wide.b[0]), vec3(wide.b[1])) == doctest::Approx(1.5f * glm::distance(vec3(narrow.b[0]), vec3(narrow.b[1]))).epsilon(1e-4));
+}
+
+TEST_CASE("the last curves of a tree run into the ends of its partner's curves before the last, and change colour on their way") {
+  test::GrownNetwork grown(test::windingNetwork(12, 3));
+  for (std::uint32_t span = 0; span + 1 < grown.sites.sites.size(); span += 2) {
+    grown.sites.sites[span].partner = span + 1;
+    grown.sites.sites[span + 1].partner = span;
+    for (const std::uint32_t one : {span, span + 1}) grown.sites.sites[one].sprouts = 5;
+  }
+  grown.joinLevels = kLevels;
+  const PosedNetwork posed = grown.posed();
+  const GrowthScene scene = grown.scene(posed);
+  std::size_t joined = 0;
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    std::vector<vec3> ends;  // of the partner's curves that have branches
+    for (std::uint32_t other = 0; other < 5; ++other)
+      for (const Capillary& curve : treeOf(scene, {3, other}))
+        if (!curve.leaf) ends.emplace_back(curve.curve.b[3]);
+    for (const Capillary& curve : treeOf(scene, {2, k})) {
+      CHECK(curve.joined == curve.leaf);
+      if (!curve.joined) continue;
+      ++joined;
+      CHECK(std::ranges::find(ends, vec3(curve.curve.b[3])) != ends.end());
+      CHECK(curve.farPhase > 0);
+    }
+    // Fewer generations end freely, as a picture from afar shows them.
+    for (const Capillary& curve : treeOf(scene, {2, k}, kLevels - 1)) CHECK(!curve.joined);
+  }
+  CHECK(joined > 20);
+}
+
+TEST_CASE("no curve leaves the ball and the walls of its site") {
+  test::GrownNetwork grown(test::windingNetwork(12, 3));
+  for (shared::GrowthSite& site : grown.sites.sites) {
+    site.reach = 0.03f;
+    site.wall[1] = vec4(0, 1, 0, 0.004f);
+  }
+  const PosedNetwork posed = grown.posed();
+  const GrowthScene scene = grown.scene(posed);
+  float over = -1;
+  forEachSprout(grown, [&](Sprout sprout) {
+    const Section section = rootSection(scene, sprout);
+    for (const Capillary& capillary : treeOf(scene, sprout))
+      for (std::size_t i = 1; i < 4; ++i) {
+        const vec3 arm = vec3(capillary.curve.b[i]) - section.centre;
+        over = std::max({over, glm::length(arm) - 0.03f, glm::dot(arm, section.frame.v) - 0.004f});
+      }
+  });
+  CHECK(over < 1e-5f);
+}
+
+TEST_CASE("what grows does not depend on how forks cut a network's tubes") {
+  const Network network = test::branchingNetwork(21, 2);
+  const auto spans = wholeSpans(network);
+  const SweepTable table = makeSweepTable(network);
+  CHECK(spans.size() == table.spanCount);
+  CHECK(spans.size() != table.sweeps.size());
+  for (const shared::SweepRecord& span : spans) {
+    CHECK(span.from == 0);
+    CHECK(span.to == 1);
+  }
 }

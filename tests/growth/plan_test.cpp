@@ -29,7 +29,7 @@ shared::GrowthView viewOf(float width, vec3 middle) {
 
 CapillaryPlan planOf(const test::GrownNetwork& grown, const shared::GrowthView& view, const CapillaryWish& wish) {
   CapillaryPlan plan;
-  planCapillaries({grown.table, grown.points, grown.rules.tables, grown.sites, view}, wish, plan);
+  planCapillaries({grown.points, grown.rules.tables, grown.sites, view}, wish, plan);
   return plan;
 }
 
@@ -52,14 +52,14 @@ TEST_CASE("a plan has every tree once, whole, in batches that fit the ring") {
     for (std::uint32_t j = 0; j < batch.jobCount; ++j) {
       const shared::GrowthJob& job = plan.jobs[batch.firstJob + j];
       const std::uint32_t end = j + 1 < batch.jobCount ? plan.jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
-      const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.sweep].system & 0xffu, job.levels);
+      const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.span].system & 0xffu, job.levels);
       CHECK((end - job.firstCurve) % size == 0);
-      for (std::uint32_t k = 0; k < (end - job.firstCurve) / size; ++k) CHECK(trees.insert({job.sweep, job.firstSprout + k}).second);
+      for (std::uint32_t k = 0; k < (end - job.firstCurve) / size; ++k) CHECK(trees.insert({job.span, job.firstSprout + k}).second);
     }
   }
   CHECK(sum == plan.curves);
   CHECK(trees.size() == plan.trees);
-  CHECK(plan.jobs.size() <= mostJobs(grown.table, kAll.budget));
+  CHECK(plan.jobs.size() <= mostJobs(grown.sites, kAll.budget));
 }
 
 TEST_CASE("what is out of the picture is left out, and what is far off has fewer generations") {
@@ -89,7 +89,7 @@ TEST_CASE("the budget holds, and takes from all vessels alike") {
     CHECK(plan.curves <= budget);
     CHECK(plan.wishedCurves == all.curves);
     if (budget > 10'000) CHECK(plan.curves > budget * 0.9);
-    CHECK(plan.jobs.size() <= mostJobs(grown.table, budget));
+    CHECK(plan.jobs.size() <= mostJobs(grown.sites, budget));
   }
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("the farthest trees come first, and the plan is the same again") {
   const auto plan = planOf(grown, view, kAll), again = planOf(grown, view, kAll);
   CHECK(hashOf(std::span<const shared::GrowthJob>(plan.jobs)) == hashOf(std::span<const shared::GrowthJob>(again.jobs)));
   const auto heightOf = [&](const shared::GrowthJob& job) {
-    const vec4* p = &grown.points[grown.table.sweeps[job.sweep].point];
+    const vec4* p = &grown.points[grown.sites.spans[job.span].point];
     return (p[0].z + p[1].z + p[2].z + p[3].z) / 4;
   };
   for (std::size_t i = 1; i < plan.jobs.size(); ++i) CHECK(heightOf(plan.jobs[i]) >= heightOf(plan.jobs[i - 1]) - 1e-6f);

@@ -23,7 +23,7 @@ struct Scene {
     view.thinnest = 1;
     view.capillary = 0xff0000ff;
   }
-  void write() { writeRibbon(capillary, view, 0xffff0000, 5, vertices); }
+  void write() { writeRibbon(capillary, view, 0xffff0000, 0xff00ff00, 5, vertices); }
 };
 
 }  // namespace

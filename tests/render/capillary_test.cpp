@@ -31,7 +31,7 @@ struct Difference {
   float place = 0;   // in the picture's half widths
   int colour = 0;    // of 255
   float across = 0;  // of 1
-  std::uint64_t curves = 0;
+  std::uint64_t curves = 0, joined = 0;
 };
 
 int byteDifference(std::uint32_t a, std::uint32_t b) {
@@ -56,8 +56,10 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
   const gpu::Buffer points = rig.upload(grown.points), knots = rig.upload(grown.frames);
   const shared::GrowthView view = growthView(camera, kTarget.size, seed);
   pass.prepare(grown.points, view);
+  pass.setSpanColours(rig.device(), kindColours(grown.network));
   const PosedNetwork posed = grown.posed();
-  const GrowthScene scene = grown.scene(posed, seed);
+  GrowthScene scene = grown.scene(posed, seed);
+  scene.joinLevels = wish.levels;
   Difference worst;
   for (std::size_t b = 0; b < pass.batches(); ++b) {
     rig.run([&](VkCommandBuffer commands) {
@@ -71,12 +73,15 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
     for (std::uint32_t j = 0; j < batch.jobCount; ++j) {
       const shared::GrowthJob& job = pass.plan().jobs[batch.firstJob + j];
       const std::uint32_t end = j + 1 < batch.jobCount ? pass.plan().jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
-      const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.sweep].system & 0xffu, job.levels);
-      const auto kind = grown.network.vessels()[grown.table.vesselOfSweep[job.sweep]].kind;
+      const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.span].system & 0xffu, job.levels);
+      const auto kind = grown.network.vessels()[grown.sites.spans[job.span].vessel].kind;
       for (std::uint32_t curve = job.firstCurve; curve < end; ++curve) {
         const std::uint32_t within = curve - job.firstCurve;
-        const Capillary capillary = capillaryAt(scene, {job.sweep, job.firstSprout + within / size}, job.levels, within % size);
-        writeRibbon(capillary, view, packColour(colourOf(kind)), batch.edges, wanted);
+        const Capillary capillary = capillaryAt(scene, {job.span, job.firstSprout + within / size}, job.levels, within % size);
+        const std::uint32_t partner = grown.sites.sites[job.span].partner;
+        const auto far = partner == shared::kNoPartner ? kind : grown.network.vessels()[grown.sites.spans[partner].vessel].kind;
+        writeRibbon(capillary, view, packColour(colourOf(kind)), packColour(colourOf(far)), batch.edges, wanted);
+        worst.joined += capillary.joined;
         for (std::uint32_t v = 0; v < each; ++v) compare(worst, found[std::size_t(curve) * each + v], wanted[v]);
         ++worst.curves;
       }
@@ -133,6 +138,7 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
     const CapillaryWish wish{.levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = 0};
     const Difference worst = deviceAgainstSpecification(rig, grown, lookingAt(grown, 2, c.perspective), wish, c.seed);
     CHECK(worst.curves > 200);
+    CHECK((worst.joined > 0) == (c.levels > 1));
     CHECK(worst.place <= 1e-4f);
     CHECK(worst.colour <= 1);
     CHECK(worst.across <= 2e-2f);
@@ -146,7 +152,7 @@ TEST_CASE("the memory for capillaries does not depend on how many there are") {
   RenderOptions options;
   options.capillaries = {.levels = 1, .edges = 5, .budget = 1'000'000, .smallest = 0};
   const CapillaryCounts few = pictureOf(rig, grown, camera, options).counts;
-  for (std::uint16_t& sprouts : grown.sites.sprouts) sprouts = std::uint16_t(8 * sprouts);
+  for (shared::GrowthSite& site : grown.sites.sites) site.sprouts *= 8;
   options.capillaries.levels = 4;
   const CapillaryCounts many = pictureOf(rig, grown, camera, options).counts;
   CHECK(many.curves > 20 * few.curves);

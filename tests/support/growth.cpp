@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "growth/random.h"
+
 namespace vasa::test {
 
 const std::string& growthText() {
@@ -34,16 +36,26 @@ GrownNetwork::GrownNetwork(Network chosen)
         return std::move(*read);
       }()) {
   pose();
-  const std::size_t count = table.sweeps.size();
-  for (std::uint32_t sweep = 0; sweep < count; ++sweep) {
-    const float way = 0.02f * float(1 + sweep % 5);
-    sites.sites.push_back({.hub = vec3(way, -0.03f, 0.01f), .room = 0.05f + way, .axis = glm::normalize(vec3(0.2f, way, 1)),
-                           .system = sweep % 2 | (sweep % 3 == 0 ? 0x100u : 0u)});
-    sites.sprouts.push_back(std::uint16_t(sweep % 4 == 0 ? 0 : 3 + sweep % 7));
+  sites.spans = wholeSpans(network);
+  const std::size_t count = sites.spans.size();
+  for (std::uint32_t span = 0; span < count; ++span) {
+    const float way = 0.02f * float(1 + span % 5);
+    sites.sites.push_back({.hub = vec3(way, -0.03f, 0.01f),
+                           .reach = 0.2f + way,
+                           .axis = glm::normalize(vec3(0.2f, way, 1)),
+                           .system = span % 2 | (span % 3 == 0 ? 0x100u : 0u),
+                           .wall = {vec4(glm::normalize(vec3(1, 2, way)), 0.05f + way)},
+                           .key = keyOf(3, span),
+                           .sprouts = span % 4 == 0 ? 0 : 3 + span % 7,
+                           .partner = shared::kNoPartner});
+    if (span % 5 == 2) sites.sites.back().partner = span - 1;
   }
   sites.freeEnds.resize(count);
   sites.region.assign(count, 0);
-  for (const CapEnd& cap : table.caps) sites.freeEnds[cap.sweep] = std::uint8_t(sites.freeEnds[cap.sweep] | (cap.last ? 2u : 1u));
+  for (const CapEnd& cap : table.caps) {
+    std::uint8_t& ends = sites.freeEnds[table.spanOfSweep[cap.sweep]];
+    ends = std::uint8_t(ends | (cap.last ? 2u : 1u));
+  }
 }
 
 void GrownNetwork::pose() {

@@ -10,7 +10,9 @@ struct GrownNetwork {
   GrownNetwork(const GrownNetwork&) = delete;
 
   PosedNetwork posed() const { return {table, points, frames}; }
-  GrowthScene scene(const PosedNetwork& shape, std::uint32_t seed = 1) const { return {shape, rules.tables, sites.sites, seed}; }
+  GrowthScene scene(const PosedNetwork& shape, std::uint32_t seed = 1) const {
+    return {shape, rules.tables, sites.spans, sites.sites, seed, joinLevels};
+  }
   /// Frames for points that were moved.
   void pose();
 
@@ -20,6 +22,7 @@ struct GrownNetwork {
   std::vector<quat> frames;
   GrowthRules rules;
   CapillarySites sites;
+  std::uint32_t joinLevels = 0;
 };
 
 /// Text with two systems: `oak` uses every kind of module and pull, `reed` only few.
