@@ -7,42 +7,86 @@
 #include <map>
 
 #include "body/body.h"
+#include "core/parallel.h"
 #include "math/aabb.h"
+#include "surface/octahedral.h"
 
 namespace vasa {
 namespace {
 
 constexpr float kFinestError = 0.0002f, kCoarsestError = 0.01f;  // [m]
+constexpr float kSqrt2 = 1.41421356f;
+// Cosines of a corner's normal and its triangle's: below the first one they belong to different sides of an edge, and
+// the corner's is turned to the second.
+constexpr float kEdge = 0.7f, kBesideEdge = 0.95f;
 constexpr float kWorthwhile = 0.8f;  // a level has at most this share of the triangles of the one before
 
-// Reordered so that a vertex is shaded once for most of its triangles.
-std::vector<uvec3> simplified(const TriangleMesh& mesh, const std::vector<uvec3>& from, float error) {
-  if (from.empty()) return {};
-  std::vector<uvec3> fewer(from.size());
+std::vector<uvec3> simplified(const TriangleMesh& mesh, float error) {
+  std::vector<uvec3> fewer(mesh.triangles.size());
   const std::size_t vertices = mesh.positions.size();
   const float* first = &mesh.positions[0].x;
   const float scale = meshopt_simplifyScale(first, vertices, sizeof(vec3));
-  const std::size_t count = meshopt_simplify(&fewer[0].x, &from[0].x, 3 * from.size(), first, vertices,
+  const std::size_t count = meshopt_simplify(&fewer[0].x, &mesh.triangles[0].x, 3 * fewer.size(), first, vertices,
                                              sizeof(vec3), 0, error / std::max(scale, error), 0, nullptr);
   fewer.resize(count / 3);
   if (!fewer.empty()) meshopt_optimizeVertexCache(&fewer[0].x, &fewer[0].x, count, vertices);
   return fewer;
 }
 
+// The normal of a large triangle's corner at a sharp edge would shade all of the triangle as if it were the edge.
+vec3 cornerNormal(vec3 normal, vec3 face) {
+  const float cosine = glm::dot(normal, face);
+  if (cosine >= kEdge) return normal;
+  const vec3 side = normal - cosine * face;
+  const float length = glm::length(side);
+  if (length < 1e-6f) return face;
+  return kBesideEdge * face + std::sqrt(1 - kBesideEdge * kBesideEdge) / length * side;
+}
+
+// Vertices and their normals in the order in which triangles come upon them.
+MeshLevel levelOf(const SkinnedMesh& mesh, const std::vector<uvec3>& triangles, float error) {
+  MeshLevel level{error, {}, {}, {}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places;  // by vertex and normal
+  for (const uvec3& t : triangles) {
+    const vec3 a = mesh.mesh.positions[t.x], b = mesh.mesh.positions[t.y], c = mesh.mesh.positions[t.z];
+    const vec3 area = glm::cross(b - a, c - a);
+    const float size = glm::length(area);
+    uvec3 own;
+    for (int k = 0; k < 3; ++k) {
+      const vec3 normal = size > 0 ? cornerNormal(mesh.normals[t[k]], area / size) : mesh.normals[t[k]];
+      const auto [place, isNew] = places.try_emplace({t[k], packOctahedral(normal)}, std::uint32_t(level.vertices.size()));
+      if (isNew) level.vertices.push_back(t[k]), level.normals.push_back(normal);
+      own[k] = place->second;
+    }
+    level.triangles.push_back(own);
+  }
+  return level;
+}
+
 }  // namespace
 
-std::vector<MeshLevel> coarserLevels(const TriangleMesh& mesh) {
-  std::vector<MeshLevel> levels;
-  const std::vector<uvec3>* from = &mesh.triangles;
-  float reached = 0;  // a level is made from the one before: errors add up
-  for (float error = kFinestError; error <= kCoarsestError && !from->empty(); error *= 2) {
-    std::vector<uvec3> fewer = simplified(mesh, *from, error - reached);
-    if (fewer.empty() || float(fewer.size()) > kWorthwhile * float(from->size())) continue;
-    levels.push_back({error, std::move(fewer)});
-    from = &levels.back().triangles;
-    reached = error;
+std::vector<MeshLevel> oneLevel(const SkinnedMesh& mesh) {
+  MeshLevel level{0, {}, mesh.normals, mesh.mesh.triangles};
+  for (std::uint32_t i = 0; i < mesh.mesh.positions.size(); ++i) level.vertices.push_back(i);
+  return {level};
+}
+
+std::vector<MeshLevel> coarserLevels(const SkinnedMesh& mesh) {
+  std::vector<MeshLevel> levels = oneLevel(mesh);
+  if (mesh.mesh.triangles.empty()) return levels;
+  // Each from the mesh itself, since errors of one level made from another add up.
+  for (float error = kFinestError; error <= kCoarsestError; error *= kSqrt2) {
+    const std::vector<uvec3> fewer = simplified(mesh.mesh, error);
+    if (fewer.empty() || float(fewer.size()) > kWorthwhile * float(levels.back().triangles.size())) continue;
+    levels.push_back(levelOf(mesh, fewer, error));
   }
   return levels;
+}
+
+BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes) {
+  BodyLevels all(meshes.size());
+  parallelFor(meshes.size(), 1, [&](std::size_t i) { all[i] = coarserLevels(meshes[i]); });
+  return all;
 }
 
 std::vector<JointBall> jointBalls(const SkinnedMesh& mesh) {

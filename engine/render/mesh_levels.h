@@ -10,15 +10,24 @@ namespace vasa {
 
 struct SkinnedMesh;
 
-/// Fewer triangles over the vertices of a mesh, for pictures in which it is small.
+/// A mesh with fewer triangles, or the mesh itself. It has vertices of its own, so that only those that it needs are moved.
 struct MeshLevel {
-  float error;  ///< [m] about how far its surface lies from the mesh's (Garland and Heckbert 1997, quadrics)
-  std::vector<uvec3> triangles;
+  float error;                          ///< [m] about how far its surface lies from the mesh's (Garland and Heckbert 1997, quadrics)
+  std::vector<std::uint32_t> vertices;  ///< of the mesh; one may be there several times
+  std::vector<vec3> normals;            ///< unit, one a vertex: the mesh's, turned where a triangle is far from them
+  std::vector<uvec3> triangles;         ///< of places in `vertices`, in an order in which a vertex is shaded about once
 };
 
-/// Ever coarser levels, each with twice the error of the one before; ends where hardly a triangle goes.
-/// Cost: about 0.1 s for 100,000 triangles.
-std::vector<MeshLevel> coarserLevels(const TriangleMesh& mesh);
+/// The mesh alone, as it is.
+std::vector<MeshLevel> oneLevel(const SkinnedMesh& mesh);
+/// The mesh, then ever coarser levels, each with √2 times the error of the one before at least; ends at 1 cm or where
+/// hardly a triangle goes. Cost: about 0.5 s for 100,000 triangles.
+std::vector<MeshLevel> coarserLevels(const SkinnedMesh& mesh);
+
+/// Levels of each of a body's meshes. Renderers of one body can share them (RenderOptions::levels).
+using BodyLevels = std::vector<std::vector<MeshLevel>>;
+/// coarserLevels() of each, several at a time.
+BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes);
 
 /// Vertices of a mesh that go with one joint above all others.
 struct JointBall {

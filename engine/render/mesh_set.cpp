@@ -12,14 +12,14 @@
 namespace vasa {
 namespace {
 
-shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::size_t i) {
+shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::uint32_t i, vec3 normal) {
   const vec3 position = mesh.mesh.positions[i];
   const SkinInfluence& influence = mesh.influences[i];
   const auto& j = influence.joints;
   return {position.x,
           position.y,
           position.z,
-          packOctahedral(mesh.normals[i]),
+          packOctahedral(normal),
           j[0] | std::uint32_t(j[1]) << 16,
           j[2] | std::uint32_t(j[3]) << 16,
           influence.weights};
@@ -31,50 +31,57 @@ std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
   return packColour(vec4(vec3(colour), 0));
 }
 
-void addLevel(MeshSet::Part& part, std::vector<uvec3>& triangles, const MeshLevel& level,
-              std::uint32_t firstVertex) {
-  part.levels.push_back(
-      {level.error, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * level.triangles.size())});
-  for (const uvec3& t : level.triangles) triangles.push_back(t + firstVertex);
+bool shown(MeshRole role, const Look& look) {
+  switch (role) {
+    case MeshRole::bones: return look.drawBones;
+    case MeshRole::heart: return look.drawHeart;
+    case MeshRole::skin: return look.drawSkin && look.skinOpacity > 0;
+    case MeshRole::other: return look.drawOther;
+  }
+  return false;
 }
 
 }  // namespace
 
-MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, bool coarser) {
+MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels) {
+  assert(levels.size() == meshes.size());
   std::vector<shared::SkinVertex> vertices;
   std::vector<uvec3> triangles;
   std::vector<std::uint32_t> colours;
-  for (const SkinnedMesh& mesh : meshes) {
-    assert(mesh.normals.size() == mesh.mesh.positions.size() &&
-           mesh.influences.size() == mesh.normals.size());
-    const std::uint32_t firstVertex = std::uint32_t(vertices.size());
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const SkinnedMesh& mesh = meshes[k];
+    assert(mesh.normals.size() == mesh.mesh.positions.size() && mesh.influences.size() == mesh.normals.size());
     const MeshRole role = roleNamed(mesh.name);
-    Part& part = parts_.emplace_back(Part{.role = role, .levels = {}, .balls = {}});
-    addLevel(part, triangles, {0, mesh.mesh.triangles}, firstVertex);
-    if (coarser) {
-      for (const MeshLevel& level : coarserLevels(mesh.mesh)) addLevel(part, triangles, level, firstVertex);
-      part.balls = jointBalls(mesh);
+    Part& part = parts_.emplace_back(Part{role, {}, {}});
+    for (const MeshLevel& level : levels[k]) {
+      part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * level.triangles.size()),
+                             std::uint32_t(vertices.size()), std::uint32_t(level.vertices.size())});
+      triangles.insert(triangles.end(), level.triangles.begin(), level.triangles.end());
+      for (std::size_t i = 0; i < level.vertices.size(); ++i)
+        vertices.push_back(restVertex(mesh, level.vertices[i], level.normals[i]));
     }
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i) vertices.push_back(restVertex(mesh, i));
+    if (part.levels.size() > 1) part.balls = jointBalls(mesh);
     for (const SkinInfluence& influence : mesh.influences)
       for (const std::uint16_t joint : influence.joints) jointCount_ = std::max(jointCount_, joint + 1u);
-    if (role == MeshRole::heart && heart_.last == 0)
-      heart_ = {firstVertex, std::uint32_t(vertices.size()), meshCentre(mesh)};
+    if (role == MeshRole::heart && heart_.part >= meshes.size()) heart_ = {k, meshCentre(mesh)};
     colours.push_back(meshColour(mesh, role));
   }
-  vertexCount_ = std::uint32_t(vertices.size());
   rest_ = gpu::makeBuffer(device, "mesh vertices at rest", std::span<const shared::SkinVertex>(vertices));
   posed_ = gpu::Buffer(device, {.name = "posed mesh vertices",
-                                .bytes = vertexCount_ * sizeof(shared::TubeVertex),
+                                .bytes = vertices.size() * sizeof(shared::TubeVertex),
                                 .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
   indices_ = gpu::makeBuffer(device, "mesh indices", std::span<const uvec3>(triangles));
   colours_ = gpu::makeBuffer(device, "mesh colours", std::span<const std::uint32_t>(colours));
 }
 
-std::vector<MeshSet::Level> MeshSet::levelsFor(std::span<const mat4> jointMatrices, const Camera& camera,
+std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
                                                std::uint32_t pictureHeight, float pixels) const {
   std::vector<Level> chosen;
   for (const Part& part : parts_) {
+    if (!shown(part.role, look)) {
+      chosen.emplace_back();
+      continue;
+    }
     std::size_t level = 0;
     if (pixels > 0 && part.levels.size() > 1) {
       const float error = pixels * finestPixel(part.balls, jointMatrices, camera, pictureHeight);

@@ -9,33 +9,33 @@
 
 namespace vasa {
 
-/// The body's meshes in device memory, one behind the other: at rest, and as posed in this frame.
+/// The body's meshes and their levels in device memory, one behind the other: at rest, and as posed in this frame.
 class MeshSet {
  public:
   struct Level {
-    float error;  ///< [m] of the surface; 0 for the mesh itself
-    std::uint32_t firstIndex, indexCount;
+    float error = 0;  ///< [m] of the surface; 0 for the mesh itself
+    std::uint32_t firstIndex = 0, indexCount = 0;
+    std::uint32_t firstVertex = 0, vertexCount = 0;
   };
   struct Part {
     MeshRole role;
-    std::vector<Level> levels;     ///< the mesh itself, then ever coarser ones over its vertices
+    std::vector<Level> levels;     ///< the mesh itself, then ever coarser ones
     std::vector<JointBall> balls;  ///< where it is, if it has several levels
   };
-  /// Vertices [first, last) of the heart, and their middle at rest; none without a heart.
+  /// The part that beats, and its middle at rest; none without a heart.
   struct Heart {
-    std::uint32_t first = 0, last = 0;
+    std::size_t part = ~std::size_t(0);
     vec3 centre{0};
   };
-  /// @param coarser  make coarser levels too (mesh_levels.h)
-  MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, bool coarser = false);
+  /// @param levels  of each mesh (mesh_levels.h)
+  MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels);
 
   std::span<const Part> parts() const { return parts_; }
-  /// For every part the coarsest level whose error shows as `pixels` at most; the meshes themselves for 0
-  /// pixels.
-  std::vector<Level> levelsFor(std::span<const mat4> jointMatrices, const Camera& camera,
+  /// For every part that `look` shows the coarsest level whose error shows as `pixels` at most, the mesh itself for 0
+  /// pixels; for every other part an empty level.
+  std::vector<Level> levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
                                std::uint32_t pictureHeight, float pixels) const;
   const Heart& heart() const { return heart_; }
-  std::uint32_t vertexCount() const { return vertexCount_; }
   std::uint32_t jointCount() const {
     return jointCount_;
   }  ///< joints that the meshes use: highest number + 1
@@ -47,7 +47,7 @@ class MeshSet {
  private:
   std::vector<Part> parts_;
   Heart heart_;
-  std::uint32_t vertexCount_ = 0, jointCount_ = 0;
+  std::uint32_t jointCount_ = 0;
   gpu::Buffer rest_, posed_, indices_, colours_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -34,7 +35,7 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
 // An outline of bone or skin may be off by more than a vessel's: none is so thin, and normals stay those of the mesh.
-constexpr float kMeshPixels = 3;
+constexpr float kMeshPixels = 2;
 constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
 constexpr const char* kTessellate = "tessellate";
 constexpr const char* kForks = "forks";
@@ -61,6 +62,15 @@ bool anyVessels(const Look& look) {
 template <class Set>
 std::array<TubeDraws, 2> drawsFor(gpu::Device& device, const Set& set) {
   return {TubeDraws(device, set.room(), set.groupsPerBatch()), TubeDraws(device, set.room(), set.groupsPerBatch())};
+}
+
+BodyLevels levelsOf(std::span<const SkinnedMesh> meshes, const RenderOptions& options) {
+  if (options.pixelError <= 0) {
+    BodyLevels all;
+    for (const SkinnedMesh& mesh : meshes) all.push_back(oneLevel(mesh));
+    return all;
+  }
+  return options.levels ? *options.levels : bodyLevels(meshes);
 }
 
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
@@ -126,7 +136,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       ownColours(kindColours(network)),
       tubes(device, network, {chosen.shape, chosen.pixelError}, chosen.sweepsPerBatch),
       forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
-      meshes(device, skinned, chosen.pixelError > 0),
+      meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
       tubePass(device),
@@ -226,8 +236,8 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
   const std::vector<MeshSet::Level> levels =
-      meshes.levelsFor(input.jointMatrices, input.camera, target.spec().size.height,
-                       kMeshPixels * options.pixelError);
+      meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
+                       kMeshPixels * options.pixelError / std::sqrt(float(options.samples)));
   timer.begin(commands);
   upload.record(commands);
   if (batches > 0) {
@@ -237,7 +247,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (batches > 0) recordTessellation(commands, 0);
   {
     const auto scope = timer.scope(commands, kMeshes);
-    if (anyShown(meshes, input.look)) skinPass.record(commands, meshes, upload.joints(), upload.jointCount(), input.heartScale);
+    skinPass.record(commands, meshes, levels, upload.joints(), upload.jointCount(), input.heartScale);
     gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
     target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
     surfacePass.recordOpaque(commands, push, meshes, levels, input.look);

@@ -7,6 +7,7 @@
 #include "growth/plan.h"
 #include "render/camera.h"
 #include "render/look.h"
+#include "render/mesh_levels.h"
 #include "surface/sweep_table.h"
 #include "surface/sweep_template.h"
 
@@ -26,8 +27,11 @@ struct RenderOptions {
   std::uint32_t samples = 4;                 ///< a pixel: 1 or 4
   SweepShape shape;                          ///< quads around and along every sweep
   /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
-  /// Bones, heart and skin are drawn with fewer triangles too, within three times this error.
+  /// Bones, heart and skin are drawn with fewer triangles too, within twice this error, half that with 4 samples.
   float pixelError = 0;
+  /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can share them.
+  /// nullptr: made.
+  const BodyLevels* levels = nullptr;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
   bool occlusion = false;  ///< Look::occlusion counts; takes 12 bytes a pixel

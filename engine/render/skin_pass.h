@@ -9,12 +9,13 @@ class SkinPass {
  public:
   explicit SkinPass(gpu::Device& device);
 
-  /// Writes meshes.posed(). No barriers.
+  /// Writes those of meshes.posed() that the levels use. No barriers.
+  /// @param levels      MeshSet::levelsFor()
   /// @param joints      address of shared::JointRows of world · inverseBind, one a joint
   /// @param jointCount  at least meshes.jointCount()
   /// @param heartScale  size of the heart beside its size at rest
-  void record(VkCommandBuffer commands, const MeshSet& meshes, VkDeviceAddress joints, std::uint32_t jointCount,
-              float heartScale = 1) const;
+  void record(VkCommandBuffer commands, const MeshSet& meshes, std::span<const MeshSet::Level> levels,
+              VkDeviceAddress joints, std::uint32_t jointCount, float heartScale = 1) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -1,6 +1,5 @@
 #include "render/surface_pass.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,16 +28,6 @@ struct VertexLayout {
                                             attributes.data()};
 };
 
-bool shown(MeshRole role, const Look& look) {
-  switch (role) {
-    case MeshRole::bones: return look.drawBones;
-    case MeshRole::heart: return look.drawHeart;
-    case MeshRole::skin: return look.drawSkin && look.skinOpacity > 0;
-    case MeshRole::other: return look.drawOther;
-  }
-  return false;
-}
-
 constexpr float kXrayVessels = 1.8f;
 
 // How much light a surface of the x-ray style gathers.
@@ -57,10 +46,8 @@ void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDevic
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
 }
 
-// Draws the parts that `wanted` takes.
-template <class Wanted>
 void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-               std::span<const MeshSet::Level> levels, const gpu::GraphicsPipeline& pipeline, const Wanted& wanted) {
+               std::span<const MeshSet::Level> levels, const gpu::GraphicsPipeline& pipeline, MeshRole role) {
   bindVertices(commands, meshes.posed(), 0);
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
   push.colours = meshes.colours();
@@ -68,10 +55,10 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
   push.hiddenKinds = 0;
   for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
     const MeshSet::Level& level = levels[i];
-    if (level.indexCount == 0 || !wanted(meshes.parts()[i].role)) continue;
+    if (level.indexCount == 0 || meshes.parts()[i].role != role) continue;
     push.firstItem = i;
     pipeline.bind(commands, push);
-    vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, 0, 0);
+    vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, std::int32_t(level.firstVertex), 0);
   }
 }
 
@@ -84,11 +71,6 @@ std::uint32_t hiddenKinds(const Look& look) {
   if (!look.drawVeins) hidden |= bit(VesselKind::vein) | bit(VesselKind::portalVein);
   if (!look.drawOtherVessels) hidden |= bit(VesselKind::lymphatic) | bit(VesselKind::other);
   return hidden;
-}
-
-bool anyShown(const MeshSet& meshes, const Look& look) {
-  return std::any_of(meshes.parts().begin(), meshes.parts().end(),
-                     [&](const MeshSet::Part& part) { return shown(part.role, look); });
 }
 
 shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size) {
@@ -178,18 +160,16 @@ void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, 
                                std::span<const MeshSet::Level> levels, const Look& look) const {
   for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
     push.opacity = xrayLight(role);
-    drawParts(commands, push, meshes, levels, opaque_[std::size_t(look.style)],
-              [&](MeshRole part) { return part == role && shown(role, look); });
+    drawParts(commands, push, meshes, levels, opaque_[std::size_t(look.style)], role);
   }
 }
 
 void SurfacePass::recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                              std::span<const MeshSet::Level> levels, const Look& look) const {
-  const auto skin = [&](MeshRole role) { return role == MeshRole::skin && shown(role, look); };
   const bool xray = look.style == LookStyle::xray;
   push.opacity = look.skinOpacity * (xray ? xrayLight(MeshRole::skin) : 1);
-  if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, skin);
-  drawParts(commands, push, meshes, levels, skinColour_[std::size_t(look.style)], skin);
+  if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, MeshRole::skin);
+  drawParts(commands, push, meshes, levels, skinColour_[std::size_t(look.style)], MeshRole::skin);
 }
 
 }  // namespace vasa

@@ -17,9 +17,6 @@ std::uint32_t hiddenKinds(const Look& look);
 /// The push constants that all draws of a frame share: the camera's, and which vessels are hidden.
 shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size);
 
-/// Whether any of the meshes is to be seen.
-bool anyShown(const MeshSet& meshes, const Look& look);
-
 /// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
 /// reversed (clear to 0).
 class SurfacePass {

@@ -22,9 +22,10 @@ struct JointRows {
 };
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SkinVertices { SkinVertex vertex[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Joints { JointRows joint[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer PosedVertices { TubeVertex vertex[]; };
+// A CPU device loads and stores lane by lane and word by word: these are SkinVertex, JointRows and TubeVertex.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SkinVertices { uint64_t word[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Joints { u64vec2 row[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer PosedVertices { u64vec2 vertex[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
 
@@ -34,13 +35,12 @@ struct SkinPush {
   VASA_ADDRESS(PosedVertices) posed;
   uint count;
   uint jointCount;
-  uint firstBeating, lastBeating;  // vertices of the heart: [first, last)
-  vec3 centre;                     // that they are drawn together to, at rest
+  vec3 centre;  // that all are drawn together to, at rest
   float scale;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SkinVertex) == 40 && sizeof(JointRows) == 48 && sizeof(SkinPush) == 56);
+static_assert(sizeof(SkinVertex) == 40 && sizeof(JointRows) == 48 && sizeof(SkinPush) == 48);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

@@ -66,20 +66,36 @@ Camera turned(const Camera& camera, float angle) {
   return result;
 }
 
-// Without the timer's barriers and without the body: what a frame of tubes costs.
-void timeTubesAlone(Renderer& renderer, RenderInput input) {
+// Without the timer's barriers: what a frame of what `look` shows costs, also of all cores together, which says more
+// on a machine that has other work.
+void timeAlone(const char* name, Renderer& renderer, RenderInput input, const Look& look) {
   const Camera camera = input.camera;
-  input.look.drawBones = input.look.drawHeart = input.look.drawSkin = input.look.drawOther = false;
-  std::vector<double> total;
-  std::clock_t start = std::clock();
+  input.look = look;
+  std::vector<double> total, cores;
   for (int i = kWarmUp + kFrames; i-- > 0;) {
     input.camera = turned(camera, 0.05f * float(i));
-    if (i == kFrames - 1) start = std::clock();
+    const std::clock_t start = std::clock();
     renderer.draw(input);
-    if (i < kFrames) total.push_back(renderer.times().total);
+    if (i >= kFrames) continue;
+    cores.push_back(1e3 * double(std::clock() - start) / CLOCKS_PER_SEC);
+    total.push_back(renderer.times().total);
   }
-  print("tubes alone", total);
-  std::printf("  of all cores %8.2f ms a frame\n", 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC / kFrames);
+  print(name, total);
+  print("  all cores", cores);
+}
+
+void timeAlone(Renderer& renderer, const RenderInput& input) {
+  Look tubes, bones, skin;
+  tubes.drawBones = tubes.drawHeart = tubes.drawSkin = tubes.drawOther = false;
+  bones.drawArteries = bones.drawVeins = bones.drawOtherVessels = skin.drawArteries = skin.drawVeins = skin.drawOtherVessels = false;
+  Look none = bones;
+  bones.drawSkin = skin.drawBones = skin.drawHeart = skin.drawOther = false;
+  none.drawBones = none.drawHeart = none.drawOther = none.drawSkin = false;
+  timeAlone("everything", renderer, input, input.look);
+  timeAlone("tubes alone", renderer, input, tubes);
+  timeAlone("bones alone", renderer, input, bones);
+  timeAlone("skin alone", renderer, input, skin);
+  timeAlone("nothing", renderer, input, none);
 }
 
 void timeFrames(Renderer& renderer, RenderInput& input) {
@@ -124,7 +140,7 @@ int main(int argc, char** argv) {
   RenderOptions untimed = arguments.options;
   untimed.timed = false;
   Renderer alone(device, network, body.meshes, untimed);
-  timeTubesAlone(alone, input);
+  timeAlone(alone, input);
   renderer.draw(input);
   const Image image = renderer.readBack();
   std::printf("  picture %016llx\n",

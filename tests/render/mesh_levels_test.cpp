@@ -48,30 +48,71 @@ float farthest(const TriangleMesh& mesh, const std::vector<uvec3>& triangles) {
   return worst;
 }
 
+SkinnedMesh skinned(TriangleMesh mesh) {
+  SkinnedMesh result;
+  result.mesh = std::move(mesh);
+  for (const vec3& p : result.mesh.positions) result.normals.push_back(p == vec3(0) ? vec3(0, 0, 1) : glm::normalize(p));
+  return result;
+}
+
+// A level's triangles over the mesh's own numbers.
+std::vector<uvec3> trianglesOf(const MeshLevel& level) {
+  std::vector<uvec3> triangles;
+  for (const uvec3& t : level.triangles) triangles.push_back({level.vertices[t.x], level.vertices[t.y], level.vertices[t.z]});
+  return triangles;
+}
+
 }  // namespace
 
 TEST_CASE("coarser levels have fewer triangles, keep their error and stay closed") {
-  const TriangleMesh mesh = ball(80, 160);
+  const SkinnedMesh mesh = skinned(ball(80, 160));
   const std::vector<MeshLevel> levels = coarserLevels(mesh);
-  REQUIRE(levels.size() >= 3);
-  std::size_t before = mesh.triangles.size();
+  REQUIRE(levels.size() >= 4);
+  CHECK(levels[0].error == 0);
+  CHECK(trianglesOf(levels[0]) == mesh.mesh.triangles);
+  std::size_t before = mesh.mesh.triangles.size();
   float error = 0;
-  for (const MeshLevel& level : levels) {
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const MeshLevel& level = levels[i];
+    const std::vector<uvec3> triangles = trianglesOf(level);
     CAPTURE(level.error);
-    CHECK(level.triangles.size() < before);
+    CHECK(triangles.size() < before);
+    CHECK(level.vertices.size() <= 1.05 * double(triangles.size() / 2 + 2));  // none that is not used, few twice
     CHECK(level.error > error);
-    CHECK(farthest(mesh, level.triangles) <= 2 * level.error);
-    const float volume = TriangleMesh{mesh.positions, level.triangles}.volume();
+    CHECK(farthest(mesh.mesh, triangles) <= 2 * level.error);
+    const float volume = TriangleMesh{mesh.mesh.positions, triangles}.volume();
     CHECK(volume > 0);  // outward still
-    CHECK(volume == doctest::Approx(mesh.volume()).epsilon(5 * level.error / kRadius));
-    before = level.triangles.size(), error = level.error;
+    CHECK(volume == doctest::Approx(mesh.mesh.volume()).epsilon(5 * level.error / kRadius));
+    before = triangles.size(), error = level.error;
   }
-  CHECK(levels.back().triangles.size() * 20 < mesh.triangles.size());
+  CHECK(levels.back().triangles.size() * 20 < mesh.mesh.triangles.size());
+}
+
+TEST_CASE("a large triangle at a sharp edge is shaded as itself, not as the edge") {
+  // A thin sheet of many triangles, rounded at its edges: normals there point sideways.
+  TriangleMesh sheet = ball(40, 80);
+  for (vec3& p : sheet.positions) p.z *= 0.02f;
+  SkinnedMesh mesh = skinned(sheet);
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    const vec3 p = mesh.mesh.positions[i];
+    mesh.normals[i] = glm::normalize(vec3(p.x, p.y, p.z / (0.02f * 0.02f)));
+  }
+  const MeshLevel coarse = coarserLevels(mesh).back();
+  CHECK(coarse.triangles.size() < 200);
+  for (const uvec3& t : coarse.triangles) {
+    const vec3 a = mesh.mesh.positions[coarse.vertices[t.x]], b = mesh.mesh.positions[coarse.vertices[t.y]],
+               c = mesh.mesh.positions[coarse.vertices[t.z]];
+    const vec3 face = glm::normalize(glm::cross(b - a, c - a));
+    for (int k = 0; k < 3; ++k) {
+      CHECK(glm::dot(coarse.normals[t[k]], face) >= 0.69f);
+      CHECK(glm::length(coarse.normals[t[k]]) == doctest::Approx(1).epsilon(1e-3));
+    }
+  }
 }
 
 TEST_CASE("a mesh of nothing and a triangle have no coarser levels") {
-  CHECK(coarserLevels({}).empty());
-  CHECK(coarserLevels({{{0, 0, 0}, {0.05f, 0, 0}, {0, 0.05f, 0}}, {{0, 1, 2}}}).empty());
+  CHECK(coarserLevels(SkinnedMesh{}).size() == 1);
+  CHECK(coarserLevels(skinned({{{0, 0, 0}, {0.05f, 0, 0}, {0, 0.05f, 0}}, {{0, 1, 2}}})).size() == 1);
 }
 
 TEST_CASE("the finest pixel is that of the nearest ball in front of the camera, where its joint has it") {

@@ -264,13 +264,14 @@ TEST_CASE("skinning on the device is that of the body's") {
   for (int k = 0; k < 7; ++k)
     matrices.push_back(glm::translate(glm::mat4_cast(glm::angleAxis(number(engine), vec3(0, 0.6f, 0.8f))),
                                       vec3(number(engine), number(engine), number(engine))));
-  const MeshSet meshes(rig.device(), std::span(&mesh, 1));
+  const MeshSet meshes(rig.device(), std::span(&mesh, 1), {oneLevel(mesh)});
+  const std::vector<MeshSet::Level> levels = meshes.levelsFor({}, matrices, {}, 100, 0);
   const SkinPass pass(rig.device());
   FrameUpload upload(rig.device(), 0, 0, meshes.jointCount());
   upload.write({}, {}, matrices);
   rig.run([&](VkCommandBuffer commands) {
     upload.record(commands);
-    pass.record(commands, meshes, upload.joints(), upload.jointCount());
+    pass.record(commands, meshes, levels, upload.joints(), upload.jointCount());
   });
   std::vector<SurfacePoint> wanted;
   std::vector<vec3> positions, normals;
