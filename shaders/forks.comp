@@ -154,15 +154,23 @@ ForkShape shapeOf(ForkRecord fork) {
 void main() {
   uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, item = group * kGroupForks + local;
   bool shown = item < push.forkCount;
+  uint colour = shown ? push.colours.value[push.firstFork + item] : 0, blocks = 0;
+  ForkRecord fork;
+  ForkShape shape;
   kept = 0;
-  if (shown) shown = (push.view.view.hiddenKinds >> (push.colours.value[push.firstFork + item] >> 24) & 1u) == 0u;
+  if (shown) shown = (push.view.view.hiddenKinds >> (colour >> 24) & 1u) == 0u;
   if (shown) {
-    ForkRecord fork = push.forks.fork[push.firstFork + item];
-    ForkShape shape = shapeOf(fork);
+    fork = push.forks.fork[push.firstFork + item];
+    shape = shapeOf(fork);
+    uint vertices = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
+    blocks = (vertices + kBlockVertices - 1) >> kBlockShift;
+  }
+  firstVertex = group * push.verticesPerGroup + (sumBefore(local, blocks) << kBlockShift);
+  if (shown) {
+    for (uint k = 0; k < blocks; ++k) push.blockColours.value[(firstVertex >> kBlockShift) + k] = colour;
     viewProjection = push.view.view.viewProjection;
     samples = vec2(push.view.view.columns, push.view.view.rows);
     snap = push.view.view.snap;
-    firstVertex = item << push.vertexShift;
     shown = build(fork, shape);
   }
   if (shown) keepSeen();

@@ -17,6 +17,7 @@ layout(push_constant, scalar) uniform Push { TubesPush push; };
 
 struct Item {
   uint sweep, along, around, rings, before;  // before: rings of a first cap
+  uint blocks;                               // of vertices
   uint vertex;                               // its first one
 };
 
@@ -26,7 +27,7 @@ uint masks[kMaxStrips];       // bit 2k + i: triangle i of the quad behind direc
 
 Item itemOf(uint local) {
   uint item = gl_WorkGroupID.x * kGroupSweeps + local;
-  Item it = Item(push.firstSweep + item, 0, 0, 0, 0, item << push.vertexShift);
+  Item it = Item(push.firstSweep + item, 0, 0, 0, 0, 0, 0);
   if (item >= push.sweepCount) return it;
   it.along = push.along.value[it.sweep];
   if (it.along == 0) return it;
@@ -34,7 +35,14 @@ Item itemOf(uint local) {
   it.around = push.around.value[push.sweeps.sweep[it.sweep].vessel];
   it.before = kCapRings * (caps & 1u);
   it.rings = it.before + it.along + 1 + kCapRings * (caps >> 1);
+  it.blocks = (it.rings * it.around + kBlockVertices - 1) >> kBlockShift;
   return it;
+}
+
+void writeColours(Item it) {
+  if (it.blocks == 0) return;
+  uint colour = push.colours.value[it.sweep], first = it.vertex >> kBlockShift;
+  for (uint k = 0; k < it.blocks; ++k) push.blockColours.value[first + k] = colour;
 }
 
 vec2 placeOf(vec3 position, mat4 viewProjection, vec2 samples) {
@@ -90,6 +98,8 @@ uint writeStrip(uint mask, uint vertex, uint around, uint target) {
 void main() {
   uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, triangles = 0;
   Item it = itemOf(local);
+  it.vertex = group * push.verticesPerGroup + (sumBefore(local, it.blocks) << kBlockShift);
+  writeColours(it);
   if (it.rings != 0) {
     SweepCurve curve = sweepCurve(push.points, push.knots, push.tables, push.sweeps.sweep[it.sweep]);
     mat4 viewProjection = push.view.view.viewProjection;

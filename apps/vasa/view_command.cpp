@@ -75,6 +75,8 @@ Report asReport(const viewer::ViewReport& view) {
     for (const auto& [name, value] : row.stages) entry[name] = value;
     profile.push_back(std::move(entry));
   }
+  Report stages = Report::object();
+  for (const auto& [name, ms] : view.stages) stages[name] = ms;
   return {{"frames", view.frames},
           {"pictures", view.pictures},
           {"shapes", view.shapes},
@@ -82,6 +84,7 @@ Report asReport(const viewer::ViewReport& view) {
           {"fps", view.frameMs > 0 ? 1000 / view.frameMs : 0},
           {"shape_ms", view.shapeMs},
           {"picture_ms", view.pictureMs},
+          {"stages", stages},
           {"width", view.width},
           {"height", view.height},
           {"selected", view.selected},
@@ -118,7 +121,7 @@ std::string footer() {
   text +=
       "Drop a scene (.json), vessels (.vasa), a body (.glb) or a motion (.bvh) on the window to open it.\n"
       "A script is text, one thing a line: move X Y, press|release left|right|middle, scroll STEPS, key|hold|let NAME,\n"
-      "type TEXT, resize W H, drop FILE, frames N, settle, window FILE.png, picture FILE.png, close.";
+      "type TEXT, resize W H, drop FILE, frames N, live SECONDS, settle, window FILE.png, picture FILE.png, close.";
   return text;
 }
 

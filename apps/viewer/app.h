@@ -29,6 +29,7 @@ struct ViewReport {
   std::uint64_t frames = 0, pictures = 0, shapes = 0;
   double frameMs = 0;  ///< median between pictures shown while things moved
   double shapeMs = 0, pictureMs = 0;
+  std::vector<std::pair<std::string, double>> stages;  ///< medians [ms], as the timing panel has them
   std::string device, selected, title;
   std::uint32_t width = 0, height = 0;  ///< [pixels] of the scene's picture at the end
   std::vector<std::filesystem::path> files;

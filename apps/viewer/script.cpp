@@ -83,6 +83,10 @@ class LineReader {
       LetFrames frames;
       return words_ >> frames.count && frames.count >= 1 && frames.count <= 100000 ? add(frames) : "frames wants a number from 1 to 100000";
     }
+    if (verb == "live") {
+      GoLive live;
+      return words_ >> live.seconds && live.seconds > 0 && live.seconds <= 3600 ? add(live) : "live wants seconds, 3600 at most";
+    }
     if (verb == "resize") {
       ResizeWindow size;
       const bool good = words_ >> size.width >> size.height && size.width >= 1 && size.height >= 1 && size.width <= 16384 && size.height <= 16384;
@@ -182,6 +186,7 @@ struct EventWriter {
 struct StepWriter {
   std::string operator()(const InputEvent& event) const { return std::visit(EventWriter{}, event); }
   std::string operator()(const LetFrames& frames) const { return fmt::format("frames {}", frames.count); }
+  std::string operator()(const GoLive& live) const { return fmt::format("live {:g}", live.seconds); }
   std::string operator()(const Settle&) const { return "settle"; }
   std::string operator()(const ResizeWindow& size) const { return fmt::format("resize {} {}", size.width, size.height); }
   std::string operator()(const SavePicture& save) const { return (save.panels ? "window " : "picture ") + save.path.string(); }

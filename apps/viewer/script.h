@@ -16,6 +16,7 @@
 //   resize W H          the window, in pixels
 //   drop FILE           a file on the window
 //   frames N            so many pictures pass, each a thirtieth of a second after the one before
+//   live SECONDS        so long by the clock, as a person has it: shapes are not waited for, pictures may differ
 //   settle              until loading, shapes and the still picture are done
 //   window FILE.png     writes the window's picture, panels and all
 //   picture FILE.png    writes the scene's picture alone
@@ -26,6 +27,9 @@ namespace vasa::viewer {
 struct LetFrames {
   std::uint32_t count = 1;
 };
+struct GoLive {
+  double seconds = 1;
+};
 struct Settle {};
 struct ResizeWindow {
   std::uint32_t width = 0, height = 0;
@@ -34,7 +38,7 @@ struct SavePicture {
   std::filesystem::path path;
   bool panels = false;
 };
-using ScriptStep = std::variant<InputEvent, LetFrames, Settle, ResizeWindow, SavePicture>;
+using ScriptStep = std::variant<InputEvent, LetFrames, GoLive, Settle, ResizeWindow, SavePicture>;
 
 /// badInput names the line and what is wrong with it. @param name  for messages
 Result<std::vector<ScriptStep>> parseScript(const std::string& text, const std::string& name);

@@ -57,8 +57,7 @@ Result<ViewReport> Session::run() {
 // Time as the session knows it.
 double Session::pass() {
   const auto now = Clock::now();
-  const bool steady = options_.script || recording_.running();
-  const double seconds = steady ? kScriptFrame : std::chrono::duration<double>(now - last_).count();
+  const double seconds = steady() ? kScriptFrame : std::chrono::duration<double>(now - last_).count();
   last_ = now;
   if (document_ && state_.playback.clip >= 0 && state_.playback.playing)
     state_.playback.advance(document_->scene.body.clips[std::size_t(state_.playback.clip)], std::min(seconds, 0.25));
@@ -143,8 +142,7 @@ void Session::orderShape() {
   const bool done = body_ && body_->order == order;
   // While a shape is being made only a person's wishes go before it, not the next moment of a clip.
   if (!done && !worker_.busy()) worker_.order(std::move(order));
-  const bool steady = recording_.running() || (options_.script && (body_ || settling_));
-  if (steady) worker_.wait();
+  if (steady() && (recording_.running() || body_ || settling_)) worker_.wait();
 }
 
 void Session::takeShape() {
@@ -188,7 +186,7 @@ bool Session::idle() const {
 
 // Until there is something to do, but no longer than one can see.
 void Session::rest(double drawn) {
-  if (options_.script) {
+  if (steady() && options_.script) {
     window_.wait(0);
     return;
   }
@@ -204,6 +202,7 @@ ViewReport Session::report() const {
   result.frameMs = timings_.shown().median();
   result.shapeMs = timings_.shape().median();
   result.pictureMs = timings_.picture().median();
+  for (const Timings::Stage& stage : timings_.stages()) result.stages.emplace_back(stage.name, stage.history.median());
   result.device = device_.adapter().name;
   result.title = document_ ? document_->title : "";
   if (document_ && state_.selected) result.selected = document_->scene.network.vessel(state_.selected->vessel).name;

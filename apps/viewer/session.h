@@ -61,6 +61,8 @@ class Session {
   void takeShape();
   void follow();
   bool idle() const;
+  /// Time goes on in steps and shapes are waited for.
+  bool steady() const { return (options_.script && !liveUntil_) || recording_.running(); }
 
   // pictures
   Rect pictureRect() const;
@@ -100,6 +102,7 @@ class Session {
   std::size_t step_ = 0;            // of the script
   std::uint32_t passing_ = 0;       // frames that it lets pass
   bool settling_ = false;
+  std::optional<Clock::time_point> liveUntil_;
   std::optional<SavePicture> saving_;
   std::optional<Shot> shown_;
   vec3 way_{0};

@@ -58,6 +58,8 @@ void Session::takeScript() {
     --passing_;
     return;
   }
+  if (liveUntil_ && Clock::now() < *liveUntil_) return;
+  liveUntil_.reset();
   if (settling_ && !idle()) return;
   settling_ = false;
   while (step_ < options_.script->size()) {
@@ -67,6 +69,10 @@ void Session::takeScript() {
       if (changesState(*event)) return;
     } else if (const auto* frames = std::get_if<LetFrames>(&step)) {
       passing_ = frames->count - 1;
+      return;
+    } else if (const auto* live = std::get_if<GoLive>(&step)) {
+      last_ = Clock::now();
+      liveUntil_ = last_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(live->seconds));
       return;
     } else if (std::holds_alternative<Settle>(step)) {
       settling_ = true;

@@ -9,6 +9,10 @@
 namespace vasa::viewer {
 namespace {
 
+double msBetween(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
 constexpr double kStillAfter = 0.25;  // [s] without change
 
 bool same(const Camera& a, const Camera& b) {
@@ -92,8 +96,8 @@ bool Session::drawScene() {
   const auto end = Clock::now();
   ++report_.pictures;
   if (!shot.fine) {
-    timings_.addPicture(painter_.times(), std::chrono::duration<double, std::milli>(end - start).count());
-    if (lastShown_ && state_.playback.playing) timings_.addShown(std::chrono::duration<double, std::milli>(end - *lastShown_).count());
+    timings_.addPicture(painter_.times(), msBetween(start, end));
+    if (lastShown_ && state_.playback.playing) timings_.addShown(msBetween(*lastShown_, end));
     lastShown_ = end;
   } else {
     lastShown_.reset();
@@ -103,6 +107,7 @@ bool Session::drawScene() {
 }
 
 void Session::drawWindow() {
+  const auto start = Clock::now();
   canvas_.resize({width_, height_});
   ui_.begin(width_, height_, options_.script ? kScriptFrame : kFrame);
   const Layout layout = layoutOf(float(width_), float(height_), ui_.scale(), state_.panels);
@@ -119,9 +124,12 @@ void Session::drawWindow() {
               .message = now_ < messageUntil_ ? message_ : "",
               .loading = loader_.busy() ? loader_.stage() : nullptr,
               .loadingTitle = loader_.title()});
+  const auto declared = Clock::now();
   canvas_.draw(shown_ ? painter_.picture() : nullptr, 0, 0, ui_.end());
   window_.setPointer(ui_.pointer());
+  const auto drawn = Clock::now();
   swapchain_.present(canvas_.canvas(), {window_.width(), window_.height()});
+  timings_.addWindow(msBetween(start, declared), msBetween(declared, drawn), msBetween(drawn, Clock::now()));
   if (panelFrames_ > 0) --panelFrames_;
   ++report_.frames;
 }

@@ -31,4 +31,10 @@ void Timings::addPicture(const FrameTimes& times, double ms) {
   picture_.add(float(ms));
 }
 
+void Timings::addWindow(double declare, double draw, double present) {
+  add("panels_ms", declare);
+  add("window_ms", draw);
+  add("present_ms", present);
+}
+
 }  // namespace vasa::viewer

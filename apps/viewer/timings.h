@@ -36,6 +36,8 @@ class Timings {
   };
   void addShape(const FrameReport& report, double ms);
   void addPicture(const FrameTimes& times, double ms);
+  /// Declaring panels, drawing them around the picture, handing both to the window.
+  void addWindow(double declare, double draw, double present);
   /// A picture shown on the window, so long after the one before while things moved.
   void addShown(double ms) { shown_.add(float(ms)); }
 

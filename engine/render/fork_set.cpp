@@ -1,7 +1,6 @@
 #include "render/fork_set.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "gpu/transfer.h"
 #include "surface/fork_template.h"
@@ -17,7 +16,7 @@ ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail&
   constexpr std::uint32_t branches = shared::kMostBranches;
   ForkShape largest{most, most, branches, {}};
   largest.branch.fill(most);
-  room_ = {std::uint32_t(std::bit_width(largest.vertices() - 1)), 3 * forkTriangleCount(largest, branches) * group};
+  room_ = {inBlocks(largest.vertices()) * group, 3 * forkTriangleCount(largest, branches) * group};
   if (!detail.automatic())
     for (const shared::ForkRecord& fork : table.forks) {
       std::uint32_t columns = 0;

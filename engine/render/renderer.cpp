@@ -182,12 +182,12 @@ void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPu
   const std::size_t tubeBatches = tubes.batches().size();
   if (batch < tubeBatches) {
     const TubeBatch& range = tubes.batches()[batch];
-    surfacePass.recordTubes(commands, push, tubes, range, templates[batch % 2], style);
+    surfacePass.recordVessels(commands, push, templates[batch % 2], range.groups(), style);
     target.pause(commands);
     copyDraws(commands, templates[batch % 2], range.firstSweep / shared::kGroupSweeps, range.groups());
   } else {
     const ForkBatch& range = forks.batches()[batch - tubeBatches];
-    surfacePass.recordForks(commands, push, forks, range, forkTemplates[batch % 2], style);
+    surfacePass.recordVessels(commands, push, forkTemplates[batch % 2], range.groups(), style);
     target.pause(commands);
     copyDraws(commands, forkTemplates[batch % 2], tubes.groupCount() + range.firstFork / shared::kGroupForks,
               range.groups());

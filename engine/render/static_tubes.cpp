@@ -27,9 +27,9 @@ void StaticTubes::recordVertices(VkCommandBuffer commands, const TubePass& pass,
 
 void StaticTubes::recordDraw(VkCommandBuffer commands, const SurfacePass& pass, const shared::DrawPush& push) const {
   for (std::size_t i = 0; i < draws_.size(); ++i)
-    pass.recordTubes(commands, push, tubes_, tubes_.batches()[i], draws_[i]);
+    pass.recordVessels(commands, push, draws_[i], tubes_.batches()[i].groups());
   for (std::size_t i = 0; i < forkDraws_.size(); ++i)
-    pass.recordForks(commands, push, forks_, forks_.batches()[i], forkDraws_[i]);
+    pass.recordVessels(commands, push, forkDraws_[i], forks_.batches()[i].groups());
 }
 
 }  // namespace vasa

@@ -131,24 +131,11 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
     (*pipelines)[std::size_t(LookStyle::xray)] = gpu::GraphicsPipeline(device, spec);
 }
 
-void SurfacePass::recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes,
-                              const TubeBatch& batch, const TubeDraws& draws, LookStyle style) const {
-  push.colours = tubes.colours();
-  push.firstItem = batch.firstSweep;
-  push.itemShift = tubes.room().vertexShift;
-  drawBatch(commands, push, draws, batch.groups(), style);
-}
-
-void SurfacePass::recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks,
-                              const ForkBatch& batch, const TubeDraws& draws, LookStyle style) const {
-  push.colours = forks.colours();
-  push.firstItem = batch.firstFork;
-  push.itemShift = forks.room().vertexShift;
-  drawBatch(commands, push, draws, batch.groups(), style);
-}
-
-void SurfacePass::drawBatch(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws,
-                            std::uint32_t groups, LookStyle style) const {
+void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws,
+                                std::uint32_t groups, LookStyle style) const {
+  push.colours = draws.colours.address();
+  push.firstItem = 0;
+  push.itemShift = shared::kBlockShift;
   push.opacity = kXrayVessels;
   tubes_[std::size_t(style)].bind(commands, push);
   bindVertices(commands, draws.vertices, 0);

@@ -23,10 +23,9 @@ class SurfacePass {
  public:
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
-  void recordTubes(VkCommandBuffer commands, shared::DrawPush push, const TubeSet& tubes, const TubeBatch& batch,
-                   const TubeDraws& draws, LookStyle style = LookStyle::atlas) const;
-  void recordForks(VkCommandBuffer commands, shared::DrawPush push, const ForkSet& forks, const ForkBatch& batch,
-                   const TubeDraws& draws, LookStyle style = LookStyle::atlas) const;
+  /// Tubes or forks. @param groups  of the batch
+  void recordVessels(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws, std::uint32_t groups,
+                     LookStyle style = LookStyle::atlas) const;
   /// Bones, heart and others.
   /// @param levels  MeshSet::levelsFor()
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
@@ -36,8 +35,6 @@ class SurfacePass {
                   std::span<const MeshSet::Level> levels, const Look& look) const;
 
  private:
-  void drawBatch(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws, std::uint32_t groups,
-                 LookStyle style) const;
   // One of each for every LookStyle.
   std::array<gpu::GraphicsPipeline, 3> tubes_, opaque_, skinColour_;
   gpu::GraphicsPipeline skinDepth_;

@@ -5,14 +5,15 @@
 namespace vasa {
 
 TubeDraws::TubeDraws(gpu::Device& device, const GroupRoom& room, std::uint32_t groups) {
-  const VkDeviceSize count = VkDeviceSize(room.vertices()) * groups;
+  const VkDeviceSize count = VkDeviceSize(room.vertices) * groups;
   vertices = gpu::Buffer(device, {.name = "tube vertices", .bytes = count * sizeof(shared::TubeVertex), .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+  colours = gpu::Buffer(device, {"colours of blocks", 4 * (count >> shared::kBlockShift)});
   indices = gpu::Buffer(device, {"tube indices", VkDeviceSize(4) * room.indices * groups});
   draws = gpu::Buffer(device, {"tube draws", sizeof(shared::DrawCommand) * groups});
 }
 
 VkDeviceSize TubeDraws::bytes() const {
-  return vertices.bytes() + indices.bytes() + draws.bytes();
+  return vertices.bytes() + colours.bytes() + indices.bytes() + draws.bytes();
 }
 
 TubePass::TubePass(gpu::Device& device) : pipeline_(device, {spirv::tubes_comp, sizeof(shared::TubesPush)}) {}
@@ -28,12 +29,14 @@ void TubePass::record(VkCommandBuffer commands, const Input& input) const {
                                        .view = input.detail.view(),
                                        .along = input.detail.along(),
                                        .around = input.detail.around(),
+                                       .colours = tubes.colours(),
                                        .vertices = draws.vertices.address(),
+                                       .blockColours = draws.colours.address(),
                                        .indices = draws.indices.address(),
                                        .draws = draws.draws.address(),
                                        .firstSweep = input.batch.firstSweep,
                                        .sweepCount = input.batch.sweeps,
-                                       .vertexShift = tubes.room().vertexShift,
+                                       .verticesPerGroup = tubes.room().vertices,
                                        .indicesPerGroup = tubes.room().indices,
                                        .keepAll = input.cull ? 0u : 1u,
                                        .unused = 0},

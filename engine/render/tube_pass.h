@@ -4,13 +4,14 @@
 
 namespace vasa {
 
-/// What a batch's tubes become: vertices, indices of the triangles to draw, and a draw a group.
+/// What a batch's tubes or forks become: vertices, a colour for each block of them, indices of the triangles to draw, and
+/// a draw a group.
 struct TubeDraws {
   TubeDraws() = default;
   TubeDraws(gpu::Device& device, const GroupRoom& room, std::uint32_t groups);
   VkDeviceSize bytes() const;
 
-  gpu::Buffer vertices, indices, draws;  ///< shared::TubeVertex, uint, shared::DrawCommand
+  gpu::Buffer vertices, colours, indices, draws;  ///< shared::TubeVertex, uint, uint, shared::DrawCommand
 };
 
 /// Turns a batch of sweeps, with their caps, into triangles, and leaves out those that cannot be seen.

@@ -62,16 +62,16 @@ void TubeSet::makeBatches(std::uint32_t batchSweeps) {
   const std::uint32_t total = std::uint32_t(table_.sweeps.size()), along = detail_.mostAlong();
   const std::uint32_t each = std::min((std::max(batchSweeps, 1u) - 1) / group, total / group) * group + group;
   for (std::uint32_t first = 0; first < total; first += each) batches_.push_back({first, std::min(each, total - first)});
-  std::uint32_t most = 0;
   for (std::uint32_t first = 0; first < total; first += group) {
-    std::uint32_t strips = 0;
+    std::uint32_t strips = 0, vertices = 0;
     for (std::uint32_t i = first; i < std::min(first + group, total); ++i) {
-      strips += along + shared::kCapRings * capsOf(table_.sweeps[i]);
-      most = std::max(most, along + 1 + shared::kCapRings * capsOf(table_.sweeps[i]));
+      const std::uint32_t own = along + shared::kCapRings * capsOf(table_.sweeps[i]);
+      strips += own;
+      vertices += inBlocks((own + 1) * detail_.mostAround());
     }
+    room_.vertices = std::max(room_.vertices, vertices);
     room_.indices = std::max(room_.indices, 6 * strips * detail_.mostAround());
   }
-  room_.vertexShift = std::uint32_t(std::bit_width(most * detail_.mostAround()));
 }
 
 std::uint64_t TubeSet::triangleCount() const {

@@ -22,12 +22,14 @@ struct TubeDetail {
 /// Kind of an item that is never drawn; the others are VesselKind's values.
 constexpr std::uint32_t kHiddenKind = 31;
 
-/// Room for what a group of sweeps writes. A sweep's vertices start at a multiple of a power of two, so that a vertex
-/// tells its sweep.
+/// Room for what a group of sweeps or forks writes at most; vertices in whole blocks (shared::kBlockVertices).
 struct GroupRoom {
-  std::uint32_t vertexShift = 0, indices = 0;
-  std::uint32_t vertices() const { return shared::kGroupSweeps << vertexShift; }
+  std::uint32_t vertices = 0, indices = 0;
 };
+/// Vertices that an item's blocks hold.
+constexpr std::uint32_t inBlocks(std::uint32_t vertices) {
+  return (vertices + shared::kBlockVertices - 1) >> shared::kBlockShift << shared::kBlockShift;
+}
 
 /// Groups of kGroupSweeps sweeps, the last one maybe of fewer, that are tessellated and drawn together.
 struct TubeBatch {

@@ -5,8 +5,9 @@
 const uint kSumBlock = 16;
 shared uint groupValues[kGroupThreads], groupSums[kGroupThreads / kSumBlock];
 
-// Of the values of all threads before this one. Called once, by every thread.
+// Of the values of all threads before this one. Called by every thread.
 uint sumBefore(uint local, uint value) {
+  barrier();  // what an earlier call left has been read
   groupValues[local] = value;
   barrier();
   if (local < kGroupThreads / kSumBlock) {

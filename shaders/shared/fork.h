@@ -74,17 +74,18 @@ struct ForksPush {
   VASA_ADDRESS(View) view;
   VASA_ADDRESS(Uints) colours;       // of each fork, kind in the highest 8 bits
   VASA_ADDRESS(Uints) around;        // m of each vessel
-  VASA_ADDRESS(Vertices) vertices;   // 2^vertexShift of them a fork of the batch
+  VASA_ADDRESS(Vertices) vertices;
+  VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its fork's
   VASA_ADDRESS(UintsOut) indices;
   VASA_ADDRESS(Draws) draws;
   uint firstFork, forkCount;
-  uint vertexShift, indicesPerGroup;  // room
+  uint verticesPerGroup, indicesPerGroup;  // room; whole blocks
   uint keepAll;                       // 1: every triangle is drawn
   uint unused;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 112);
+static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 120);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -17,6 +17,9 @@ namespace vasa::shared {
 
 /// Sweeps and threads of a workgroup.
 VASA_CONSTANT uint kGroupSweeps = 128;
+/// Vertices of one item (a sweep, a fork) lie in whole blocks, the items' blocks of a group one behind the other: what is
+/// drawn stays close together in memory, and a vertex finds its item's colour.
+VASA_CONSTANT uint kBlockShift = 3, kBlockVertices = 1 << kBlockShift;
 /// Most strips between the rings of a sweep, its caps included.
 VASA_CONSTANT uint kMaxStrips = kMaxAlong + 2 * kCapRings;
 /// Place of a vertex that has none on the picture.
@@ -87,18 +90,20 @@ struct TubesPush {
   VASA_ADDRESS(View) view;
   VASA_ADDRESS(Uints) along;         // n of each sweep, 0: not drawn
   VASA_ADDRESS(Uints) around;        // m of each vessel
-  VASA_ADDRESS(Vertices) vertices;   // 2^vertexShift of them a sweep of the batch
+  VASA_ADDRESS(Uints) colours;       // of each sweep
+  VASA_ADDRESS(Vertices) vertices;
+  VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its sweep's
   VASA_ADDRESS(UintsOut) indices;
   VASA_ADDRESS(Draws) draws;
   uint firstSweep, sweepCount;
-  uint vertexShift, indicesPerGroup;  // room
+  uint verticesPerGroup, indicesPerGroup;  // room; whole blocks
   uint keepAll;                       // 1: every triangle is drawn
   uint unused;
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(TubeTables) == 64 * 9 + 20 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
-static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 104);
+static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 120);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

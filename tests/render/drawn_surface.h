@@ -1,4 +1,6 @@
 #pragma once
+#include <bit>
+
 #include "gpu/gpu_rig.h"
 #include "render/fork_pass.h"
 #include "surface/fork.h"
@@ -10,6 +12,20 @@ struct Drawn {
   std::vector<std::uint32_t> indices;
   std::vector<shared::DrawCommand> draws;
 };
+
+/// Where each item's vertices begin in what a batch wrote.
+/// @param vertices  of each item, 0 where it is not drawn
+inline std::vector<std::uint32_t> firstVertices(std::span<const std::uint32_t> vertices, std::uint32_t perGroup,
+                                                const GroupRoom& room) {
+  std::vector<std::uint32_t> first;
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    if (i % perGroup == 0) next = i / perGroup * room.vertices;
+    first.push_back(next);
+    next += inBlocks(vertices[i]);
+  }
+  return first;
+}
 
 /// A network in device memory, and what the passes make of all its tubes, caps and forks.
 struct Forks {
@@ -51,6 +67,19 @@ struct Forks {
   PosedNetwork posed() const { return {tubes.table(), points, frames}; }
   ForkShape shapeOf(const shared::ForkRecord& fork) const {
     return forkShape(tubes.table(), fork, [this](std::uint32_t vessel) { return around[vessel]; });
+  }
+
+  std::vector<std::uint32_t> firstTubeVertices() const {
+    std::vector<std::uint32_t> counts;
+    for (std::uint32_t i = 0; i < along.size(); ++i)
+      counts.push_back((along[i] + 1 + shared::kCapRings * std::uint32_t(std::popcount(tubes.table().sweeps[i].caps))) *
+                       around[tubes.table().vesselOfSweep[i]]);
+    return firstVertices(counts, shared::kGroupSweeps, tubes.room());
+  }
+  std::vector<std::uint32_t> firstForkVertices() const {
+    std::vector<std::uint32_t> counts;
+    for (const shared::ForkRecord& fork : tubes.table().forks) counts.push_back(shapeOf(fork).vertices());
+    return firstVertices(counts, shared::kGroupForks, forks.room());
   }
 
   const GpuRig& rig;

@@ -33,9 +33,10 @@ void checkAgainstReference(const Forks& passes) {
   float position = 0, normal = 0;
   std::vector<uvec3> wanted;
   const auto& records = passes.tubes.table().forks;
+  const std::vector<std::uint32_t> first = passes.firstForkVertices();
   for (std::uint32_t i = 0; i < records.size(); ++i) {
     const ForkShape shape = passes.shapeOf(records[i]);
-    const std::uint32_t base = i << passes.forks.room().vertexShift;
+    const std::uint32_t base = first[i];
     std::vector<SurfacePoint> points(shape.vertices());
     const ForkLayout layout = evaluateFork(passes.posed(), records[i], shape, points);
     for (std::uint32_t k = 0; k < points.size(); ++k) {
@@ -66,9 +67,10 @@ Bits bitsOf(const shared::TubeVertex& v) {
 void checkSeams(const Forks& passes) {
   std::map<Bits, int> rings;
   const SweepTable& table = passes.tubes.table();
+  const std::vector<std::uint32_t> tubes = passes.firstTubeVertices(), forks = passes.firstForkVertices();
   for (std::uint32_t i = 0; i < table.sweeps.size(); ++i) {
     const std::uint32_t m = passes.around[table.vesselOfSweep[i]], rows = passes.along[i];
-    const std::uint32_t first = (i << passes.tubes.room().vertexShift) + shared::kCapRings * (table.sweeps[i].caps & 1) * m;
+    const std::uint32_t first = tubes[i] + shared::kCapRings * (table.sweeps[i].caps & 1) * m;
     REQUIRE(rows > 0);
     for (std::uint32_t k = 0; k < m; ++k) {
       ++rings[bitsOf(passes.tubesDrawn.vertices[first + k])];
@@ -82,7 +84,7 @@ void checkSeams(const Forks& passes) {
       for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch) ringRows.push_back(branchRow(branch));
       for (const std::uint32_t row : ringRows) {
         for (std::uint32_t k = 0; k < shape.rowSize(row); ++k)
-          act(bitsOf(passes.forksDrawn.vertices[(i << passes.forks.room().vertexShift) + shape.rowStart(row) + k]));
+          act(bitsOf(passes.forksDrawn.vertices[forks[i] + shape.rowStart(row) + k]));
       }
     }
   };

@@ -85,7 +85,7 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
         tubePass.record(commands, {tubes, tubes.batches()[0], detail, points.address(), knots.address(), draws});
         gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
         target.begin(commands, {1, 1, 1, 1}, 0, gpu::Stretch::first);
-        surface.recordTubes(commands, drawConstants(camera, {}, target.spec().size), tubes, tubes.batches()[0], draws);
+        surface.recordVessels(commands, drawConstants(camera, {}, target.spec().size), draws, tubes.groupsPerBatch());
         target.pause(commands);
         pass.record(commands, target, camera, 0.05f, 1);
         target.begin(commands, {}, 0, gpu::Stretch::last);

@@ -160,11 +160,13 @@ Outcome passAgainstReference(const Tubes& tubes, const shared::DetailView& view,
     const Drawn drawn = drawnBatch(tubes, batch, view, cull);
     for (std::uint32_t group = 0; group < batch.groups(); ++group) {
       std::vector<uvec3> wanted;
+      std::uint32_t next = group * tubes.set.room().vertices;
       for (std::uint32_t i = group * shared::kGroupSweeps; i < std::min((group + 1) * shared::kGroupSweeps, batch.sweeps); ++i) {
         const std::uint32_t sweep = batch.firstSweep + i, along = detail.along[sweep];
         if (along == 0) continue;
-        const std::uint32_t m = detail.around[tubes.set.table().vesselOfSweep[sweep]], base = i << tubes.set.room().vertexShift;
+        const std::uint32_t m = detail.around[tubes.set.table().vesselOfSweep[sweep]], base = next;
         const std::vector<SurfacePoint> points = ringsOf(tubes.posed(), sweep, m, along);
+        next += inBlocks(std::uint32_t(points.size()));
         compare(outcome.vertices, std::span(drawn.vertices).subspan(base, points.size()), points);
         const Triangles triangles = trianglesOf(drawn, view, base, std::uint32_t(points.size()) / m - 1, m);
         outcome.triangles += triangles.all.size();

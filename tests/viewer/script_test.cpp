@@ -24,7 +24,7 @@ std::string again(const std::string& text) {
 TEST_CASE("a script is written as it was read") {
   const std::string text =
       "move 10.5 20\npress left\nrelease left\nscroll -2\nhold control\nlet control\nhold f12\nhold a\ntype é\nresize 800 600\n"
-      "frames 3\nsettle\nwindow a b.png\npicture c.png\ndrop /x y.glb\nclose\n";
+      "frames 3\nlive 2.5\nsettle\nwindow a b.png\npicture c.png\ndrop /x y.glb\nclose\n";
   CHECK(again(text) == text);
 }
 
