@@ -38,6 +38,8 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
     if (!growth) return growth.error();
     document->growth = std::make_unique<SceneGrowth>(std::move(*growth));
   }
+  stage("preparing the body's meshes");
+  document->levels = bodyLevels(document->scene.body.meshes);
   stage("measuring");
   document->bounds = measure(document->scene.network, document->scene.network.points()).bounds;
   for (const SkinnedMesh& mesh : document->scene.body.meshes) document->bounds.add(mesh.mesh.bounds());

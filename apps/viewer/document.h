@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "render/mesh_levels.h"
 #include "scene/growth.h"
 #include "scene/scene.h"
 
@@ -15,6 +16,7 @@ struct Document {
   SceneFile file;
   Scene scene;
   std::unique_ptr<SceneGrowth> growth;  ///< of its capillaries; null where there are no rules for them
+  BodyLevels levels;                    ///< of the body's meshes
   std::string title;
   Aabb bounds;                          ///< at rest [m]
 };

@@ -1,6 +1,12 @@
 #include "viewer/painter.h"
 
 namespace vasa::viewer {
+namespace {
+
+// Of vessels in a picture that the next one follows at once: less than what a sample a pixel gets wrong.
+constexpr float kMovingPixelError = 1;
+
+}  // namespace
 
 void Painter::choose(std::shared_ptr<const Document> document, const Detail& detail, bool timed) {
   if (document == document_ && detail == detail_ && timed == timed_) return;
@@ -19,7 +25,9 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                         .height = shot.height,
                         .samples = shot.fine ? 4u : 1u,
                         .shape = {std::uint32_t(detail_.around), std::uint32_t(detail_.along)},
-                        .pixelError = detail_.automatic ? kAutoPixelError : 0,
+                        .pixelError = !detail_.automatic ? 0 : shot.fine ? kAutoPixelError : kMovingPixelError,
+                        .levels = &document_->levels,
+                        .bgra = true,
                         .occlusion = shot.fine,
                         .seed = seed_,
                         .timed = timed_};

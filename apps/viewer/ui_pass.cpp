@@ -15,7 +15,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
+constexpr VkFormat kFormat = VK_FORMAT_B8G8R8A8_UNORM;  // as most windows have
 constexpr VkClearColorValue kDesk{{0.13f, 0.135f, 0.145f, 1}};  // where there is no picture
 
 void checkImGui(VkResult result) {
@@ -161,6 +161,7 @@ Image UiPass::readBack() {
   vkCmdCopyImageToBuffer(commands, canvas_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, host.handle(), 1, &region);
   device_.queue().wait(device_.queue().submit(std::move(commands)));
   host.invalidate();
+  swapRedAndBlue(host.mapped<std::uint8_t>());
   return toImage(host.mapped<const std::uint8_t>(), size.width, size.height, false);
 }
 

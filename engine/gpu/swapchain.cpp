@@ -12,7 +12,8 @@
 namespace vasa::gpu {
 namespace {
 
-constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_BLIT_BIT;
+constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_BLIT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
+constexpr VkImageSubresourceLayers kWhole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
 
 VkSemaphoreSubmitInfo semaphoreInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stage) {
   VkSemaphoreSubmitInfo info{};
@@ -30,6 +31,20 @@ VkExtent2D clamped(VkExtent2D size, const VkSurfaceCapabilitiesKHR& limits) {
 VkCompositeAlphaFlagBitsKHR alphaOf(const VkSurfaceCapabilitiesKHR& limits) {
   if (limits.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
   return VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+}
+
+void recordCopy(VkCommandBuffer commands, VkImage from, VkImage to, VkExtent2D size) {
+  const VkImageCopy region{kWhole, {}, kWhole, {}, {size.width, size.height, 1}};
+  vkCmdCopyImage(commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void recordBlit(VkCommandBuffer commands, const Image& from, VkImage to, VkExtent2D size, VkFilter filter) {
+  VkImageBlit region{};
+  region.srcSubresource = region.dstSubresource = kWhole;
+  region.srcOffsets[1] = {std::int32_t(from.size().width), std::int32_t(from.size().height), 1};
+  region.dstOffsets[1] = {std::int32_t(size.width), std::int32_t(size.height), 1};
+  vkCmdBlitImage(commands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                 &region, filter);
 }
 
 }  // namespace
@@ -131,13 +146,9 @@ Ticket Swapchain::copy(const Image& picture, std::uint32_t index) {
   Commands commands = device_.queue().begin("present");
   const VkImage image = now_.images[index];
   changeLayout(commands, {.image = image, .after = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, .from = kCopy, .to = kCopy});
-  VkImageBlit region{};
-  region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  region.srcOffsets[1] = {std::int32_t(picture.size().width), std::int32_t(picture.size().height), 1};
-  region.dstOffsets[1] = {std::int32_t(now_.size.width), std::int32_t(now_.size.height), 1};
   const bool same = picture.size().width == now_.size.width && picture.size().height == now_.size.height;
-  vkCmdBlitImage(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
-                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+  if (same && picture.format() == format_.format) recordCopy(commands, picture.handle(), image, now_.size);
+  else recordBlit(commands, picture, image, now_.size, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
   changeLayout(commands, {.image = image,
                           .before = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                           .after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,

@@ -9,6 +9,8 @@
 #include "body/body.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
+#include "mesh/components.h"
+#include "mesh/weld.h"
 #include "surface/octahedral.h"
 
 namespace vasa {
@@ -65,22 +67,40 @@ MeshLevel levelOf(const SkinnedMesh& mesh, const std::vector<uvec3>& triangles, 
 
 }  // namespace
 
-std::vector<MeshLevel> oneLevel(const SkinnedMesh& mesh) {
+LevelledMesh oneLevel(const SkinnedMesh& mesh) {
   MeshLevel level{0, {}, mesh.normals, mesh.mesh.triangles};
   for (std::uint32_t i = 0; i < mesh.mesh.positions.size(); ++i) level.vertices.push_back(i);
-  return {level};
+  return {{level}};
 }
 
-std::vector<MeshLevel> coarserLevels(const SkinnedMesh& mesh) {
-  std::vector<MeshLevel> levels = oneLevel(mesh);
-  if (mesh.mesh.triangles.empty()) return levels;
+LevelledMesh coarserLevels(const SkinnedMesh& mesh) {
+  LevelledMesh result = oneLevel(mesh);
+  if (mesh.mesh.triangles.empty()) return result;
+  result.closed = isClosed(mesh.mesh);
+  std::vector<MeshLevel>& levels = result.levels;
   // Each from the mesh itself, since errors of one level made from another add up.
   for (float error = kFinestError; error <= kCoarsestError; error *= kSqrt2) {
     const std::vector<uvec3> fewer = simplified(mesh.mesh, error);
     if (fewer.empty() || float(fewer.size()) > kWorthwhile * float(levels.back().triangles.size())) continue;
     levels.push_back(levelOf(mesh, fewer, error));
   }
-  return levels;
+  return result;
+}
+
+// Closed: every edge is run along once each way.
+bool isClosed(const TriangleMesh& mesh) {
+  const TriangleMesh whole = weld(mesh, 0);  // seams of the normals are none of the surface
+  std::vector<std::uint64_t> there, back;
+  for (const uvec3& t : whole.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t from = t[k], to = t[(k + 1) % 3];
+      there.push_back(from << 32 | to);
+      back.push_back(to << 32 | from);
+    }
+  std::ranges::sort(there);
+  std::ranges::sort(back);
+  if (there.empty() || there != back || std::ranges::adjacent_find(there) != there.end()) return false;
+  return std::ranges::all_of(splitComponents(whole), [](const TriangleMesh& piece) { return piece.volume() > 0; });
 }
 
 BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes) {
@@ -104,9 +124,7 @@ std::vector<JointBall> jointBalls(const SkinnedMesh& mesh) {
   return balls;
 }
 
-float finestPixel(std::span<const JointBall> balls, std::span<const mat4> jointMatrices, const Camera& camera,
-                  std::uint32_t pictureHeight) {
-  if (camera.orthographicHeight > 0) return camera.orthographicHeight / float(pictureHeight);
+float nearestDepth(std::span<const JointBall> balls, std::span<const mat4> jointMatrices, const Camera& camera) {
   const vec3 forward = -cameraAxes(camera)[2];
   float nearest = camera.farDistance;
   for (const JointBall& ball : balls) {
@@ -116,8 +134,12 @@ float finestPixel(std::span<const JointBall> balls, std::span<const mat4> jointM
     const float depth = glm::dot(centre - camera.position, forward);
     if (depth + ball.radius > camera.nearDistance) nearest = std::min(nearest, depth - ball.radius);
   }
-  const float depth = std::max(nearest, camera.nearDistance);
-  return 2 * std::tan(camera.verticalAngle / 2) * depth / float(pictureHeight);
+  return nearest;
+}
+
+float pixelAt(float depth, const Camera& camera, std::uint32_t pictureHeight) {
+  if (camera.orthographicHeight > 0) return camera.orthographicHeight / float(pictureHeight);
+  return 2 * std::tan(camera.verticalAngle / 2) * std::max(depth, camera.nearDistance) / float(pictureHeight);
 }
 
 }  // namespace vasa

@@ -18,16 +18,24 @@ struct MeshLevel {
   std::vector<uvec3> triangles;         ///< of places in `vertices`, in an order in which a vertex is shaded about once
 };
 
-/// The mesh alone, as it is.
-std::vector<MeshLevel> oneLevel(const SkinnedMesh& mesh);
+struct LevelledMesh {
+  std::vector<MeshLevel> levels;  ///< the mesh itself, then ever coarser ones
+  bool closed = false;            ///< isClosed(): from outside, the backs of its triangles are never seen
+};
+
+/// The mesh alone, as it is, and not looked at whether it is closed.
+LevelledMesh oneLevel(const SkinnedMesh& mesh);
 /// The mesh, then ever coarser levels, each with √2 times the error of the one before at least; ends at 1 cm or where
 /// hardly a triangle goes. Cost: about 0.5 s for 100,000 triangles.
-std::vector<MeshLevel> coarserLevels(const SkinnedMesh& mesh);
+LevelledMesh coarserLevels(const SkinnedMesh& mesh);
 
 /// Levels of each of a body's meshes. Renderers of one body can share them (RenderOptions::levels).
-using BodyLevels = std::vector<std::vector<MeshLevel>>;
+using BodyLevels = std::vector<LevelledMesh>;
 /// coarserLevels() of each, several at a time.
 BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes);
+
+/// Every piece of it has a closed surface that faces outwards.
+bool isClosed(const TriangleMesh& mesh);
 
 /// Vertices of a mesh that go with one joint above all others.
 struct JointBall {
@@ -39,10 +47,12 @@ struct JointBall {
 /// One ball a joint that moves some vertex.
 std::vector<JointBall> jointBalls(const SkinnedMesh& mesh);
 
-/// Side of a pixel [m] at the place nearest to the eye that the balls reach in this pose, in front of the
-/// camera.
+/// How far before the eye [m] the nearest place lies that the balls reach in this pose; those wholly behind the camera's
+/// near plane do not count. The camera's farDistance where there is none.
 /// @param jointMatrices  world · inverseBind; a ball whose joint is beyond them stays at rest
-float finestPixel(std::span<const JointBall> balls, std::span<const mat4> jointMatrices, const Camera& camera,
-                  std::uint32_t pictureHeight);
+float nearestDepth(std::span<const JointBall> balls, std::span<const mat4> jointMatrices, const Camera& camera);
+
+/// Side of a pixel [m] at a depth, or at the near plane where that is farther away.
+float pixelAt(float depth, const Camera& camera, std::uint32_t pictureHeight);
 
 }  // namespace vasa

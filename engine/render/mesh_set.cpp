@@ -52,15 +52,15 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const
     const SkinnedMesh& mesh = meshes[k];
     assert(mesh.normals.size() == mesh.mesh.positions.size() && mesh.influences.size() == mesh.normals.size());
     const MeshRole role = roleNamed(mesh.name);
-    Part& part = parts_.emplace_back(Part{role, {}, {}});
-    for (const MeshLevel& level : levels[k]) {
+    Part& part = parts_.emplace_back(Part{.role = role, .levels = {}, .closed = levels[k].closed, .balls = {}});
+    for (const MeshLevel& level : levels[k].levels) {
       part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * level.triangles.size()),
-                             std::uint32_t(vertices.size()), std::uint32_t(level.vertices.size())});
+                             std::uint32_t(vertices.size()), std::uint32_t(level.vertices.size()), true});
       triangles.insert(triangles.end(), level.triangles.begin(), level.triangles.end());
       for (std::size_t i = 0; i < level.vertices.size(); ++i)
         vertices.push_back(restVertex(mesh, level.vertices[i], level.normals[i]));
     }
-    if (part.levels.size() > 1) part.balls = jointBalls(mesh);
+    part.balls = jointBalls(mesh);
     for (const SkinInfluence& influence : mesh.influences)
       for (const std::uint16_t joint : influence.joints) jointCount_ = std::max(jointCount_, joint + 1u);
     if (role == MeshRole::heart && heart_.part >= meshes.size()) heart_ = {k, meshCentre(mesh)};
@@ -82,12 +82,12 @@ std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const
       chosen.emplace_back();
       continue;
     }
+    const float depth = nearestDepth(part.balls, jointMatrices, camera);
+    const float error = pixels * pixelAt(depth, camera, pictureHeight);
     std::size_t level = 0;
-    if (pixels > 0 && part.levels.size() > 1) {
-      const float error = pixels * finestPixel(part.balls, jointMatrices, camera, pictureHeight);
-      while (level + 1 < part.levels.size() && part.levels[level + 1].error <= error) ++level;
-    }
+    while (level + 1 < part.levels.size() && part.levels[level + 1].error <= error) ++level;
     chosen.push_back(part.levels[level]);
+    chosen.back().bothSides = !part.closed || depth <= camera.nearDistance;
   }
   return chosen;
 }

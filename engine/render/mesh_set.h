@@ -16,10 +16,12 @@ class MeshSet {
     float error = 0;  ///< [m] of the surface; 0 for the mesh itself
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
+    bool bothSides = true;  ///< backs of triangles may be seen
   };
   struct Part {
     MeshRole role;
     std::vector<Level> levels;     ///< the mesh itself, then ever coarser ones
+    bool closed = false;
     std::vector<JointBall> balls;  ///< where it is, if it has several levels
   };
   /// The part that beats, and its middle at rest; none without a heart.

@@ -67,6 +67,10 @@ std::vector<std::uint8_t> averaged(std::span<const std::uint8_t> rgba, std::uint
   return result;
 }
 
+void swapRedAndBlue(std::span<std::uint8_t> rgba) {
+  for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) std::swap(rgba[i], rgba[i + 2]);
+}
+
 Image toImage(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height, bool transparent) {
   assert(rgba.size() == std::size_t(4) * width * height);
   Image image{width, height, {rgba.begin(), rgba.end()}};

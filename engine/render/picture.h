@@ -16,6 +16,8 @@ vec4 srgbColour(vec4 linear);
 std::vector<std::uint8_t> averaged(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height,
                                    std::uint32_t n);
 
+void swapRedAndBlue(std::span<std::uint8_t> rgba);
+
 /// The device's pixels (sRGB, premultiplied in linear light) as a picture with straight alpha.
 /// @param transparent  otherwise alpha becomes 255
 Image toImage(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height, bool transparent);

@@ -34,8 +34,6 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
-// An outline of bone or skin may be off by more than a vessel's: none is so thin, and normals stay those of the mesh.
-constexpr float kMeshPixels = 2;
 constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
 constexpr const char* kTessellate = "tessellate";
 constexpr const char* kForks = "forks";
@@ -77,6 +75,7 @@ gpu::TargetSpec targetSpec(const RenderOptions& options) {
   assert(options.samples == 1 || options.samples == 4);
   return {.name = "picture",
           .size = {options.width * options.supersample, options.height * options.supersample},
+          .colour = options.bgra ? VK_FORMAT_B8G8R8A8_SRGB : VK_FORMAT_R8G8B8A8_SRGB,
           .samples = VkSampleCountFlagBits(options.samples),
           .readDepth = options.occlusion};
 }
@@ -237,7 +236,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
   const std::vector<MeshSet::Level> levels =
       meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
-                       kMeshPixels * options.pixelError / std::sqrt(float(options.samples)));
+                       options.pixelError > 0 ? kMeshPixelError / std::sqrt(float(options.samples)) : 0);
   timer.begin(commands);
   upload.record(commands);
   if (batches > 0) {
@@ -342,7 +341,8 @@ Image Renderer::readBack() {
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   s.readBack.invalidate();
   const std::uint32_t n = s.options.supersample;
-  const auto pixels = s.readBack.mapped<const std::uint8_t>();
+  const auto pixels = s.readBack.mapped<std::uint8_t>();
+  if (s.options.bgra) swapRedAndBlue(pixels);
   if (n == 1) return toImage(pixels, s.options.width, s.options.height, s.transparent);
   return toImage(averaged(pixels, s.options.width, s.options.height, n), s.options.width, s.options.height, s.transparent);
 }

@@ -20,6 +20,8 @@ namespace vasa {
 
 /// [pixels] error of `--quads auto`: RenderOptions::pixelError.
 constexpr float kAutoPixelError = 0.3f;
+/// [pixels] of bones, heart and skin beside it: none is so thin as a vessel, and normals stay those of the mesh.
+constexpr float kMeshPixelError = 0.6f;
 
 /// What is settled for a renderer's life.
 struct RenderOptions {
@@ -27,13 +29,14 @@ struct RenderOptions {
   std::uint32_t samples = 4;                 ///< a pixel: 1 or 4
   SweepShape shape;                          ///< quads around and along every sweep
   /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
-  /// Bones, heart and skin are drawn with fewer triangles too, within twice this error, half that with 4 samples.
+  /// Bones, heart and skin are drawn with fewer triangles too, within kMeshPixelError, half that with 4 samples.
   float pixelError = 0;
   /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can share them.
   /// nullptr: made.
   const BodyLevels* levels = nullptr;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
+  bool bgra = false;       ///< Renderer::picture() has blue first, as windows do
   bool occlusion = false;  ///< Look::occlusion counts; takes 12 bytes a pixel
   /// Sweeps tessellated and drawn at a time, rounded up to whole groups. Two batches are all the vertex memory that
   /// tubes take, however many sweeps there are.

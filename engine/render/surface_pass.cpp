@@ -46,8 +46,10 @@ void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDevic
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
 }
 
+// @param closed  pipeline for parts whose triangles' backs are not seen
 void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-               std::span<const MeshSet::Level> levels, const gpu::GraphicsPipeline& pipeline, MeshRole role) {
+               std::span<const MeshSet::Level> levels, const gpu::GraphicsPipeline& pipeline,
+               const gpu::GraphicsPipeline& closed, MeshRole role) {
   bindVertices(commands, meshes.posed(), 0);
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
   push.colours = meshes.colours();
@@ -57,7 +59,7 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
     const MeshSet::Level& level = levels[i];
     if (level.indexCount == 0 || meshes.parts()[i].role != role) continue;
     push.firstItem = i;
-    pipeline.bind(commands, push);
+    (level.bothSides ? pipeline : closed).bind(commands, push);
     vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, std::int32_t(level.firstVertex), 0);
   }
 }
@@ -108,6 +110,7 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
     spec.name = "tubes";
     tubes_[i] = gpu::GraphicsPipeline(device, spec);
     spec.name = "opaque meshes";
+    closed_[i] = gpu::GraphicsPipeline(device, spec);
     spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
     opaque_[i] = gpu::GraphicsPipeline(device, spec);
     spec.name = "skin";
@@ -127,7 +130,7 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
   spec.depthTest = VK_COMPARE_OP_ALWAYS;
   spec.depthWrite = false;
   spec.blend = gpu::Blend::add;
-  for (auto* pipelines : {&tubes_, &opaque_, &skinColour_})
+  for (auto* pipelines : {&tubes_, &opaque_, &closed_, &skinColour_})
     (*pipelines)[std::size_t(LookStyle::xray)] = gpu::GraphicsPipeline(device, spec);
 }
 
@@ -147,7 +150,7 @@ void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, 
                                std::span<const MeshSet::Level> levels, const Look& look) const {
   for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
     push.opacity = xrayLight(role);
-    drawParts(commands, push, meshes, levels, opaque_[std::size_t(look.style)], role);
+    drawParts(commands, push, meshes, levels, opaque_[std::size_t(look.style)], closed_[std::size_t(look.style)], role);
   }
 }
 
@@ -155,8 +158,9 @@ void SurfacePass::recordSkin(VkCommandBuffer commands, shared::DrawPush push, co
                              std::span<const MeshSet::Level> levels, const Look& look) const {
   const bool xray = look.style == LookStyle::xray;
   push.opacity = look.skinOpacity * (xray ? xrayLight(MeshRole::skin) : 1);
-  if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, MeshRole::skin);
-  drawParts(commands, push, meshes, levels, skinColour_[std::size_t(look.style)], MeshRole::skin);
+  if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, skinDepth_, MeshRole::skin);
+  const gpu::GraphicsPipeline& colour = skinColour_[std::size_t(look.style)];
+  drawParts(commands, push, meshes, levels, colour, colour, MeshRole::skin);
 }
 
 }  // namespace vasa

@@ -36,7 +36,7 @@ class SurfacePass {
 
  private:
   // One of each for every LookStyle.
-  std::array<gpu::GraphicsPipeline, 3> tubes_, opaque_, skinColour_;
+  std::array<gpu::GraphicsPipeline, 3> tubes_, opaque_, closed_, skinColour_;
   gpu::GraphicsPipeline skinDepth_;
 };
 

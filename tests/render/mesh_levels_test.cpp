@@ -66,7 +66,9 @@ std::vector<uvec3> trianglesOf(const MeshLevel& level) {
 
 TEST_CASE("coarser levels have fewer triangles, keep their error and stay closed") {
   const SkinnedMesh mesh = skinned(ball(80, 160));
-  const std::vector<MeshLevel> levels = coarserLevels(mesh);
+  const LevelledMesh all = coarserLevels(mesh);
+  const std::vector<MeshLevel>& levels = all.levels;
+  CHECK(all.closed);
   REQUIRE(levels.size() >= 4);
   CHECK(levels[0].error == 0);
   CHECK(trianglesOf(levels[0]) == mesh.mesh.triangles);
@@ -97,7 +99,7 @@ TEST_CASE("a large triangle at a sharp edge is shaded as itself, not as the edge
     const vec3 p = mesh.mesh.positions[i];
     mesh.normals[i] = glm::normalize(vec3(p.x, p.y, p.z / (0.02f * 0.02f)));
   }
-  const MeshLevel coarse = coarserLevels(mesh).back();
+  const MeshLevel coarse = coarserLevels(mesh).levels.back();
   CHECK(coarse.triangles.size() < 200);
   for (const uvec3& t : coarse.triangles) {
     const vec3 a = mesh.mesh.positions[coarse.vertices[t.x]], b = mesh.mesh.positions[coarse.vertices[t.y]],
@@ -111,29 +113,54 @@ TEST_CASE("a large triangle at a sharp edge is shaded as itself, not as the edge
 }
 
 TEST_CASE("a mesh of nothing and a triangle have no coarser levels") {
-  CHECK(coarserLevels(SkinnedMesh{}).size() == 1);
-  CHECK(coarserLevels(skinned({{{0, 0, 0}, {0.05f, 0, 0}, {0, 0.05f, 0}}, {{0, 1, 2}}})).size() == 1);
+  CHECK(coarserLevels(SkinnedMesh{}).levels.size() == 1);
+  CHECK(coarserLevels(skinned({{{0, 0, 0}, {0.05f, 0, 0}, {0, 0.05f, 0}}, {{0, 1, 2}}})).levels.size() == 1);
 }
 
-TEST_CASE("the finest pixel is that of the nearest ball in front of the camera, where its joint has it") {
+TEST_CASE("closed is what has no border and faces outwards, piece by piece") {
+  const TriangleMesh whole = ball(6, 8);
+  CHECK(isClosed(whole));
+  CHECK_FALSE(isClosed({}));
+  TriangleMesh open = whole;
+  open.triangles.pop_back();
+  CHECK_FALSE(isClosed(open));
+  TriangleMesh inside = whole;
+  for (uvec3& t : inside.triangles) std::swap(t.y, t.z);
+  CHECK_FALSE(isClosed(inside));
+  TriangleMesh both = whole;
+  for (const vec3& p : inside.positions) both.positions.push_back(p * 0.5f + vec3(1, 0, 0));
+  for (const uvec3& t : inside.triangles) both.triangles.push_back(t + std::uint32_t(whole.positions.size()));
+  CHECK_FALSE(isClosed(both));
+  TriangleMesh seam = whole;  // a corner of its own for one triangle, in the same place
+  seam.positions.push_back(seam.positions[seam.triangles[5].x]);
+  seam.triangles[5].x = std::uint32_t(seam.positions.size() - 1);
+  CHECK(isClosed(seam));
+}
+
+TEST_CASE("the nearest depth is that of the nearest ball in front of the camera, where its joint has it") {
   SkinnedMesh mesh;
   mesh.mesh = ball(8, 8);
   for (const vec3& p : mesh.mesh.positions)
     mesh.influences.push_back({{std::uint16_t(p.y > 0 ? 1 : 0), 0, 0, 0}, {1, 0, 0, 0}});
   const std::vector<JointBall> balls = jointBalls(mesh);
   REQUIRE(balls.size() == 2);
-  Camera camera{.position = {0, 0, 4}, .target = {0, 0, 0}};
-  const auto pixelAt = [&](float depth) { return 2 * std::tan(camera.verticalAngle / 2) * depth / 100; };
+  const Camera camera{.position = {0, 0, 4}, .target = {0, 0, 0}};
   const mat4 still(1);
   const std::vector<mat4> rest{still, still};
-  const float before = finestPixel(balls, rest, camera, 100);
-  CHECK(before < pixelAt(4));
-  CHECK(before > pixelAt(4 - 3 * kRadius));
+  const float before = nearestDepth(balls, rest, camera);
+  CHECK(before < 4);
+  CHECK(before > 4 - 3 * kRadius);
   const std::vector<mat4> nearer{still, glm::translate(still, {0, 0, 2})};
-  CHECK(finestPixel(balls, nearer, camera, 100) ==
-        doctest::Approx(before - (pixelAt(4) - pixelAt(2))).epsilon(1e-3));
+  CHECK(nearestDepth(balls, nearer, camera) == doctest::Approx(before - 2).epsilon(0.02));
   const std::vector<mat4> behind{still, glm::translate(still, {0, 0, 20})};
-  CHECK(finestPixel(balls, behind, camera, 100) == doctest::Approx(before).epsilon(1e-3));
+  CHECK(nearestDepth(balls, behind, camera) == doctest::Approx(before).epsilon(1e-3));
+  CHECK(nearestDepth({}, rest, camera) == camera.farDistance);
+}
+
+TEST_CASE("a pixel's side grows with the depth, or is everywhere the same") {
+  Camera camera{.position = {0, 0, 4}, .target = {0, 0, 0}};
+  CHECK(pixelAt(3, camera, 100) == doctest::Approx(2 * std::tan(camera.verticalAngle / 2) * 3 / 100));
+  CHECK(pixelAt(0, camera, 100) == doctest::Approx(2 * std::tan(camera.verticalAngle / 2) * camera.nearDistance / 100));
   camera.orthographicHeight = 2;
-  CHECK(finestPixel(balls, rest, camera, 100) == doctest::Approx(0.02));
+  CHECK(pixelAt(3, camera, 100) == doctest::Approx(0.02));
 }
