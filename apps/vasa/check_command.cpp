@@ -99,8 +99,10 @@ class CorrectionChange {
   std::vector<vec3> last_;
 };
 
-// The places that are left: overlaps, and changed sides with how far beyond one another's centre lines the two are.
-void addPlaces(const Network& network, const Avoider& avoider, Report& row) {
+// The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two are, and
+// tubes in bones by the joint that carries the bone.
+void addPlaces(const Scene& scene, const Avoider& avoider, Report& row) {
+  const Network& network = scene.network;
   const auto describe = [&](const Contact& contact, float depth) {
     const auto nameOf = [&](std::uint32_t tube) { return network.vessel(avoider.layout().address(tube).vessel).name; };
     const auto spanOf = [&](std::uint32_t tube) { return avoider.layout().address(tube).span; };
@@ -109,6 +111,15 @@ void addPlaces(const Network& network, const Avoider& avoider, Report& row) {
   row["remaining"] = row["changed_sides"] = Report::array();
   for (const Interference::Place& place : avoider.remaining()) row["remaining"].push_back(describe(place.contact, place.excess()));
   for (const Contact& contact : avoider.changedSides()) row["changed_sides"].push_back(describe(contact, -contact.f));
+  row["in_bones"] = Report::array();
+  for (const BoneContact& contact : avoider.inBones()) {
+    const auto [vessel, span] = avoider.layout().address(contact.tube);
+    row["in_bones"].push_back({{"vessel", network.vessel(vessel).name},
+                               {"span", float(span) + contact.s},
+                               {"joint", scene.body.skeleton.joints[avoider.jointOfBone(contact.part).value].name},
+                               {"depth_m", contact.allowed - contact.f},
+                               {"allowed_m", contact.allowed}});
+  }
 }
 
 Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange& correction, std::uint32_t frame,
@@ -133,10 +144,12 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"kinks", kinkCount(scene.network, maker.points())},
              {"sides_changed_before", avoid.sidesChanged},
              {"sides_changed", avoid.sidesChangedAfter},
-             {"obstacle_contacts_before", avoid.boneContacts},
-             {"obstacle_contacts_after", avoid.boneContactsAfter},
-             {"obstacle_depth_before_m", avoid.boneDepth},
-             {"obstacle_depth_after_m", avoid.boneDepthAfter},
+             {"obstacle_contacts_before", avoid.bones.contacts},
+             {"obstacle_contacts_after", avoid.bonesAfter.contacts},
+             {"obstacle_deeper_before", avoid.bones.deeper},
+             {"obstacle_deeper_after", avoid.bonesAfter.deeper},
+             {"obstacle_depth_before_m", avoid.bones.depth},
+             {"obstacle_depth_after_m", avoid.bonesAfter.depth},
              {"bone_ms", avoid.boneMs},
              {"rest_contacts", avoid.after.restContacts},
              {"narrow_spans", avoid.narrowSpans},
@@ -146,7 +159,7 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"detect_ms", avoid.detectMs},
              {"solve_ms", avoid.solveMs},
              {"certify_ms", avoid.certifyMs}};
-  if (options.places) addPlaces(scene.network, *maker.avoider(), row);
+  if (options.places) addPlaces(scene, *maker.avoider(), row);
   return row;
 }
 
@@ -202,6 +215,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   report["summary"] = summaryOf(report["frames"]);
   report["summary"]["kinks_at_rest"] = kinkCount(setting->scene.network, setting->scene.network.points());
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
+  report["summary"]["obstacle_rest_contacts"] = maker.avoider()->restBoneContactCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
   return globals.json ? printJson(report) : printText(asText(report));
 }
@@ -215,11 +229,13 @@ void addCheck(CLI::App& app, Command& command) {
       "Examples:\n"
       "  vasa check --clip walk --json\n"
       "  vasa check --body b.glb --network b.vasa --clip fist --frames 20:40\n"
-      "A pair of tubes that overlaps at rest may stay as deep as it is there: excluded_pairs counts these.");
+      "A pair of tubes that overlaps at rest may stay as deep as it is there: rest_pairs counts these.\n"
+      "obstacle_contacts: tubes in a bone or the heart that were not in it at rest; obstacle_deeper: those that were, and\n"
+      "lie deeper now; obstacle_rest_contacts counts the latter at rest.");
   addSceneOptions(*sub, options->scene);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--places", options->places, "Name the vessels that still interfere or have changed sides in each frame");
+  sub->add_flag("--places", options->places, "Name the vessels that still interfere, have changed sides or are in bones in each frame");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 

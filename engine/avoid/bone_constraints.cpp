@@ -1,6 +1,7 @@
 #include "avoid/bone_constraints.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace vasa {
 namespace {
@@ -16,6 +17,8 @@ constexpr float kLeastLimit = 1e-4f;       // [m] and asks for no more rounds fr
 // What asks for a longer way than this from where the pose has put a vessel, and was not met at first, comes of where
 // the vessel was pushed.
 constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
+constexpr float kSameWay = 0.9f;  // cosine
+constexpr float kFartherThanPosed = 1.5f;
 
 }  // namespace
 
@@ -34,6 +37,7 @@ void BoneConstraints::restart() {
 void BoneConstraints::clear() {
   restart();
   letThrough_.assign(network_->vessels().size(), 0);
+  lackAtFirst_.assign(network_->vessels().size(), 0.0f);
 }
 
 bool BoneConstraints::makeRow(Constraint& constraint) {
@@ -59,6 +63,15 @@ void BoneConstraints::renew(Constraint& constraint, const Constraint& before, bo
   constraint.multiplier = std::min(before.multiplier, constraint.limit);
 }
 
+// Of the planes that hold a place, the one that faces the same way.
+std::size_t BoneConstraints::sameWay(std::size_t first, std::size_t last, vec3 normal) const {
+  std::size_t best = last;
+  float most = kSameWay;
+  for (std::size_t own = first; own < last; ++own)
+    if (const float cosine = glm::dot(constraints_[own].normal, normal); cosine > most) most = cosine, best = own;
+  return best;
+}
+
 std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::span<const Bezier> shape,
                                     std::span<const Bezier> posedTubes) {
   std::size_t asking = 0, old = 0;
@@ -68,24 +81,39 @@ std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::sp
   for (const BoneContact& place : places) {
     const Key key{place.tube, place.part, place.s};
     for (; old < keys_.size() && keys_[old] < key; ++old) keep(old);
-    const bool held = old < keys_.size() && keys_[old] == key;
+    std::size_t end = old;
+    while (end < keys_.size() && keys_[end] == key) ++end;
+    const bool held = end > old;
     if ((!held && !place.enters()) || letThrough_[layout_->address(place.tube).vessel.value]) continue;
     const float radius = shape[place.tube].at(place.s).w;
     Constraint constraint{.tubes = {place.tube, kNoTube}, .s = place.s, .normal = place.normal};
     constraint.clearance = place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kLeastClearance);
     constraint.distance = radius + constraint.clearance;
-    constraint.start = glm::dot(place.normal, vec3(posedTubes[place.tube].at(place.s)) - place.point);
-    if (rounds_ > 1 && constraint.distance - constraint.start > kFarthest * radius + kFartherStill) {
-      if (!held) continue;
-      constraints_[old].limit *= kLess;
-      constraints_[old].multiplier = std::min(constraints_[old].multiplier, constraints_[old].limit);
-      keep(old++);
-      continue;
+    const vec3 posedPlace(posedTubes[place.tube].at(place.s));
+    constraint.start = glm::dot(place.normal, posedPlace - place.point);
+    float lack = constraint.distance - constraint.start;
+    float& posed = lackAtFirst_[layout_->address(place.tube).vessel.value];
+    if (rounds_ == 1) posed = std::max(posed, lack);
+    const float farthest = rounds_ > 1 ? std::max(kFarthest * radius + kFartherStill, kFartherThanPosed * posed) : std::numeric_limits<float>::infinity();
+    if (lack > farthest && place.nearestNormal != vec3(0)) {
+      constraint.normal = place.nearestNormal;
+      constraint.start = glm::dot(place.nearestNormal, posedPlace - place.nearestPoint);
+      lack = constraint.distance - constraint.start;
     }
-    if (held) {
-      renew(constraint, constraints_[old++], place.enters());
-    } else {
-      if (!makeRow(constraint)) continue;
+    const bool tooFar = lack > farthest;
+    if (!place.enters()) continue;
+    const std::size_t same = sameWay(old, end, constraint.normal);
+    for (; old < end; ++old) {
+      if (tooFar) {
+        constraints_[old].limit *= kLess;
+        constraints_[old].multiplier = std::min(constraints_[old].multiplier, constraints_[old].limit);
+      }
+      if (old != same || tooFar) keep(old);
+      else renew(constraint, constraints_[old], place.enters());
+    }
+    if (tooFar) continue;
+    if (same == end) {
+      if (!place.enters() || !makeRow(constraint)) continue;
       constraint.limit = kReach * (constraint.clearance - place.f + radius) / constraint.row.diagonal;
       constraint.mostLimit = kMost * constraint.limit;
     }

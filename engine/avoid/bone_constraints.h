@@ -41,6 +41,7 @@ class BoneConstraints {
   };
   bool makeRow(Constraint& constraint);
   void keep(std::size_t own);
+  std::size_t sameWay(std::size_t first, std::size_t last, vec3 normal) const;
   void renew(Constraint& constraint, const Constraint& before, bool enters) const;
 
   const Network* network_;
@@ -51,6 +52,7 @@ class BoneConstraints {
   MotionSpace::Rows rows_;
   std::vector<MotionSpace::Term> terms_;
   std::vector<char> letThrough_;  // one a vessel
+  std::vector<float> lackAtFirst_;  // [m] one a vessel: the most that was asked for where the pose had put it
   unsigned rounds_ = 0;
 };
 

@@ -19,6 +19,9 @@ constexpr float kWidest = 0.6f;  // of the field's band: radius of a ball that i
 constexpr int kRing = 8;
 constexpr float kStep = 0.001f;  // [m] of the search for the way out, at least
 constexpr float kStride = 0.8f;  // ... and of the distance
+constexpr float kNearAtRest = 0.02f;  // [m] what lay so near a part belongs on that side of it
+const float kAlong = std::cos(0.5f * 50 * kPi / 180);  // ... unless it has turned about it by more than this
+constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
 constexpr float kNearly = 0.001f;  // [m] places that enter by less than nothing are told too
 
 // One part: what of a mesh one joint carries.
@@ -63,10 +66,11 @@ vec3 placed(const mat4& matrix, vec3 p) {
   return vec3(matrix * vec4(p, 1));
 }
 
-bool moved(const Bezier& a, const Bezier& b) {
-  for (int k = 0; k < 4; ++k)
-    if (vec3(a.b[k]) != vec3(b.b[k])) return true;
-  return false;
+// By control points, at most.
+float distanceMoved(const Bezier& a, const Bezier& b) {
+  float most = 0;
+  for (int k = 0; k < 4; ++k) most = std::max(most, glm::distance(vec3(a.b[k]), vec3(b.b[k])));
+  return most;
 }
 
 int piecesOf(const Bezier& rest) {
@@ -88,6 +92,7 @@ struct Bones::State {
     std::uint32_t joint;
     DistanceField field;
     mat4 matrix{1}, inverse{1};                            // as bound -> posed, and back
+    quat turn{1, 0, 0, 0};                                 // since rest
     std::vector<std::pair<std::uint32_t, float>> atRest = {};  // tube, f < 0; sorted
 
     float allowed(std::uint32_t tube) const {
@@ -102,7 +107,8 @@ struct Bones::State {
     bool entered = false;  // when all were looked at
   };
   struct Tubes {
-    std::span<const Bezier> now, posed;
+    std::span<const Bezier> now;
+    const PosedTubes& posed;
   };
   std::vector<Solid> solids;
   std::vector<mat4> toBound;  // a joint's way from the rest pose to where meshes are bound
@@ -115,6 +121,8 @@ struct Bones::State {
   std::size_t restContacts = 0;
 
   void findNear(std::size_t task, std::span<const Bezier> tubes);
+  void findNewlyNear(std::size_t task, const Tubes& tubes);
+  bool mayTouch(const Aabb& box, std::uint32_t part) const;
   bool look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
   vec3 home(const Near& at, float s, const Tubes& tubes) const;
   void leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const;
@@ -124,6 +132,8 @@ struct Bones::State {
 void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const {
   const DistanceField::Sample sample = solid.field.at(from);
   vec3 surface = from - sample.distance * unitOr(sample.gradient, vec3(0)), normal = sample.gradient;
+  contact.nearestPoint = placed(solid.matrix, surface);
+  contact.nearestNormal = mat3(solid.matrix) * unitOr(normal, vec3(0));
   const float way = glm::distance(from, towards);
   const auto distanceAt = [&](float at) { return solid.field.distance(glm::mix(from, towards, at)); };
   // Through the part to the place at rest: in within a radius, and out again.
@@ -150,11 +160,17 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
   contact.normal = glm::normalize(mat3(solid.matrix) * normal);
 }
 
-// Where the place was before it was pushed, if that is outside; or else at rest.
+// Where the place was at rest, if that was near the part and went along with it; or else before it was pushed, if that
+// is outside.
 vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
   const Solid& solid = solids[at.part];
-  const vec3 before = placed(solid.inverse, vec3(tubes.posed[at.tube].at(s)));
-  return solid.field.distance(before) > 0 ? before : placed(toBound[solid.joint], vec3(rest[at.tube].at(s)));
+  vec3 atRest = placed(toBound[solid.joint], vec3(rest[at.tube].at(s)));
+  const DistanceField::Sample sample = solid.field.at(atRest);
+  if (sample.distance <= 0) atRest += (kStep - sample.distance) * unitOr(sample.gradient, vec3(0));
+  const bool along = tubes.posed.turns.empty() || std::abs(glm::dot(tubes.posed.turns[at.tube], solid.turn)) > kAlong;
+  if (along && solid.field.clearance(atRest) < kNearAtRest) return atRest;
+  const vec3 before = placed(solid.inverse, vec3(tubes.posed.tubes[at.tube].at(s)));
+  return solid.field.distance(before) > 0 ? before : atRest;
 }
 
 // Returns whether the tube is within the field's band somewhere.
@@ -191,9 +207,33 @@ bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneCont
     const vec3 from = centre + deepestAside;
     leave(solid, from, deepest.enters() ? home(at, s, tubes) + deepestAside : from, small, deepest);
     deepest.point -= mat3(solid.matrix) * deepestAside + off * deepest.normal;
+    deepest.nearestPoint -= mat3(solid.matrix) * deepestAside + off * deepest.nearestNormal;
+    // Beyond where the straight way leaves the part, and in it even so.
+    const vec3 now(tubes.now[at.tube].at(s));
+    if (deepest.enters() && deepest.nearestNormal != vec3(0) && glm::dot(deepest.normal, now - deepest.point) >= ball.w + at.allowed)
+      deepest.point = deepest.nearestPoint, deepest.normal = deepest.nearestNormal;
     out.push_back(deepest);
   }
   return inBand;
+}
+
+// Pairs that have come near one another since, for a tube was moved a long way.
+void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
+  const std::size_t begin = task * kTubesPerTask, end = std::min(tubes.now.size(), begin + kTubesPerTask);
+  for (std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
+    if (distanceMoved(tubes.now[i], tubes.posed.tubes[i]) < kMovedFar) continue;
+    const Aabb box = tubes.now[i].bounds();
+    for (std::uint32_t part = 0; part < solids.size(); ++part) {
+      if (!boxes[part].overlaps(box)) continue;
+      if (std::ranges::any_of(near[task], [&](const Near& at) { return at.tube == i && at.part == part; })) continue;
+      if (mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i), true});
+    }
+  }
+}
+
+bool Bones::State::mayTouch(const Aabb& box, std::uint32_t part) const {
+  const vec3 middle = placed(solids[part].inverse, 0.5f * (box.low + box.high));
+  return solids[part].field.clearance(middle) <= 0.5f * glm::length(box.extent());
 }
 
 // Pairs of tubes and parts that may be near one another.
@@ -207,10 +247,7 @@ void Bones::State::findNear(std::size_t task, std::span<const Bezier> tubes) {
     if (!boxes[part].overlaps(all)) continue;
     for (std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
       const Aabb& box = boxesOf[i - begin];
-      if (!boxes[part].overlaps(box)) continue;
-      const float reach = 0.5f * glm::length(box.extent());
-      if (solids[part].field.clearance(placed(solids[part].inverse, 0.5f * (box.low + box.high))) > reach) continue;
-      near[task].push_back({i, part, solids[part].allowed(i)});
+      if (boxes[part].overlaps(box) && mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i)});
     }
   }
 }
@@ -230,7 +267,7 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     state_->toBound.push_back(glm::inverse(matrices.back()));
   }
   pose(matrices);
-  contacts(restTubes, restTubes);
+  contacts(restTubes, {restTubes, {}});
   for (const BoneContact& contact : state_->contacts) {
     if (!contact.enters()) continue;
     auto& atRest = state_->solids[contact.part].atRest;
@@ -243,6 +280,9 @@ Bones::Bones(Bones&&) noexcept = default;
 
 std::uint32_t Bones::partCount() const {
   return std::uint32_t(state_->solids.size());
+}
+JointId Bones::jointOf(std::uint32_t part) const {
+  return {std::uint16_t(state_->solids[part].joint)};
 }
 std::size_t Bones::restContactCount() const {
   return state_->restContacts;
@@ -258,11 +298,12 @@ void Bones::pose(std::span<const mat4> jointMatrices) {
   for (State::Solid& solid : state_->solids) {
     solid.matrix = jointMatrices[solid.joint];
     solid.inverse = glm::inverse(solid.matrix);
+    solid.turn = glm::normalize(glm::quat_cast(mat3(solid.matrix * state_->toBound[solid.joint])));
     state_->boxes.push_back(placed(solid.matrix, solid.field.box()));
   }
 }
 
-std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed, Which which) {
+std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, const PosedTubes& posed, Which which) {
   State& state = *state_;
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
   state.found.resize(tasks);
@@ -270,12 +311,13 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std:
   parallelFor(tasks, 1, [&](std::size_t task) {
     state.found[task].clear();
     if (which == Which::all) state.findNear(task, tubes);
+    else state.findNewlyNear(task, {tubes, posed});
     auto& out = state.found[task];
     std::erase_if(state.near[task], [&](State::Near& at) {
       const std::size_t before = out.size();
       if (which == Which::nearAtLast) {
         // What did not enter then, and was not moved, does not now.
-        if (at.entered || moved(tubes[at.tube], posed[at.tube])) state.look(at, {tubes, posed}, out);
+        if (at.entered || distanceMoved(tubes[at.tube], posed.tubes[at.tube]) > 0) state.look(at, {tubes, posed}, out);
         return false;
       }
       const bool inBand = state.look(at, {tubes, posed}, out);

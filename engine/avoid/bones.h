@@ -17,8 +17,15 @@ struct BoneContact {
   float allowed = 0;   ///< [m] <= 0: the least f of this tube and this part at rest, where that is negative
   vec3 point{0};       ///< as far from the centre line along the normal as that should be: n · (C(s) - point) >= r
   vec3 normal{0};      ///< unit, the way out there
+  vec3 nearestPoint{0}, nearestNormal{0};  ///< the same by the nearest surface, whichever side that is
   /// Deeper than at rest by more than rounding.
   bool enters() const { return allowed - f > (allowed < 0 ? kRestTolerance : 0); }
+};
+
+/// The tubes before any correction.
+struct PosedTubes {
+  std::span<const Bezier> tubes;
+  std::span<const quat> turns;  ///< how each tube's surroundings turned since rest; empty: not at all
 };
 
 /// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint that
@@ -27,8 +34,9 @@ struct BoneContact {
 /// largest weight at its first corner.
 ///
 /// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way leaves the
-/// part to the place that the pose alone gives, if that is outside, or else to the one at rest: a vessel is not pushed
-/// through a bone.
+/// part to where the tube belongs, so that a vessel is not pushed through a bone: the place at rest, if that was near
+/// the part and has not turned about it since, as the vessels of the forearm do about the radius, or else the one that
+/// the pose alone gives, if that is outside.
 class Bones {
  public:
   /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
@@ -42,12 +50,13 @@ class Bones {
   /// Places where tubes enter a part or come within a millimetre of that; sorted by tube, part and parameter. Tubes are
   /// looked at in four to seven places. Parallel.
   /// @param posed  the tubes before any correction
-  /// @param which  all tubes, or only those that were within a field's band when all were looked at last: what a round
-  ///               of corrections can bring into a bone, much faster
+  /// @param which  all tubes, or only those that were within a field's band when all were looked at last, and those that
+  ///               were moved far: what a round of corrections can bring into a bone, much faster
   enum class Which { all, nearAtLast };
-  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> posed, Which which = Which::all);
+  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, const PosedTubes& posed, Which which = Which::all);
 
   std::uint32_t partCount() const;
+  JointId jointOf(std::uint32_t part) const;  ///< that carries a part
   std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest
   std::size_t bytes() const;
 

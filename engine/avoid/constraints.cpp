@@ -17,6 +17,7 @@ constexpr float kSameDirection = 0.98f;    // ... if their normals are about the
 constexpr float kNegligible = 2e-6f;       // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can mend the place
 constexpr float kReach = 2;                // how far a multiplier may push on its own: times what is lacking
+constexpr float kReachBack = 6;            // ... where two tubes are on the wrong side of one another
 // What asks for a longer way than this from where the pose has put a vessel, and was not met there, comes of where the
 // vessel was pushed.
 constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
@@ -160,13 +161,15 @@ void ConstraintPool::propose(const Contact& contact, bool changed, std::span<con
     // A point to the side of a tube's end does not say anything about the two tubes' sides.
     const bool wrong = changed && glm::dot(gap, side) < 0;
     if (k > 0 && !wrong && glm::length(gap) >= distance) continue;
-    const vec3 normal = partingDirection(gap, side, distance, contactNormal);
+    const float sure = glm::length(side);
+    const bool back = wrong && k == 0 && sure > kSure;  // not only off one another, but back
+    const vec3 normal = back ? side / sure : partingDirection(gap, side, distance, contactNormal);
     const float lack = distance - glm::dot(normal, gap);
     if (lack <= kNegligible) continue;
     Constraint constraint{.tubes = {i, j}, .s = s, .t = t, .normal = normal, .clearance = clearance, .distance = distance};
     constraint.start = glm::dot(normal, posedPlace(i, s, posed) - posedPlace(j, t, posed));
     if (rounds_ > 1 && distance - constraint.start > kFarthest * (a.w + b.w) + kFartherStill) continue;
-    constraint.limit = kReach * (lack + a.w + b.w);
+    constraint.limit = (back ? kReachBack : kReach) * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     const auto same = [&](const Constraint& other) {
       return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter;

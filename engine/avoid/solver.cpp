@@ -23,6 +23,8 @@ constexpr float kSettled = 1e-6f;     // [m]
 // one another's way are parted the way they lie, and let through bones with what is joined to them within some nodes.
 constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000, 0, 0, 0};
 
+constexpr unsigned kBringBack = 3;  // times that more rounds are tried for the sides
+
 class Timer {
  public:
   explicit Timer(double& sum) : sum_(sum) {}
@@ -46,15 +48,19 @@ void noteMovement(std::span<const vec4> from, std::span<const vec4> to, AvoidRep
   if (!from.empty()) report.movedRms = float(std::sqrt(sum / double(from.size())));
 }
 
-void noteBones(std::span<const BoneContact> contacts, std::uint32_t& count, float& depth) {
-  count = 0, depth = 0;
-  std::uint32_t last = kNoTube;
+// Contacts are sorted by tube.
+BoneReport reportOf(std::span<const BoneContact> contacts) {
+  BoneReport report;
+  std::uint32_t lastNew = kNoTube, lastDeeper = kNoTube;
   for (const BoneContact& contact : contacts) {
     if (!contact.enters()) continue;
-    count += contact.tube != last;
+    const bool atRest = contact.allowed < 0;
+    std::uint32_t& last = atRest ? lastDeeper : lastNew;
+    if (contact.tube != last) ++(atRest ? report.deeper : report.contacts);
     last = contact.tube;
-    depth = std::max(depth, contact.allowed - contact.f);
+    report.depth = std::max(report.depth, contact.allowed - contact.f);
   }
+  return report;
 }
 
 }  // namespace
@@ -69,7 +75,8 @@ struct Avoider::State {
         pool(own, space, interference, sides),
         boneConstraints(own, space, interference.layout()),
         z(space.variableCount()),
-        posedTubes(interference.layout().count()) {
+        posedTubes(interference.layout().count()),
+        posedTurns(interference.layout().count()) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
   }
 
@@ -84,6 +91,7 @@ struct Avoider::State {
   void separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
   void letThroughBones(unsigned nodes);
   void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network& network;
   AvoidOptions options;
@@ -95,8 +103,10 @@ struct Avoider::State {
   BoneConstraints boneConstraints;
   std::vector<vec3> z;
   std::vector<Bezier> posedTubes;
+  std::vector<quat> posedTurns;  // of their middles
   VolumeKeeper::Outcome volumeOutcome;
   std::vector<vec4> before;  // lumen gave way
+  std::vector<vec4> pointsBefore;  // more rounds
   std::vector<float> most;   // radius of a point, since it did
   std::vector<Interference::Place> found, remaining;
   std::span<const Interference::Place> places;  // of the last look, as the next two
@@ -168,7 +178,7 @@ void Avoider::State::look(const PosedVessels& posed, std::span<const vec4> point
 void Avoider::State::lookAtBones(Bones::Which which, AvoidReport& report) {
   if (!bones) return;
   Timer timer(report.boneMs);
-  boneContacts = bones->contacts(interference.tubes(), posedTubes, which);
+  boneContacts = bones->contacts(interference.tubes(), {posedTubes, posedTurns}, which);
 }
 
 void Avoider::State::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
@@ -244,6 +254,29 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
   for (const NarrowPlace& narrow : narrowed) report.leastLumen = std::min(report.leastLumen, narrow.factor);
 }
 
+// Some rounds more where vessels have ended on the wrong side of one another; what came of them stands if that is fewer
+// and the certificate holds as it did.
+void Avoider::State::bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+  for (unsigned attempt = 0; attempt < kBringBack && !changed.empty(); ++attempt) {
+    const AvoidReport reportBefore = report;
+    const std::size_t changedBefore = changed.size();
+    pointsBefore.assign(points.begin(), points.end());
+    const std::vector<NarrowPlace> narrowedBefore = narrowed;
+    const VolumeKeeper::Outcome outcomeBefore = volumeOutcome;
+    separate(posed, volume, points, report);
+    giveWay(posed, volume, points, report);
+    if (changed.size() < changedBefore && certificateOf(places, &remaining).holds()) continue;
+    std::ranges::copy(pointsBefore, points.begin());
+    const unsigned rounds = report.rounds;
+    report = reportBefore;
+    report.rounds = rounds;
+    narrowed = narrowedBefore;
+    volumeOutcome = outcomeBefore;
+    look(posed, points, Bones::Which::nearAtLast, report);
+    return;
+  }
+}
+
 AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
   AvoidReport report;
   pool.clear();
@@ -253,12 +286,16 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   if (bones) {
     bones->pose(posed.jointMatrices);
     interference.layout().shape(posed.points, posedTubes);
+    for (std::uint32_t tube = 0; tube < posedTurns.size(); ++tube) {
+      const auto [vessel, span] = interference.layout().address(tube);
+      posedTurns[tube] = posed.rotations[network.vessel(vessel).firstPoint + span + 1];
+    }
   }
   look(posed, points, Bones::Which::all, report);
   report.before = certificateOf(places, &found);
   report.sidesChanged = std::uint32_t(changed.size());
-  noteBones(boneContacts, report.boneContacts, report.boneDepth);
-  if (!report.before.holds() || !changed.empty() || report.boneContacts > 0) {
+  report.bones = reportOf(boneContacts);
+  if (!report.before.holds() || !changed.empty() || report.bones.contacts + report.bones.deeper > 0) {
     separate(posed, volume, points, report);
     giveWay(posed, volume, points, report);
     for (const unsigned nodes : kResorts) {
@@ -272,10 +309,11 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
       giveWay(posed, volume, points, report);
     }
   }
+  if (report.rounds > 0 && certificateOf(places, &remaining).holds()) bringBack(posed, volume, points, report);
   if (report.rounds > 0) lookAtBones(Bones::Which::all, report);
   report.after = certificateOf(places, &remaining);
   report.sidesChangedAfter = std::uint32_t(changed.size());
-  noteBones(boneContacts, report.boneContactsAfter, report.boneDepthAfter);
+  report.bonesAfter = reportOf(boneContacts);
   report.volume = volumeOutcome;
   report.constraints = std::uint32_t(pool.constraints().size() + boneConstraints.constraints().size());
   noteMovement(posed.points, points, report);
@@ -299,6 +337,14 @@ std::span<const NarrowPlace> Avoider::narrowed() const {
 std::span<const Contact> Avoider::changedSides() const {
   return state_->changed;
 }
+std::vector<BoneContact> Avoider::inBones() const {
+  std::vector<BoneContact> inside(state_->boneContacts.begin(), state_->boneContacts.end());
+  std::erase_if(inside, [](const BoneContact& contact) { return !contact.enters(); });
+  return inside;
+}
+JointId Avoider::jointOfBone(std::uint32_t part) const {
+  return state_->bones->jointOf(part);
+}
 std::span<const Interference::Place> Avoider::found() const {
   return state_->found;
 }
@@ -307,6 +353,9 @@ const NetworkTubes& Avoider::layout() const {
 }
 std::size_t Avoider::restPairCount() const {
   return state_->interference.restPairCount();
+}
+std::size_t Avoider::restBoneContactCount() const {
+  return state_->bones ? state_->bones->restContactCount() : 0;
 }
 std::size_t Avoider::neighbourCount() const {
   return state_->interference.neighbourCount();

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "avoid/bones.h"
 #include "avoid/certificate.h"
 #include "avoid/lumen.h"
 #include "avoid/posed_vessels.h"
@@ -9,7 +10,8 @@
 
 namespace vasa {
 
-/// Fixed budgets: no frame takes more than these, once, and again at each of eight resorts where there is no room.
+/// Fixed budgets: no frame takes more than these, once, again at each of eight resorts where there is no room, and up to
+/// three times more for vessels on the wrong side of one another.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
   unsigned rounds = 10;      ///< detections, each followed by sweeps
@@ -17,11 +19,17 @@ struct AvoidOptions {
   unsigned lumenRounds = 8;  ///< of making vessels thinner where there is no room
 };
 
+/// Tubes in bones or the heart.
+struct BoneReport {
+  std::uint32_t contacts = 0;  ///< in a bone that they were not in at rest
+  std::uint32_t deeper = 0;    ///< deeper in one that they were in at rest
+  float depth = 0;             ///< [m] the deepest of both, from where they may be
+};
+
 /// What was done for a frame.
 struct AvoidReport {
   Certificate before, after;
-  std::uint32_t boneContacts = 0, boneContactsAfter = 0;  ///< tubes in bones or the heart, deeper than at rest
-  float boneDepth = 0, boneDepthAfter = 0;                ///< [m] the deepest of them
+  BoneReport bones, bonesAfter;
   std::uint32_t constraints = 0;  ///< in the pool at the end
   std::uint32_t rounds = 0;       ///< detections that asked for a correction
   float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
@@ -60,12 +68,17 @@ class Avoider {
   std::span<const NarrowPlace> narrowed() const;
   /// Of the last run: tubes that are on the wrong side of one another in spite of all (RestSides::findChanged).
   std::span<const Contact> changedSides() const;
+  /// Of the last run: places of tubes that are in a bone or the heart in spite of all, deeper than at rest.
+  std::vector<BoneContact> inBones() const;
+  JointId jointOfBone(std::uint32_t part) const;
   /// Of the last run: where vessels interfered before.
   std::span<const Interference::Place> found() const;
 
   const NetworkTubes& layout() const;
   /// Pairs of tubes that overlap at rest.
   std::size_t restPairCount() const;
+  /// Tubes that lie in a bone or the heart at rest.
+  std::size_t restBoneContactCount() const;
   /// Pairs of tubes that are never looked at, for they are near one another along the network.
   std::size_t neighbourCount() const;
 

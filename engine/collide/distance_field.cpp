@@ -10,6 +10,12 @@
 #include "mesh/weld.h"
 
 namespace vasa {
+namespace {
+
+constexpr float kInsideFrom = 0.5f;    // winding number
+constexpr float kStepMargin = 1.001f;  // of the way from corner to corner
+
+}  // namespace
 
 DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const uvec3> everyTriangle, Options options)
     : options_(options) {
@@ -23,6 +29,7 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
   counts_ = ivec3(glm::ceil(box_.extent() / side)) + 1;
   bricks_.assign(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z), kUndecided);
   surface_ = std::make_unique<Obstacle>(positions, triangles);
+  winding_ = std::make_unique<WindingNumber>(positions, triangles);
   markBand(positions, triangles);
   sortOutInside();
   measureRings();
@@ -63,8 +70,38 @@ void DistanceField::fill(std::uint32_t number, ivec3 at) const {
   const vec3 low = origin_ + options_.cell * kBrick * vec3(at);
   for (int k = 0; k < kValues; ++k)
     corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
-  surface_->signedDistances(corners, options_.band, near, std::span(values_.get() + std::size_t(number) * kValues, kValues));
+  const std::span<float, kValues> values(values_.get() + std::size_t(number) * kValues, kValues);
+  surface_->distances(corners, options_.band, near, values);
+  giveSigns(corners, values);
   states_[number].store(full, std::memory_order_release);
+}
+
+// No surface passes between two corners of a brick if one is farther from it than the other corner is from that: they
+// are on one side, which one winding number tells for all that hang together so.
+void DistanceField::giveSigns(std::span<const vec3, kValues> corners, std::span<float, kValues> distances) const {
+  constexpr int kStrides[] = {1, kCorners, kCorners * kCorners};
+  std::array<std::uint8_t, kValues> together;
+  std::array<bool, kValues> known{};
+  for (int first = 0; first < kValues; ++first) {
+    if (known[std::size_t(first)]) continue;
+    std::size_t count = 0;
+    const auto take = [&](int at) { known[std::size_t(at)] = true, together[count++] = std::uint8_t(at); };
+    take(first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const int from = together[k];
+      const ivec3 corner(from % kCorners, from / kCorners % kCorners, from / (kCorners * kCorners));
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int step : {-1, 1}) {
+          if (corner[axis] + step < 0 || corner[axis] + step >= kCorners) continue;
+          const int to = from + step * kStrides[axis];
+          if (!known[std::size_t(to)] && std::max(distances[std::size_t(from)], distances[std::size_t(to)]) > kStepMargin * options_.cell) take(to);
+        }
+    }
+    const auto own = std::span(together).first(count);
+    const int farthest = *std::ranges::max_element(own, {}, [&](int at) { return distances[std::size_t(at)]; });
+    if (winding_->at(corners[std::size_t(farthest)]) > kInsideFrom)
+      for (const int at : own) distances[std::size_t(at)] = -distances[std::size_t(at)];
+  }
 }
 
 // Bricks beyond the band hang together in regions, each all outside or all inside: as the values say on some of the

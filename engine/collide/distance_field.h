@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collide/obstacle.h"
+#include "collide/winding_number.h"
 #include "math/aabb.h"
 #include "math/types.h"
 
@@ -22,8 +23,7 @@ class DistanceField {
     float band = 0.006f;   ///< [m], at least 2 cells
   };
 
-  /// @param triangles  counter-clockwise from outside; the surface should be closed (see Obstacle), but equal vertices
-  ///                   may be several
+  /// @param triangles  counter-clockwise from outside; holes and overlaps are borne (collide/winding_number.h)
   /// O(triangles); filling all bricks would be O(area · band / cell³).
   DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options);
 
@@ -56,6 +56,7 @@ class DistanceField {
   void markBand(std::span<const vec3> positions, std::span<const uvec3> triangles);
   const float* valuesOf(std::uint32_t number, ivec3 at) const;
   void fill(std::uint32_t number, ivec3 at) const;
+  void giveSigns(std::span<const vec3, kValues> corners, std::span<float, kValues> distances) const;
   void sortOutInside();
   void measureRings();
 
@@ -67,6 +68,7 @@ class DistanceField {
   std::vector<std::uint8_t> rings_;    // of an outer brick: how many bricks off the nearest with values is
   enum State : std::uint8_t { empty, beingFilled, full };
   std::unique_ptr<Obstacle> surface_;
+  std::unique_ptr<WindingNumber> winding_;
   std::uint32_t filled_ = 0;                             // bricks that have values
   std::unique_ptr<float[]> values_;                      // kValues a brick
   std::unique_ptr<std::atomic<std::uint8_t>[]> states_;  // of a brick's values

@@ -224,8 +224,8 @@ std::uint32_t Obstacle::triangleCount() const {
   return std::uint32_t(state_->triangles.size());
 }
 
-void Obstacle::signedDistances(std::span<const vec3> points, float reach, std::vector<std::uint32_t>& near,
-                               std::span<float> distances) const {
+void Obstacle::distances(std::span<const vec3> points, float reach, std::vector<std::uint32_t>& near,
+                         std::span<float> distances) const {
   Aabb box;
   for (const vec3& p : points) box.add(p, reach);
   state_->trianglesNear(box, near);
@@ -252,7 +252,7 @@ void Obstacle::signedDistances(std::span<const vec3> points, float reach, std::v
     nearest.clear();
     for (std::size_t k = 0; k < count; ++k)
       if (squared[k] <= (most + radius[k]) * (most + radius[k])) nearest.push_back(near[k]);
-    distances[p] = glm::clamp(state_->signedDistance(vec4(point, 0), nearest).distance, -reach, reach);
+    distances[p] = std::min(std::abs(state_->signedDistance(vec4(point, 0), nearest).distance), reach);
   }
 }
 

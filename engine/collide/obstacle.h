@@ -41,11 +41,10 @@ class Obstacle {
   /// @param depth   [m] how far inside a centre line is still noticed; larger costs more
   std::span<const ObstacleContact> contacts(std::span<const Bezier> tubes, float margin, float depth);
 
-  /// Signed distances of points from the surface, no further than `reach`; +reach or -reach beyond it, by the side of
-  /// the nearest triangle near the points' box (+ where there is none).
+  /// Distances of points from the surface, on either side of it; `reach` beyond that.
   /// @param near  working memory
-  void signedDistances(std::span<const vec3> points, float reach, std::vector<std::uint32_t>& near,
-                       std::span<float> distances) const;
+  void distances(std::span<const vec3> points, float reach, std::vector<std::uint32_t>& near,
+                 std::span<float> distances) const;
 
   std::uint32_t triangleCount() const;
 

@@ -64,3 +64,20 @@ TEST_CASE("a hollow whose ways out are narrower than the band is outside") {
   CHECK(field.distance({0, 0, 0}) == doctest::Approx(0.006f));
   CHECK(field.distance({0.025f, 0, 0}) < -0.004f);
 }
+
+TEST_CASE("the field's sign is right where a surface has rims, overlaps and the same face twice") {
+  // A box without its lid's middle, a second one that reaches into it, and one of its walls again.
+  const vec3 low(-0.02f, -0.03f, 0), high(0.02f, 0.03f, 0.05f);
+  Shell shell;
+  shell.add(test::boxMesh("box", low, high));
+  const auto wall = shell.triangles.front();
+  shell.triangles.push_back(wall);
+  shell.triangles.erase(shell.triangles.begin() + 1);
+  shell.add(test::boxMesh("other", {-0.01f, -0.01f, 0.04f}, {0.01f, 0.01f, 0.08f}));
+  const DistanceField field(shell.positions, shell.triangles, {.cell = 0.002f, .band = 0.006f});
+  CHECK(field.distance({0, 0, 0.044f}) < 0);  // in both
+  CHECK(field.distance({0, 0, 0.07f}) < 0);
+  CHECK(field.distance({0.015f, 0.02f, 0.025f}) < 0);
+  // Beyond the band, where the nearest face that is looked at may be one seen from behind.
+  for (const vec3 out : {vec3(0.04f, 0.045f, 0.065f), vec3(-0.033f, 0, 0.062f), vec3(0.027f, 0.037f, 0.056f)}) CHECK(field.distance(out) > 0);
+}
