@@ -30,6 +30,7 @@ struct Options {
   CapillaryOptions capillaries;
   unsigned samples = 4;
   std::string look;  // empty: as the scene says
+  std::string forks = "on";
   std::uint32_t supersample = 1;
   bool beat = false;
   bool resume = false, transparent = false, noVolume = false, avoid = true, highlightContacts = false;
@@ -91,7 +92,7 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options,
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, choice.look.preset, options.transparent,
                   options.noVolume, options.avoid, options.highlightContacts) +
-      fmt::format("|{}|{}", options.supersample, options.beat);
+      fmt::format("|{}|{}|{}", options.supersample, options.beat, options.forks);
   return hashOfCapillaries(choice.capillaries, seed, hashOf(std::span(settings), hash));
 }
 
@@ -140,7 +141,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
-  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .supersample = options.supersample, .occlusion = true, .timed = false};
+  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .forks = options.forks == "on", .supersample = options.supersample, .occlusion = true, .timed = false};
   job.range = *range;
   job.shard = *shard;
   job.render.growth = job.growth.get();
@@ -354,6 +355,9 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.3 pixels")->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_option("--forks", options->forks, "on: vessels join smoothly; off: they end inside one another, to compare")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   sub->add_option("--supersample", options->supersample, "Draw each pixel of the picture as NxN, 1 to 4: for stills")->check(CLI::Range(1, 4))->capture_default_str();
   sub->add_flag("--beat", options->beat, "The heart beats as the clip goes on");
   sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas");

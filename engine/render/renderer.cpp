@@ -133,7 +133,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
     : device(dev),
       options(chosen),
       ownColours(kindColours(network)),
-      tubes(device, network, {chosen.shape, chosen.pixelError}, chosen.sweepsPerBatch),
+      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks}, chosen.sweepsPerBatch),
       forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
       meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, st
 }
 
 TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t batchSweeps)
-    : table_(makeSweepTable(network)), detail_(detail), vesselCount_(std::uint32_t(network.vessels().size())) {
+    : table_(detail.forks ? makeSweepTable(network) : makeSweepTable(network, planWithoutForks(network))), detail_(detail), vesselCount_(std::uint32_t(network.vessels().size())) {
   assert(detail.automatic() || detail.shape.valid());
   makeBatches(batchSweeps);
   const shared::TubeTables tables = tablesOf();

@@ -13,6 +13,7 @@ namespace vasa {
 struct TubeDetail {
   SweepShape shape;
   float pixelError = 0;  ///< [pixels] > 0: m and n are the least that keep it, and `shape` is not used
+  bool forks = true;     ///< false: all vessels are tubes of their own, which end inside one another
 
   bool automatic() const { return pixelError > 0; }
   std::uint32_t mostAround() const { return automatic() ? shared::kMaxAround : shape.around; }

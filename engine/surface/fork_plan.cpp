@@ -411,6 +411,13 @@ class Planner {
 
 }  // namespace
 
+ForkPlan planWithoutForks(const Network& network) {
+  ForkPlan plan;
+  for (std::uint32_t i = 0; i < network.vessels().size(); ++i)
+    plan.tubes.push_back({i, 0, float(network.vessels()[i].spanCount()), true, true});
+  return plan;
+}
+
 ForkPlan planForks(const Network& network) {
   std::vector<Planner::Pair> apart;
   ForkTrials shapes(network);

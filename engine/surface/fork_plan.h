@@ -42,4 +42,7 @@ struct ForkPlan {
 };
 ForkPlan planForks(const Network& network);
 
+/// No forks: every vessel is a tube with two caps that ends inside its host. For comparison.
+ForkPlan planWithoutForks(const Network& network);
+
 }  // namespace vasa

@@ -106,3 +106,17 @@ TEST_CASE("Ctrl-C in the middle of an export leaves only whole pictures and no v
     CHECK(readPng(folder.path() / name).ok());
   }
 }
+
+TEST_CASE("forks can be left out, to compare") {
+  TemporaryFolder folder;
+  const auto frame = [&](const char* forks) {
+    const auto path = folder.path() / (std::string(forks) + ".png");
+    REQUIRE(runProgram({"render", "--clip", "walk", "--frames", "0", "--focus", "abdominal aorta", "--size", "160x160", "--hide", "skin,bones,organs",
+                        "--forks", forks, "-o", path.string()}).exit == 0);
+    auto picture = readPng(path);
+    REQUIRE(picture.ok());
+    return std::move(picture->rgba);
+  };
+  CHECK(frame("on") != frame("off"));
+  CHECK(runProgram({"render", "--forks", "some", "-o", "x.png"}).exit == 2);
+}
