@@ -7,7 +7,8 @@
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kAround = 8, kCoarseAround = 4;
+constexpr std::uint32_t kAround = 8;
+constexpr std::uint32_t kOtherAround[] = {4, 6, 12, 16};
 constexpr float kSqueezed = 0.7f, kSheared = 0.4f;
 
 std::vector<mat3> strains() {
@@ -49,7 +50,8 @@ ForkFolds ForkTrials::tried(const SweepTable& table, const shared::ForkRecord& f
     const PosedNetwork posed{table, shapes_[i].points, shapes_[i].frames};
     const std::uint32_t found = foldedTriangles(posed, fork, kAround, ForkForm::open);
     (i == 0 ? folds.rest : folds.strained) += found;
-    if (i == 0) folds.coarse = foldedTriangles(posed, fork, kCoarseAround, ForkForm::open);
+    for (const std::uint32_t around : kOtherAround)
+      if (i == 0) folds.others += foldedTriangles(posed, fork, around, ForkForm::open);
     if (folds.rest > 0) break;  // not to be drawn anyway
   }
   return folds;

@@ -9,9 +9,9 @@ namespace vasa {
 /// Where a fork folds, in triangles; the lesser of two is the better fork.
 struct ForkFolds {
   std::uint32_t rest = 0;      ///< at rest, 8 quads around
+  std::uint32_t others = 0;    ///< at rest, other numbers of quads around
   std::uint32_t strained = 0;  ///< in strained shapes of the network, 8 quads around
-  std::uint32_t coarse = 0;    ///< at rest, 4 quads around
-  bool none() const { return rest + strained + coarse == 0; }
+  bool none() const { return rest + others + strained == 0; }
   auto operator<=>(const ForkFolds&) const = default;
 };
 
