@@ -153,6 +153,16 @@ void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
   addInfluences(to, rig.points[std::size_t(shape.parts.front().path.front())].joint);
 }
 
+/// One free form for each joint that moves parts of the shape.
+void addFreeForms(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
+  for (int joint : rig.joints) {
+    Shape group;
+    for (const Part& part : shape.parts)
+      if (part.path.front() == joint) group.parts.push_back(part);
+    if (!group.parts.empty()) addFreeForm(to, group, rig);
+  }
+}
+
 }  // namespace
 
 Result<SkinnedMesh> makeBones(const std::filesystem::path& bones, const Shape& shape, const Rig& rig) {
@@ -164,12 +174,7 @@ Result<SkinnedMesh> makeBones(const std::filesystem::path& bones, const Shape& s
   for (std::size_t r = 0; r < table->rowCount(); ++r)
     for (Side side : sidesOf(table->text(r, "side"))) addBone(mesh, *table, r, rig, side);
   if (!table->state().ok()) return table->state().error();
-  for (int joint : rig.joints) {
-    Shape group;
-    for (const Part& part : shape.parts)
-      if (part.path.front() == joint) group.parts.push_back(part);
-    if (!group.parts.empty()) addFreeForm(mesh, group, rig);
-  }
+  addFreeForms(mesh, shape, rig);
   mesh.normals = vertexNormals(mesh.mesh);
   return mesh;
 }
@@ -178,7 +183,7 @@ SkinnedMesh makeSolid(std::string name, vec4 colour, const Shape& shape, const R
   SkinnedMesh mesh;
   mesh.name = std::move(name);
   mesh.colour = colour;
-  addFreeForm(mesh, shape, rig);
+  addFreeForms(mesh, shape, rig);
   mesh.normals = vertexNormals(mesh.mesh);
   return mesh;
 }

@@ -8,7 +8,7 @@ namespace vasa::human {
 /// the free forms of `shape`, whose parts are united joint by joint.
 Result<SkinnedMesh> makeBones(const std::filesystem::path& bones, const Shape& shape, const Rig& rig);
 
-/// A shape as one solid that moves with its first part's joint.
+/// A shape's parts as closed solids, united joint by joint; each moves with its path's first joint.
 SkinnedMesh makeSolid(std::string name, vec4 colour, const Shape& shape, const Rig& rig);
 
 }  // namespace vasa::human

@@ -15,14 +15,15 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   const auto shapeOf = [&](std::string_view mesh) {
     return readShape(tables / "parts.csv", tables / "sections.csv", mesh, human.rig);
   };
-  Result<Shape> skin = shapeOf("skin"), forms = shapeOf("bones"), heart = shapeOf("heart");
-  for (const Result<Shape>* shape : {&skin, &forms, &heart})
+  Result<Shape> skin = shapeOf("skin"), forms = shapeOf("bones"), heart = shapeOf("heart"), organs = shapeOf("organs");
+  for (const Result<Shape>* shape : {&skin, &forms, &heart, &organs})
     if (!shape->ok()) return shape->error();
   human.skinShape = std::move(skin).value();
   Result<SkinnedMesh> bones = makeBones(tables / "bones.csv", *forms, human.rig);
   if (!bones.ok()) return bones.error();
   human.meshes = {makeSkin(human.skinShape, human.rig), std::move(bones).value(),
-                  makeSolid("heart", {0.55f, 0.13f, 0.11f, 1}, *heart, human.rig)};
+                  makeSolid("heart", {0.55f, 0.13f, 0.11f, 1}, *heart, human.rig),
+                  makeSolid("organs", {0.66f, 0.39f, 0.34f, 0.3f}, *organs, human.rig)};
   Result<std::vector<Clip>> clips = makeClips(tables / "clips.csv", tables / "clip_keys.csv", human.rig);
   if (!clips.ok()) return clips.error();
   human.clips = std::move(clips).value();

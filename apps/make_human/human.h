@@ -11,7 +11,7 @@ namespace vasa::human {
 struct Human {
   Rig rig;
   Shape skinShape;
-  std::vector<SkinnedMesh> meshes;  ///< skin, bones, heart
+  std::vector<SkinnedMesh> meshes;  ///< skin, bones, heart, organs
   std::vector<Clip> clips;
   Network vessels;
 };

@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "body/mesh_role.h"
 #include "collide/distance_field.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
@@ -254,7 +255,7 @@ void Bones::State::findNear(std::size_t task, std::span<const Bezier> tubes) {
 
 Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::make_unique<State>()) {
   for (const SkinnedMesh& mesh : body.meshes) {
-    if (mesh.name == "skin" || mesh.influences.empty()) continue;
+    if (!isSolid(mesh) || mesh.influences.empty()) continue;
     for (const Part& part : partsOf(mesh))
       state_->solids.push_back({part.joint, DistanceField(part.positions, part.triangles, {})});
   }

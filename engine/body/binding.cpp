@@ -129,8 +129,7 @@ void appendRecords(std::span<const LimbShare> limbs, std::vector<BindingRecord>&
   for (std::size_t k = 0; k < limbs.size(); ++k) {
     const auto rounded = std::uint32_t(std::lround(limbs[k].weight * float(kWholeShare)));
     const std::uint32_t share = k + 1 == limbs.size() ? left : std::min(rounded, left);
-    for (const Station& station : limbs[k].stations)
-      records.push_back({station.along, std::uint16_t(station.joint.value), 0});
+    for (const Station& station : limbs[k].stations) records.emplace_back(station, std::uint16_t(0));
     records.back().share = std::uint16_t(share);
     left -= share;
     if (left == 0) break;

@@ -14,13 +14,17 @@ namespace vasa {
 /// along the link, at which angle around it, how far from it" is this station and the rest point in the
 /// station's rest frame, which the network holds already.
 struct BindingRecord {
-  float along;          ///< Station::along
+  static constexpr float kAlongOne = 32767;  ///< how Station::along is counted: 0, 1 and 2 are exact
+
+  std::uint16_t along;  ///< Station::along, in these
   std::uint16_t joint;  ///< Station::joint
   std::uint16_t share;  ///< of kWholeShare; a point's records follow one another until theirs add up to it
 
-  Station station() const { return {{joint}, along}; }
+  BindingRecord(const Station& station, std::uint16_t of)
+      : along(std::uint16_t(station.along * kAlongOne + 0.5f)), joint(std::uint16_t(station.joint.value)), share(of) {}
+  Station station() const { return {{joint}, float(along) / kAlongOne}; }
 };
-static_assert(sizeof(BindingRecord) == 8);
+static_assert(sizeof(BindingRecord) == 6);
 
 constexpr std::uint32_t kWholeShare = 65535;
 

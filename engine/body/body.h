@@ -17,7 +17,7 @@ struct SkinInfluence {
 
 /// A mesh that moves with the skeleton.
 struct SkinnedMesh {
-  std::string name;   ///< e.g. "skin", "bones", "heart"
+  std::string name;   ///< e.g. "skin", "bones", "heart"; says what it is (body/mesh_role.h)
   TriangleMesh mesh;  ///< in the space of the inverse binds: as a rule model space at rest (see readBody)
   std::vector<vec3> normals;              ///< unit, one a vertex
   std::vector<SkinInfluence> influences;  ///< one a vertex

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "body/mesh_role.h"
 #include "body/point_tree.h"
 #include "math/aabb.h"
 #include "math/closest_point.h"
@@ -63,7 +64,7 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
   Aabb bounds;
   for (const SpineJoint& joint : spines.joints) bounds.add(joint.centre);
   for (const SkinnedMesh& mesh : body.meshes) {
-    if (!movesByRigidParts(mesh)) continue;
+    if (!movesByRigidParts(mesh) || roleNamed(mesh.name) == MeshRole::organs) continue;
     fromMeshes_ = true;
     for (std::size_t v = 0; v < mesh.influences.size(); ++v) {
       const SkinInfluence& influence = mesh.influences[v];

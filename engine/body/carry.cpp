@@ -201,7 +201,7 @@ class Carrier {
       bool starts = true;
       for (std::uint32_t left = kWholeShare; left > 0; ++r) {
         const BindingRecord& record = binding_.records[r];
-        const float share = record.along <= 1 ? record.along : record.along - 1;
+        const float along = record.station().along, share = along <= 1 ? along : along - 1;
         limb = glm::mix(before(record.joint, p), starts ? after(record.joint, p) : limb, share);
         mean += float(record.share) / float(kWholeShare) * limb;
         starts = record.share != 0;

@@ -93,8 +93,8 @@ void linearBlendPoints(const Binding& binding, std::span<const vec4> rest, const
     vec3 mean(0), limb(0);
     bool starts = true;
     for (const BindingRecord& record : records) {
-      const JointId joint = record.station().joint;
-      const float share = record.along <= 1 ? record.along : record.along - 1;
+      const auto [joint, along] = record.station();
+      const float share = along <= 1 ? along : along - 1;
       limb = glm::mix(spines.placeBefore(joint, p), starts ? spines.placeAfter(joint, p) : limb, share);
       mean += float(record.share) / float(kWholeShare) * limb;
       starts = record.share != 0;

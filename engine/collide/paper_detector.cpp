@@ -118,18 +118,19 @@ std::span<const TubePair> PaperDetector::detect() {
     const auto [level, a, b] = stack_.back();
     stack_.pop_back();
     const std::uint32_t below = level - 1;
-    const std::span<const Sphere> spheres = tree_.level(below);
     const std::uint32_t endA = std::min(tree_.count(below), (a + 1) * SphereTree::kArity);
     const std::uint32_t endB = std::min(tree_.count(below), (b + 1) * SphereTree::kArity);
-    for (std::uint32_t i = a * SphereTree::kArity; i < endA; ++i)
+    for (std::uint32_t i = a * SphereTree::kArity; i < endA; ++i) {
+      const Sphere own = tree_.sphere(below, i);
       for (std::uint32_t j = a == b ? i + (below == 0) : b * SphereTree::kArity; j < endB; ++j) {
-        if (!overlap(spheres[i], spheres[j])) continue;
+        if (!overlap(own, tree_.sphere(below, j))) continue;
         if (below > 0) {
           stack_.push_back({below, i, j});
         } else {
           meet(i, j);
         }
       }
+    }
   }
   std::sort(pairs_.begin(), pairs_.end());
   return pairs_;

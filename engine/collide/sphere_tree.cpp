@@ -1,7 +1,9 @@
 #include "collide/sphere_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -163,14 +165,37 @@ SphereTree::SphereTree(std::span<const Bezier> rest) : start_{0} {
 
 void SphereTree::refit(std::span<const Bezier> tubes) {
   assert(tubes.size() == order_.size());
+  chooseGrid(tubes);
   for (std::size_t leaf = 0; leaf < order_.size(); ++leaf)
-    spheres_[leaf] = boundingSphere(tubes[order_[leaf]]);
-  for (std::uint32_t level = 1; level < levels(); ++level) {
-    const std::span<const Sphere> below = this->level(level - 1);
-    for (std::uint32_t node = 0; node < count(level); ++node)
-      spheres_[start_[level] + node] = sphereAround(
-          below.subspan(node * kArity, std::min<std::size_t>(kArity, below.size() - node * kArity)));
+    spheres_[leaf] = packed(boundingSphere(tubes[order_[leaf]]));
+  std::array<Sphere, kArity> children;
+  for (std::uint32_t level = 1; level < levels(); ++level)
+    for (std::uint32_t node = 0; node < count(level); ++node) {
+      const std::uint32_t first = node * kArity, size = std::min(kArity, count(level - 1) - first);
+      for (std::uint32_t k = 0; k < size; ++k) children[k] = sphere(level - 1, first + k);
+      spheres_[start_[level] + node] = packed(sphereAround(std::span(children).first(size)));
+    }
+}
+
+// All centres lie in the box of the leaves' centres, and no sphere reaches farther than twice across it and the
+// widest leaf: half the grid's 65,536 steps are the box, so that radii fit too.
+void SphereTree::chooseGrid(std::span<const Bezier> tubes) {
+  Aabb box;
+  for (const Bezier& tube : tubes) {
+    const Sphere sphere = boundingSphere(tube);
+    box.add(sphere.centre, sphere.radius);
   }
+  const vec3 extent = box.empty() ? vec3(1) : box.extent();
+  corner_ = box.empty() ? vec3(0) : box.low;
+  step_ = std::max({extent.x, extent.y, extent.z, 1e-6f}) / 32000;
+}
+
+SphereTree::Packed SphereTree::packed(const Sphere& sphere) const {
+  constexpr float kRounding = 1.0f;  // of a centre, in steps: more than half a cell's diagonal
+  const vec3 at = glm::round((sphere.centre - corner_) / step_);
+  const float radius = std::ceil(sphere.radius / step_ + kRounding);
+  assert(radius < 65536);
+  return {std::uint16_t(at.x), std::uint16_t(at.y), std::uint16_t(at.z), std::uint16_t(radius)};
 }
 
 }  // namespace vasa

@@ -1,20 +1,8 @@
 #include "render/look.h"
 
 #include <algorithm>
-#include <cctype>
-#include <string>
 
 namespace vasa {
-
-MeshRole roleNamed(std::string_view name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  const auto has = [&](std::string_view part) { return lower.find(part) != std::string::npos; };
-  if (has("bone") || has("skelet")) return MeshRole::bones;
-  if (has("heart")) return MeshRole::heart;
-  if (has("skin") || has("body")) return MeshRole::skin;
-  return MeshRole::other;
-}
 
 std::optional<Look> lookNamed(std::string_view name) {
   Look look;
@@ -49,6 +37,7 @@ vec4 colourOf(MeshRole role) {
     case MeshRole::bones: return {0.93f, 0.86f, 0.71f, 1};
     case MeshRole::heart: return {0.52f, 0.11f, 0.12f, 1};
     case MeshRole::skin: return {0.86f, 0.60f, 0.48f, 1};
+    case MeshRole::organs: return {0.84f, 0.66f, 0.62f, 1};
     case MeshRole::other: break;
   }
   return {0.78f, 0.70f, 0.66f, 1};

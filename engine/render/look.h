@@ -3,17 +3,11 @@
 #include <optional>
 #include <string_view>
 
+#include "body/mesh_role.h"
 #include "math/types.h"
 #include "network/network.h"
 
 namespace vasa {
-
-/// How a mesh of the body is shown.
-enum class MeshRole : std::uint8_t { bones, heart, skin, other };
-
-/// The role by a mesh's name: "bones", "skeleton" -> bones, "heart" -> heart, "skin", "body" -> skin;
-/// otherwise other. Upper and lower case are alike.
-MeshRole roleNamed(std::string_view name);
 
 /// The light: atlas for a white page, clinical for a dark screen, xray for surfaces that let light through.
 enum class LookStyle : std::uint8_t { atlas, clinical, xray };
@@ -29,7 +23,7 @@ struct Look {
   bool drawBones = true;
   bool drawHeart = true;
   bool drawSkin = true;
-  bool drawOther = true;
+  bool drawOther = true;  ///< organs other than the heart, and meshes of unknown names
   float skinOpacity = 0.3f;  ///< in [0, 1]: less where the skin is seen face on, more towards its outline
   /// Strength of ambient occlusion, 0 (none, fast) to 1; not in xray.
   float occlusion = 0;

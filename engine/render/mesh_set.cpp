@@ -36,6 +36,7 @@ bool shown(MeshRole role, const Look& look) {
     case MeshRole::bones: return look.drawBones;
     case MeshRole::heart: return look.drawHeart;
     case MeshRole::skin: return look.drawSkin && look.skinOpacity > 0;
+    case MeshRole::organs:
     case MeshRole::other: return look.drawOther;
   }
   return false;

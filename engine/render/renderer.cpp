@@ -262,7 +262,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (capillaries && batches > 0) recordCapillaries(commands, push, input.look.style);
   const auto scope = timer.scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
-  surfacePass.recordSkin(commands, push, meshes, levels, input.look);
+  surfacePass.recordTranslucent(commands, push, meshes, levels, input.look);
   target.end(commands);
 }
 

@@ -29,6 +29,7 @@ struct VertexLayout {
 };
 
 constexpr float kXrayVessels = 1.8f;
+constexpr float kOrganOpacity = 0.3f;
 
 // How much light a surface of the x-ray style gathers.
 float xrayLight(MeshRole role) {
@@ -36,6 +37,7 @@ float xrayLight(MeshRole role) {
     case MeshRole::bones: return 0.3f;
     case MeshRole::heart: return 0.5f;
     case MeshRole::skin: return 0.5f;
+    case MeshRole::organs: return 0.25f;
     case MeshRole::other: break;
   }
   return 0.5f;
@@ -154,13 +156,15 @@ void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, 
   }
 }
 
-void SurfacePass::recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                              std::span<const MeshSet::Level> levels, const Look& look) const {
   const bool xray = look.style == LookStyle::xray;
-  push.opacity = look.skinOpacity * (xray ? xrayLight(MeshRole::skin) : 1);
-  if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, skinDepth_, MeshRole::skin);
   const gpu::GraphicsPipeline& colour = skinColour_[std::size_t(look.style)];
-  drawParts(commands, push, meshes, levels, colour, colour, MeshRole::skin);
+  for (const MeshRole role : {MeshRole::organs, MeshRole::skin}) {
+    push.opacity = (role == MeshRole::skin ? look.skinOpacity : kOrganOpacity) * (xray ? xrayLight(role) : 1);
+    if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, skinDepth_, role);
+    drawParts(commands, push, meshes, levels, colour, colour, role);
+  }
 }
 
 }  // namespace vasa

@@ -30,8 +30,8 @@ class SurfacePass {
   /// @param levels  MeshSet::levelsFor()
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                     std::span<const MeshSet::Level> levels, const Look& look) const;
-  /// The skin: the depth of its nearest side first, then that side's colour over what lies behind.
-  void recordSkin(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+  /// Organs, then the skin: the depth of their nearest side first, then that side's colour over what lies behind.
+  void recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                   std::span<const MeshSet::Level> levels, const Look& look) const;
 
  private:

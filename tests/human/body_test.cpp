@@ -40,11 +40,12 @@ TEST_CASE("the built-in human is made twice with the same bytes") {
         writeGlb(madeHuman().rig, madeHuman().meshes, madeHuman().clips));
 }
 
-TEST_CASE("skin, bones and heart are closed and face outwards") {
-  REQUIRE(madeHuman().meshes.size() == 3);
+TEST_CASE("skin, bones, heart and organs are closed and face outwards") {
+  REQUIRE(madeHuman().meshes.size() == 4);
   CHECK(madeHuman().meshes[0].name == "skin");
   CHECK(madeHuman().meshes[1].name == "bones");
   CHECK(madeHuman().meshes[2].name == "heart");
+  CHECK(madeHuman().meshes[3].name == "organs");
   for (const SkinnedMesh& mesh : madeHuman().meshes) {
     checkClosed(mesh);
     CHECK(mesh.mesh.volume() > 0);
@@ -79,8 +80,8 @@ TEST_CASE("weights are of at most four joints and sum to one") {
   }
 }
 
-TEST_CASE("a bone's or the heart's vertex moves with one joint") {
-  for (std::size_t m : {1u, 2u}) {
+TEST_CASE("a bone's or an organ's vertex moves with one joint") {
+  for (std::size_t m : {1u, 2u, 3u}) {
     bool single = true;
     for (const SkinInfluence& influence : madeHuman().meshes[m].influences)
       single &= influence.weights == vec4(1, 0, 0, 0);
@@ -126,7 +127,7 @@ TEST_CASE("the reader of glTF takes the body whole") {
   std::filesystem::remove(path);
   if (!read.ok()) FAIL(read.error().message);
   CHECK(read->skeleton.joints.size() == madeHuman().rig.joints.size());
-  REQUIRE(read->meshes.size() == 3);
+  REQUIRE(read->meshes.size() == 4);
   CHECK(read->meshes[0].mesh.triangles.size() == madeHuman().meshes[0].mesh.triangles.size());
   CHECK(read->meshes[0].colour.a < 1);
   REQUIRE(read->clips.size() == madeHuman().clips.size());

@@ -93,7 +93,8 @@ TEST_CASE("roles and packed colours") {
   CHECK(roleNamed("Skin") == MeshRole::skin);
   CHECK(roleNamed("human_bones") == MeshRole::bones);
   CHECK(roleNamed("heart") == MeshRole::heart);
-  CHECK(roleNamed("liver") == MeshRole::other);
+  CHECK(roleNamed("left Lung") == MeshRole::organs);
+  CHECK(roleNamed("Object_4") == MeshRole::other);
   CHECK(packColour({1, 0, 0.5f, 1}) == 0xff8000ffu);
   CHECK(packColour({-1, 2, 0, 0}) == 0x0000ff00u);
 }

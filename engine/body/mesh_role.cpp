@@ -1,0 +1,36 @@
+#include "body/mesh_role.h"
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <string>
+
+#include "body/bone_field.h"
+
+namespace vasa {
+
+MeshRole roleNamed(std::string_view name) {
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const auto hasAny = [&](std::initializer_list<std::string_view> parts) {
+    return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return lower.find(part) != std::string::npos; });
+  };
+  if (hasAny({"bone", "skelet"})) return MeshRole::bones;
+  if (hasAny({"heart"})) return MeshRole::heart;
+  if (hasAny({"skin", "body"})) return MeshRole::skin;
+  if (hasAny({"organ", "brain", "lung", "liver", "kidney", "spleen", "stomach"})) return MeshRole::organs;
+  return MeshRole::other;
+}
+
+bool isSolid(const SkinnedMesh& mesh) {
+  switch (roleNamed(mesh.name)) {
+    case MeshRole::bones:
+    case MeshRole::heart: return true;
+    case MeshRole::skin:
+    case MeshRole::organs: return false;
+    case MeshRole::other: break;
+  }
+  return movesByRigidParts(mesh);
+}
+
+}  // namespace vasa
