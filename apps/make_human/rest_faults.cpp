@@ -11,19 +11,6 @@ namespace {
 
 constexpr float kMargin = 0.05e-3f;  // [m] between walls, so that rounding does not close the gap
 
-bool shareFork(const Network& network, VesselId a, VesselId b) {
-  if (a == b) return true;
-  for (const Node& node : network.nodes()) {
-    const auto ends = network.ends(node);
-    const auto there = [&](VesselId vessel) {
-      return (node.host && node.host->vessel == vessel) ||
-             std::any_of(ends.begin(), ends.end(), [&](const VesselEnd& end) { return end.vessel == vessel; });
-    };
-    if (there(a) && there(b)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::vector<VesselId> restFaults(const Network& network) {
@@ -34,8 +21,8 @@ std::vector<VesselId> restFaults(const Network& network) {
   detector.update(tubes, kMargin);
   std::vector<VesselId> found;
   for (const TubePair& pair : detector.detect()) {
-    const VesselId a = layout.address(pair.i).vessel, b = layout.address(pair.j).vessel;
-    if (!shareFork(network, a, b)) found.insert(found.end(), {a, b});
+    found.push_back(layout.address(pair.i).vessel);
+    found.push_back(layout.address(pair.j).vessel);
   }
   for (std::uint32_t i = 0; i < layout.count(); ++i)
     if (kinks(tubes[i])) found.push_back(layout.address(i).vessel);

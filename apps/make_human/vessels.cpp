@@ -6,7 +6,7 @@
 namespace vasa::human {
 namespace {
 
-constexpr int kSinkings = 2, kPrunings = 3, kRefinements = 4;
+constexpr int kSinkings = 2, kPrunings = 3, kRefinements = 10;
 constexpr float kAllowedOut = 0.2e-3f;  // [m] of a centre line, in the poses looked at
 constexpr float kDeeper = 2.5e-3f;      // [m] than would just do
 constexpr float kDeepest = 6e-3f;       // at a time
