@@ -41,13 +41,14 @@ GrownNetwork::GrownNetwork(Network chosen)
   for (std::uint32_t span = 0; span < count; ++span) {
     const float way = 0.02f * float(1 + span % 5);
     sites.sites.push_back({.hub = vec3(way, -0.03f, 0.01f),
-                           .reach = 0.2f + way,
+                           .reach = 1 + way,
                            .axis = glm::normalize(vec3(0.2f, way, 1)),
                            .system = span % 2 | (span % 3 == 0 ? 0x100u : 0u),
-                           .wall = {vec4(glm::normalize(vec3(1, 2, way)), 0.05f + way)},
+                           .wall = {},
                            .key = keyOf(3, span),
                            .sprouts = span % 4 == 0 ? 0 : 3 + span % 7,
                            .partner = shared::kNoPartner});
+    if (span % 3 == 1) sites.sites.back().wall[2] = vec4(glm::normalize(vec3(1, 2, way)), 0.05f + way);
     if (span % 5 == 2) sites.sites.back().partner = span - 1;
   }
   sites.freeEnds.resize(count);
