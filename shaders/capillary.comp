@@ -38,20 +38,22 @@ GrowthSite siteOf(uint span) {
   site.axis = push.sites.site[span].axis;
   site.system = push.sites.site[span].system;
   for (uint i = 0; i < kGrowthWalls; ++i) site.wall[i] = push.sites.site[span].wall[i];
+  site.stretch = push.sites.site[span].stretch;
   site.key = push.sites.site[span].key;
   site.sprouts = push.sites.site[span].sprouts;
   site.partner = push.sites.site[span].partner;
   return site;
 }
 
-float placeOnSpan(uint siteKey, uint sprout) {
+float placeOnSpan(GrowthSite site, uint siteKey, uint sprout) {
   if ((sprout & kTipSprout) != 0u) return (sprout & kLastSprout) != 0u ? 1.0 : 0.0;
-  return unitFloat(scramble(siteKey) + sprout * 0x9e3779b9u);
+  precise float place = site.stretch.x + (site.stretch.y - site.stretch.x) * unitFloat(scramble(siteKey) + sprout * 0x9e3779b9u);
+  return place;
 }
 
 Capillary treeCurve(uint span, GrowthSite site, uint sprout, uint levels, uint number) {
   uint key = keyOf(push.view.view.seed, site.key);
-  return grownAt(push.growth, site, rootSection(span, placeOnSpan(key, sprout)), sprout, keyOf(key, sprout), levels, number);
+  return grownAt(push.growth, site, rootSection(span, placeOnSpan(site, key, sprout)), sprout, keyOf(key, sprout), levels, number);
 }
 
 uint treeSize(GrowthSite site, uint levels) {
@@ -64,9 +66,9 @@ const uint kPartners = 8;
 void join(GrowthSite site, uint sprout, uint levels, inout Capillary capillary) {
   GrowthSite other = siteOf(site.partner);
   uint seed = push.view.view.seed, best = 0, size = treeSize(other, levels - 1);
-  float wanted = placeOnSpan(keyOf(seed, site.key), sprout), nearest = 2;
+  float wanted = placeOnSpan(site, keyOf(seed, site.key), sprout), nearest = 2;
   for (uint k = 0; k < min(other.sprouts, kPartners); ++k) {
-    float away = abs(placeOnSpan(keyOf(seed, other.key), k) - wanted);
+    float away = abs(placeOnSpan(other, keyOf(seed, other.key), k) - wanted);
     if (away < nearest) {
       nearest = away;
       best = k;

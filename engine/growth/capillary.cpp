@@ -120,7 +120,9 @@ std::uint32_t sproutKey(const GrowthScene& scene, Sprout sprout) {
 // Sprouts of a span follow one another by the golden section, so that any first few of them are spread evenly.
 float placeOnSpan(const GrowthScene& scene, Sprout sprout) {
   if (sprout.number & shared::kTipSprout) return sprout.number & shared::kLastSprout ? 1.0f : 0.0f;
-  return unitFloat(scramble(keyOf(scene.seed, scene.sites[sprout.span].key)) + sprout.number * 0x9e3779b9u);
+  const shared::GrowthSite& site = scene.sites[sprout.span];
+  const float share = unitFloat(scramble(keyOf(scene.seed, site.key)) + sprout.number * 0x9e3779b9u);
+  return site.stretch.x + (site.stretch.y - site.stretch.x) * share;
 }
 
 Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sprout& sprout, bool againstFlow,

@@ -39,6 +39,19 @@ std::vector<bool> drawnSpans(const SweepTable& table) {
   return drawn;
 }
 
+// From where to where each vessel is a tube or a fork's trunk: the rest lies in the collars that its ends leave by.
+std::vector<vec2> shownStretches(const Network& network, const SweepTable& table) {
+  std::vector<vec2> shown;
+  for (const Vessel& vessel : network.vessels()) shown.emplace_back(0, vessel.spanCount());
+  for (const shared::ForkBranch& branch : table.branches) {
+    const float u = float(branch.ring.point - branch.ring.firstPoint) + branch.ring.t;
+    vec2& stretch = shown[branch.vessel];
+    if (branch.ring.turn > 0) stretch.x = std::max(stretch.x, u);
+    else stretch.y = std::min(stretch.y, u);
+  }
+  return shown;
+}
+
 std::uint8_t freeEndsOf(const Network& network, const shared::SweepRecord& span) {
   const Vessel& vessel = network.vessels()[span.vessel];
   const bool first = span.point == span.firstPoint && !vessel.start.valid();
@@ -84,6 +97,7 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
   const float scale = scene.body.height() / kTableHeight;
   const GrowthRoom room(scene.body, kMostReach * scale);
   const std::vector<bool> drawn = drawnSpans(table);
+  const std::vector<vec2> shown = shownStretches(network, table);
   CapillarySites sites{.spans = wholeSpans(network), .sites = {}, .freeEnds = {}, .region = {}};
   const std::size_t count = sites.spans.size();
   sites.sites.resize(count, {.partner = shared::kNoPartner});
@@ -97,7 +111,8 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     const Section section = sectionOn(rest, span, 0.5f);
     const bool grows = drawn[i] && region && region->system != GrowthRegion::kNoSystem &&
                        section.radius >= region->thinnest * scale && section.radius <= region->thickest * scale;
-    if (!grows) return;
+    const vec2 stretch = glm::clamp(shown[span.vessel] - float(span.point - span.firstPoint), 0.0f, 1.0f);
+    if (!grows || stretch.y <= stretch.x) return;
     const shared::GrowthSystem& system = rules.tables.system[region->system];
     sites.freeEnds[i] = freeEndsOf(network, span);
     for (const std::uint8_t last : {0, 1})
@@ -114,10 +129,11 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     site.axis = glm::transpose(axes) * limb.axis;
     room.measure(rest, span, site);
     site.system = region->system | (points.front().w < points.back().w ? 0x100u : 0u);
+    site.stretch = stretch;
     site.key = keyOf(span.vessel, span.point - span.firstPoint);
     sites.region[i] = std::uint8_t(region - regions.data());
     const vec4 chord = rest.points[span.point + 2] - rest.points[span.point + 1];
-    const float length = std::max(glm::length(vec3(chord)), 1e-5f);
+    const float length = std::max(glm::length(vec3(chord)), 1e-5f) * (stretch.y - stretch.x);
     // What is left of a tree over the whole ones grows in as many spans as its share says.
     site.sprouts = std::uint32_t(std::min(length / (region->spacing * scale) + unitFloat(scramble(keyOf(7, site.key))), 4000.0f));
   });

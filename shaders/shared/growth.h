@@ -74,6 +74,7 @@ struct GrowthSite {
   vec3 axis;     // unit: direction of the limb
   uint system;   // lowest 8 bits: number of the L-system; bit 8: blood flows against the tangent
   vec4 wall[kGrowthWalls];  // nor does one cross dot(xyz, p) = w, w >= 0
+  vec2 stretch;  // of the span, in [0, 1], that trees stand along: not where it lies in a fork's collar
   uint key;      // of the vessel and the place on it
   uint sprouts;  // trees along the span
   uint partner;  // span, vein beside artery and the other way round, whose trees the last curves run into
@@ -138,7 +139,7 @@ struct CapillaryPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GrowthChild) == 32 && sizeof(GrowthSymbol) == 72 && sizeof(GrowthSystem) == 32);
-static_assert(sizeof(GrowthSite) == 108 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
+static_assert(sizeof(GrowthSite) == 116 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
 static_assert(sizeof(GrowthView) == 64 + 16 + 16 + 24 + 20 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared
 #endif

@@ -45,6 +45,7 @@ GrownNetwork::GrownNetwork(Network chosen)
                            .axis = glm::normalize(vec3(0.2f, way, 1)),
                            .system = span % 2 | (span % 3 == 0 ? 0x100u : 0u),
                            .wall = {},
+                           .stretch = {span % 4 == 1 ? 0.25f : 0, 1},
                            .key = keyOf(3, span),
                            .sprouts = span % 4 == 0 ? 0 : 3 + span % 7,
                            .partner = shared::kNoPartner});
