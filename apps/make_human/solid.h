@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,12 +30,15 @@ class Solid {
 
  private:
   std::size_t column(float x, float y) const;
+  bool isFar(vec3 p, float within) const;
   const TriangleTree& tree() const;
 
   const TriangleMesh& mesh_;
   mutable std::once_flag planted_;
   mutable std::unique_ptr<TriangleTree> tree_;  // built when first asked for
   Aabb box_;
+  mutable std::once_flag cleared_;
+  mutable std::vector<std::atomic<float>> clear_;  // of coarse cells: how far their middles are outside; once asked for
   std::size_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> first_, triangles_;  // those over each cell of a grid across the ray
 };

@@ -43,7 +43,7 @@ Result<std::vector<LaidVessel>> fittedApart(VesselLayout& layout, float bodyHeig
   }
 }
 
-Result<void> pruneEscapes(Grower& grower, const std::vector<LaidVessel>& vessels, const MotionProbe& probe,
+Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const MotionProbe& probe,
                           float bodyHeight) {
   for (int round = 0; round < kPrunings; ++round) {
     grower.run();
@@ -54,6 +54,7 @@ Result<void> pruneEscapes(Grower& grower, const std::vector<LaidVessel>& vessels
     bool any = false;
     for (const Escape& escape : *escapes)
       if (escape.excess > kAllowedOut) any |= grower.remove(int(escape.vessel));
+    for (const VesselId vessel : restFaults(*network)) any |= grower.remove(int(vessel.value));
     if (!any) break;
   }
   return {};
@@ -74,7 +75,7 @@ Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig,
   if (!fitted.ok()) return fitted.error();
   std::vector<LaidVessel> vessels = std::move(fitted).value();
   Grower grower(vessels, *regions, around, options);
-  if (const Result<void> pruned = pruneEscapes(grower, vessels, probe, bodyHeight); !pruned.ok())
+  if (const Result<void> pruned = prune(grower, vessels, probe, bodyHeight); !pruned.ok())
     return pruned.error();
   return joinVessels(grower.finish(), bodyHeight);
 }
