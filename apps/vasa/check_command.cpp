@@ -72,21 +72,21 @@ VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, 
   return errors;
 }
 
-// The correction of each point as its surroundings see it, and how much it differs from another frame's, in radii: what
-// an eye would take for flicker.
+// The correction of each point as its surroundings see it, and how much it differs from another frame's, in radii at
+// rest: what an eye would take for flicker.
 class CorrectionChange {
  public:
   // 99th percentile over the points that are corrected in either frame, and the largest.
   struct Change {
     double p99 = 0, largest = 0;
   };
-  Change next(const FrameMaker& maker) {
+  Change next(const Network& network, const FrameMaker& maker) {
     std::vector<vec3> now(maker.points().size());
     std::vector<double> changes;
     for (std::size_t p = 0; p < now.size(); ++p) {
       now[p] = glm::conjugate(maker.rotations()[p]) * (vec3(maker.points()[p]) - vec3(maker.posedPoints()[p]));
       if (last_.empty() || (now[p] == vec3(0) && last_[p] == vec3(0))) continue;
-      changes.push_back(double(glm::distance(now[p], last_[p])) / std::max(double(maker.points()[p].w), 1e-6));
+      changes.push_back(double(glm::distance(now[p], last_[p])) / std::max(double(network.points()[p].w), 1e-6));
     }
     last_ = std::move(now);
     if (changes.empty()) return {};
@@ -126,7 +126,7 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
                    const Options& options) {
   const AvoidReport& avoid = maker.report().avoid;
   const VolumeErrors volume = volumeErrors(scene.network, maker.points(), *maker.avoider());
-  const CorrectionChange::Change change = correction.next(maker);
+  const CorrectionChange::Change change = correction.next(scene.network, maker);
   Report row{{"frame", frame},
              {"contacts_before", avoid.before.contacts},
              {"contacts_after", avoid.after.contacts},

@@ -48,6 +48,16 @@ void narrow(const Network& network, const NetworkTubes& layout, std::span<const 
   }
 }
 
+void narrow(const Network& network, const NetworkTubes& layout, std::span<const BoneContact> places,
+            std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most) {
+  const Narrower narrower{network, points, most};
+  for (const BoneContact& place : places) {
+    if (!place.enters()) continue;
+    const float radius = shape[place.tube].at(place.s).w;
+    narrower.tube(layout.address(place.tube), std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), false);
+  }
+}
+
 std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before, std::span<const vec4> points) {
   std::vector<NarrowPlace> found;
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {

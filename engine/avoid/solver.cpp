@@ -225,13 +225,15 @@ void Avoider::State::letThroughBones(unsigned nodes) {
   pool.restart();
 }
 
-// Radii at interfering places are capped, and the rest of each vessel takes its volume; in the end, where that only
-// moves the trouble about, volume is given up for the certificate.
+// Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the end, where
+// that only moves the trouble about, volume is given up for the certificate.
 void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
   narrowed.clear();
   report.narrowSpans = 0, report.leastLumen = 1;
   bool gave = false;
-  for (unsigned round = 0; round < options.lumenRounds && !certificateOf(places, &remaining).holds(); ++round) {
+  for (unsigned round = 0; round < options.lumenRounds; ++round) {
+    const bool apart = certificateOf(places, &remaining).holds(), lastResort = 2 * round >= options.lumenRounds;
+    if (apart && (lastResort || std::ranges::none_of(boneContacts, &BoneContact::enters))) break;
     {
       Timer timer(report.solveMs);
       if (!gave) {
@@ -239,7 +241,8 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
         before.assign(points.begin(), points.end());
         most.assign(points.size(), std::numeric_limits<float>::infinity());
       }
-      const bool lastResort = 2 * round >= options.lumenRounds, keepVolume = volume && !lastResort;
+      const bool keepVolume = volume && !lastResort;
+      if (!lastResort) narrow(network, interference.layout(), boneContacts, interference.tubes(), points, most);
       narrow(network, interference.layout(), remaining, interference.tubes(), points, lastResort, most);
       for (std::size_t p = 0; p < points.size(); ++p)
         points[p].w = keepVolume ? network.points()[p].w : std::min(points[p].w, most[p]);

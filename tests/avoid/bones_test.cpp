@@ -131,3 +131,26 @@ TEST_CASE("a vessel that is pushed into a bone from farther than its field reach
   CHECK(report.sidesChangedAfter == 0);
   CHECK(report.bonesAfter.contacts == 0);
 }
+
+TEST_CASE("a vessel between two bones that leave it too little room gives way") {
+  // 3 mm between two slabs for a vessel of 4 mm.
+  Setting setting{{}, vesselAt(0.0022f)};
+  setting.body.skeleton.joints.push_back({.name = "low"});
+  setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
+  const SkinnedMesh low = test::boxMesh("bones", {-0.02f, -0.01f, -0.02f}, {0.02f, 0, 0.02f});
+  SkinnedMesh high = test::boxMesh("bones", {-0.02f, 0.01f, -0.02f}, {0.02f, 0.02f, 0.02f});
+  for (SkinInfluence& influence : high.influences) influence.joints = {1, 0, 0, 0};
+  setting.body.meshes = {low, high};
+  Avoider avoider(setting.network, &setting.body);
+  const VolumeKeeper volume(setting.network);
+  const std::vector<vec4> posed(setting.network.points().begin(), setting.network.points().end());
+  std::vector<vec4> points = posed;
+  const std::vector<quat> rotations(posed.size(), quat(1, 0, 0, 0));
+  const std::vector<mat4> joints{mat4(1), glm::translate(mat4(1), vec3(0, -0.007f, 0))};
+  const AvoidReport report = avoider.run({posed, rotations, joints}, &volume, points);
+  CHECK(report.bones.contacts > 0);
+  CHECK(report.bonesAfter.contacts == 0);
+  CHECK(report.narrowSpans > 0);
+  CHECK(report.leastLumen > 0.4f);
+  CHECK(report.leastLumen < 0.85f);
+}
