@@ -15,7 +15,8 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   const auto shapeOf = [&](std::string_view mesh) {
     return readShape(tables / "parts.csv", tables / "sections.csv", mesh, human.rig);
   };
-  Result<Shape> skin = shapeOf("skin"), forms = shapeOf("bones"), heart = shapeOf("heart"), organs = shapeOf("organs");
+  Result<Shape> skin = shapeOf("skin"), forms = shapeOf("bones"), heart = shapeOf("heart"),
+                organs = shapeOf("organs");
   for (const Result<Shape>* shape : {&skin, &forms, &heart, &organs})
     if (!shape->ok()) return shape->error();
   human.skinShape = std::move(skin).value();

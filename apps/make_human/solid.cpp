@@ -76,8 +76,8 @@ int Solid::winding(vec3 p) const {
   return result;
 }
 
-/// True only if p lies outside and farther than `within`: the middle of its coarse cell is farther by more than p is
-/// from it. Threads that find the same cell unknown write the same number.
+/// True only if p lies outside and farther than `within`: the middle of its coarse cell is farther by more
+/// than p is from it. Threads that find the same cell unknown write the same number.
 bool Solid::isFar(vec3 p, float within) const {
   const uvec3 counts = uvec3(box_.extent() / kCoarseCell) + 1u;
   std::call_once(cleared_, [&] {

@@ -38,7 +38,8 @@ class Solid {
   mutable std::unique_ptr<TriangleTree> tree_;  // built when first asked for
   Aabb box_;
   mutable std::once_flag cleared_;
-  mutable std::vector<std::atomic<float>> clear_;  // of coarse cells: how far their middles are outside; once asked for
+  mutable std::vector<std::atomic<float>>
+      clear_;  // of coarse cells: how far their middles are outside; once asked for
   std::size_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> first_, triangles_;  // those over each cell of a grid across the ray
 };

@@ -44,7 +44,7 @@ Result<std::vector<LaidVessel>> fittedApart(VesselLayout& layout, float bodyHeig
 }
 
 Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const MotionProbe& probe,
-                          float bodyHeight) {
+                   float bodyHeight) {
   for (int round = 0; round < kPrunings; ++round) {
     grower.run();
     const Result<Network> network = joinVessels(vessels, bodyHeight);
