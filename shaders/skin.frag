@@ -7,18 +7,19 @@
 #include "shared/draw.h"
 
 layout(push_constant, scalar) uniform Push { DrawPush push; };
+#include "lib/view.glsl"
 layout(location = 0) in vec3 normal;
-layout(location = 1) flat in vec3 colour;
+layout(location = 1) flat in vec4 colour;
 layout(location = 0) out vec4 pixel;  // premultiplied
 
 void main() {
-  vec3 eye = normalize(vec3(push.eyeCorner + gl_FragCoord.xy * push.eyeStep, 1));
-  vec3 worldUp = vec3(push.right.y, push.up.y, push.right.z * push.up.x - push.right.x * push.up.z);
+  if (cutOff(gl_FragCoord)) discard;
+  vec3 eye = eyeAt(gl_FragCoord.xy);
   vec3 outward = normalize(normal);
   float graze = 1 - clamp(dot(outward, eye), 0.0, 1.0);
   float alpha = clamp(push.opacity * (0.45 + 2.6 * graze * graze * graze), 0.0, 1.0);
   vec3 gloss = kStyles[kStyle].key * (3.0 * highlight(outward, eye, kKey));
-  vec3 light = ambientLight(outward, worldUp) + kStyles[kStyle].key * (0.5 * wrapped(dot(outward, kKey)));
+  vec3 light = ambientLight(outward, worldUp()) + kStyles[kStyle].key * (0.5 * wrapped(dot(outward, kKey)));
   vec3 rim = kStyles[kStyle].rim * (0.8 * graze * graze);
-  pixel = vec4(filmic((colour * light + gloss + rim) * kStyles[kStyle].exposure) * alpha, alpha);
+  pixel = vec4(filmic((colour.rgb * light + gloss + rim) * kStyles[kStyle].exposure) * alpha, alpha);
 }

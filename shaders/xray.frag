@@ -7,13 +7,15 @@
 #include "shared/draw.h"
 
 layout(push_constant, scalar) uniform Push { DrawPush push; };
+#include "lib/view.glsl"
 layout(location = 0) in vec3 normal;
-layout(location = 1) flat in vec3 colour;
+layout(location = 1) flat in vec4 colour;
 layout(location = 0) out vec4 pixel;  // premultiplied
 
 void main() {
-  vec3 eye = normalize(vec3(push.eyeCorner + gl_FragCoord.xy * push.eyeStep, 1));
+  if (cutOff(gl_FragCoord)) discard;
+  vec3 eye = eyeAt(gl_FragCoord.xy);
   float away = 1 - abs(dot(normalize(normal), eye));
-  float gathered = push.opacity * (0.12 + 0.88 * away * away);
-  pixel = vec4(colour * gathered, gathered);
+  float gathered = push.opacity * colour.a * (0.12 + 0.88 * away * away);
+  pixel = vec4(colour.rgb * gathered, gathered);
 }

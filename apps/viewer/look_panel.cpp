@@ -42,8 +42,19 @@ void showLookSection(const PanelInput& in) {
     ImGui::EndTable();
   }
   look.drawOtherVessels = look.drawOther;
-  ImGui::SetNextItemWidth(-90 * in.scale);
-  ImGui::SliderFloat("Skin##opacity", &look.skinOpacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::TextDisabled("Opacity");
+  const auto opacity = [&](const char* name, float& value) {
+    ImGui::SetNextItemWidth(-90 * in.scale);
+    ImGui::SliderFloat(name, &value, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+  };
+  opacity("Skin##opacity", look.skinOpacity);
+  opacity("Bones##opacity", look.boneOpacity);
+  opacity("Heart##opacity", look.heartOpacity);
+  opacity("Arteries##opacity", look.arteryOpacity);
+  opacity("Veins##opacity", look.veinOpacity);
+  if (in.state.detail.capillaries > 0) opacity("Capillaries##opacity", look.capillaryOpacity);
+  look.otherOpacity = look.heartOpacity;
+  showCutControls(in);
   ImGui::SetNextItemWidth(-90 * in.scale);
   ImGui::SliderFloat("Cut", &in.state.cut, 0, 1, in.state.cut > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Cuts off what is nearer to you");

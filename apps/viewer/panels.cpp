@@ -77,6 +77,7 @@ void showHelp(const PanelInput& in) {
 }
 
 void showPanels(const PanelInput& in) {
+  showCutOutline(in);
   showHandles(in);
   showHeads(in);
   if (in.state.panels) {

@@ -21,6 +21,7 @@ struct PanelInput {
   Layout layout;
   float scale = 1;       ///< pixels for one of an ordinary screen
   Camera camera;         ///< of the picture
+  Aabb bodyBox;          ///< where the body is [m]
   JointId heldJoint;     ///< that is being dragged
   const Profiler* profiler = nullptr;  ///< running or done; null: never run
   bool fine = false;     ///< the picture is a still
@@ -36,6 +37,8 @@ void showHeads(const PanelInput& in);  ///< texts over the picture
 void showLoading(const PanelInput& in);
 void showHelp(const PanelInput& in);  ///< keys and what they do
 void showLookSection(const PanelInput& in);
+void showCutControls(const PanelInput& in);
+void showCutOutline(const PanelInput& in);  ///< the cutting plane's, over the picture
 void showVesselSection(const PanelInput& in);
 void showInspectorSection(const PanelInput& in);
 void showPoseSection(const PanelInput& in);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "body/humanoid.h"
 #include "viewer/panels.h"
 #include "viewer/pose_tool.h"
 
@@ -15,16 +14,14 @@ std::vector<std::string> namesOf(const Skeleton& skeleton) {
   return names;
 }
 
-void showJoint(const PanelInput& in, JointId joint, float most) {
-  JointTurn& turn = turnOfJoint(in.state, joint);
-  constexpr const char* axes[] = {"x", "y", "z"};
+void showJoint(const PanelInput& in, JointId joint, const JointMotion& motion) {
+  JointTurn& turn = turnOfJoint(in.state, joint, motion);
+  constexpr const char* axes[] = {"bend", "spread", "twist"};
   for (int axis = 0; axis < 3; ++axis) {
     float angle = glm::degrees(turn.angles[axis]);
-    ImGui::SetNextItemWidth(-40 * in.scale);
-    if (!ImGui::SliderFloat(axes[axis], &angle, -glm::degrees(most), glm::degrees(most), "%.0f°", ImGuiSliderFlags_AlwaysClamp)) continue;
-    vec3 wanted = turn.angles;
-    wanted[axis] = glm::radians(angle);
-    turn.angles = withinLimit(wanted, most);
+    ImGui::SetNextItemWidth(-60 * in.scale);
+    const float least = glm::degrees(motion.least[axis]), most = glm::degrees(motion.most[axis]);
+    if (ImGui::SliderFloat(axes[axis], &angle, least, most, "%.0f°", ImGuiSliderFlags_AlwaysClamp)) turn.angles[axis] = glm::radians(angle);
   }
 }
 
@@ -38,14 +35,13 @@ void showPoseSection(const PanelInput& in) {
   ImGui::SameLine();
   if (ImGui::Button("Reset")) state.turns.clear();
   const auto names = namesOf(skeleton);
-  const HumanoidNames roles = humanoidNames(names);
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##joint", state.joint.valid() ? names[state.joint.value].c_str() : "choose a joint")) {
     for (std::uint32_t j = 0; j < names.size(); ++j)
       if (ImGui::Selectable(names[j].c_str(), state.joint.value == j)) state.joint = {j};
     ImGui::EndCombo();
   }
-  if (state.joint.valid() && state.joint.value < names.size()) showJoint(in, state.joint, mostTurn(roles.of[state.joint.value]));
+  if (state.joint.valid() && state.joint.value < names.size()) showJoint(in, state.joint, jointMotions(skeleton)[state.joint.value]);
   std::size_t count = 0;
   for (const JointTurn& turn : state.turns) count += turn.angles != vec3(0);
   ImGui::TextDisabled("%zu joint%s turned beside the clip", count, count == 1 ? "" : "s");

@@ -16,12 +16,6 @@ std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& picture
   return vec2(picture.left, picture.top) + (vec2(clip) / clip.w * 0.5f + 0.5f) * vec2(picture.width, picture.height);
 }
 
-std::string_view roleOf(const Skeleton& skeleton, JointId joint) {
-  std::vector<std::string> names;
-  for (const Skeleton::Joint& each : skeleton.joints) names.push_back(each.name);
-  return humanoidNames(names).of[joint.value];
-}
-
 }  // namespace
 
 std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture) {
@@ -34,9 +28,18 @@ std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose
   return handles;
 }
 
-JointTurn& turnOfJoint(ViewState& state, JointId joint) {
+std::vector<JointMotion> jointMotions(const Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const Skeleton::Joint& each : skeleton.joints) names.push_back(each.name);
+  const HumanoidNames roles = humanoidNames(names);
+  std::vector<JointMotion> motions;
+  for (std::uint32_t j = 0; j < names.size(); ++j) motions.push_back(jointMotion(skeleton, {j}, roles.of[j]));
+  return motions;
+}
+
+JointTurn& turnOfJoint(ViewState& state, JointId joint, const JointMotion& motion) {
   const auto found = std::ranges::find(state.turns, joint, &JointTurn::joint);
-  return found != state.turns.end() ? *found : state.turns.emplace_back(JointTurn{joint, vec3(0)});
+  return found != state.turns.end() ? *found : state.turns.emplace_back(JointTurn{joint, vec3(0), motion.axes});
 }
 
 bool PoseTool::feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
@@ -69,8 +72,9 @@ void PoseTool::drag(vec2 to, const Document& document, const PosedBody& body, co
   if (glm::length(before) < 2 || glm::length(after) < 2) return;
   // Rows run down: what turns right there is a negative turn about the axis towards the eye.
   const float angle = -std::atan2(before.x * after.y - before.y * after.x, glm::dot(before, after));
-  JointTurn& turn = turnOfJoint(state, turning);
-  turn.angles = turnedFurther(turn.angles, world, cameraAxes(camera)[2], angle, mostTurn(roleOf(skeleton, turning)));
+  const JointMotion motion = jointMotions(skeleton)[turning.value];
+  JointTurn& turn = turnOfJoint(state, turning, motion);
+  turn.angles = turnedFurther(turn.angles, motion, world, cameraAxes(camera)[2], angle);
 }
 
 }  // namespace vasa::viewer

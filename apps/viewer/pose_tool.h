@@ -32,7 +32,10 @@ class PoseTool {
   std::optional<JointId> held_;
 };
 
+/// What each joint of a skeleton may do.
+std::vector<JointMotion> jointMotions(const Skeleton& skeleton);
+
 /// The turn of a joint in the state, added where there is none yet.
-JointTurn& turnOfJoint(ViewState& state, JointId joint);
+JointTurn& turnOfJoint(ViewState& state, JointId joint, const JointMotion& motion);
 
 }  // namespace vasa::viewer

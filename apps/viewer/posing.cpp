@@ -6,22 +6,38 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float degrees(float value) {
-  return value * kPi / 180;
+struct Range {
+  std::string_view part;  // of the role
+  vec3 least, most;       // [degrees]
+};
+constexpr Range kRanges[] = {
+    {"UpperLeg", {-20, -30, -45}, {125, 45, 45}},  {"LowerLeg", {-145, -5, -20}, {5, 5, 20}},
+    {"Foot", {-50, -25, -20}, {20, 25, 20}},       {"Toes", {-40, -10, -5}, {65, 10, 5}},
+    {"UpperArm", {-60, -45, -90}, {170, 85, 90}},  {"LowerArm", {-5, -5, -90}, {150, 5, 90}},
+    {"Hand", {-85, -30, -10}, {85, 30, 10}},       {"Shoulder", {-20, -10, -10}, {20, 40, 10}},
+    {"Thumb", {-70, -40, -15}, {70, 40, 15}},      {"Index", {-100, -20, -10}, {100, 20, 10}},
+    {"Middle", {-100, -20, -10}, {100, 20, 10}},   {"Ring", {-100, -20, -10}, {100, 20, 10}},
+    {"Little", {-100, -20, -10}, {100, 20, 10}},   {"head", {-50, -40, -50}, {45, 40, 50}},
+    {"neck", {-30, -30, -40}, {40, 30, 40}},       {"hest", {-20, -25, -30}, {35, 25, 30}},
+    {"spine", {-20, -25, -30}, {40, 25, 30}},      {"hips", {-180, -85, -180}, {180, 85, 180}},
+};
+
+vec3 alongBone(const Skeleton& skeleton, JointId joint) {
+  const auto placeOf = [&](std::uint32_t j) { return vec3(skeleton.joints[j].restWorld[3]); };
+  vec3 sum(0);
+  for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j)
+    if (skeleton.joints[j].parent == joint) sum += placeOf(j) - placeOf(joint.value);
+  const JointId parent = skeleton.joints[joint.value].parent;
+  if (glm::length(sum) < 1e-6f && parent.valid()) sum = placeOf(joint.value) - placeOf(parent.value);
+  return glm::length(sum) < 1e-6f ? vec3(0, 1, 0) : glm::normalize(sum);
 }
 
-struct Limit {
-  std::string_view part;  // of the role
-  float most;             // [rad]
-};
-// The largest range of each joint (AAOS 1965, rounded up), whichever way it goes.
-constexpr Limit kLimits[] = {
-    {"UpperLeg", degrees(125)}, {"LowerLeg", degrees(145)}, {"Foot", degrees(50)},   {"Toes", degrees(60)},
-    {"UpperArm", degrees(150)}, {"LowerArm", degrees(150)}, {"Hand", degrees(85)},   {"Shoulder", degrees(40)},
-    {"Thumb", degrees(70)},     {"Index", degrees(100)},    {"Middle", degrees(100)}, {"Ring", degrees(100)},
-    {"Little", degrees(100)},   {"head", degrees(50)},      {"neck", degrees(50)},   {"hest", degrees(35)},
-    {"spine", degrees(40)},     {"hips", degrees(180)},
-};
+// Columns: the axes of bend, spread and twist at rest, in the world.
+mat3 axesAtRest(vec3 bone) {
+  const vec3 towards = std::abs(bone.z) < 0.7f ? vec3(0, 0, 1) : vec3(0, 1, 0);
+  const vec3 bend = glm::normalize(glm::cross(bone, towards));
+  return {bend, glm::cross(bone, bend), bone};
+}
 
 quat turnOf(vec3 angles) {
   return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) * glm::angleAxis(angles.x, vec3(1, 0, 0));
@@ -30,15 +46,6 @@ quat turnOf(vec3 angles) {
 vec3 anglesOf(quat turn) {
   const mat3 m = glm::mat3_cast(turn);
   return {std::atan2(m[1][2], m[2][2]), std::asin(std::clamp(-m[0][2], -1.0f, 1.0f)), std::atan2(m[0][1], m[0][0])};
-}
-
-float angleOf(quat turn) {
-  return 2 * std::atan2(glm::length(vec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
-}
-
-quat limited(quat turn, float most) {
-  const float angle = angleOf(turn);
-  return angle <= most ? turn : glm::slerp(quat(1, 0, 0, 0), turn, most / angle);
 }
 
 quat rotationOf(const mat4& world) {
@@ -52,7 +59,7 @@ Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTur
   Pose result = pose;
   std::vector<mat4> own(skeleton.joints.size(), mat4(1));
   for (const JointTurn& turn : turns)
-    if (turn.joint.value < own.size()) own[turn.joint.value] = glm::mat4_cast(turnOf(turn.angles));
+    if (turn.joint.value < own.size()) own[turn.joint.value] = glm::mat4_cast(turn.axes * turnOf(turn.angles) * glm::inverse(turn.axes));
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const JointId parent = skeleton.joints[j].parent;
     const mat4 before = parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
@@ -61,21 +68,27 @@ Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTur
   return result;
 }
 
-float mostTurn(std::string_view role) {
-  for (const Limit& limit : kLimits)
-    if (role.find(limit.part) != std::string_view::npos) return limit.most;
-  return degrees(90);
+JointMotion jointMotion(const Skeleton& skeleton, JointId joint, std::string_view role) {
+  JointMotion motion;
+  const quat rest = rotationOf(skeleton.joints[joint.value].restWorld);
+  motion.axes = glm::normalize(glm::inverse(rest) * glm::quat_cast(axesAtRest(alongBone(skeleton, joint))));
+  for (const Range& range : kRanges) {
+    if (role.find(range.part) == std::string_view::npos) continue;
+    motion.least = glm::radians(range.least);
+    motion.most = glm::radians(range.most);
+    if (role.starts_with("left")) {  // spreads to the other side
+      motion.least.y = -glm::radians(range.most.y);
+      motion.most.y = -glm::radians(range.least.y);
+    }
+    break;
+  }
+  return motion;
 }
 
-vec3 withinLimit(vec3 angles, float most) {
-  const quat turn = turnOf(angles);
-  return angleOf(turn) <= most ? angles : anglesOf(limited(turn, most));
-}
-
-vec3 turnedFurther(vec3 angles, const mat4& world, vec3 axis, float angle, float most) {
-  const quat rotation = rotationOf(world);
+vec3 turnedFurther(vec3 angles, const JointMotion& motion, const mat4& world, vec3 axis, float angle) {
+  const quat rotation = rotationOf(world), back = glm::inverse(motion.axes);
   const quat further = glm::inverse(rotation) * glm::angleAxis(angle, axis) * rotation;
-  return anglesOf(limited(glm::normalize(turnOf(angles) * further), most));
+  return motion.within(anglesOf(glm::normalize(turnOf(angles) * (back * further * motion.axes))));
 }
 
 }  // namespace vasa::viewer

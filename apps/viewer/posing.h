@@ -7,24 +7,33 @@
 
 namespace vasa::viewer {
 
-/// What a person turned a joint by, in its own axes, after whatever the clip does with it.
+/// How a joint turns in a human body: about three axes, perpendicular to one another at rest, and how far about each.
+///   x  bend: takes what hangs on the joint forwards (a foot: up)
+///   y  spread: takes it sideways, towards the body's right where it hangs down
+///   z  twist: about its own length
+struct JointMotion {
+  quat axes{1, 0, 0, 0};  ///< from those axes to the joint's own
+  vec3 least{-kPi / 2}, most{kPi / 2};  ///< [rad]
+
+  vec3 within(vec3 angles) const { return glm::clamp(angles, least, most); }
+};
+/// By the rest pose, in which the body stands along +Y and faces +Z, and by what the joint is (body/humanoid.h).
+/// Ranges: AAOS 1965, rounded up; of a finger's bend both ways, because palms face any way at rest.
+/// @param role  empty: unknown, 90 degrees each way
+JointMotion jointMotion(const Skeleton& skeleton, JointId joint, std::string_view role);
+
+/// What a person turned a joint by, after whatever the clip does with it.
 struct JointTurn {
   JointId joint;
-  vec3 angles{0};  ///< [rad] about x, then y, then z
+  vec3 angles{0};         ///< [rad] about x, then y, then z of JointMotion::axes
+  quat axes{1, 0, 0, 0};  ///< JointMotion::axes
 };
 
 /// The pose with these joints turned, and what hangs on them along.
 Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns);
 
-/// How far a joint may be turned in all [rad], by what it is in a body (body/humanoid.h): a wrist less than a knee. Which
-/// way a joint bends is not known. @param role  empty: unknown
-float mostTurn(std::string_view role);
-
-/// A turn about an axis of the world on top of what a joint is turned already, cut off at `most`.
+/// A turn about an axis of the world on top of what a joint is turned already, within its range.
 /// @param world  of the joint, as it is turned now
-vec3 turnedFurther(vec3 angles, const mat4& world, vec3 axis, float angle, float most);
-
-/// Angles cut off so that the turn in all is `most` or less.
-vec3 withinLimit(vec3 angles, float most);
+vec3 turnedFurther(vec3 angles, const JointMotion& motion, const mat4& world, vec3 axis, float angle);
 
 }  // namespace vasa::viewer

@@ -67,6 +67,7 @@ class Session {
   // pictures
   Rect pictureRect() const;
   Camera cameraNow() const;
+  Aabb bodyBox() const;
   Shot shotNow() const;
   void moveCamera();
   bool drawScene();

@@ -1,7 +1,3 @@
-#include <cmath>
-
-#include "network/pick.h"
-#include "viewer/paint.h"
 #include "viewer/session.h"
 #include "viewer/shortcuts.h"
 
@@ -10,21 +6,6 @@
 // pointer.
 namespace vasa::viewer {
 namespace {
-
-constexpr float kReachPixels = 2.5f;  // of a click
-
-// In the picture's pixels, from its top left corner.
-Ray rayThrough(const Camera& camera, vec2 place, vec2 size) {
-  const mat3 axes = cameraAxes(camera);
-  const float tangent = std::tan(camera.verticalAngle / 2);
-  const vec2 across = vec2(place.x - size.x / 2, size.y / 2 - place.y) * 2.0f / size.y;
-  if (camera.orthographicHeight > 0) {
-    const vec2 metres = across * (camera.orthographicHeight / 2);
-    return {camera.position + metres.x * axes[0] + metres.y * axes[1], -axes[2], camera.nearDistance};
-  }
-  const vec3 way = tangent * (across.x * axes[0] + across.y * axes[1]) - axes[2];
-  return {camera.position, glm::normalize(way), camera.nearDistance * glm::length(way)};
-}
 
 bool changesState(const InputEvent& event) {
   return std::holds_alternative<ButtonChanged>(event) || std::holds_alternative<KeyChanged>(event);
@@ -110,24 +91,6 @@ void Session::handle(const InputEvent& event) {
   const bool posed = posing && poseTool_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
   if (posed && !std::holds_alternative<PointerMoved>(event)) return;
   if (const auto clicked = pointer_.feed(event, pictureRect(), free, now_, state_)) click(*clicked);
-}
-
-void Session::click(const Click& click) {
-  if (!document_ || !body_) return;
-  const Rect rect = pictureRect();
-  const Ray ray = rayThrough(cameraNow(), click.place, {rect.width, rect.height});
-  const std::vector<char> shown = shownVessels(*document_, state_);
-  const float slack = kReachPixels * 2 * std::tan(state_.orbit.angle() / 2) / rect.height;
-  const auto hit = pick(document_->scene.network, body_->points, ray, [&](VesselId v) { return shown[v.value] != 0; }, slack);
-  const auto place = hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;
-  if (state_.measuring && place) {
-    if (!state_.from || state_.to) state_.from = place, state_.to.reset();
-    else state_.to = place;
-  } else if (!state_.measuring) {
-    state_.selected = place;
-    if (!place) state_.isolate = false;
-  }
-  if (click.twice && state_.selected) state_.wishFocus = true;
 }
 
 }  // namespace vasa::viewer

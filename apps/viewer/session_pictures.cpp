@@ -17,16 +17,21 @@ constexpr double kStillAfter = 0.25;  // [s] without change
 
 bool same(const Camera& a, const Camera& b) {
   return a.position == b.position && a.target == b.target && a.up == b.up && a.verticalAngle == b.verticalAngle &&
-         a.orthographicHeight == b.orthographicHeight && a.nearDistance == b.nearDistance && a.farDistance == b.farDistance;
+         a.orthographicHeight == b.orthographicHeight && a.cut == b.cut && a.nearDistance == b.nearDistance && a.farDistance == b.farDistance;
 }
 
 auto shownParts(const Look& look) {
   return std::array{look.drawArteries, look.drawVeins, look.drawOtherVessels, look.drawBones, look.drawHeart, look.drawSkin, look.drawOther};
 }
 
+auto opacities(const Look& look) {
+  return std::array{look.skinOpacity, look.boneOpacity, look.heartOpacity, look.otherOpacity, look.arteryOpacity, look.veinOpacity,
+                    look.capillaryOpacity};
+}
+
 bool same(const Look& a, const Look& b) {
   return a.style == b.style && a.background == b.background && a.transparent == b.transparent && shownParts(a) == shownParts(b) &&
-         a.skinOpacity == b.skinOpacity && a.occlusion == b.occlusion;
+         opacities(a) == opacities(b) && a.occlusion == b.occlusion;
 }
 
 bool same(const Shot& a, const Shot& b) {
@@ -41,7 +46,17 @@ Rect Session::pictureRect() const {
 }
 
 Camera Session::cameraNow() const {
-  return state_.orbit.camera(state_.cut, 0.5f * glm::length(document_->bounds.extent()));
+  Camera camera = state_.orbit.camera(state_.cut, 0.5f * glm::length(document_->bounds.extent()));
+  if (state_.cutPlane.on) camera.cut = cutThrough(state_.cutPlane, bodyBox());
+  return camera;
+}
+
+// At rest, where the body has walked to.
+Aabb Session::bodyBox() const {
+  Aabb box = document_->bounds;
+  box.low += way_;
+  box.high += way_;
+  return box;
 }
 
 Shot Session::shotNow() const {
@@ -118,6 +133,7 @@ void Session::drawWindow() {
               .layout = layout,
               .scale = ui_.scale(),
               .camera = shown_ ? shown_->camera : Camera{},
+              .bodyBox = document_ ? bodyBox() : Aabb{},
               .heldJoint = poseTool_.held().value_or(JointId{}),
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,

@@ -41,6 +41,7 @@ void readSettings(const std::string& text, Settings& settings) {
   take(json, "width", settings.width, 320u, 16384u);
   take(json, "height", settings.height, 240u, 16384u);
   take(json, "skin_opacity", state.look.skinOpacity, 0.0f, 1.0f);
+  take(json, "bone_opacity", state.look.boneOpacity, 0.0f, 1.0f);
   take(json, "skin", state.look.drawSkin);
   take(json, "bones", state.look.drawBones);
   take(json, "panels", state.panels);
@@ -64,6 +65,7 @@ std::string writeSettings(const Settings& settings) {
                   {"width", settings.width},
                   {"height", settings.height},
                   {"skin_opacity", state.look.skinOpacity},
+                  {"bone_opacity", state.look.boneOpacity},
                   {"skin", state.look.drawSkin},
                   {"bones", state.look.drawBones},
                   {"panels", state.panels},

@@ -19,6 +19,7 @@ constexpr Shortcut kShortcuts[] = {
     {"I", "only the chosen vessel and its tree"},
     {"M", "measure along the vessels"},
     {"P", "pose: drag joints"},
+    {"X", "cutting plane"},
     {"R", "record a video"},
     {"C", "contacts"},
     {"Tab", "panels"},
@@ -84,6 +85,7 @@ void applyShortcut(Key key, bool control, ViewState& state, const Document* docu
   if (key == keyOf('I')) state.isolate = !state.isolate && state.selected;
   if (key == keyOf('M')) choose(state, !state.measuring);
   if (key == keyOf('P')) state.posing = !state.posing;
+  if (key == keyOf('X') && !control) state.cutPlane.on = !state.cutPlane.on;
   if (key == keyOf('R')) state.recording = !state.recording;
   if (key == keyOf('C') && !control) state.contacts = !state.contacts;
   if (key == keyOf('Q') && control) state.wishQuit = true;

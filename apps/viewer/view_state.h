@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "network/route.h"
+#include "viewer/cut_plane.h"
 #include "viewer/orbit.h"
 #include "viewer/playback.h"
 #include "viewer/posing.h"
@@ -35,6 +36,7 @@ struct ViewState {
   Playback playback;
   Orbit orbit;
   float cut = 0;                    ///< Orbit::camera()
+  CutPlane cutPlane;
   bool follow = true;               ///< the camera goes along with a body that walks
   bool contacts = false;            ///< vessels grey, those that touch in colour
   bool panels = true, timing = false, help = false;

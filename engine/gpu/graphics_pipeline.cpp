@@ -82,7 +82,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : p
   samples.rasterizationSamples = spec.samples;
   const VkPipelineDepthStencilStateCreateInfo depth = depthOf(spec);
   VkPipelineColorBlendAttachmentState attachment = blendOf(spec.blend);
-  if (!shaded) attachment.colorWriteMask = 0;
+  if (!shaded || !spec.colourWrite) attachment.colorWriteMask = 0;
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = 1;

@@ -35,6 +35,7 @@ struct GraphicsSpec {
   VkFrontFace front = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   VkCompareOp depthTest = VK_COMPARE_OP_LESS;  ///< VK_COMPARE_OP_ALWAYS: no test
   bool depthWrite = true;
+  bool colourWrite = true;  ///< false: of a fragment shader that only discards
   Blend blend = Blend::none;
 };
 

@@ -15,6 +15,8 @@ struct Camera {
   float orthographicHeight = 0; ///< [m] from bottom to top of the picture; 0: perspective
   float nearDistance = 0.02f;   ///< [m] > 0: what is closer is cut off
   float farDistance = 100;      ///< [m] orthographic only; a perspective view has no end
+  /// A cutting plane of the world (unit normal, offset): what lies where dot(normal, p) + offset < 0 is not drawn.
+  std::optional<vec4> cut;
 };
 
 /// The camera's axes in the world, unit: right, up, and backwards to the viewer. Where `up` is parallel to the

@@ -93,6 +93,8 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
       spec.blend = gpu::Blend::add;
     }
     draw_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
+    spec.constants.set(1, std::uint32_t(target.samples));
+    partial_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
   }
   for (gpu::Buffer& ring : rings_) ring = ringBuffer(device);
   for (std::size_t i = 0; i < kEdges.size(); ++i) {
@@ -152,7 +154,7 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  draw_[std::size_t(input.style)].bind(commands, input.draw);
+  (input.partial ? partial_ : draw_)[std::size_t(input.style)].bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);

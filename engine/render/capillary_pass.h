@@ -34,6 +34,7 @@ class CapillaryPass {
     VkDeviceAddress points, knots;  ///< as tessellation reads them
     shared::DrawPush draw;          ///< the frame's constants
     LookStyle style = LookStyle::atlas;
+    bool partial = false;           ///< isPartial() of surface_pass.h
   };
   /// Copies the plan to the device and makes compute shaders see it.
   void recordUpload(VkCommandBuffer commands) const;
@@ -55,7 +56,7 @@ class CapillaryPass {
   CapillaryWish wish_;
   CapillaryPlan plan_;
   gpu::ComputePipeline grow_;
-  std::array<gpu::GraphicsPipeline, 3> draw_;  // one a LookStyle
+  std::array<gpu::GraphicsPipeline, 3> draw_, partial_;  // one a LookStyle
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 4> indices_;  // of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, siteBuffer_, spans_, colours_, host_, frame_;

@@ -4,6 +4,10 @@
 
 namespace vasa {
 
+bool anyTranslucent(const Look& look) {
+  return std::min({look.boneOpacity, look.heartOpacity, look.otherOpacity, look.arteryOpacity, look.veinOpacity}) < 1;
+}
+
 std::optional<Look> lookNamed(std::string_view name) {
   Look look;
   look.occlusion = 1;

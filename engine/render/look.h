@@ -24,10 +24,17 @@ struct Look {
   bool drawHeart = true;
   bool drawSkin = true;
   bool drawOther = true;  ///< organs other than the heart, and meshes of unknown names
+  /// In [0, 1], 0: not drawn. Of what is neither whole nor skin or capillaries, a share of each pixel's samples is drawn,
+  /// the remainder by a pattern over pixels: with one sample a pixel it shows as fine grain.
+  float boneOpacity = 1, heartOpacity = 1, otherOpacity = 1, arteryOpacity = 1, veinOpacity = 1;
+  float capillaryOpacity = 1;
   float skinOpacity = 0.3f;  ///< in [0, 1]: less where the skin is seen face on, more towards its outline
   /// Strength of ambient occlusion, 0 (none, fast) to 1; not in xray.
   float occlusion = 0;
 };
+
+/// Whether some bone, organ or vessel lets others shine through by its opacity.
+bool anyTranslucent(const Look& look);
 
 /// The presets "atlas", "clinical" and "xray": style, background, skin and occlusion.
 std::optional<Look> lookNamed(std::string_view name);

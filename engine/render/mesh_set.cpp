@@ -6,6 +6,7 @@
 #include "gpu/transfer.h"
 #include "render/picture.h"
 #include "scene/beat.h"
+#include "shared/draw.h"
 #include "shared/skin.h"
 #include "surface/octahedral.h"
 
@@ -28,16 +29,16 @@ shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::uint32_t i, vec3 nor
 // Bones, heart and skin have colours of their own; any other mesh keeps its material's.
 std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
   const vec4 colour = role == MeshRole::other ? srgbColour(mesh.colour) : colourOf(role);
-  return packColour(vec4(vec3(colour), 0));
+  return packColour(vec4(vec3(colour), 0)) | (shared::kMeshKind + std::uint32_t(role)) << 24;
 }
 
 bool shown(MeshRole role, const Look& look) {
   switch (role) {
-    case MeshRole::bones: return look.drawBones;
-    case MeshRole::heart: return look.drawHeart;
+    case MeshRole::bones: return look.drawBones && look.boneOpacity > 0;
+    case MeshRole::heart: return look.drawHeart && look.heartOpacity > 0;
     case MeshRole::skin: return look.drawSkin && look.skinOpacity > 0;
     case MeshRole::organs:
-    case MeshRole::other: return look.drawOther;
+    case MeshRole::other: return look.drawOther && look.otherOpacity > 0;
   }
   return false;
 }
@@ -88,7 +89,7 @@ std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const
     std::size_t level = 0;
     while (level + 1 < part.levels.size() && part.levels[level + 1].error <= error) ++level;
     chosen.push_back(part.levels[level]);
-    chosen.back().bothSides = !part.closed || depth <= camera.nearDistance;
+    chosen.back().bothSides = !part.closed || camera.cut || depth <= camera.nearDistance;
   }
   return chosen;
 }

@@ -119,13 +119,14 @@ struct Renderer::State {
   gpu::GpuTimer timer, staticTimer;
   FrameTimes times;
   bool transparent = false;
+  bool partial = false, cull = true;  // of this frame
 
  private:
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
-  void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, LookStyle style);
+  void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, const Look& look);
   void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
   void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
-  void recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push, LookStyle style);
+  void recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look);
 };
 
 Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
@@ -168,25 +169,25 @@ void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t b
   const auto scope = timer.scope(commands, batch < tubeBatches ? kTessellate : kForks);
   if (batch < tubeBatches)
     tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
-                               templates[batch % 2], options.cull});
+                               templates[batch % 2], cull});
   else
     forkPass.record(commands, {tubes, forks, forks.batches()[batch - tubeBatches], detailPass, upload.points(),
-                               upload.knots(), forkTemplates[batch % 2], options.cull});
+                               upload.knots(), forkTemplates[batch % 2], cull});
 }
 
 void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch,
-                                  LookStyle style) {
+                                  const Look& look) {
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
   const std::size_t tubeBatches = tubes.batches().size();
   if (batch < tubeBatches) {
     const TubeBatch& range = tubes.batches()[batch];
-    surfacePass.recordVessels(commands, push, templates[batch % 2], range.groups(), style);
+    surfacePass.recordVessels(commands, push, templates[batch % 2], range.groups(), look, partial);
     target.pause(commands);
     copyDraws(commands, templates[batch % 2], range.firstSweep / shared::kGroupSweeps, range.groups());
   } else {
     const ForkBatch& range = forks.batches()[batch - tubeBatches];
-    surfacePass.recordVessels(commands, push, forkTemplates[batch % 2], range.groups(), style);
+    surfacePass.recordVessels(commands, push, forkTemplates[batch % 2], range.groups(), look, partial);
     target.pause(commands);
     copyDraws(commands, forkTemplates[batch % 2], tubes.groupCount() + range.firstFork / shared::kGroupForks,
               range.groups());
@@ -211,9 +212,10 @@ void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInpu
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
-void Renderer::State::recordCapillaries(VkCommandBuffer commands, const shared::DrawPush& push, LookStyle style) {
+void Renderer::State::recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look) {
+  push.opacity = look.capillaryOpacity;
   const auto scope = timer.scope(commands, kCapillaries);
-  const CapillaryPass::Input input{upload.points(), upload.knots(), push, style};
+  const CapillaryPass::Input input{upload.points(), upload.knots(), push, look.style, partial};
   capillaries->recordUpload(commands);
   for (std::size_t batch = 0; batch < capillaries->batches(); ++batch) {
     if (batch == 0) capillaries->recordGrowth(commands, input, batch);
@@ -234,6 +236,8 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
+  partial = isPartial(input.camera, input.look);
+  cull = options.cull && !input.camera.cut;  // the backs of what is cut open are seen
   const std::vector<MeshSet::Level> levels =
       meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
                        options.pixelError > 0 ? kMeshPixelError / std::sqrt(float(options.samples)) : 0);
@@ -249,20 +253,21 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
     skinPass.record(commands, meshes, levels, upload.joints(), upload.jointCount(), input.heartScale);
     gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
     target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
-    surfacePass.recordOpaque(commands, push, meshes, levels, input.look);
+    surfacePass.recordOpaque(commands, push, meshes, levels, input.look, partial);
     target.pause(commands);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
   for (std::size_t batch = 0; batch < batches; ++batch) {
     if (batch + 1 < batches) recordTessellation(commands, batch + 1);
-    recordBatch(commands, push, batch, input.look.style);
+    recordBatch(commands, push, batch, input.look);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
-  if (occlusionPass && input.look.occlusion > 0 && input.look.style != LookStyle::xray) recordOcclusion(commands, input);
-  if (capillaries && batches > 0) recordCapillaries(commands, push, input.look.style);
+  // Depth of what is translucent is grain.
+  if (occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) && input.look.style != LookStyle::xray) recordOcclusion(commands, input);
+  if (capillaries && batches > 0 && input.look.capillaryOpacity > 0) recordCapillaries(commands, push, input.look);
   const auto scope = timer.scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
-  surfacePass.recordTranslucent(commands, push, meshes, levels, input.look);
+  surfacePass.recordTranslucent(commands, push, meshes, levels, input.look, partial);
   target.end(commands);
 }
 

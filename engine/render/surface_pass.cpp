@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "shared/sweep.h"
+#include "spirv/cut_frag.h"
 #include "spirv/opaque_frag.h"
+#include "spirv/partial_frag.h"
 #include "spirv/skin_frag.h"
 #include "spirv/surface_vert.h"
 #include "spirv/xray_frag.h"
@@ -30,6 +32,7 @@ struct VertexLayout {
 
 constexpr float kXrayVessels = 1.8f;
 constexpr float kOrganOpacity = 0.3f;
+constexpr std::uint32_t kWholePart = 31;  // item shift: a part is one item
 
 // How much light a surface of the x-ray style gathers.
 float xrayLight(MeshRole role) {
@@ -43,6 +46,28 @@ float xrayLight(MeshRole role) {
   return 0.5f;
 }
 
+float opacityOf(MeshRole role, const Look& look) {
+  switch (role) {
+    case MeshRole::bones: return look.boneOpacity;
+    case MeshRole::heart: return look.heartOpacity;
+    case MeshRole::other: return look.otherOpacity;
+    case MeshRole::organs:  // they and the skin are blended
+    case MeshRole::skin: break;
+  }
+  return 1;
+}
+
+std::uint32_t shiftAndOpacities(std::uint32_t shift, float first, float second = 1, float third = 1) {
+  return shift | packColour({first, second, third, 0}) << 8;
+}
+
+// The plane over pixels and depth, as a fragment knows its place.
+vec4 cutInPicture(const Camera& camera, const mat4& viewProjection, VkExtent2D size) {
+  if (!camera.cut) return {0, 0, 0, 1};
+  const glm::dvec4 clip = glm::transpose(glm::inverse(glm::dmat4(viewProjection))) * glm::dvec4(*camera.cut);
+  return {2 * clip.x / size.width, 2 * clip.y / size.height, clip.z, clip.w - clip.x - clip.y};
+}
+
 void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDeviceSize offset) {
   const VkBuffer buffer = vertices.handle();
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
@@ -54,13 +79,11 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
                const gpu::GraphicsPipeline& closed, MeshRole role) {
   bindVertices(commands, meshes.posed(), 0);
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
-  push.colours = meshes.colours();
-  push.itemShift = 31;  // a part is one item
   push.hiddenKinds = 0;
   for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
     const MeshSet::Level& level = levels[i];
     if (level.indexCount == 0 || meshes.parts()[i].role != role) continue;
-    push.firstItem = i;
+    push.colours = meshes.colours() + 4 * i;
     (level.bothSides ? pipeline : closed).bind(commands, push);
     vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, std::int32_t(level.firstVertex), 0);
   }
@@ -71,8 +94,8 @@ void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& m
 std::uint32_t hiddenKinds(const Look& look) {
   const auto bit = [](VesselKind kind) { return 1u << std::uint32_t(kind); };
   std::uint32_t hidden = 1u << kHiddenKind;
-  if (!look.drawArteries) hidden |= bit(VesselKind::artery);
-  if (!look.drawVeins) hidden |= bit(VesselKind::vein) | bit(VesselKind::portalVein);
+  if (!look.drawArteries || look.arteryOpacity <= 0) hidden |= bit(VesselKind::artery);
+  if (!look.drawVeins || look.veinOpacity <= 0) hidden |= bit(VesselKind::vein) | bit(VesselKind::portalVein);
   if (!look.drawOtherVessels) hidden |= bit(VesselKind::lymphatic) | bit(VesselKind::other);
   return hidden;
 }
@@ -82,22 +105,31 @@ shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2
   const mat3 axes = cameraAxes(camera);
   shared::DrawPush push{};
   push.viewProjection = viewProjection(camera, width / height);
-  push.right = axes[0];
-  push.up = axes[1];
+  const quat turn = glm::quat_cast(glm::transpose(axes));
+  push.turn = {turn.x, turn.y, turn.z, turn.w};
+  push.cut = cutInPicture(camera, push.viewProjection, size);
   push.hiddenKinds = hiddenKinds(look);
   if (camera.orthographicHeight <= 0) {
     const float slope = std::tan(camera.verticalAngle / 2);
     push.eyeCorner = {slope * width / height, -slope};
-    push.eyeStep = {-2 * slope / height, 2 * slope / height};
+    push.eyeStep = 2 * slope / height;
   }
   return push;
 }
 
-SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
+bool isPartial(const Camera& camera, const Look& look) {
+  return camera.cut || anyTranslucent(look);
+}
+
+SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target)
+    : whole_(make(device, target, false)), partial_(make(device, target, true)) {}
+
+SurfacePass::Pipelines SurfacePass::make(gpu::Device& device, const gpu::TargetSpec& target, bool partial) const {
+  Pipelines made;
   const VertexLayout layout;
-  const gpu::GraphicsSpec common{
+  gpu::GraphicsSpec common{
       .vertex = spirv::surface_vert,
-      .fragment = spirv::opaque_frag,
+      .fragment = partial ? gpu::ShaderCode(spirv::partial_frag) : gpu::ShaderCode(spirv::opaque_frag),
       .pushBytes = sizeof(shared::DrawPush),
       .vertexInput = &layout.info,
       .colour = target.colour,
@@ -105,64 +137,75 @@ SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) {
       .samples = target.samples,
       .depthTest = VK_COMPARE_OP_GREATER,
   };
+  common.constants.set(1, partial ? std::uint32_t(target.samples) : 0u);
   for (const LookStyle style : {LookStyle::atlas, LookStyle::clinical}) {
     const std::size_t i = std::size_t(style);
     gpu::GraphicsSpec spec = common;
     spec.constants.set(0, std::uint32_t(style));
     spec.name = "tubes";
-    tubes_[i] = gpu::GraphicsPipeline(device, spec);
+    if (partial) spec.cull = VK_CULL_MODE_NONE;  // cut open
+    made.tubes[i] = gpu::GraphicsPipeline(device, spec);
     spec.name = "opaque meshes";
-    closed_[i] = gpu::GraphicsPipeline(device, spec);
+    spec.cull = VK_CULL_MODE_BACK_BIT;
+    made.closed[i] = gpu::GraphicsPipeline(device, spec);
     spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
-    opaque_[i] = gpu::GraphicsPipeline(device, spec);
+    made.opaque[i] = gpu::GraphicsPipeline(device, spec);
     spec.name = "skin";
     spec.cull = VK_CULL_MODE_BACK_BIT;
     spec.fragment = spirv::skin_frag;
     spec.depthTest = VK_COMPARE_OP_EQUAL;
     spec.depthWrite = false;
     spec.blend = gpu::Blend::premultiplied;
-    skinColour_[i] = gpu::GraphicsPipeline(device, spec);
+    made.skinColour[i] = gpu::GraphicsPipeline(device, spec);
   }
   gpu::GraphicsSpec spec = common;
   spec.name = "skin depth";
-  spec.fragment = {};
-  skinDepth_ = gpu::GraphicsPipeline(device, spec);
+  spec.fragment = partial ? gpu::ShaderCode(spirv::cut_frag) : gpu::ShaderCode{};
+  spec.colourWrite = false;
+  made.skinDepth = gpu::GraphicsPipeline(device, spec);
   spec.name = "x-ray";
+  spec.colourWrite = true;
   spec.fragment = spirv::xray_frag;
   spec.depthTest = VK_COMPARE_OP_ALWAYS;
   spec.depthWrite = false;
   spec.blend = gpu::Blend::add;
-  for (auto* pipelines : {&tubes_, &opaque_, &closed_, &skinColour_})
+  for (auto* pipelines : {&made.tubes, &made.opaque, &made.closed, &made.skinColour})
     (*pipelines)[std::size_t(LookStyle::xray)] = gpu::GraphicsPipeline(device, spec);
+  return made;
 }
 
 void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws,
-                                std::uint32_t groups, LookStyle style) const {
+                                std::uint32_t groups, const Look& look, bool partial) const {
   push.colours = draws.colours.address();
-  push.firstItem = 0;
-  push.itemShift = shared::kBlockShift;
+  push.shiftAndOpacities = shiftAndOpacities(shared::kBlockShift, look.arteryOpacity, look.veinOpacity);
   push.opacity = kXrayVessels;
-  tubes_[std::size_t(style)].bind(commands, push);
+  (partial ? partial_ : whole_).tubes[std::size_t(look.style)].bind(commands, push);
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
   vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, groups, sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                               std::span<const MeshSet::Level> levels, const Look& look) const {
+                               std::span<const MeshSet::Level> levels, const Look& look, bool partial) const {
+  const Pipelines& pipelines = partial ? partial_ : whole_;
   for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
     push.opacity = xrayLight(role);
-    drawParts(commands, push, meshes, levels, opaque_[std::size_t(look.style)], closed_[std::size_t(look.style)], role);
+    push.shiftAndOpacities = shiftAndOpacities(kWholePart, opacityOf(role, look));
+    drawParts(commands, push, meshes, levels, pipelines.opaque[std::size_t(look.style)],
+              pipelines.closed[std::size_t(look.style)], role);
   }
 }
 
 void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                             std::span<const MeshSet::Level> levels, const Look& look) const {
+                                    std::span<const MeshSet::Level> levels, const Look& look, bool partial) const {
+  const Pipelines& pipelines = partial ? partial_ : whole_;
   const bool xray = look.style == LookStyle::xray;
-  const gpu::GraphicsPipeline& colour = skinColour_[std::size_t(look.style)];
+  const gpu::GraphicsPipeline& colour = pipelines.skinColour[std::size_t(look.style)];
+  push.shiftAndOpacities = shiftAndOpacities(kWholePart, 1);
   for (const MeshRole role : {MeshRole::organs, MeshRole::skin}) {
-    push.opacity = (role == MeshRole::skin ? look.skinOpacity : kOrganOpacity) * (xray ? xrayLight(role) : 1);
-    if (!xray) drawParts(commands, push, meshes, levels, skinDepth_, skinDepth_, role);
+    const float opacity = role == MeshRole::skin ? look.skinOpacity : kOrganOpacity * look.otherOpacity;
+    push.opacity = opacity * (xray ? xrayLight(role) : 1);
+    if (!xray) drawParts(commands, push, meshes, levels, pipelines.skinDepth, pipelines.skinDepth, role);
     drawParts(commands, push, meshes, levels, colour, colour, role);
   }
 }

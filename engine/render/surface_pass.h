@@ -17,27 +17,34 @@ std::uint32_t hiddenKinds(const Look& look);
 /// The push constants that all draws of a frame share: the camera's, and which vessels are hidden.
 shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2D size);
 
+/// Whether something of a frame's surfaces is left out by their opacity or by the camera's cutting plane.
+bool isPartial(const Camera& camera, const Look& look);
+
 /// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
-/// reversed (clear to 0).
+/// reversed (clear to 0). `partial` is the frame's isPartial().
 class SurfacePass {
  public:
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
   /// Tubes or forks. @param groups  of the batch
   void recordVessels(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws, std::uint32_t groups,
-                     LookStyle style = LookStyle::atlas) const;
+                     const Look& look = {}, bool partial = false) const;
   /// Bones, heart and others.
   /// @param levels  MeshSet::levelsFor()
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                    std::span<const MeshSet::Level> levels, const Look& look) const;
+                    std::span<const MeshSet::Level> levels, const Look& look, bool partial = false) const;
   /// Organs, then the skin: the depth of their nearest side first, then that side's colour over what lies behind.
   void recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                  std::span<const MeshSet::Level> levels, const Look& look) const;
+                         std::span<const MeshSet::Level> levels, const Look& look, bool partial = false) const;
 
  private:
-  // One of each for every LookStyle.
-  std::array<gpu::GraphicsPipeline, 3> tubes_, opaque_, closed_, skinColour_;
-  gpu::GraphicsPipeline skinDepth_;
+  struct Pipelines {
+    std::array<gpu::GraphicsPipeline, 3> tubes, opaque, closed, skinColour;  // one of each for every LookStyle
+    gpu::GraphicsPipeline skinDepth;
+  };
+  Pipelines make(gpu::Device& device, const gpu::TargetSpec& target, bool partial) const;
+
+  Pipelines whole_, partial_;
 };
 
 }  // namespace vasa

@@ -10,27 +10,33 @@
 namespace vasa::shared {
 using uint = std::uint32_t;
 #define VASA_ADDRESS(Block) std::uint64_t
+#define VASA_CONSTANT constexpr
 #else
+#define VASA_CONSTANT const
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Colours { uint colour[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
 
-/// Vertex v of a draw belongs to item firstItem + (v >> itemShift), which has one colour: sRGB, 8 bits each,
-/// red lowest; the highest 8 bits are the item's kind (below 32).
+VASA_CONSTANT uint kMeshKind = 8;
+
+/// Vertex v of a draw belongs to item v >> itemShift, which has one colour: sRGB, 8 bits each, red lowest; the highest 8
+/// bits are the item's kind (below 32): those of vessels, then kMeshKind + the role of a mesh.
 struct DrawPush {
   mat4 viewProjection;
-  vec3 right, up;  // the camera's axes in the world, unit
-  vec2 eyeCorner, eyeStep;  // towards the eye, in the camera's axes, at pixel p: (eyeCorner + p * eyeStep, 1)
+  vec4 turn;       // quaternion x y z w: from the world to the camera's axes
+  vec4 cut;        // dot(cut, (pixel, depth, 1)) < 0: cut off; where draws are partial
+  vec2 eyeCorner;  // towards the eye, in the camera's axes, at pixel p: (eyeCorner + p * (-eyeStep, eyeStep), 1)
+  float eyeStep;
+  uint shiftAndOpacities;  // itemShift; from bit 8 on, 8 bits each: opacity of arteries or meshes, of veins, of other vessels
   VASA_ADDRESS(Colours) colours;
-  uint firstItem;
-  uint itemShift;
-  float opacity;
+  float opacity;     // of the skin and of capillaries; in x-ray the light that a surface gathers
   uint hiddenKinds;  // bit k: items of kind k are not drawn
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(DrawPush) == 128 && offsetof(DrawPush, colours) == 104);
+static_assert(sizeof(DrawPush) == 128 && offsetof(DrawPush, colours) == 112);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS
+#undef VASA_CONSTANT
 #endif

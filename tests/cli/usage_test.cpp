@@ -16,6 +16,24 @@ TEST_CASE("help and version succeed, on standard output") {
   }
 }
 
+TEST_CASE("help tells of topics and commands alike, and of none that is not there") {
+  const auto overview = runProgram({"help"});
+  CHECK(overview.exit == 0);
+  for (const char* topic : {"bodies", "formats", "running", "scenes"}) {
+    CAPTURE(topic);
+    CHECK(overview.out.find(std::string("  ") + topic + " ") != std::string::npos);
+    const auto text = runProgram({"help", topic});
+    CHECK(text.exit == 0);
+    CHECK(text.err.empty());
+    CHECK(text.out.size() > 500);
+  }
+  CHECK(runProgram({"help", "bench", "collide"}).out == runProgram({"bench", "collide", "--help"}).out);
+  const auto unknown = runProgram({"help", "dancing"});
+  CHECK(unknown.exit == 2);
+  CHECK(unknown.out.empty());
+  CHECK(unknown.err.find("there is no help on dancing") != std::string::npos);
+}
+
 TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"dance"}, {"render", "--nonsense"}, {"render"}, {"render", "-o", "x{frame}{frame}.png"},

@@ -215,6 +215,55 @@ TEST_CASE("a beating heart is smaller, and nothing else is") {
   CHECK(pixels(false, 0.5f) == pixels(false, 1));
 }
 
+TEST_CASE("a cutting plane of any direction takes away what lies behind it, and nothing else") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
+  subject.joints = {mat4(1)};
+  for (const std::uint32_t samples : {1u, 4u}) {
+    Renderer renderer(rig.device(), subject.network, meshes, small(samples));
+    const auto pixels = [&](std::optional<vec4> cut) {
+      RenderInput input = subject.input(sideView());
+      input.look.transparent = true;
+      input.look.drawArteries = false;
+      input.camera.cut = cut;
+      renderer.draw(input);
+      return double(covered(renderer.readBack()));
+    };
+    const double whole = pixels(std::nullopt);
+    CHECK(pixels(vec4(0, 0, 1, 0)) == whole);                                             // before all of it
+    CHECK(pixels(vec4(0, 0, -1, 0)) == 0);                                                // behind
+    CHECK(pixels(vec4(0, 0, 1, -0.4f)) == doctest::Approx(whole / 2).epsilon(0.06));      // edge on
+    CHECK(pixels(vec4(0, 1, 0, 0)) == doctest::Approx(whole / 2).epsilon(0.06));
+    CHECK(pixels(vec4(0, 0.6f, 0.8f, -0.32f)) == doctest::Approx(whole / 2).epsilon(0.1));  // aslant through the middle
+  }
+}
+
+TEST_CASE("a translucent bone covers its share of the samples, the same ones every time") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
+  subject.joints = {mat4(1)};
+  for (const std::uint32_t samples : {1u, 4u}) {
+    Renderer renderer(rig.device(), subject.network, meshes, small(samples));
+    const auto share = [&](float opacity) {
+      RenderInput input = subject.input(sideView());
+      input.look.transparent = true;
+      input.look.drawArteries = false;
+      input.look.boneOpacity = opacity;
+      renderer.draw(input);
+      const Image image = renderer.readBack();
+      double sum = 0;
+      for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
+      return sum / 255;
+    };
+    const double whole = share(1);
+    CHECK(share(0) == 0);
+    for (const float opacity : {0.2f, 0.5f, 0.8f}) CHECK(share(opacity) == doctest::Approx(opacity * whole).epsilon(0.05));
+    CHECK(share(0.5f) == share(0.5f));
+  }
+}
+
 TEST_CASE("a picture depends on its input alone: not on the batch size, nor on frames before it") {
   VASA_REQUIRE_GPU(rig);
   Subject subject(test::windingNetwork(40, 9));

@@ -21,19 +21,57 @@ TEST_CASE("a turned joint takes along what hangs on it") {
   CHECK(glm::distance(vec3(pose.world[2][3]), vec3(1, 1, 0)) < 1e-6f);
 }
 
-TEST_CASE("turns are cut off at the joint's limit, whichever way they go") {
-  CHECK(mostTurn("leftLowerLeg") > mostTurn("leftHand"));
-  CHECK(mostTurn("") == doctest::Approx(kPi / 2));
-  CHECK(withinLimit({0.2f, 0.1f, 0}, 1) == vec3(0.2f, 0.1f, 0));
-  const vec3 cut = withinLimit({2, 0, 0}, 1);
-  CHECK(glm::distance(cut, vec3(1, 0, 0)) < 1e-5f);
+namespace {
+
+// A left leg that hangs down: hip, knee, ankle, and toes in front.
+Skeleton leg() {
+  Skeleton skeleton;
+  const vec3 places[] = {{0.1f, 0.9f, 0}, {0.1f, 0.5f, 0}, {0.1f, 0.1f, 0}, {0.1f, 0.05f, 0.15f}};
+  for (int j = 0; j < 4; ++j) {
+    Skeleton::Joint joint;
+    if (j > 0) joint.parent = JointId{std::uint32_t(j - 1)};
+    joint.restWorld = glm::mat4_cast(glm::angleAxis(0.7f * float(j), vec3(0, 0.6f, 0.8f)));  // a rig's axes are anyhow
+    joint.restWorld[3] = vec4(places[j], 1);
+    skeleton.joints.push_back(joint);
+  }
+  return skeleton;
 }
 
-TEST_CASE("a turn about an axis of the world is one in the joint's own axes") {
-  mat4 world = glm::mat4_cast(glm::angleAxis(kPi / 2, vec3(1, 0, 0)));  // its y points to +Z
-  const vec3 angles = turnedFurther({0, 0, 0}, world, {0, 0, 1}, 0.4f, 2);
-  CHECK(glm::distance(angles, vec3(0, 0.4f, 0)) < 1e-5f);
-  const vec3 more = turnedFurther({0.3f, -0.2f, 0.5f}, mat4(1), {0, 1, 0}, 0, 3);
-  CHECK(glm::distance(more, vec3(0.3f, -0.2f, 0.5f)) < 1e-5f);  // angles and back
-  CHECK(glm::length(turnedFurther({0, 0, 0}, mat4(1), {0, 0, 1}, 3, 0.5f)) == doctest::Approx(0.5));
+vec3 ankleAt(const Skeleton& skeleton, JointId joint, const JointMotion& motion, vec3 angles) {
+  const JointTurn turn{joint, angles, motion.axes};
+  return vec3(turned(skeleton, restPose(skeleton), {&turn, 1}).world[2][3]);
+}
+
+}  // namespace
+
+TEST_CASE("joints bend forwards, spread outwards and twist about their length, whatever a rig's axes are") {
+  const Skeleton skeleton = leg();
+  const vec3 rest(skeleton.joints[2].restWorld[3]);
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"), knee = jointMotion(skeleton, {1}, "leftLowerLeg");
+  CHECK(ankleAt(skeleton, {0}, hip, {0.3f, 0, 0}).z > rest.z + 0.2f);
+  CHECK(ankleAt(skeleton, {1}, knee, {-0.3f, 0, 0}).z < rest.z - 0.1f);
+  CHECK(ankleAt(skeleton, {0}, hip, {0, -0.3f, 0}).x > rest.x + 0.2f);  // the body's left is +X
+  CHECK(glm::distance(ankleAt(skeleton, {0}, hip, {0, 0, 0.5f}), rest) < 1e-5f);
+}
+
+TEST_CASE("each axis has its own range") {
+  const Skeleton skeleton = leg();
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"), other = jointMotion(skeleton, {0}, "rightUpperLeg");
+  const JointMotion knee = jointMotion(skeleton, {1}, "leftLowerLeg"), unknown = jointMotion(skeleton, {1}, "");
+  CHECK(knee.most.x < glm::radians(10.0f));
+  CHECK(knee.least.x < glm::radians(-120.0f));
+  CHECK(hip.most.y == -other.least.y);
+  CHECK(unknown.most == vec3(kPi / 2));
+  CHECK(knee.within({1, 1, 1}) == knee.most);
+  CHECK(knee.within({-0.5f, 0, 0}) == vec3(-0.5f, 0, 0));
+}
+
+TEST_CASE("a turn about an axis of the world is one about the joint's own axes, within its range") {
+  const Skeleton skeleton = leg();
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg");
+  const mat4 world = skeleton.joints[0].restWorld;
+  const vec3 angles = turnedFurther({0, 0, 0}, hip, world, {-1, 0, 0}, 0.4f);  // hanging down, it goes forwards
+  CHECK(glm::distance(angles, vec3(0.4f, 0, 0)) < 1e-5f);
+  CHECK(glm::distance(turnedFurther({0.3f, -0.2f, 0.5f}, hip, world, {0, 1, 0}, 0), vec3(0.3f, -0.2f, 0.5f)) < 1e-5f);
+  CHECK(turnedFurther({0, 0, 0}, hip, world, {-1, 0, 0}, -1).x == doctest::Approx(hip.least.x));
 }
