@@ -46,6 +46,10 @@ UiPass::UiPass(gpu::Device& device) : device_(device) {
 }
 
 UiPass::~UiPass() {
+  try {
+    device_.queue().wait(last_);
+  } catch (const gpu::Error&) {  // a lost device may be left all the same
+  }
   ImGui_ImplVulkan_Shutdown();
 }
 
@@ -91,6 +95,8 @@ void UiPass::makePool() {
 
 void UiPass::resize(VkExtent2D size) {
   if (canvas_ && canvas_.size().width == size.width && canvas_.size().height == size.height) return;
+  device_.queue().wait(device_.queue().last());  // it may still be on its way to the window
+  fresh_ = true;
   frame_ = {};
   canvas_ = gpu::Image(device_, {.name = "canvas",
                                  .size = size,
@@ -115,10 +121,12 @@ void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, 
   constexpr VkPipelineStageFlags2 transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
   constexpr VkImageLayout target = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   gpu::changeLayout(commands, {.image = canvas_.handle(), .after = target, .to = transfer});
-  const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  vkCmdClearColorImage(commands, canvas_.handle(), target, &kDesk, 1, &all);
-  if (picture) {
+  if (!picture || fresh_) {  // later pictures and the panels cover all of it
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(commands, canvas_.handle(), target, &kDesk, 1, &all);
     gpu::stageBarrier(commands, transfer, transfer);
+  }
+  if (picture) {
     VkImageCopy region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.dstOffset = {std::int32_t(left), std::int32_t(top), 0};
@@ -134,6 +142,7 @@ void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, 
 }
 
 void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t top, ImDrawData& panels) {
+  device_.queue().wait(last_);
   gpu::Commands commands = device_.queue().begin("panels");
   recordPicture(commands, picture, left, top);
   VkRenderPassBeginInfo info{};
@@ -148,7 +157,8 @@ void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t t
                                .before = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                .after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                .from = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT});
-  device_.queue().wait(device_.queue().submit(std::move(commands)));
+  last_ = device_.queue().submit(std::move(commands));
+  fresh_ = false;
 }
 
 Image UiPass::readBack() {

@@ -21,10 +21,10 @@ class UiPass {
 
   void resize(VkExtent2D size);
 
-  /// Draws and waits. @param picture  Renderer::picture(); nullptr: none yet. @param left, top  its place, within the canvas
+  /// Draws, and waits only for the canvas drawn before. @param picture  Renderer::picture(); nullptr: none yet. @param left, top  its place, within the canvas
   void draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t top, ImDrawData& panels);
 
-  /// sRGB values in R8G8B8A8_UNORM, in the layout that copies read from.
+  /// sRGB values in B8G8R8A8_UNORM, in the layout that copies read from.
   const gpu::Image& canvas() const { return canvas_; }
   Image readBack();
 
@@ -38,6 +38,8 @@ class UiPass {
   gpu::Unique<VkDescriptorPool> pool_;
   gpu::Image canvas_;
   gpu::Unique<VkFramebuffer> frame_;
+  gpu::Ticket last_;
+  bool fresh_ = true;  // nothing has been drawn on it
 };
 
 }  // namespace vasa::viewer

@@ -240,7 +240,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   cull = options.cull && !input.camera.cut;  // the backs of what is cut open are seen
   const std::vector<MeshSet::Level> levels =
       meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
-                       options.pixelError > 0 ? kMeshPixelError / std::sqrt(float(options.samples)) : 0);
+                       meshPixelError(options.pixelError) / std::sqrt(float(options.samples)));
   timer.begin(commands);
   upload.record(commands);
   if (batches > 0) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <span>
 
@@ -21,7 +22,9 @@ namespace vasa {
 /// [pixels] error of `--quads auto`: RenderOptions::pixelError.
 constexpr float kAutoPixelError = 0.3f;
 /// [pixels] of bones, heart and skin beside it: none is so thin as a vessel, and normals stay those of the mesh.
-constexpr float kMeshPixelError = 0.6f;
+constexpr float meshPixelError(float pixelError) {
+  return pixelError <= 0 ? 0 : std::max(2 * kAutoPixelError, 0.9f * pixelError);
+}
 
 /// What is settled for a renderer's life.
 struct RenderOptions {
@@ -29,7 +32,7 @@ struct RenderOptions {
   std::uint32_t samples = 4;                 ///< a pixel: 1 or 4
   SweepShape shape;                          ///< quads around and along every sweep
   /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
-  /// Bones, heart and skin are drawn with fewer triangles too, within kMeshPixelError, half that with 4 samples.
+  /// Bones, heart and skin are drawn with fewer triangles too, within meshPixelError(), half that with 4 samples.
   float pixelError = 0;
   /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can share them.
   /// nullptr: made.
