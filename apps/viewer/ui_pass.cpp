@@ -46,10 +46,6 @@ UiPass::UiPass(gpu::Device& device) : device_(device) {
 }
 
 UiPass::~UiPass() {
-  try {
-    device_.queue().wait(last_);
-  } catch (const gpu::Error&) {  // a lost device may be left all the same
-  }
   ImGui_ImplVulkan_Shutdown();
 }
 
@@ -142,7 +138,6 @@ void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, 
 }
 
 void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t top, ImDrawData& panels) {
-  device_.queue().wait(last_);
   gpu::Commands commands = device_.queue().begin("panels");
   recordPicture(commands, picture, left, top);
   VkRenderPassBeginInfo info{};
@@ -157,7 +152,7 @@ void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t t
                                .before = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                .after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                .from = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT});
-  last_ = device_.queue().submit(std::move(commands));
+  device_.queue().wait(device_.queue().submit(std::move(commands)));  // the picture may go after this
   fresh_ = false;
 }
 

@@ -21,7 +21,7 @@ class UiPass {
 
   void resize(VkExtent2D size);
 
-  /// Draws, and waits only for the canvas drawn before. @param picture  Renderer::picture(); nullptr: none yet. @param left, top  its place, within the canvas
+  /// Draws and waits. @param picture  Renderer::picture(); nullptr: none yet. @param left, top  its place, within the canvas
   void draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t top, ImDrawData& panels);
 
   /// sRGB values in B8G8R8A8_UNORM, in the layout that copies read from.
@@ -38,7 +38,6 @@ class UiPass {
   gpu::Unique<VkDescriptorPool> pool_;
   gpu::Image canvas_;
   gpu::Unique<VkFramebuffer> frame_;
-  gpu::Ticket last_;
   bool fresh_ = true;  // nothing has been drawn on it
 };
 
