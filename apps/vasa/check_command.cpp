@@ -18,7 +18,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string frames;
-  bool noVolume = false, places = false;
+  bool noVolume = false, places = false, skinWall = false;
 };
 
 struct Setting {
@@ -150,6 +150,8 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"obstacle_deeper_after", avoid.bonesAfter.deeper},
              {"obstacle_depth_before_m", avoid.bones.depth},
              {"obstacle_depth_after_m", avoid.bonesAfter.depth},
+             {"skin_contacts_before", avoid.skinContacts},
+             {"skin_contacts_after", avoid.skinContactsAfter},
              {"bone_ms", avoid.boneMs},
              {"rest_contacts", avoid.after.restContacts},
              {"narrow_spans", avoid.narrowSpans},
@@ -201,7 +203,7 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true});
+  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}});
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;
@@ -235,6 +237,7 @@ void addCheck(CLI::App& app, Command& command) {
   addSceneOptions(*sub, options->scene);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
+  sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too; without it skin_contacts are 0");
   sub->add_flag("--places", options->places, "Name the vessels that still interfere, have changed sides or are in bones in each frame");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

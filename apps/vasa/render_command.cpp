@@ -33,7 +33,7 @@ struct Options {
   std::string forks = "on";
   std::uint32_t supersample = 1;
   bool beat = false;
-  bool resume = false, transparent = false, noVolume = false, avoid = true, highlightContacts = false;
+  bool resume = false, transparent = false, noVolume = false, avoid = true, highlightContacts = false, skinWall = false;
 };
 
 // What is to be drawn, settled before the first frame.
@@ -92,7 +92,7 @@ Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options,
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
                   options.camera.distance, options.size, options.quads, options.samples, options.hide, choice.look.preset, options.transparent,
                   options.noVolume, options.avoid, options.highlightContacts) +
-      fmt::format("|{}|{}|{}", options.supersample, options.beat, options.forks);
+      fmt::format("|{}|{}|{}|{}", options.supersample, options.beat, options.forks, options.skinWall);
   return hashOfCapillaries(choice.capillaries, seed, hashOf(std::span(settings), hash));
 }
 
@@ -153,6 +153,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
 
 FrameOptions frameOptions(const Options& options) {
   FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts, .beat = options.beat};
+  frame.avoidance.skinWall = options.skinWall;
   if (!options.avoid) frame.avoidance.rounds = frame.avoidance.lumenRounds = 0;
   return frame;
 }
@@ -368,6 +369,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_flag("--avoid,!--no-avoid", options->avoid,
                 "Move vessels apart that run through one another or through bones (the default)");
   sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
+  sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "avoid/bone_constraints.h"
 #include "avoid/constraints.h"
+#include "avoid/skin_wall.h"
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
@@ -48,6 +51,21 @@ void noteMovement(std::span<const vec4> from, std::span<const vec4> to, AvoidRep
   if (!from.empty()) report.movedRms = float(std::sqrt(sum / double(from.size())));
 }
 
+// What contacts are sorted by.
+std::tuple<std::uint32_t, std::uint32_t, float> placeOf(const BoneContact& contact) {
+  return {contact.tube, contact.part, contact.s};
+}
+
+std::uint32_t tubesThrough(std::span<const BoneContact> contacts) {
+  std::uint32_t count = 0, last = kNoTube;
+  for (const BoneContact& contact : contacts) {
+    if (!contact.enters()) continue;
+    count += contact.tube != last;
+    last = contact.tube;
+  }
+  return count;
+}
+
 // Contacts are sorted by tube.
 BoneReport reportOf(std::span<const BoneContact> contacts) {
   BoneReport report;
@@ -78,6 +96,7 @@ struct Avoider::State {
         posedTubes(interference.layout().count()),
         posedTurns(interference.layout().count()) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
+    if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
   }
 
   AvoidReport run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
@@ -99,6 +118,7 @@ struct Avoider::State {
   MotionSpace space;
   RestSides sides;
   std::unique_ptr<Bones> bones;
+  std::unique_ptr<SkinWall> wall;
   ConstraintPool pool;
   BoneConstraints boneConstraints;
   std::vector<vec3> z;
@@ -112,6 +132,7 @@ struct Avoider::State {
   std::span<const Interference::Place> places;  // of the last look, as the next two
   std::vector<Contact> changed;
   std::span<const BoneContact> boneContacts;
+  std::vector<BoneContact> skinContacts, allContacts;  // of the last look; bones and skin together, sorted alike
   std::vector<NarrowPlace> narrowed;
 };
 
@@ -179,6 +200,11 @@ void Avoider::State::lookAtBones(Bones::Which which, AvoidReport& report) {
   if (!bones) return;
   Timer timer(report.boneMs);
   boneContacts = bones->contacts(interference.tubes(), {posedTubes, posedTurns}, which);
+  if (!wall) return;
+  skinContacts.clear();
+  wall->addContacts(interference.tubes(), bones->partCount(), skinContacts);
+  allContacts.clear();
+  std::ranges::merge(boneContacts, skinContacts, std::back_inserter(allContacts), {}, &placeOf, &placeOf);
 }
 
 void Avoider::State::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
@@ -188,7 +214,7 @@ void Avoider::State::separate(const PosedVessels& posed, const VolumeKeeper* vol
       const std::span<const Bezier> tubes = interference.tubes();
       const bool grew = pool.refresh(tubes);
       const std::size_t added = pool.add(places, changed, tubes, posed);
-      const std::size_t asking = boneConstraints.update(boneContacts, tubes, posedTubes);
+      const std::size_t asking = boneConstraints.update(wall ? std::span<const BoneContact>(allContacts) : boneContacts, tubes, posedTubes);
       if (added + asking == 0 && !grew) return;
       ++report.rounds;
       sumUp();
@@ -288,6 +314,7 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   std::fill(z.begin(), z.end(), vec3(0));
   if (bones) {
     bones->pose(posed.jointMatrices);
+    if (wall) wall->pose(posed.jointMatrices);
     interference.layout().shape(posed.points, posedTubes);
     for (std::uint32_t tube = 0; tube < posedTurns.size(); ++tube) {
       const auto [vessel, span] = interference.layout().address(tube);
@@ -298,7 +325,8 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   report.before = certificateOf(places, &found);
   report.sidesChanged = std::uint32_t(changed.size());
   report.bones = reportOf(boneContacts);
-  if (!report.before.holds() || !changed.empty() || report.bones.contacts + report.bones.deeper > 0) {
+  report.skinContacts = tubesThrough(skinContacts);
+  if (!report.before.holds() || !changed.empty() || report.bones.contacts + report.bones.deeper + report.skinContacts > 0) {
     separate(posed, volume, points, report);
     giveWay(posed, volume, points, report);
     for (const unsigned nodes : kResorts) {
@@ -317,6 +345,7 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   report.after = certificateOf(places, &remaining);
   report.sidesChangedAfter = std::uint32_t(changed.size());
   report.bonesAfter = reportOf(boneContacts);
+  report.skinContactsAfter = tubesThrough(skinContacts);
   report.volume = volumeOutcome;
   report.constraints = std::uint32_t(pool.constraints().size() + boneConstraints.constraints().size());
   noteMovement(posed.points, points, report);

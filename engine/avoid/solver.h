@@ -17,6 +17,7 @@ struct AvoidOptions {
   unsigned rounds = 10;      ///< detections, each followed by sweeps
   unsigned sweeps = 40;      ///< of dual ascent over all constraints, a round
   unsigned lumenRounds = 8;  ///< of making vessels thinner where there is no room
+  bool skinWall = false;     ///< hold vessels below the skin, too
 };
 
 /// Tubes in bones or the heart.
@@ -30,6 +31,7 @@ struct BoneReport {
 struct AvoidReport {
   Certificate before, after;
   BoneReport bones, bonesAfter;
+  std::uint32_t skinContacts = 0, skinContactsAfter = 0;  ///< tubes nearer to the skin than they may be, with skinWall
   std::uint32_t constraints = 0;  ///< in the pool at the end
   std::uint32_t rounds = 0;       ///< detections that asked for a correction
   float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
@@ -53,7 +55,7 @@ struct AvoidReport {
 class Avoider {
  public:
   /// @param network  must outlive this
-  /// @param body     whose bones and heart vessels must not enter, or null; read, not kept
+  /// @param body     whose bones and heart vessels must not enter, and whose skin they keep below; or null. Read, not kept
   explicit Avoider(const Network& network, const Body* body = nullptr, AvoidOptions options = {});
   ~Avoider();
   Avoider(Avoider&&) noexcept;

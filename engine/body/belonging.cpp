@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,16 +17,6 @@ constexpr std::size_t kSamples = 400;
 constexpr float kOutsideHeights = 0.01f;
 constexpr float kFarHeights = 0.15f;
 constexpr float kMostOutside = 0.15f;
-
-bool outsideSkin(const TriangleMesh& skin, vec3 p, float margin) {
-  if (windingNumber(skin, p) >= 0.5f) return false;
-  for (const uvec3 t : skin.triangles) {
-    const vec3 nearest =
-        closestOnTriangle(p, skin.positions[t.x], skin.positions[t.y], skin.positions[t.z]).point;
-    if (glm::distance(nearest, p) <= margin) return false;
-  }
-  return true;
-}
 
 bool farFromLinks(const SpineSet& spines, vec3 p, float margin) {
   for (const SpineJoint& joint : spines.joints) {
@@ -43,11 +34,13 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
   const float height = body.height();
   const SkinnedMesh* skin = skinOf(body);
   const std::size_t samples = std::min(points.size(), kSamples);
+  std::optional<SkinShell> shell;
+  if (skin) shell.emplace(skin->mesh);
+  const auto outsideSkin = [&](vec3 p) { return !shell->contains(p) && std::abs(shell->look(p).depth) > kOutsideHeights * height; };
   std::size_t outside = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const vec3 p(points[i * points.size() / samples]);
-    outside += skin ? outsideSkin(skin->mesh, p, kOutsideHeights * height)
-                    : farFromLinks(spines, p, kFarHeights * height);
+    outside += skin ? outsideSkin(p) : farFromLinks(spines, p, kFarHeights * height);
   }
   const float share = float(outside) / float(samples);
   if (share <= kMostOutside) return {};

@@ -1,6 +1,7 @@
 #pragma once
 #include "body/body.h"
 #include "mesh/triangle_tree.h"
+#include "mesh/winding_number.h"
 
 namespace vasa {
 
@@ -16,20 +17,20 @@ class SkinShell {
   struct Place {
     vec3 nearest{0};
     vec3 normal{0};      ///< of the surface there, outward
+    std::uint32_t triangle = 0;
     float depth = 0;     ///< [m] below the surface; negative outside
   };
-  /// Expected O(log n); where the surface's normal says outside, O(n) to make sure.
+  /// Expected O(log n), as the next.
   Place look(vec3 p) const;
+  bool contains(vec3 p) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
 
  private:
   TriangleMesh mesh_;
   TriangleTree tree_;
+  WindingNumber winding_;
 };
-
-/// How often a mesh winds around p (van Oosterom and Strackee 1983): near 0 outside, also where it has holes.
-float windingNumber(const TriangleMesh& mesh, vec3 p);
 
 /// The skin's mesh at rest in model space; empty where the body has none.
 TriangleMesh skinAtRest(const Body& body);

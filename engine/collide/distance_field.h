@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collide/obstacle.h"
-#include "collide/winding_number.h"
+#include "mesh/winding_number.h"
 #include "math/aabb.h"
 #include "math/types.h"
 
@@ -23,7 +23,7 @@ class DistanceField {
     float band = 0.006f;   ///< [m], at least 2 cells
   };
 
-  /// @param triangles  counter-clockwise from outside; holes and overlaps are borne (collide/winding_number.h)
+  /// @param triangles  counter-clockwise from outside; holes and overlaps are borne (mesh/winding_number.h)
   /// O(triangles); filling all bricks would be O(area · band / cell³).
   DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options);
 

@@ -1,10 +1,10 @@
-#include "collide/winding_number.h"
+#include "mesh/winding_number.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "collide/spatial_order.h"
+#include "math/aabb.h"
 
 namespace vasa {
 namespace {
@@ -15,13 +15,18 @@ constexpr float kFar = 2.3f;  // radii from a group's centre, beyond which its d
 }  // namespace
 
 WindingNumber::WindingNumber(std::span<const vec3> positions, std::span<const uvec3> triangles) {
-  std::vector<vec3> centres;
-  for (const uvec3& t : triangles) centres.push_back((positions[t.x] + positions[t.y] + positions[t.z]) / 3.0f);
-  for (const std::uint32_t i : spatialOrder(centres)) {
-    const uvec3& t = triangles[i];
-    triangles_.push_back({positions[t.x], positions[t.y], positions[t.z]});
-  }
+  for (const uvec3& t : triangles) triangles_.push_back({positions[t.x], positions[t.y], positions[t.z]});
   if (!triangles_.empty()) build(0, std::uint32_t(triangles_.size()));
+}
+
+// About half of the triangles on each side, along the longer side of the box around their centres.
+void WindingNumber::halve(std::span<Triangle> triangles) {
+  Aabb box;
+  for (const auto& [a, b, c] : triangles) box.add(a + b + c);
+  const vec3 extent = box.extent();
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  std::ranges::nth_element(triangles, triangles.begin() + std::ptrdiff_t(triangles.size() / 2), {},
+                           [&](const Triangle& t) { return t.a[axis] + t.b[axis] + t.c[axis]; });
 }
 
 void WindingNumber::build(std::uint32_t first, std::uint32_t last) {
@@ -43,6 +48,7 @@ void WindingNumber::build(std::uint32_t first, std::uint32_t last) {
   nodes_.push_back(node);
   if (last - first <= kLeaf) return;
   const std::uint32_t middle = first + (last - first) / 2;
+  halve(std::span(triangles_).subspan(first, last - first));
   build(first, middle);
   nodes_[own].second = std::uint32_t(nodes_.size());
   build(middle, last);

@@ -30,9 +30,10 @@ class WindingNumber {
     float radius;
     vec3 dipole;  // sum of areas times normals
   };
+  static void halve(std::span<Triangle> triangles);
   void build(std::uint32_t first, std::uint32_t last);
 
-  std::vector<Triangle> triangles_;  // in spatial order
+  std::vector<Triangle> triangles_;  // as the leaves hold them
   std::vector<Node> nodes_;          // parents first
 };
 

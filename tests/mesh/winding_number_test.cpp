@@ -1,10 +1,8 @@
-#include "collide/winding_number.h"
+#include "mesh/winding_number.h"
 
 #include <doctest/doctest.h>
 
 #include <random>
-
-#include "support/meshes.h"
 
 using namespace vasa;
 
