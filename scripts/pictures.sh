@@ -1,5 +1,5 @@
 #!/bin/sh
-# Draws the README's rows of forks and capillaries from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
+# Draws the README's rows of forks, stills and capillaries from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
 # A row is drawn in several pictures, set side by side and reduced to 256 colours by ffmpeg.
 set -eu
 vasa=${1:-build/release/bin/vasa}
@@ -12,6 +12,11 @@ draw() {
   name=$1 size=$2
   shift 2
   "$vasa" --quiet render --frames 0 --no-avoid --quads 16x20 --supersample 2 --size "$size" "$@" -o "$parts/$name.png"
+}
+
+# still_of CLIP FRAME: the whole body, vessels moved apart
+still_of() {
+  "$vasa" --quiet render --clip "$1" --frames "$2" --supersample 2 --size 240x400 -o "$parts/$1.png"
 }
 
 # row NAME PARTS...
@@ -30,10 +35,18 @@ row() {
 only='--clip stand --hide skin,bones,organs'
 # shellcheck disable=SC2086
 {
-  draw y 320x320 $only,veins --camera 0.02,1.085,0.32/0.003,1.07,0.003/16
-  draw t 320x320 $only,veins --camera 0.05,1.2,0.32/0.01,1.183,0/14
-  draw crossing 320x320 $only --camera 0.02,1.40,0.36/-0.01,1.395,0.01/16
-  row forks y t crossing
+  for forks in off on; do
+    close="--clip stand --forks $forks"
+    draw "y_$forks" 240x240 $close --hide skin,bones,organs,veins --camera 0.003,1.085,0.25/0.003,1.071,0.004/16
+    draw "t_$forks" 240x240 $close --hide skin,bones,organs,veins --camera 0.0,1.33,-0.25/0.022,1.3,-0.037/13
+    draw "crossing_$forks" 240x240 $close --hide skin,bones,organs,arteries --camera -0.03,1.19,-0.25/-0.02,1.182,0.0/17
+  done
+  row forks y_off y_on t_off t_on crossing_off crossing_on
+
+  for still in walk:16 run:8 squat:45 twist:40 elbow_flex:60; do
+    still_of "${still%:*}" "${still#*:}"
+  done
+  row stills walk run squat twist elbow_flex
 
   draw without 240x480 $only --camera 0,0.88,3.9/0,0.88,0/27
   draw with 240x480 $only --camera 0,0.88,3.9/0,0.88,0/27 --capillaries 3
@@ -44,8 +57,8 @@ only='--clip stand --hide skin,bones,organs'
   done
   row levels level1 level2 level3
 
-  draw brain 240x240 --clip stand --hide skin,bones --capillaries 3 --camera 0.5,1.68,0.25/0,1.66,0/20
-  draw face 240x240 --clip stand --hide skin,bones --capillaries 3 --camera 0.12,1.62,0.6/0,1.6,0.03/20
+  draw brain 240x240 --clip stand --hide skin,bones,organs --capillaries 3 --camera 0.5,1.68,0.25/0,1.66,0/20
+  draw face 240x240 --clip stand --hide skin,bones,organs --capillaries 3 --camera 0.12,1.62,0.6/0,1.6,0.03/20
   draw hand 240x240 --clip stand --hide skin --capillaries 3 --focus LeftHand --distance 0.7
   draw foot 240x240 --clip stand --hide skin --capillaries 3 --focus LeftFoot --distance 0.7
   row regions brain face hand foot

@@ -31,12 +31,14 @@ Result<std::string> about(const CLI::App& app, const std::vector<std::string>& s
   for (const Topic& topic : topics())
     if (subject.size() == 1 && topic.name == subject[0]) return topic.text;
   const CLI::App* command = &app;
+  std::string above;
   for (const std::string& name : subject) {
     const auto below = command->get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
     if (below.empty()) return Error{Fault::usage, "there is no help on " + name + "; vasa help lists commands and topics"};
+    above += (above.empty() ? "" : " ") + command->get_name();
     command = below.front();
   }
-  return command->help();
+  return command->help(above);
 }
 
 Result<void> writeManuals(const CommandText& command, const CommandText& program, const std::filesystem::path& folder) {
