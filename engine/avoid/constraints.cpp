@@ -71,6 +71,14 @@ void ConstraintPool::partAsTheyLie(std::span<const Interference::Place> places) 
   std::erase_if(constraints_, [&](const Constraint& constraint) { return partedAsTheyLie(constraint.tubes); });
 }
 
+void ConstraintPool::forget(std::span<const Contact> changed) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const Contact& contact : changed) pairs.push_back(vesselsOf({contact.i, contact.j}));
+  std::ranges::sort(pairs);
+  std::erase_if(constraints_, [&](const Constraint& constraint) { return std::ranges::binary_search(pairs, vesselsOf(constraint.tubes)); });
+  std::erase_if(asTheyLie_, [&](const auto& pair) { return std::ranges::binary_search(pairs, pair); });
+}
+
 std::pair<std::uint32_t, std::uint32_t> ConstraintPool::vesselsOf(TubePair tubes) const {
   const NetworkTubes& layout = interference_->layout();
   return {layout.address(tubes.i).vessel.value, layout.address(tubes.j).vessel.value};

@@ -47,6 +47,9 @@ class ConstraintPool {
   /// they lie, whatever the rest pose says: together with all else that could not be had.
   void partAsTheyLie(std::span<const Interference::Place> places);
 
+  /// Forgets what was asked for between the vessels of these tubes, on whichever side.
+  void forget(std::span<const Contact> changed);
+
   /// To be called before add() in every round. Distances for the radii of the given shape; more force for those that
   /// have used all of theirs. Returns whether any got more.
   bool refresh(std::span<const Bezier> shape);

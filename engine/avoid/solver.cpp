@@ -126,7 +126,6 @@ struct Avoider::State {
   std::vector<quat> posedTurns;  // of their middles
   VolumeKeeper::Outcome volumeOutcome;
   std::vector<vec4> before;  // lumen gave way
-  std::vector<vec4> pointsBefore;  // more rounds
   std::vector<float> most;   // radius of a point, since it did
   std::vector<Interference::Place> found, remaining;
   std::span<const Interference::Place> places;  // of the last look, as the next two
@@ -283,27 +282,40 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
   for (const NarrowPlace& narrow : narrowed) report.leastLumen = std::min(report.leastLumen, narrow.factor);
 }
 
-// Some rounds more where vessels have ended on the wrong side of one another; what came of them stands if that is fewer
-// and the certificate holds as it did.
+// Some rounds more where vessels have ended on the wrong side of one another, without what was asked for between them on
+// the way there. The best of what comes of them stands: as certified as before, and fewer on a wrong side.
 void Avoider::State::bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+  struct Best {
+    AvoidReport report;
+    std::size_t changed;
+    std::vector<vec4> points;
+    std::vector<NarrowPlace> narrowed;
+    VolumeKeeper::Outcome volume;
+  };
+  const auto present = [&] { return Best{report, changed.size(), {points.begin(), points.end()}, narrowed, volumeOutcome}; };
+  if (changed.empty()) return;
+  Best best = present();
+  bool isBest = true;
   for (unsigned attempt = 0; attempt < kBringBack && !changed.empty(); ++attempt) {
-    const AvoidReport reportBefore = report;
-    const std::size_t changedBefore = changed.size();
-    pointsBefore.assign(points.begin(), points.end());
-    const std::vector<NarrowPlace> narrowedBefore = narrowed;
-    const VolumeKeeper::Outcome outcomeBefore = volumeOutcome;
+    {
+      Timer timer(report.solveMs);
+      pool.forget(changed);
+      sumUp();
+      place(posed, volume, points);
+    }
+    look(posed, points, Bones::Which::nearAtLast, report);
     separate(posed, volume, points, report);
     giveWay(posed, volume, points, report);
-    if (changed.size() < changedBefore && certificateOf(places, &remaining).holds()) continue;
-    std::ranges::copy(pointsBefore, points.begin());
-    const unsigned rounds = report.rounds;
-    report = reportBefore;
-    report.rounds = rounds;
-    narrowed = narrowedBefore;
-    volumeOutcome = outcomeBefore;
-    look(posed, points, Bones::Which::nearAtLast, report);
-    return;
+    isBest = changed.size() < best.changed && certificateOf(places, &remaining).holds();
+    if (isBest) best = present();
   }
+  if (isBest) return;
+  std::ranges::copy(best.points, points.begin());
+  best.report.rounds = report.rounds, best.report.solveMs = report.solveMs, best.report.detectMs = report.detectMs;
+  report = best.report;
+  narrowed = best.narrowed;
+  volumeOutcome = best.volume;
+  look(posed, points, Bones::Which::nearAtLast, report);
 }
 
 AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
