@@ -1,31 +1,10 @@
 #include "real_poses.h"
 
-#include "convert/convert.h"
-#include "io/gltf.h"
-#include "network/file.h"
 #include "scene/frame.h"
+#include "support/real_scene.h"
 #include "support/shared_data.h"
 
 namespace vasa::test {
-namespace {
-
-Result<Scene> realScene(const std::filesystem::path& data, const std::filesystem::path& folder) {
-  std::vector<SourceElement> sources;
-  for (const char* name : {"bp3d_arteries", "bp3d_veins"}) {
-    auto elements = readGltfElements(data / "bp3d" / (std::string(name) + ".glb"));
-    if (!elements) return elements.error();
-    for (SourceElement& source : describeElements(std::move(*elements), name)) sources.push_back(std::move(source));
-  }
-  auto conversion = convertElements(sources);
-  if (!conversion) return conversion.error();
-  if (auto written = writeNetwork(folder / "real.vasa", conversion->network); !written) return written.error();
-  SceneFile file;
-  file.body = data / "bp3d/bp3d_body.glb";
-  file.networks = {folder / "real.vasa"};
-  return loadScene(file);
-}
-
-}  // namespace
 
 Result<RealPoses> realPoses(const std::filesystem::path& data, const std::vector<std::string>& clips, int steps) {
   const TemporaryFolder folder;
