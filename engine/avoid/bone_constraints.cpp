@@ -54,11 +54,11 @@ void BoneConstraints::keep(std::size_t own) {
 }
 
 // The plane that is nearest now takes the place of the one before.
-void BoneConstraints::renew(Constraint& constraint, const Constraint& before, bool enters) const {
+void BoneConstraints::renew(Constraint& constraint, const Constraint& before) const {
   constraint.row = before.row;
   constraint.mostLimit = before.mostLimit;
   constraint.limit = before.limit;
-  if (before.multiplier >= before.limit && enters)
+  if (before.multiplier >= before.limit)
     constraint.limit = rounds_ < kPatient ? std::min(kMore * before.limit, before.mostLimit) : kLess * before.limit;
   constraint.multiplier = std::min(before.multiplier, constraint.limit);
 }
@@ -83,8 +83,7 @@ std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::sp
     for (; old < keys_.size() && keys_[old] < key; ++old) keep(old);
     std::size_t end = old;
     while (end < keys_.size() && keys_[end] == key) ++end;
-    const bool held = end > old;
-    if ((!held && !place.enters()) || letThrough_[layout_->address(place.tube).vessel.value]) continue;
+    if (letThrough_[layout_->address(place.tube).vessel.value]) continue;
     const float radius = shape[place.tube].at(place.s).w;
     Constraint constraint{.tubes = {place.tube, kNoTube}, .s = place.s, .normal = place.normal};
     constraint.clearance = place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kLeastClearance);
@@ -101,7 +100,6 @@ std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::sp
       lack = constraint.distance - constraint.start;
     }
     const bool tooFar = lack > farthest;
-    if (!place.enters()) continue;
     const std::size_t same = sameWay(old, end, constraint.normal);
     for (; old < end; ++old) {
       if (tooFar) {
@@ -109,15 +107,15 @@ std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::sp
         constraints_[old].multiplier = std::min(constraints_[old].multiplier, constraints_[old].limit);
       }
       if (old != same || tooFar) keep(old);
-      else renew(constraint, constraints_[old], place.enters());
+      else renew(constraint, constraints_[old]);
     }
     if (tooFar) continue;
     if (same == end) {
-      if (!place.enters() || !makeRow(constraint)) continue;
+      if (!makeRow(constraint)) continue;
       constraint.limit = kReach * (constraint.clearance - place.f + radius) / constraint.row.diagonal;
       constraint.mostLimit = kMost * constraint.limit;
     }
-    asking += place.enters() && constraint.limit * constraint.row.diagonal > kLeastLimit;
+    asking += constraint.limit * constraint.row.diagonal > kLeastLimit;
     next_.push_back(constraint);
     nextKeys_.push_back(key);
   }

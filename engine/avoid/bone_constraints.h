@@ -21,8 +21,8 @@ class BoneConstraints {
   /// Forgets the constraints.
   void restart();
 
-  /// To be called in every round: holds the places that enter a bone now, and looks anew at those that were held and are
-  /// still near it. Changes constraints' normals, so what the multipliers move must be summed up anew.
+  /// To be called in every round: holds the places that enter a bone now. Changes constraints' normals, so what the
+  /// multipliers move must be summed up anew.
   /// @param places       as Bones::contacts() tells them
   /// @param shape        the tubes in which they were found
   /// @param posedTubes   before the correction
@@ -42,7 +42,7 @@ class BoneConstraints {
   bool makeRow(Constraint& constraint);
   void keep(std::size_t own);
   std::size_t sameWay(std::size_t first, std::size_t last, vec3 normal) const;
-  void renew(Constraint& constraint, const Constraint& before, bool enters) const;
+  void renew(Constraint& constraint, const Constraint& before) const;
 
   const Network* network_;
   const MotionSpace* space_;

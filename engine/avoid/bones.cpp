@@ -23,7 +23,6 @@ constexpr float kStride = 0.8f;  // ... and of the distance
 constexpr float kNearAtRest = 0.02f;  // [m] what lay so near a part belongs on that side of it
 const float kAlong = std::cos(0.5f * 50 * kPi / 180);  // ... unless it has turned about it by more than this
 constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
-constexpr float kNearly = 0.001f;  // [m] places that enter by less than nothing are told too
 
 // One part: what of a mesh one joint carries.
 struct Part {
@@ -190,9 +189,8 @@ bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneCont
     if (off > 0 && field.clearance(centre) > ball.w + field.band()) continue;
     const vec3 along = off > 0 ? unitOr(vec3(shape.derivative(s)), {0, 0, 1}) : vec3(0);
     const vec3 u = off > 0 ? anyPerpendicular(along) : vec3(0), v = glm::cross(along, u);
-    BoneContact deepest{.tube = at.tube, .part = at.part, .s = s, .f = at.allowed + kNearly, .allowed = at.allowed};
+    BoneContact deepest{.tube = at.tube, .part = at.part, .s = s, .f = at.allowed, .allowed = at.allowed};
     vec3 deepestAside(0);
-    bool close = false;
     for (int k = 0; k < (off > 0 ? kRing : 1); ++k) {
       const float angle = 2 * kPi * float(k) / kRing;
       const vec3 aside = off > 0 ? off * (std::cos(angle) * u + std::sin(angle) * v) : vec3(0);
@@ -200,18 +198,17 @@ bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneCont
       if (distance >= field.band()) continue;
       inBand = true;
       if (distance - small >= deepest.f) continue;
-      close = true;
       deepest.f = distance - small;
       deepestAside = aside;
     }
-    if (!close) continue;
+    if (!deepest.enters()) continue;
     const vec3 from = centre + deepestAside;
-    leave(solid, from, deepest.enters() ? home(at, s, tubes) + deepestAside : from, small, deepest);
+    leave(solid, from, home(at, s, tubes) + deepestAside, small, deepest);
     deepest.point -= mat3(solid.matrix) * deepestAside + off * deepest.normal;
     deepest.nearestPoint -= mat3(solid.matrix) * deepestAside + off * deepest.nearestNormal;
     // Beyond where the straight way leaves the part, and in it even so.
     const vec3 now(tubes.now[at.tube].at(s));
-    if (deepest.enters() && deepest.nearestNormal != vec3(0) && glm::dot(deepest.normal, now - deepest.point) >= ball.w + at.allowed)
+    if (deepest.nearestNormal != vec3(0) && glm::dot(deepest.normal, now - deepest.point) >= ball.w + at.allowed)
       deepest.point = deepest.nearestPoint, deepest.normal = deepest.nearestNormal;
     out.push_back(deepest);
   }
@@ -270,7 +267,6 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
   pose(matrices);
   contacts(restTubes, {restTubes, {}});
   for (const BoneContact& contact : state_->contacts) {
-    if (!contact.enters()) continue;
     auto& atRest = state_->solids[contact.part].atRest;
     if (atRest.empty() || atRest.back().first != contact.tube) atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
     atRest.back().second = std::min(atRest.back().second, contact.f);
@@ -322,7 +318,7 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, cons
         return false;
       }
       const bool inBand = state.look(at, {tubes, posed}, out);
-      at.entered = std::any_of(out.begin() + std::ptrdiff_t(before), out.end(), [](const BoneContact& c) { return c.enters(); });
+      at.entered = out.size() > before;
       return !inBand;
     });
   });

@@ -9,7 +9,7 @@
 
 namespace vasa {
 
-/// A place of a tube in or near a bone or the heart.
+/// A place of a tube in a bone or the heart, or through the skin, deeper than at rest.
 struct BoneContact {
   std::uint32_t tube = 0, part = 0;
   float s = 0;         ///< on the tube: one of a few parameters, the same in every pose
@@ -47,7 +47,7 @@ class Bones {
   /// @param jointMatrices  a joint's world · inverseBind
   void pose(std::span<const mat4> jointMatrices);
 
-  /// Places where tubes enter a part or come within a millimetre of that; sorted by tube, part and parameter. Tubes are
+  /// Places where tubes enter a part; sorted by tube, part and parameter. Tubes are
   /// looked at in four to seven places. Parallel.
   /// @param posed  the tubes before any correction
   /// @param which  all tubes, or only those that were within a field's band when all were looked at last, and those that

@@ -52,7 +52,6 @@ void narrow(const Network& network, const NetworkTubes& layout, std::span<const 
             std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most) {
   const Narrower narrower{network, points, most};
   for (const BoneContact& place : places) {
-    if (!place.enters()) continue;
     const float radius = shape[place.tube].at(place.s).w;
     narrower.tube(layout.address(place.tube), std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), false);
   }

@@ -11,7 +11,6 @@ namespace vasa {
 namespace {
 
 constexpr float kNearHeights = 0.012f;  // of the body's height: what lay deeper is not looked at
-constexpr float kNearly = 0.001f;       // [m] places that are through by less than nothing are told too
 constexpr float kFarthest = 0.025f;     // [m] what is farther out has its skin in a fold, where a plane is no wall
 constexpr std::array<float, 3> kPlaces{0, 0.5f, 1};
 
@@ -59,9 +58,10 @@ void SkinWall::addContacts(std::span<const Bezier> tubes, std::uint32_t part, st
   for (const Place& place : places_) {
     const vec4 ball = tubes[place.tube].at(place.s);
     const float f = glm::dot(place.inwards, vec3(ball) - place.point) - ball.w;
-    if (place.inwards == vec3(0) || f >= place.allowed + kNearly || f < place.allowed - kFarthest) continue;
-    contacts.push_back({.tube = place.tube, .part = part, .s = place.s, .f = f, .allowed = place.allowed, .point = place.point, .normal = place.inwards,
-                        .nearestPoint = place.point, .nearestNormal = place.inwards});
+    if (place.inwards == vec3(0) || f < place.allowed - kFarthest) continue;
+    const BoneContact contact{.tube = place.tube, .part = part, .s = place.s, .f = f, .allowed = place.allowed, .point = place.point, .normal = place.inwards,
+                        .nearestPoint = place.point, .nearestNormal = place.inwards};
+    if (contact.enters()) contacts.push_back(contact);
   }
 }
 

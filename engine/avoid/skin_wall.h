@@ -18,7 +18,7 @@ class SkinWall {
   /// @param jointMatrices  a joint's world · inverseBind
   void pose(std::span<const mat4> jointMatrices);
 
-  /// Appends the places that are through the skin or come within a millimetre of that, sorted by tube and parameter.
+  /// Appends the places that are through the skin, sorted by tube and parameter.
   /// O(places)
   /// @param part  what to call the skin in BoneContact::part
   void addContacts(std::span<const Bezier> tubes, std::uint32_t part, std::vector<BoneContact>& contacts) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <tuple>
@@ -56,28 +57,21 @@ std::tuple<std::uint32_t, std::uint32_t, float> placeOf(const BoneContact& conta
   return {contact.tube, contact.part, contact.s};
 }
 
-std::uint32_t tubesThrough(std::span<const BoneContact> contacts) {
+std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
   std::uint32_t count = 0, last = kNoTube;
-  for (const BoneContact& contact : contacts) {
-    if (!contact.enters()) continue;
-    count += contact.tube != last;
-    last = contact.tube;
-  }
+  for (const BoneContact& contact : contacts)
+    if (counts(contact) && std::exchange(last, contact.tube) != contact.tube) ++count;
   return count;
 }
 
-// Contacts are sorted by tube.
+std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
+  return tubesOf(contacts, [](const BoneContact&) { return true; });
+}
+
 BoneReport reportOf(std::span<const BoneContact> contacts) {
-  BoneReport report;
-  std::uint32_t lastNew = kNoTube, lastDeeper = kNoTube;
-  for (const BoneContact& contact : contacts) {
-    if (!contact.enters()) continue;
-    const bool atRest = contact.allowed < 0;
-    std::uint32_t& last = atRest ? lastDeeper : lastNew;
-    if (contact.tube != last) ++(atRest ? report.deeper : report.contacts);
-    last = contact.tube;
-    report.depth = std::max(report.depth, contact.allowed - contact.f);
-  }
+  const auto atRest = [](const BoneContact& contact) { return contact.allowed < 0; };
+  BoneReport report{tubesOf(contacts, std::not_fn(atRest)), tubesOf(contacts, atRest)};
+  for (const BoneContact& contact : contacts) report.depth = std::max(report.depth, contact.allowed - contact.f);
   return report;
 }
 
@@ -110,6 +104,7 @@ struct Avoider::State {
   void separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
   void letThroughBones(unsigned nodes);
   void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void tryAgain(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
   void bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network& network;
@@ -254,11 +249,10 @@ void Avoider::State::letThroughBones(unsigned nodes) {
 // that only moves the trouble about, volume is given up for the certificate.
 void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
   narrowed.clear();
-  report.narrowSpans = 0, report.leastLumen = 1;
   bool gave = false;
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
     const bool apart = certificateOf(places, &remaining).holds(), lastResort = 2 * round >= options.lumenRounds;
-    if (apart && (lastResort || std::ranges::none_of(boneContacts, &BoneContact::enters))) break;
+    if (apart && (lastResort || boneContacts.empty())) break;
     {
       Timer timer(report.solveMs);
       if (!gave) {
@@ -275,44 +269,42 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
     }
     look(posed, points, Bones::Which::nearAtLast, report);
   }
-  if (!gave) return;
-  narrowed = narrowPlaces(network, before, points);
-  report.narrowSpans = std::uint32_t(narrowed.size());
-  report.leastLumen = 1;
-  for (const NarrowPlace& narrow : narrowed) report.leastLumen = std::min(report.leastLumen, narrow.factor);
+  if (gave) narrowed = narrowPlaces(network, before, points);
+}
+
+// From the multipliers as they are, after some were given up.
+void Avoider::State::tryAgain(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+  {
+    Timer timer(report.solveMs);
+    sumUp();
+    place(posed, volume, points);
+  }
+  look(posed, points, Bones::Which::nearAtLast, report);
+  separate(posed, volume, points, report);
+  giveWay(posed, volume, points, report);
 }
 
 // Some rounds more where vessels have ended on the wrong side of one another, without what was asked for between them on
 // the way there. The best of what comes of them stands: as certified as before, and fewer on a wrong side.
 void Avoider::State::bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
   struct Best {
-    AvoidReport report;
     std::size_t changed;
     std::vector<vec4> points;
     std::vector<NarrowPlace> narrowed;
     VolumeKeeper::Outcome volume;
   };
-  const auto present = [&] { return Best{report, changed.size(), {points.begin(), points.end()}, narrowed, volumeOutcome}; };
+  const auto present = [&] { return Best{changed.size(), {points.begin(), points.end()}, narrowed, volumeOutcome}; };
   if (changed.empty()) return;
   Best best = present();
   bool isBest = true;
   for (unsigned attempt = 0; attempt < kBringBack && !changed.empty(); ++attempt) {
-    {
-      Timer timer(report.solveMs);
-      pool.forget(changed);
-      sumUp();
-      place(posed, volume, points);
-    }
-    look(posed, points, Bones::Which::nearAtLast, report);
-    separate(posed, volume, points, report);
-    giveWay(posed, volume, points, report);
+    pool.forget(changed);
+    tryAgain(posed, volume, points, report);
     isBest = changed.size() < best.changed && certificateOf(places, &remaining).holds();
     if (isBest) best = present();
   }
   if (isBest) return;
   std::ranges::copy(best.points, points.begin());
-  best.report.rounds = report.rounds, best.report.solveMs = report.solveMs, best.report.detectMs = report.detectMs;
-  report = best.report;
   narrowed = best.narrowed;
   volumeOutcome = best.volume;
   look(posed, points, Bones::Which::nearAtLast, report);
@@ -337,7 +329,7 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   report.before = certificateOf(places, &found);
   report.sidesChanged = std::uint32_t(changed.size());
   report.bones = reportOf(boneContacts);
-  report.skinContacts = tubesThrough(skinContacts);
+  report.skinContacts = tubesOf(skinContacts);
   if (!report.before.holds() || !changed.empty() || report.bones.contacts + report.bones.deeper + report.skinContacts > 0) {
     separate(posed, volume, points, report);
     giveWay(posed, volume, points, report);
@@ -345,11 +337,7 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
       if (options.rounds == 0 || certificateOf(places, &remaining).holds()) break;
       if (nodes > 0 && bones) letThroughBones(nodes);
       pool.partAsTheyLie(remaining);
-      sumUp();
-      place(posed, volume, points);
-      look(posed, points, Bones::Which::nearAtLast, report);
-      separate(posed, volume, points, report);
-      giveWay(posed, volume, points, report);
+      tryAgain(posed, volume, points, report);
     }
   }
   if (report.rounds > 0 && certificateOf(places, &remaining).holds()) bringBack(posed, volume, points, report);
@@ -357,8 +345,10 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   report.after = certificateOf(places, &remaining);
   report.sidesChangedAfter = std::uint32_t(changed.size());
   report.bonesAfter = reportOf(boneContacts);
-  report.skinContactsAfter = tubesThrough(skinContacts);
+  report.skinContactsAfter = tubesOf(skinContacts);
   report.volume = volumeOutcome;
+  report.narrowSpans = std::uint32_t(narrowed.size());
+  for (const NarrowPlace& narrow : narrowed) report.leastLumen = std::min(report.leastLumen, narrow.factor);
   report.constraints = std::uint32_t(pool.constraints().size() + boneConstraints.constraints().size());
   noteMovement(posed.points, points, report);
   return report;
@@ -381,10 +371,8 @@ std::span<const NarrowPlace> Avoider::narrowed() const {
 std::span<const Contact> Avoider::changedSides() const {
   return state_->changed;
 }
-std::vector<BoneContact> Avoider::inBones() const {
-  std::vector<BoneContact> inside(state_->boneContacts.begin(), state_->boneContacts.end());
-  std::erase_if(inside, [](const BoneContact& contact) { return !contact.enters(); });
-  return inside;
+std::span<const BoneContact> Avoider::inBones() const {
+  return state_->boneContacts;
 }
 JointId Avoider::jointOfBone(std::uint32_t part) const {
   return state_->bones->jointOf(part);

@@ -71,7 +71,7 @@ class Avoider {
   /// Of the last run: tubes that are on the wrong side of one another in spite of all (RestSides::findChanged).
   std::span<const Contact> changedSides() const;
   /// Of the last run: places of tubes that are in a bone or the heart in spite of all, deeper than at rest.
-  std::vector<BoneContact> inBones() const;
+  std::span<const BoneContact> inBones() const;
   JointId jointOfBone(std::uint32_t part) const;
   /// Of the last run: where vessels interfered before.
   std::span<const Interference::Place> found() const;
