@@ -104,41 +104,27 @@ void DistanceField::giveSigns(std::span<const vec3, kValues> corners, std::span<
   }
 }
 
-// Bricks beyond the band hang together in regions, each all outside or all inside: as the values say on some of the
-// faces that it shares with bricks of the band, by the majority, for meshes have holes.
+// Bricks beyond the band hang together in regions, each all outside or all inside, as one winding number tells.
 void DistanceField::sortOutInside() {
-  constexpr int kMiddle = kBrick / 2, kMostAsked = 25;
+  const float side = options_.cell * kBrick;
   std::vector<ivec3> region;
   for (int z = 0; z < counts_.z; ++z)
     for (int y = 0; y < counts_.y; ++y)
       for (int x = 0; x < counts_.x; ++x) {
         if (brick({x, y, z}) != kUndecided) continue;
-        int votes = 0, asked = 0;  // for outside
-        brick({x, y, z}) = kOutside;
+        const vec3 middle = origin_ + side * (vec3(x, y, z) + 0.5f);
+        const std::uint32_t found = winding_->at(middle) > kInsideFrom ? kInside : kOutside;
+        brick({x, y, z}) = found;
         region.assign(1, {x, y, z});
         for (std::size_t k = 0; k < region.size(); ++k)
           for (int axis = 0; axis < 3; ++axis)
             for (const int step : {-1, 1}) {
               ivec3 next = region[k];
               next[axis] += step;
-              if (next[axis] < 0 || next[axis] >= counts_[axis]) {
-                votes += 1000;  // the border of the box is outside
-                continue;
-              }
-              std::uint32_t& number = brick(next);
-              if (number == kUndecided) {
-                number = kOutside;
-                region.push_back(next);
-              } else if (number < kInside && asked < kMostAsked) {
-                ++asked;
-                ivec3 corner(kMiddle);
-                corner[axis] = step > 0 ? 0 : kBrick;
-                const float value = valuesOf(number, next)[(corner.z * kCorners + corner.y) * kCorners + corner.x];
-                votes += value > 0 ? 1 : -1;
-              }
+              if (next[axis] < 0 || next[axis] >= counts_[axis] || brick(next) != kUndecided) continue;
+              brick(next) = found;
+              region.push_back(next);
             }
-        if (votes < 0)
-          for (const ivec3& at : region) brick(at) = kInside;
       }
 }
 
