@@ -22,7 +22,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string output, frames, quads, unit = "mm";
-  double budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1, clearanceMillimetres = 5;
+  double fps = 0, budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1, clearanceMillimetres = 5;
   std::uint32_t samples = 2;
   bool noVolume = false, avoid = true, flat = false;
 };
@@ -80,6 +80,7 @@ Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
     if (quads->pixelError > 0) return Error{Fault::usage, "--quads auto: a file has no picture to measure by; give MxN, or nothing for the finest within --budget"};
     bake.shape = {quads->around, quads->along};
   }
+  bake.fps = float(options.fps);
   bake.maxBytes = std::size_t(options.budgetMegabytes * 1048576);
   bake.betweenTolerance = float(1e-3 * options.betweenMillimetres);
   bake.mesh = {float(1e-3 * options.toleranceMillimetres), !options.flat, linearColour};
@@ -241,6 +242,7 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_option("--between", options->betweenMillimetres, "Keys are added to a .glb where vessels stray farther from the straight way between two frames [mm]")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
+  sub->add_option("--fps", options->fps, "Keys a second of a .glb (default: one a frame of the clip)")->check(CLI::Range(0.1, 1000.0));
   sub->add_option("--samples", options->samples, "Samples a sweep of .vtp and .swc")->check(CLI::Range(1, 64))->capture_default_str();
   sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")->check(CLI::IsMember({"mm", "cm", "m"}))->capture_default_str();
   sub->add_option("--clearance", options->clearanceMillimetres, "Clearances beyond this are left empty in .csv [mm]")->check(CLI::Range(0.0, 50.0))->capture_default_str();

@@ -1,6 +1,7 @@
 #include "scene/bake.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -10,42 +11,54 @@ namespace {
 constexpr std::size_t kMostMemory = std::size_t(3) << 29;  // of all frames' vertices and normals while they are worked on
 constexpr SweepShape kShapes[] = {{12, 8}, {10, 6}, {8, 5}, {8, 4}, {6, 4}, {6, 3}, {5, 3}, {4, 3}, {4, 2}, {3, 2}};
 
-// How far the middle of two frames is from the pose halfway between them: what a player that moves vertices straight
-// from key to key gets wrong there.
-float sag(const PosedFrame& before, const PosedFrame& middle, const PosedFrame& after) {
+// How far a pose is from what lies straight between two others: what a player that moves vertices straight from key to
+// key gets wrong there.
+float sag(const PosedFrame& before, const PosedFrame& pose, const PosedFrame& after, float share = 0.5f) {
   float worst = 0;
-  for (std::size_t i = 0; i < middle.points.size(); ++i)
-    worst = std::max(worst, glm::distance(vec3(middle.points[i]), 0.5f * vec3(before.points[i] + after.points[i])));
+  for (std::size_t i = 0; i < pose.points.size(); ++i)
+    worst = std::max(worst, glm::distance(vec3(pose.points[i]), glm::mix(vec3(before.points[i]), vec3(after.points[i]), share)));
   return worst;
 }
 
-// Poses a clip: a key a frame, and more keys where the motion between two frames is curved. Where it jumps (a small
+// Poses a clip: a key a frame or at a rate of its own, and more keys where the motion between two frames is curved. Where it jumps (a small
 // vessel gives way all at once) more keys would not bring it nearer, only show poses that the frames do not.
 class FilmMaker {
  public:
   FilmMaker(const Scene& scene, const Clip* clip, const BakeOptions& options) : clip_(clip), options_(options), maker_(scene, options.frame) {}
 
   std::optional<Film> run() {
-    const std::uint32_t count = options_.last - options_.first + 1;
+    const std::vector<float> times = keyTimes();
+    const auto count = std::uint32_t(times.size());
     for (std::uint32_t i = 0; i < count; ++i) {
       if (options_.stopRequested && options_.stopRequested()) return std::nullopt;
-      const float time = clip_ ? clip_->timeOfFrame(options_.first + i) : 0;
+      const float time = times[i];
       PosedFrame frame = posed(time);
       if (i > 0) addBetween(film_.times.back() + start(), time, frame, 0);
       addKey(std::move(frame), time);
       if (options_.progress) options_.progress(i + 1, count);
     }
-    for (Between& place : between_) {
-      film_.between.push_back(std::move(place.frame));
-      film_.betweenAt.push_back(place.key);
-    }
+    for (Candidate& place : between_) film_.between.push_back(std::move(place.between));
     return std::move(film_);
   }
 
  private:
-  static constexpr int kHalvings = 2;             // of the time between two frames
+  static constexpr int kHalvings = 2;             // of the time between two keys
+  // Halving the time between two keys quarters the sag of smooth motion and lessens that of most corners; a jump stays.
+  static constexpr float kStillCurved = 0.75f;
   static constexpr std::size_t kMostBetween = 5;  // poses between keys that are kept to measure by
 
+  std::vector<float> keyTimes() const {
+    if (!clip_) return {0};
+    std::vector<float> times;
+    if (options_.fps <= 0) {
+      for (std::uint32_t frame = options_.first; frame <= options_.last; ++frame) times.push_back(clip_->timeOfFrame(frame));
+      return times;
+    }
+    const float from = clip_->timeOfFrame(options_.first), to = clip_->timeOfFrame(options_.last);
+    const int steps = std::max(int(std::lround((to - from) * options_.fps)), to > from ? 1 : 0);
+    for (int i = 0; i <= steps; ++i) times.push_back(steps > 0 ? glm::mix(from, to, float(i) / float(steps)) : from);
+    return times;
+  }
   float start() const { return clip_->timeOfFrame(options_.first); }
   PosedFrame posed(float time) {
     maker_.make(clip_, time);
@@ -59,33 +72,37 @@ class FilmMaker {
   void addBetween(float timeBefore, float timeAfter, const PosedFrame& after, int halvings) {
     const float time = 0.5f * (timeBefore + timeAfter);
     PosedFrame middle = posed(time);
-    const float off = sag(film_.frames.back(), middle, after);
-    if (off <= options_.betweenTolerance || halvings == kHalvings || !curved(film_.frames.back(), timeBefore, middle, timeAfter, after, off)) {
-      between_.push_back({off, std::uint32_t(film_.frames.size() - 1), std::move(middle)});
-      std::ranges::stable_sort(between_, std::greater(), &Between::off);
-      if (between_.size() > kMostBetween) between_.pop_back();
-      return;
+    const PosedFrame& before = film_.frames.back();
+    const float off = sag(before, middle, after);
+    if (off <= options_.betweenTolerance) return keep(std::move(middle), after, 0.5f);
+    PosedFrame early = posed(0.75f * timeBefore + 0.25f * timeAfter), late = posed(0.25f * timeBefore + 0.75f * timeAfter);
+    const bool curved = std::max(sag(before, early, middle), sag(middle, late, after)) <= kStillCurved * off;
+    if (halvings == kHalvings || !curved) {
+      keep(std::move(early), after, 0.25f);
+      keep(std::move(middle), after, 0.5f);
+      return keep(std::move(late), after, 0.75f);
     }
     addBetween(timeBefore, time, middle, halvings + 1);
     addKey(std::move(middle), time);
     addBetween(time, timeAfter, after, halvings + 1);
   }
-  // Halving the time between two keys quarters the sag of smooth motion and lessens that of most corners; a jump stays.
-  bool curved(const PosedFrame& before, float timeBefore, const PosedFrame& middle, float timeAfter, const PosedFrame& after, float off) {
-    const PosedFrame early = posed(0.75f * timeBefore + 0.25f * timeAfter), late = posed(0.25f * timeBefore + 0.75f * timeAfter);
-    return std::max(sag(before, early, middle), sag(middle, late, after)) <= 0.75f * off;
+  // A place between the latest key and `after`, among the worst so far.
+  void keep(PosedFrame frame, const PosedFrame& after, float share) {
+    const float off = sag(film_.frames.back(), frame, after, share);
+    between_.push_back({off, {std::move(frame), std::uint32_t(film_.frames.size() - 1), share}});
+    std::ranges::stable_sort(between_, std::greater(), &Candidate::off);
+    if (between_.size() > kMostBetween) between_.pop_back();
   }
 
-  struct Between {
+  struct Candidate {
     float off;
-    std::uint32_t key;  // the one before
-    PosedFrame frame;
+    Film::Between between;
   };
   const Clip* clip_;
   const BakeOptions& options_;
   FrameMaker maker_;
   Film film_;
-  std::vector<Between> between_;
+  std::vector<Candidate> between_;
 };
 
 std::size_t vertexBytes(std::size_t vertices, std::size_t triangles, std::size_t shapes, bool normals) {

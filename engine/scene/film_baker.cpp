@@ -68,12 +68,12 @@ Bake FilmBaker::run(const SweepShape& shape) const {
 
 float FilmBaker::betweenError(const AnimatedMesh& mesh, const SweepShape& shape) const {
   float worst = 0;
-  for (std::size_t i = 0; i < film_.between.size(); ++i) {
-    const SurfaceMesh wanted = surface(table_, film_.between[i], shape);
-    const std::uint32_t at = film_.betweenAt[i];
+  for (const Film::Between& place : film_.between) {
+    const SurfaceMesh wanted = surface(table_, place.frame, shape);
+    const std::uint32_t at = place.key;
     for (std::size_t v = 0; v < wanted.positions.size(); ++v) {
       vec3 p = mesh.positions[v];
-      for (std::size_t k = 0; k < mesh.shapes.size(); ++k) p += 0.5f * (mesh.weights[at][k] + mesh.weights[at + 1][k]) * mesh.shapes[k][v];
+      for (std::size_t k = 0; k < mesh.shapes.size(); ++k) p += glm::mix(mesh.weights[at][k], mesh.weights[at + 1][k], place.share) * mesh.shapes[k][v];
       worst = std::max(worst, glm::distance(p, wanted.positions[v]));
     }
   }

@@ -14,10 +14,15 @@ struct PosedFrame {
   std::vector<quat> knotFrames;
 };
 
-/// The keys of a film, and a few shapes halfway between two of them, where motion is least straight.
+/// The keys of a film, and a few shapes between two of them, where motion is least straight.
 struct Film {
-  std::vector<PosedFrame> frames, between;
-  std::vector<std::uint32_t> betweenAt;  ///< the key before each of `between`
+  struct Between {
+    PosedFrame frame;
+    std::uint32_t key = 0;  ///< the one before
+    float share = 0.5f;     ///< of the time to the next key
+  };
+  std::vector<PosedFrame> frames;
+  std::vector<Between> between;
   std::vector<float> times;               ///< [s] of the keys; empty where there is no clip
 };
 
@@ -25,7 +30,7 @@ struct Bake {
   AnimatedMesh mesh;
   SweepShape shape;
   float error = 0;        ///< [m] the farthest a vertex is, in a frame, from where a picture shows it
-  float betweenError = 0; ///< [m] halfway between two keys, looked at where motion is least straight
+  float betweenError = 0; ///< [m] the same between two keys, of the places in Film::between
 };
 
 /// Turns a film of a network into a mesh with shapes and weights.
