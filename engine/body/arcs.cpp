@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body/clip.h"
+#include "core/cancellation.h"
 
 namespace vasa {
 namespace {
@@ -80,6 +81,7 @@ std::vector<float> vesselReaches(const SpineSet& spines, const BoneField& bones,
   std::vector<float> own(count);
   const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsLookedAt);
   for (std::size_t i = 0; i < points.size(); i += step) {
+    checkpoint();
     const vec3 p(points[i]);
     bones.distances(p, own);
     const auto nearest = std::uint32_t(std::min_element(own.begin(), own.end()) - own.begin());

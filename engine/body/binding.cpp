@@ -8,6 +8,7 @@
 #include "body/arcs.h"
 #include "body/belonging.h"
 #include "body/ties.h"
+#include "core/cancellation.h"
 
 // Along a limb the joints have set in at a point by shares φ_j (bend) and ψ_j (twist), from the root on 1 1 1
 // φ 0 0. Where arcs are apart only one of them is between 0 and 1, and the point has one record; where they
@@ -156,6 +157,7 @@ Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::
 
   PointBinder binder(binding.spines, phases);
   for (std::size_t i = 0; i < points.size(); ++i) {
+    checkpoint();
     if (i % Binding::kBlock == 0) binding.firstRecord.push_back(std::uint32_t(binding.records.size()));
     appendRecords(binder.bind(i), binding.records);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body/arcs.h"
+#include "core/cancellation.h"
 #include "core/parallel.h"
 
 namespace vasa {
@@ -199,6 +200,7 @@ void level(std::span<float> values, std::span<const Limit> limits, float sign) {
   };
   for (int sweep = 0; changed && sweep < kMostSweeps; ++sweep) {
     changed = false;
+    checkpoint();
     for (const Limit& limit : limits) relax(limit);
     for (auto limit = limits.rbegin(); limit != limits.rend(); ++limit) relax(*limit);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "body/point_tree.h"
+#include "core/cancellation.h"
 
 namespace vasa {
 namespace {
@@ -28,6 +29,7 @@ void addBeside(const Network& network, std::vector<Tie>& ties) {
   const PointTree tree(3, cloud);
   std::vector<std::pair<std::uint32_t, float>> found;
   for (std::uint32_t p = 0; p < cloud.points.size(); ++p) {
+    checkpoint();
     const float radius = reach[p] + 0.5f * farthest;
     tree.radiusSearch(&cloud.points[p].x, radius * radius, found, nanoflann::SearchParams(32, 0, true));
     for (const auto& [q, squared] : found)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <thread>
 
+#include "core/cancellation.h"
 #include "mesh/weld.h"
 
 namespace vasa {
@@ -38,7 +39,9 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
 // Numbers the bricks that come within the band of a triangle's box.
 void DistanceField::markBand(std::span<const vec3> positions, std::span<const uvec3> triangles) {
   const float side = options_.cell * kBrick;
+  Checkpoints checkpoints;
   for (const uvec3& triangle : triangles) {
+    checkpoints.pass();
     Aabb box;
     for (int k = 0; k < 3; ++k) box.add(positions[triangle[k]], options_.band);
     const ivec3 low = ivec3((box.low - origin_) / side), high = glm::min(ivec3((box.high - origin_) / side), counts_ - 1);
@@ -108,7 +111,7 @@ void DistanceField::giveSigns(std::span<const vec3, kValues> corners, std::span<
 void DistanceField::sortOutInside() {
   const float side = options_.cell * kBrick;
   std::vector<ivec3> region;
-  for (int z = 0; z < counts_.z; ++z)
+  for (int z = 0; z < counts_.z; ++z, checkpoint())
     for (int y = 0; y < counts_.y; ++y)
       for (int x = 0; x < counts_.x; ++x) {
         if (brick({x, y, z}) != kUndecided) continue;

@@ -9,6 +9,7 @@
 #include "collide/box_tree.h"
 #include "collide/kernels.h"
 #include "collide/spatial_order.h"
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "curve/bounds.h"
 #include "math/closest_point.h"
@@ -64,8 +65,10 @@ struct Obstacle::State {
 void Obstacle::State::joinEdges() {
   across.assign(triangles.size(), {kNone, kNone, kNone});
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, int>> open;
+  Checkpoints checkpoints;
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
+      checkpoints.pass();
       const std::uint32_t a = triangles[i][k], b = triangles[i][(k + 1) % 3];
       const auto [at, fresh] = open.try_emplace(std::minmax(a, b), i, k);
       if (fresh) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convert/strokes.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "core/parallel.h"
 
@@ -23,7 +24,9 @@ std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
   std::atomic<std::size_t> done{0};
   parallelFor(elements.size(), 1, [&](std::size_t e) {
     if (!duplicateOf[e] && !stopped(options)) result[e] = skeletonise(elements[e].element.mesh, options.element);
-    progress.update(++done, elements.size());
+    const std::size_t now = ++done;
+    progress.update(now, elements.size());
+    if (options.progress) options.progress(now, elements.size());
   });
   return result;
 }
@@ -58,6 +61,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
   StrandGraph graph;
   std::vector<ElementOutcome> outcomes(elements.size());
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
+    checkpoint();
     outcomes[e] = {found[e].method, found[e].reason, {}};
     if (duplicateOf[e]) outcomes[e].standIn.push_back(*duplicateOf[e]);
     pruneSlivers(graph, addSkeleton(graph, found[e], e, elements[e].kind), options.slivers);

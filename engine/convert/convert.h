@@ -20,6 +20,7 @@ struct ConvertOptions {
   SurfaceErrorOptions error;
   float bodyHeight = 0;  ///< [m]; 0: the vertical extent of the input
   std::function<bool()> stopRequested;  ///< asked between elements, from any thread
+  std::function<void(std::size_t done, std::size_t total)> progress;  ///< elements, from any thread
 };
 
 struct Conversion {
@@ -30,7 +31,8 @@ struct Conversion {
 /// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and
 /// separate elements, fit splines, measure. The result does not depend on the number of threads. Shows a
 /// progress line on a terminal.
-/// Fails with badInput where no element gives a vessel, and with interrupted where stopRequested answers true.
+/// Fails with badInput where no element gives a vessel, and with interrupted where stopRequested answers true; can be
+/// cancelled (core/cancellation.h), also within an element.
 Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options = {});
 
 }  // namespace vasa

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "mesh/surface_samples.h"
 #include "mesh/triangle_tree.h"
@@ -19,7 +20,8 @@ struct Cover {
 
 float coveredShare(std::span<const vec3> samples, const TriangleTree& by, float tolerance) {
   std::size_t inside = 0;
-  for (const vec3& p : samples) inside += by.nearest(p, tolerance).distance < tolerance;
+  Checkpoints checkpoints;
+  for (const vec3& p : samples) checkpoints.pass(), inside += by.nearest(p, tolerance).distance < tolerance;
   return float(inside) / float(samples.size());
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "convert/source.h"
+#include "core/cancellation.h"
 
 namespace vasa {
 namespace {
@@ -101,6 +102,7 @@ std::vector<Absorbed> removeOverlaps(StrandGraph& graph, const OverlapOptions& o
   std::ranges::stable_sort(order, {}, [&](std::uint32_t strand) { return finder.length(strand); });
   std::vector<Absorbed> absorbed;
   for (const std::uint32_t strand : order) {
+    checkpoint();
     Strand& own = graph.strands[strand];
     if (own.dropped()) continue;
     std::vector<std::uint32_t> by = finder.coverers(strand);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/cancellation.h"
 #include "mesh/components.h"
 
 namespace vasa {
@@ -49,7 +50,9 @@ using Links = std::map<std::pair<std::uint32_t, std::uint32_t>, ContourSum>;
 
 Links linkBands(const TriangleMesh& mesh, const Bands& bands, DisjointSets& sets) {
   Links links;
+  Checkpoints checkpoints;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    checkpoints.pass();
     uvec3 c = mesh.triangles[t];
     if (bands.value[c.y] < bands.value[c.x]) std::swap(c.x, c.y);
     if (bands.value[c.z] < bands.value[c.y]) std::swap(c.y, c.z);
@@ -76,7 +79,9 @@ AxisGraph reebGraph(const TriangleMesh& mesh, const MeshEdges& edges, std::span<
                     float step) {
   const Bands bands(mesh, value, step);
   DisjointSets sets(bands.first.back());
+  Checkpoints checkpoints;
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    checkpoints.pass();
     const auto triangles = edges.trianglesOf(e);
     const auto [low, high] = std::minmax({bands.of(edges.vertices[e].x), bands.of(edges.vertices[e].y)});
     for (std::size_t i = 1; i < triangles.size(); ++i)

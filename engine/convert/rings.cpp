@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
@@ -53,6 +55,7 @@ std::vector<Ring> layersFrom(const Ring& start, std::size_t vertexCount, const N
   std::vector<Ring> layers{start};
   for (const std::uint32_t v : start) layerOf[v] = 0;
   while (true) {
+    checkpoint();
     Ring next;
     for (const std::uint32_t v : layers.back())
       for (const std::uint32_t w : neighbours.of(v))

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "convert/tube_tree.h"
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "curve/frame.h"
 #include "mesh/surface_samples.h"
@@ -55,7 +56,9 @@ struct Measurer {
     for (const std::uint32_t v : vessels) appendPieces(pointsOf(v), v, pieces);
     const TubeTree tree(std::move(pieces));
     std::size_t covered = 0;
+    Checkpoints checkpoints;
     for (const vec3& p : samples) {
+      checkpoints.pass();
       const TubeTree::Hit hit = tree.nearestWall(p, kFarthest);
       const float distance = std::abs(hit.distance);
       error.forward.distances.push_back(distance);
@@ -79,6 +82,7 @@ struct Measurer {
       const std::uint32_t steps = 16 * spanCount(points);
       vec3 u = anyPerpendicular(unitTangent(points, 0));
       for (std::uint32_t i = 0; i < steps; ++i) {
+        checkpoint();
         const float parameter = (float(i) + 0.5f) / 16;
         const vec4 section = evaluate(points, parameter), slope = evaluateDerivative(points, parameter);
         const vec3 tangent = unitTangent(points, parameter);

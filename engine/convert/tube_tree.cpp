@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/cancellation.h"
 #include "math/closest_point.h"
 
 namespace vasa {
@@ -42,6 +43,7 @@ TubeTree::TubeTree(std::vector<TubePiece> pieces) : pieces_(std::move(pieces)) {
 }
 
 void TubeTree::build(std::uint32_t first, std::uint32_t count) {
+  checkpoint();
   const std::size_t self = branches_.size();
   branches_.emplace_back();
   const auto begin = pieces_.begin() + first, end = begin + count;

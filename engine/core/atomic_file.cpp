@@ -10,12 +10,15 @@
 #include <cerrno>
 #include <cstring>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
 // Names of temporary files that are open now, in fixed memory so that a signal handler can read them.
 constexpr std::size_t kSlots = 64;
 constexpr std::size_t kNameLength = 1024;
+constexpr std::size_t kReadAtOnce = std::size_t(1) << 24;
 struct Slot {
   std::atomic<int> state{0};  // 0 free, 1 being written, 2 holds a name
   char name[kNameLength];
@@ -157,7 +160,8 @@ Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, std::
   std::vector<std::byte> bytes(size);
   std::size_t filled = 0;
   while (filled < size) {
-    const ssize_t got = ::read(descriptor, bytes.data() + filled, size - filled);
+    checkpoint();
+    const ssize_t got = ::read(descriptor, bytes.data() + filled, std::min(size - filled, kReadAtOnce));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return refuse(std::string("cannot read: ") + std::strerror(errno));
     if (got == 0) return refuse("was cut short while it was read; try again");

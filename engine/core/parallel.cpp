@@ -7,6 +7,8 @@
 #include <memory>
 #include <thread>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
@@ -25,8 +27,13 @@ unsigned threadCount() {
 }
 
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
+  const std::atomic<bool>* const asked = CancellationScope::current();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain ? grain : 1), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+    const CancellationScope scope(asked);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      checkpoint();
+      body(i);
+    }
   });
 }
 

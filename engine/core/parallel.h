@@ -9,7 +9,8 @@ void setThreadCount(unsigned count);
 unsigned threadCount();
 
 /// Calls body(i) for every i in [0, count), in any order and on any thread; the calling thread works
-/// too. Exceptions leave through here. body must write only to places that belong to i.
+/// too. Exceptions leave through here, Cancelled (core/cancellation.h) before any i. body must write only to places that
+/// belong to i.
 /// @param grain  iterations that are worth handing to another thread
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/cancellation.h"
 #include "io/gltf_rule.h"
 
 namespace vasa::gltf {
@@ -92,7 +93,8 @@ std::vector<T> readElements(const Asset& asset, int index, std::size_t atMost) {
     const std::size_t given = asset.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
     const std::size_t stride = given ? given : layout.packedBytes();
     const unsigned char* from = bytesOf(asset, accessor.bufferView, accessor.byteOffset);
-    for (std::size_t i = 0; i < count; ++i)
+    Checkpoints checkpoints;
+    for (std::size_t i = 0; i < count; ++i, checkpoints.pass())
       readElement(from + i * stride, layout, accessor.componentType, accessor.normalized,
                   out.data() + i * layout.components());
   }

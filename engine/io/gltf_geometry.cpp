@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cancellation.h"
 #include "io/gltf_accessor.h"
 
 namespace vasa::gltf {
@@ -77,7 +78,9 @@ void readInfluences(const Asset& asset, const tinygltf::Primitive& primitive, st
     weights.push_back(readFloats(asset, attribute(primitive, "WEIGHTS_" + std::to_string(set))));
   }
   Gathered gathered;
+  Checkpoints checkpoints;
   for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+    checkpoints.pass();
     gathered.parts.clear();
     float sum = 0;
     for (std::size_t set = 0; set < joints.size(); ++set)

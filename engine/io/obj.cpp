@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -22,7 +23,9 @@ class LineCheck {
   LineCheck(const std::filesystem::path& path, const ImportFrame& frame) : file_(path.string()), frame_(frame) {}
 
   Result<void> run(std::string_view text) {
+    Checkpoints checkpoints;
     while (!text.empty()) {
+      checkpoints.pass();
       ++line_;
       std::string_view line = nextLine(text);
       const std::string_view keyword = nextWord(line);
@@ -96,7 +99,9 @@ TriangleMesh meshOf(const tinyobj::attrib_t& attributes, const tinyobj::mesh_t& 
     }
     return found->second;
   };
+  Checkpoints checkpoints;
   for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3) {
+    checkpoints.pass();
     const uvec3 triangle{vertexOf(shape.indices[i].vertex_index), vertexOf(shape.indices[i + 1].vertex_index),
                          vertexOf(shape.indices[i + 2].vertex_index)};
     if (triangle.x != triangle.y && triangle.y != triangle.z && triangle.z != triangle.x)

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "core/hash.h"
 
 namespace vasa {
@@ -57,7 +58,9 @@ Result<std::vector<MeshElement>> readBinary(const std::string& file, const std::
     return badInput(file + ": the file is cut short: it promises " + std::to_string(count) + " triangles and holds " +
                     std::to_string((bytes.size() - kHeaderBytes) / kFacetBytes) + "; copy or export it again");
   Welder welder;
+  Checkpoints checkpoints;
   for (std::uint64_t i = 0; i < count; ++i) {
+    checkpoints.pass();
     uvec3 triangle;
     for (int corner = 0; corner < 3; ++corner) {
       const std::byte* at = bytes.data() + kHeaderBytes + i * kFacetBytes + 12 + 12 * corner;
@@ -111,7 +114,9 @@ class AsciiReader {
     std::vector<MeshElement> elements;
     Welder welder;
     std::string title;
+    Checkpoints checkpoints;
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+      checkpoints.pass();
       if (word == "solid") {
         welder = {};
         title = words_.restOfLine();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <queue>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
@@ -31,7 +33,9 @@ std::vector<BoundaryLoop> boundaryLoops(const TriangleMesh& mesh, const MeshEdge
   std::vector<bool> used(edges.size(), false);
   std::vector<std::uint32_t> placeInPath(mesh.positions.size(), kNone);
   std::vector<std::uint32_t> next(graph.first.begin(), graph.first.end() - 1);
+  Checkpoints checkpoints;
   for (std::uint32_t seed = 0; seed < mesh.positions.size(); ++seed) {
+    checkpoints.pass();
     // Walk until stuck; whenever the walk meets itself, the part since then is a loop and leaves the path.
     std::vector<std::uint32_t> path{seed}, pathEdges;
     placeInPath[seed] = 0;
@@ -95,7 +99,9 @@ void zip(const TriangleMesh& mesh, std::span<const std::uint32_t> polygon, std::
     ears.push({cut, i, c.before, c.after});
   };
   for (std::uint32_t i = 0; i < count; ++i) offer(i);
+  Checkpoints checkpoints;
   for (std::uint32_t left = count; left >= 3;) {
+    checkpoints.pass();
     const Ear ear = ears.top();
     ears.pop();
     Corner& c = ring[ear.corner];

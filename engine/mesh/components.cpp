@@ -1,13 +1,17 @@
 #include "mesh/components.h"
 
+#include "core/cancellation.h"
+
 namespace vasa {
 
 std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
   constexpr std::uint32_t kNone = 0xffffffffu;
   DisjointSets sets(mesh.triangles.size());
   std::vector<std::uint32_t> firstAt(mesh.positions.size(), kNone);
+  Checkpoints checkpoints;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
+      checkpoints.pass();
       std::uint32_t& first = firstAt[mesh.triangles[t][k]];
       if (first == kNone) first = t;
       sets.unite(first, t);
@@ -17,6 +21,7 @@ std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> partOf(mesh.triangles.size(), kNone);
   std::vector<std::vector<std::uint32_t>> members;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    checkpoints.pass();
     const std::uint32_t root = sets.find(t);
     if (root == t) {
       partOf[t] = std::uint32_t(members.size());
@@ -28,6 +33,7 @@ std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
   for (const auto& triangles : members) {
     TriangleMesh& part = parts.emplace_back();
     for (const std::uint32_t t : triangles) {
+      checkpoints.pass();
       uvec3 corners = mesh.triangles[t];
       for (int k = 0; k < 3; ++k) {
         std::uint32_t& n = number[corners[k]];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 
 MeshEdges buildEdges(const TriangleMesh& mesh) {
@@ -17,7 +19,9 @@ MeshEdges buildEdges(const TriangleMesh& mesh) {
       const std::uint32_t a = mesh.triangles[t][int(k)], b = mesh.triangles[t][int((k + 1) % 3)];
       sides.push_back({std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), t, k});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
+  Checkpoints checkpoints;
+  std::sort(sides.begin(), sides.end(), [&checkpoints](const Side& l, const Side& r) {
+    checkpoints.pass();
     return l.key != r.key             ? l.key < r.key
            : l.triangle != r.triangle ? l.triangle < r.triangle
                                       : l.corner < r.corner;
@@ -26,6 +30,7 @@ MeshEdges buildEdges(const TriangleMesh& mesh) {
   edges.ofTriangle.resize(mesh.triangles.size());
   edges.triangles.reserve(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
+    checkpoints.pass();
     if (i == 0 || sides[i].key != sides[i - 1].key) {
       edges.vertices.push_back({std::uint32_t(sides[i].key >> 32), std::uint32_t(sides[i].key)});
       edges.firstTriangle.push_back(std::uint32_t(i));

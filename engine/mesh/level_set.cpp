@@ -4,6 +4,8 @@
 #include <limits>
 #include <queue>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
@@ -37,7 +39,9 @@ std::vector<float> surfaceDistance(const TriangleMesh& mesh, const VertexTriangl
     time[v] = 0;
     front.push({0, v});
   }
+  Checkpoints checkpoints;
   while (!front.empty()) {
+    checkpoints.pass();
     const auto [t, v] = front.top();
     front.pop();
     if (settled[v]) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
@@ -56,6 +58,7 @@ Contour hullOf(const std::vector<Contour>& contours, vec3 onPlane, vec3 normal, 
 }  // namespace
 
 const std::vector<Contour>& Slicer::cut(vec3 onPlane, vec3 normal, float reach) {
+  checkpoint();
   contours_.clear();
   candidates_.clear();
   tree_.nearPlane(onPlane, normal, reach, candidates_);

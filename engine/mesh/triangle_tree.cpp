@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/cancellation.h"
 #include "math/closest_point.h"
 
 namespace vasa {
@@ -31,6 +32,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.
 }
 
 void TriangleTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  checkpoint();
   Aabb box, centres;
   for (std::uint32_t i = first; i < first + count; ++i) {
     box.add(boxes_[order_[i]]);

@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "core/cancellation.h"
+
 namespace vasa {
 namespace {
 
@@ -73,7 +75,9 @@ TriangleMesh weld(const TriangleMesh& mesh, float tolerance) {
   std::unordered_set<Cell, CellHash> seen;
   seen.reserve(mesh.triangles.size());
   TriangleMesh result;
+  Checkpoints checkpoints;
   for (const uvec3& t : mesh.triangles) {
+    checkpoints.pass();
     bool usable = true;
     for (int k = 0; k < 3; ++k)
       usable = usable && t[k] < mesh.positions.size() && finite(mesh.positions[t[k]]);
@@ -93,6 +97,7 @@ TriangleMesh weld(const TriangleMesh& mesh, float tolerance) {
   std::vector<std::uint32_t> number(positions.size(), kNone);
   for (const uvec3& t : result.triangles)
     for (int k = 0; k < 3; ++k) number[t[k]] = 0;
+  checkpoint();
   for (std::uint32_t i = 0; i < positions.size(); ++i)
     if (number[i] != kNone) {
       number[i] = std::uint32_t(result.positions.size());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/cancellation.h"
 #include "math/aabb.h"
 
 namespace vasa {
@@ -30,6 +31,7 @@ void WindingNumber::halve(std::span<Triangle> triangles) {
 }
 
 void WindingNumber::build(std::uint32_t first, std::uint32_t last) {
+  checkpoint();
   Node node{first, last, 0, vec3(0), 0, vec3(0)};
   float areas = 0;
   for (std::uint32_t i = first; i < last; ++i) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "body/body.h"
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
 #include "mesh/components.h"
@@ -49,7 +50,9 @@ vec3 cornerNormal(vec3 normal, vec3 face) {
 MeshLevel levelOf(const SkinnedMesh& mesh, const std::vector<uvec3>& triangles, float error) {
   MeshLevel level{error, {}, {}, {}};
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places;  // by vertex and normal
+  Checkpoints checkpoints;
   for (const uvec3& t : triangles) {
+    checkpoints.pass();
     const vec3 a = mesh.mesh.positions[t.x], b = mesh.mesh.positions[t.y], c = mesh.mesh.positions[t.z];
     const vec3 area = glm::cross(b - a, c - a);
     const float size = glm::length(area);
@@ -80,6 +83,7 @@ LevelledMesh coarserLevels(const SkinnedMesh& mesh) {
   std::vector<MeshLevel>& levels = result.levels;
   // Each from the mesh itself, since errors of one level made from another add up.
   for (float error = kFinestError; error <= kCoarsestError; error *= kSqrt2) {
+    checkpoint();
     const std::vector<uvec3> fewer = simplified(mesh.mesh, error);
     if (fewer.empty() || float(fewer.size()) > kWorthwhile * float(levels.back().triangles.size())) continue;
     levels.push_back(levelOf(mesh, fewer, error));
