@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
-#include <filesystem>
+#include <iterator>
 #include <map>
 
 #include "commands.h"
@@ -11,12 +10,8 @@
 #include "convert/convert.h"
 #include "convert_report.h"
 #include "core/log.h"
-#include "io/gltf.h"
-#include "io/obj.h"
-#include "io/stl.h"
-#include "io/swc.h"
-#include "io/vtp.h"
 #include "network/file.h"
+#include "scene/vessel_files.h"
 
 // vasa convert: surfaces of vessels -> one network of sweeps.
 namespace vasa::cli {
@@ -42,55 +37,19 @@ const std::map<std::string, VesselKind> kKinds{{"artery", VesselKind::artery},
                                                {"lymphatic", VesselKind::lymphatic},
                                                {"other", VesselKind::other}};
 
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
-Result<std::vector<MeshElement>> readMeshes(const std::filesystem::path& path, const ImportFrame& frame) {
-  const std::string extension = extensionOf(path);
-  if (extension == ".glb" || extension == ".gltf") return readGltfElements(path);
-  if (extension == ".obj") return readObj(path, frame);
-  if (extension == ".stl") return readStl(path, frame);
-  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .swc and .vtp"};
-}
-
-bool holdsCentrelines(const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
-  return extension == ".swc" || extension == ".vtp";
-}
-
-ImportFrame frameOf(const Options& options) {
-  return {options.scale, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y};
-}
-
-Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Options& options) {
-  const std::string name = path.stem().string();
-  const VesselKind kind = options.kind.empty() ? kindOf(MeshElement{name, {}, {}, {}}, name) : kKinds.at(options.kind);
-  if (extensionOf(path) == ".swc") {
-    const auto samples = readSwc(path, frameOf(options));
-    if (!samples) return samples.error();
-    return centrelinesOfSwc(*samples, name, kind);
-  }
-  const auto lines = readVtp(path, frameOf(options));
-  if (!lines) return lines.error();
-  return centrelinesOfVtp(*lines, name, kind);
+VesselImport importOf(const Options& options) {
+  VesselImport import{{options.scale, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y}, {}};
+  if (!options.kind.empty()) import.kind = kKinds.at(options.kind);
+  return import;
 }
 
 Result<std::vector<SourceElement>> readSources(const Options& options) {
-  const ImportFrame frame = frameOf(options);
   std::vector<SourceElement> sources;
   for (const std::string& file : options.meshes) {
     if (stopRequested()) return stopError();
-    auto elements = readMeshes(file, frame);
-    if (!elements) return elements.error();
-    const bool empty = std::ranges::all_of(*elements, [](const MeshElement& e) { return e.mesh.empty(); });
-    if (empty) return badInput(file + ": the file holds no triangles; export the vessels as surfaces");
-    for (SourceElement& source : describeElements(std::move(*elements), std::filesystem::path(file).stem().string())) {
-      if (!options.kind.empty()) source.kind = kKinds.at(options.kind);
-      sources.push_back(std::move(source));
-    }
+    auto read = readSurfaces(file, importOf(options));
+    if (!read) return read.error();
+    std::ranges::move(*read, std::back_inserter(sources));
   }
   return sources;
 }
@@ -134,15 +93,14 @@ Result<Conversion> convertCentrelines(const Options& options) {
   for (const std::string& file : options.meshes) {
     if (!holdsCentrelines(file))
       return Error{Fault::usage, file + ": surfaces and centre lines are converted apart; write two networks and give both to --network"};
-    auto lines = readCentrelines(file, options);
+    auto lines = readCentrelines(file, importOf(options));
     if (!lines) return lines.error();
     if (lines->lines.empty()) return badInput(file + ": the file holds no line of two places or more");
     all.append(std::move(*lines));
   }
   auto made = networkOfCentrelines(all, options.bodyHeight);
   if (!made) return badInput(options.meshes.front() + ": " + made.error().message);
-  constexpr float kTall = 4;  // [m]
-  if (options.bodyHeight == 0 && made->network.bodyHeight() > kTall)
+  if (options.bodyHeight == 0 && made->network.bodyHeight() > kTallestBody)
     logWarning("the lines are " + std::to_string(int(made->network.bodyHeight())) + " m tall; --scale 0.001 reads millimetres");
   ConvertReport report = reportOfCentrelines(all, *made);
   return Conversion{std::move(made->network), std::move(report)};

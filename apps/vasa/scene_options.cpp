@@ -21,7 +21,7 @@ Result<std::filesystem::path> dataFolder() {
 void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option("SCENE", options.scene, "Scene file (.json); nothing: the built-in human");
   sub.add_option("--body", options.body, "Body with skeleton (glTF)");
-  sub.add_option("--network", options.networks, "Vessels (.vasa); may be given several times")
+  sub.add_option("--network", options.networks, "Vessels (.vasa, or anything that convert reads); may be given several times")
       ->take_all()
       ->allow_extra_args(false);
   sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it, or a .bvh file");

@@ -7,7 +7,9 @@
 #include "core/log.h"
 #include "frame_output.h"
 #include "gpu/error.h"
+#include "io/gltf.h"
 #include "report.h"
+#include "scene/vessel_files.h"
 #include "scene_options.h"
 #include "viewer/app.h"
 #include "viewer/shortcuts.h"
@@ -20,18 +22,31 @@ struct Options {
   SceneOptions scene;
   CapillaryOptions capillaries;
   std::string look, size, script, record;
+  float uiScale = 0;
   bool validate = false;
 };
 
-// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it.
+constexpr const char* kDroppable = "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh)";
+
+// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file with a
+// skeleton is a body, one without is vessels.
 Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
   const std::string extension = path.extension().string();
   if (extension == ".json") return readSceneFile(path);
   SceneFile scene = now;
-  if (extension == ".vasa") scene.networks = {path};
-  else if (extension == ".bvh") scene.clip = path.string();
-  else if (extension == ".glb" || extension == ".gltf") scene.body = path;
-  else return Error{Fault::usage, path.string() + ": drop a scene (.json), vessels (.vasa), a body (.glb) or a motion (.bvh)"};
+  if (isMotionFile(path.string())) {
+    scene.clip = path.string();
+  } else if (extension == ".glb" || extension == ".gltf") {
+    const auto summary = checkGltf(path);
+    if (!summary) return summary.error();
+    if (summary->skins == 0) scene.networks = {path};
+    else scene.body = path;
+    if (summary->skins > 0 && !isMotionFile(scene.clip)) scene.clip.clear();
+  } else if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) {
+    scene.networks = {path};
+  } else {
+    return Error{Fault::usage, path.string() + ": " + kDroppable};
+  }
   return scene;
 }
 
@@ -43,11 +58,16 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     view.width = size->width;
     view.height = size->height;
   }
-  auto choice = chooseScene(options.scene);
+  SceneOptions scene = options.scene;
+  if (const std::filesystem::path file = scene.scene; !file.empty() && file.extension() != ".json") {
+    view.dropped = {file};
+    scene.scene.clear();
+  }
+  auto choice = chooseScene(scene);
   if (!choice) return choice.error();
   choice->capillaries = chooseCapillaries(choice->capillaries, options.capillaries);
   // A look that nobody asked for is that of the last session.
-  choice->look.preset = !options.look.empty() ? options.look : options.scene.scene.empty() ? "" : choice->look.preset;
+  choice->look.preset = !options.look.empty() ? options.look : scene.scene.empty() ? "" : choice->look.preset;
   if (!options.script.empty()) {
     const auto bytes = readFile(options.script, 1 << 24);
     if (!bytes) return bytes.error();
@@ -58,10 +78,11 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   if (const auto folder = dataFolder()) view.rules = *folder / "growth";
   view.file = std::move(*choice);
   view.device = globals.device;
+  view.uiScale = options.uiScale;
   view.seed = std::uint32_t(globals.seed);
   view.validation = {.core = options.validate, .synchronization = options.validate};
   view.record = options.record;
-  view.open = [file = view.file](const std::filesystem::path& path) { return sceneOf(path, file); };
+  view.open = sceneOf;
   view.stopped = [] { return stopRequested(); };
   return view;
 }
@@ -75,6 +96,9 @@ Report asReport(const viewer::ViewReport& view) {
     for (const auto& [name, value] : row.stages) entry[name] = value;
     profile.push_back(std::move(entry));
   }
+  Report loads = Report::array();
+  for (const viewer::LoadReport& load : view.loads)
+    loads.push_back({{"title", load.title}, {"outcome", load.outcome}, {"seconds", load.seconds}, {"frames", load.frames}, {"longest_ms", load.longestMs}});
   Report stages = Report::object();
   for (const auto& [name, ms] : view.stages) stages[name] = ms;
   return {{"frames", view.frames},
@@ -89,6 +113,8 @@ Report asReport(const viewer::ViewReport& view) {
           {"height", view.height},
           {"selected", view.selected},
           {"files", files},
+          {"loads", loads},
+          {"stop_ms", view.stopMs},
           {"profile", profile},
           {"validation_messages", view.validation.size()},
           {"device", view.device}};
@@ -114,12 +140,14 @@ std::string footer() {
       "Examples:\n"
       "  vasa view\n"
       "  vasa view --clip walk --look clinical\n"
+      "  vasa view arteries.stl\n"
       "  vasa view --body b.glb --network b.vasa --record-script session.txt\n"
       "  xvfb-run -a vasa view --script session.txt --json\n"
       "Mouse and keys:\n";
   for (const viewer::Shortcut& shortcut : viewer::shortcuts()) text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
   text +=
-      "Drop a scene (.json), vessels (.vasa), a body (.glb) or a motion (.bvh) on the window to open it.\n"
+      "Drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh) on the\n"
+      "window to open it; drop a body and its vessels together. Esc cancels.\n"
       "A script is text, one thing a line: move X Y, press|release left|right|middle, scroll STEPS, key|hold|let NAME,\n"
       "type TEXT, resize W H, drop FILE, frames N, live SECONDS, settle, window FILE.png, picture FILE.png, close.";
   return text;
@@ -135,7 +163,9 @@ void addView(CLI::App& app, Command& command) {
   addCapillaryOptions(*sub, options->capillaries);
   sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas")
       ->check(CLI::IsMember({"atlas", "clinical", "xray"}));
-  sub->add_option("--size", options->size, "Window size in pixels (default: that of the last session, else 1280x720)");
+  sub->add_option("--size", options->size, "Window size in pixels (default: that of the last session, else 1280x720, more on a high-DPI screen)");
+  sub->add_option("--ui-scale", options->uiScale, "Size of panels and texts against those of an ordinary screen (default: as the screen says)")
+      ->check(CLI::Range(0.5, 4.0));
   sub->add_option("--script", options->script, "Replay a recorded session instead of listening to mouse and keys, then quit");
   sub->add_option("--record-script", options->record, "Write this session down for --script");
   sub->add_flag("--validate", options->validate, "Run under Vulkan's validation layer; a message of it fails the run");

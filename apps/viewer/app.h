@@ -13,15 +13,25 @@ namespace vasa::viewer {
 struct ViewOptions {
   SceneFile file;                ///< what is opened first; look.preset empty: as in the last session
   std::filesystem::path rules;   ///< folder of the capillaries' rules; empty: there are none
+  std::vector<std::filesystem::path> dropped;  ///< files that are opened at once, as if they had been dropped
   std::string device;            ///< as --device
   std::uint32_t seed = 1;
-  std::uint32_t width = 0, height = 0;  ///< [pixels] of the window; 0: as in the last session, else 1280 x 720
+  std::uint32_t width = 0, height = 0;  ///< [pixels] of the window; 0: as in the last session, else Window::open()'s choice
+  float uiScale = 0;                    ///< pixels of panels and texts for one of an ordinary screen; 0: the screen's; scripts: 1
   gpu::Validation validation;
   std::optional<std::vector<ScriptStep>> script;  ///< replayed in place of a person; the window's own input counts for nothing
   std::filesystem::path record;                   ///< a script of this session is written here; empty: none
-  /// The scene that a dropped file means.
-  std::function<Result<SceneFile>(const std::filesystem::path&)> open;
+  /// The scene that a dropped file means where `now` is shown. Called on the loading thread.
+  std::function<Result<SceneFile>(const std::filesystem::path&, const SceneFile& now)> open;
   std::function<bool()> stopped;  ///< by a signal
+};
+
+/// What loading something was like for the person before the window.
+struct LoadReport {
+  std::string title, outcome;  ///< "opened", "cancelled", or why it could not be opened
+  double seconds = 0;
+  std::uint64_t frames = 0;    ///< of the window meanwhile
+  double longestMs = 0;        ///< between two of them, up to the first picture of what was opened
 };
 
 /// What a session was like.
@@ -33,6 +43,8 @@ struct ViewReport {
   std::string device, selected, title;
   std::uint32_t width = 0, height = 0;  ///< [pixels] of the scene's picture at the end
   std::vector<std::filesystem::path> files;
+  std::vector<LoadReport> loads;
+  std::vector<double> stopMs;  ///< how long loads that were cancelled went on
   std::vector<ProfileRow> profile;  ///< of the latest run of Table III
   std::vector<std::string> validation;
 };

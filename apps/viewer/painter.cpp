@@ -27,6 +27,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                         .shape = {std::uint32_t(detail_.around), std::uint32_t(detail_.along)},
                         .pixelError = !detail_.automatic ? 0 : shot.fine ? kAutoPixelError : kMovingPixelError,
                         .levels = &document_->levels,
+                        .table = &document_->table,
                         .bgra = true,
                         .occlusion = shot.fine,
                         .seed = seed_,

@@ -2,6 +2,9 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "viewer/shortcuts.h"
 
 namespace vasa::viewer {
@@ -15,6 +18,24 @@ constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWin
 void place(const Rect& rect) {
   ImGui::SetNextWindowPos({rect.left, rect.top});
   ImGui::SetNextWindowSize({rect.width, rect.height});
+}
+
+// A share where one is known, else something that moves: the work goes on.
+void showProgress(const PanelInput& in, const Loader::Stage& stage) {
+  ImGui::TextWrapped("Opening %s", in.loadingTitle.c_str());
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, 6 * in.scale};
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const bool known = stage.total > 1;
+  const float share = known ? float(stage.done) / float(stage.total) : 0.25f;
+  const float phase = std::fmod(float(ImGui::GetTime()), 1.6f) / 0.8f;
+  const float from = known ? 0 : (1 - share) * std::min(phase, 2 - phase);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), size.y / 2);
+  list.AddRectFilled({at.x + from * size.x, at.y}, {at.x + (from + share) * size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab), size.y / 2);
+  ImGui::Dummy(size);
+  if (known) ImGui::TextDisabled("%s: %zu of %zu", stage.what, stage.done, stage.total);
+  else ImGui::TextDisabled("%s", stage.what);
+  if (ImGui::Button("Cancel (Esc)")) in.state.wishCancel = true;
 }
 
 void showSide(const PanelInput& in) {
@@ -42,20 +63,22 @@ void showHeads(const PanelInput& in) {
     if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording, a thirtieth of a second a picture (R ends it)");
     if (in.state.posing) ImGui::TextUnformatted("drag a joint (P ends it)");
     if (in.state.measuring) ImGui::TextUnformatted("click two vessels to measure between them (M ends it)");
+    ImGui::PushTextWrapPos(in.layout.picture.width - ImGui::GetStyle().WindowPadding.x);
     if (!in.message.empty()) ImGui::TextUnformatted(in.message.c_str());
+    ImGui::PopTextWrapPos();
   }
   ImGui::End();
   ImGui::PopStyleColor();
 }
 
 void showLoading(const PanelInput& in) {
-  if (!in.loading) return;
+  if (!in.loading && in.document) return;
   const Rect& picture = in.layout.picture;
   ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0, {0.5f, 0.5f});
-  if (ImGui::Begin("##loading", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
-    ImGui::Text("Opening %s", in.loadingTitle.c_str());
-    ImGui::TextDisabled("%s", in.loading);
-    if (ImGui::Button("Cancel")) in.state.wishCancel = true;
+  ImGui::SetNextWindowSize({std::min(360 * in.scale, picture.width), 0});
+  if (ImGui::Begin("##loading", nullptr, kFixed)) {
+    if (in.loading) showProgress(in, *in.loading);
+    else ImGui::TextWrapped("Nothing is open. Drop a scene (.json), or a body (.glb) together with its vessels, here.");
   }
   ImGui::End();
 }

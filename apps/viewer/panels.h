@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "viewer/document.h"
+#include "viewer/loader.h"
 #include "render/profiler.h"
 #include "viewer/layout.h"
 #include "viewer/pose_worker.h"
@@ -26,7 +26,7 @@ struct PanelInput {
   const Profiler* profiler = nullptr;  ///< running or done; null: never run
   bool fine = false;     ///< the picture is a still
   std::string message;   ///< the latest news, e.g. of a picture that was written
-  const char* loading = nullptr;  ///< what is being done; null: nothing is
+  std::optional<Loader::Stage> loading;
   std::string loadingTitle;
 };
 

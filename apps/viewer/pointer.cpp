@@ -4,7 +4,7 @@ namespace vasa::viewer {
 namespace {
 
 constexpr float kTurn = 2.2f * kPi;     // [rad] for a way as long as the picture is high
-constexpr float kClickReach = 4;        // [pixels]
+constexpr float kClickReach = 4;        // [pixels of an ordinary screen]
 constexpr double kTwiceWithin = 0.4;    // [s]
 constexpr float kStepsPerHeight = 15;   // of dolly
 
@@ -17,7 +17,7 @@ std::optional<Click> PointerTool::feed(const InputEvent& event, const Rect& pict
   } else if (const auto* moved = std::get_if<PointerMoved>(&event)) {
     const vec2 way = moved->place - place_;
     place_ = moved->place;
-    if (held_ && glm::distance(place_, pressedAt_) > kClickReach) moved_ = true;
+    if (held_ && glm::distance(place_, pressedAt_) > kClickReach * scale_) moved_ = true;
     if (held_ && moved_) drag(way, picture, state);
   } else if (const auto* button = std::get_if<ButtonChanged>(&event)) {
     if (button->down && !held_ && free && picture.holds(place_)) {
@@ -45,7 +45,7 @@ std::optional<Click> PointerTool::release(const Rect& picture, double now) {
   const bool click = held_ == Button::left && !moved_;
   held_.reset();
   if (!click) return std::nullopt;
-  const bool twice = now - clickedWhen_ < kTwiceWithin && glm::distance(place_, clickedAt_) <= kClickReach;
+  const bool twice = now - clickedWhen_ < kTwiceWithin && glm::distance(place_, clickedAt_) <= kClickReach * scale_;
   clickedWhen_ = twice ? -10 : now;
   clickedAt_ = place_;
   return Click{place_ - vec2(picture.left, picture.top), twice};

@@ -17,6 +17,9 @@ struct Click {
 /// picture, with control or the wheel it goes nearer. A left press that does not move is a click.
 class PointerTool {
  public:
+  /// @param scale  pixels for one of an ordinary screen
+  explicit PointerTool(float scale = 1) : scale_(scale) {}
+
   /// @param free  the pointer belongs to the picture, not to a panel; a drag that began in the picture goes on anywhere
   /// @param now   [s]
   std::optional<Click> feed(const InputEvent& event, const Rect& picture, bool free, double now, ViewState& state);
@@ -29,6 +32,7 @@ class PointerTool {
   void drag(vec2 way, const Rect& picture, ViewState& state) const;
   std::optional<Click> release(const Rect& picture, double now);
 
+  float scale_;
   vec2 place_{0}, pressedAt_{0}, clickedAt_{-100};
   double clickedWhen_ = -10;
   std::optional<Button> held_;

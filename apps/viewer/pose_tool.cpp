@@ -8,7 +8,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReach = 9;  // [pixels] of a handle
+constexpr float kReach = 9;  // [pixels of an ordinary screen] of a handle
 
 std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& picture) {
   const vec4 clip = viewProjection(camera, picture.width / picture.height) * vec4(place, 1);
@@ -55,7 +55,7 @@ bool PoseTool::feed(const InputEvent& event, const Document& document, const Pos
   if (!button->down) return std::exchange(held_, std::nullopt).has_value();
   const auto handles = jointHandles(skeleton, body.pose, camera, picture);
   const auto nearest = std::ranges::min_element(handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place_); });
-  if (nearest == handles.end() || glm::distance(nearest->place, place_) > kReach) return false;
+  if (nearest == handles.end() || glm::distance(nearest->place, place_) > kReach * scale_) return false;
   held_ = nearest->joint;
   state.playback.playing = false;
   return true;

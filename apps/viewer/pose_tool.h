@@ -20,6 +20,9 @@ std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose
 /// Poses the body by dragging its joints, in the plane of the picture.
 class PoseTool {
  public:
+  /// @param scale  pixels for one of an ordinary screen
+  explicit PoseTool(float scale = 1) : scale_(scale) {}
+
   /// @return whether the event was a drag's: then it is nobody else's
   bool feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
             ViewState& state);
@@ -28,6 +31,7 @@ class PoseTool {
  private:
   void drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture, ViewState& state);
 
+  float scale_;
   vec2 place_{0};
   std::optional<JointId> held_;
 };

@@ -8,12 +8,6 @@ namespace {
 
 constexpr float kClearanceReach = 0.01f;  // [m]
 
-FrameOptions optionsOf(const PoseOrder& order) {
-  FrameOptions options{.keepVolume = order.volume, .avoid = order.avoid || order.contacts, .beat = order.beat};
-  if (!order.avoid) options.avoidance.rounds = options.avoidance.lumenRounds = 0;  // only look
-  return options;
-}
-
 std::vector<std::uint32_t> spansOf(std::span<const Interference::Place> places) {
   std::vector<std::uint32_t> spans;
   for (const Interference::Place& place : places) spans.insert(spans.end(), {place.contact.i, place.contact.j});
@@ -27,7 +21,7 @@ bool sameTurns(std::span<const JointTurn> a, std::span<const JointTurn> b) {
 }
 
 bool sameOptions(const PoseOrder& a, const PoseOrder& b) {
-  return a.document == b.document && a.volume == b.volume && a.avoid == b.avoid && a.contacts == b.contacts && a.beat == b.beat;
+  return a.document == b.document && a.forces == b.forces && a.contacts == b.contacts;
 }
 
 }  // namespace
@@ -38,7 +32,12 @@ bool PoseOrder::operator==(const PoseOrder& other) const {
 
 // Setting up avoidance takes a while, so the ways of making shapes that were used last are kept.
 struct PoseWorker::Maker {
-  explicit Maker(const PoseOrder& like) : order(like), maker(like.document->scene, optionsOf(like)) {}
+  explicit Maker(const PoseOrder& like)
+      : order(like),
+        frames(!like.contacts && like.forces == like.document->forces
+                   ? like.document->maker
+                   : std::make_shared<FrameMaker>(like.document->scene, frameOptions(like.forces, like.contacts))),
+        maker(*frames) {}
 
   std::shared_ptr<const PosedBody> make(const PoseOrder& wanted) {
     const auto start = std::chrono::steady_clock::now();
@@ -71,7 +70,8 @@ struct PoseWorker::Maker {
   }
 
   PoseOrder order;  // keeps the document alive
-  FrameMaker maker;
+  std::shared_ptr<FrameMaker> frames;
+  FrameMaker& maker;
   std::optional<VesselMeter> meter;
 };
 
@@ -81,6 +81,7 @@ PoseWorker::~PoseWorker() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
+    cancellation_.ask();
   }
   changed_.notify_all();
   thread_.join();
@@ -89,6 +90,11 @@ PoseWorker::~PoseWorker() {
 void PoseWorker::order(PoseOrder order) {
   {
     const std::lock_guard lock(mutex_);
+    if (order.document != latestDocument_) {
+      cancellation_.ask();
+      cancellation_ = {};
+      latestDocument_ = order.document;
+    }
     next_ = std::make_unique<PoseOrder>(std::move(order));
   }
   changed_.notify_all();
@@ -109,29 +115,41 @@ void PoseWorker::wait() const {
   changed_.wait(lock, [&] { return !working_ && !next_; });
 }
 
-void PoseWorker::work() {
+std::shared_ptr<const PosedBody> PoseWorker::make(const PoseOrder& order) {
   constexpr std::size_t kMostMakers = 3;
+  const auto found = std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, order); });
+  if (found != makers_.end()) {
+    std::rotate(found, found + 1, makers_.end());
+  } else {
+    std::erase_if(makers_, [&](const auto& maker) { return maker->order.document != order.document; });
+    if (makers_.size() == kMostMakers) makers_.erase(makers_.begin());
+    makers_.push_back(std::make_unique<Maker>(order));
+  }
+  return makers_.back()->make(order);
+}
+
+void PoseWorker::work() {
   for (;;) {
     std::unique_ptr<PoseOrder> order;
+    Cancellation cancellation;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return ending_ || next_; });
       if (ending_) return;
       order = std::move(next_);
+      cancellation = cancellation_;
       working_ = true;
     }
-    const auto found = std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, *order); });
-    if (found != makers_.end()) {
-      std::rotate(found, found + 1, makers_.end());
-    } else {
-      std::erase_if(makers_, [&](const auto& maker) { return maker->order.document != order->document; });
-      if (makers_.size() == kMostMakers) makers_.erase(makers_.begin());
-      makers_.push_back(std::make_unique<Maker>(*order));
+    std::shared_ptr<const PosedBody> made;
+    try {
+      const CancellationScope scope(cancellation);
+      made = make(*order);
+    } catch (const Cancelled&) {  // a way of making shapes that was left halfway is not gone on with
+      std::erase_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, *order); });
     }
-    auto made = makers_.back()->make(*order);
     {
       const std::lock_guard lock(mutex_);
-      latest_ = std::move(made);
+      if (made) latest_ = std::move(made);
       working_ = false;
     }
     changed_.notify_all();

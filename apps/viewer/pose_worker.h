@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/cancellation.h"
 #include "viewer/document.h"
 #include "viewer/posing.h"
 #include "scene/frame.h"
@@ -18,7 +19,8 @@ struct PoseOrder {
   int clip = -1;   ///< -1: at rest
   float time = 0;  ///< [s] in the clip
   std::vector<JointTurn> turns;
-  bool volume = true, avoid = true, contacts = false, beat = false;
+  Forces forces;
+  bool contacts = false;
   bool measures = false;  ///< of every vessel
 
   bool operator==(const PoseOrder& other) const;
@@ -39,7 +41,7 @@ struct PosedBody {
 };
 
 /// Makes shapes on a thread of its own while earlier ones are drawn. Of orders that come in faster than they are done
-/// only the latest is.
+/// only the latest is; one for another document cancels what is being done, and so does the end.
 class PoseWorker {
  public:
   /// @param done  called from the worker's thread after each shape
@@ -58,11 +60,14 @@ class PoseWorker {
  private:
   struct Maker;
   void work();
+  std::shared_ptr<const PosedBody> make(const PoseOrder& order);
 
   std::function<void()> done_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::unique_ptr<PoseOrder> next_;
+  std::shared_ptr<const Document> latestDocument_;  // of the latest order
+  Cancellation cancellation_;                       // of orders for it
   bool working_ = false, ending_ = false;
   std::shared_ptr<const PosedBody> latest_;
   std::vector<std::unique_ptr<Maker>> makers_;  // the worker's alone

@@ -9,7 +9,7 @@ namespace vasa::viewer {
 Session::Session(const ViewOptions& options, const Settings& settings, Window& window)
     : options_(options),
       window_(window),
-      ui_(options.script ? 1.0f : window.scale()),
+      ui_(options.uiScale > 0 ? options.uiScale : options.script ? 1.0f : window.scale()),
       device_({.choice = options.device,
                .validation = options.validation,
                .instanceExtensions = Window::instanceExtensions(),
@@ -19,11 +19,15 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       canvas_(device_),
       painter_(device_, options.seed),
       state_(settings.state),
+      pointer_(ui_.scale()),
+      poseTool_(ui_.scale()),
       worker_([] { Window::wake(); }),
       width_(window.width()),
       height_(window.height()) {
   ui_.useClipboard(window);
-  open(options.file);
+  dropped_ = options.dropped;
+  if (dropped_.empty()) open(titleOf(options.file), [file = options.file] { return file; });
+  else openDropped();
 }
 
 Result<ViewReport> Session::run() {
@@ -42,6 +46,7 @@ Result<ViewReport> Session::run() {
     meetWishes();
     record();
     profile();
+    watchLoading();
     if (failure_) return *failure_;
     rest(std::chrono::duration<double>(Clock::now() - start).count());
   }
@@ -49,6 +54,8 @@ Result<ViewReport> Session::run() {
     if (auto written = writeFileAtomically(options_.record, recorder_.text()); !written) return written.error();
   state_.recording = false;
   record();
+  loader_.stop();
+  report_.stopMs = loader_.takeStopTimes();
   if (!options_.script)
     if (const auto kept = saveSettings({width_, height_, state_}); !kept) logWarning(kept.error().message);
   return report();
@@ -65,9 +72,48 @@ double Session::pass() {
   return seconds;
 }
 
-void Session::open(const SceneFile& file) {
-  loader_.start(file, options_.rules, [] { Window::wake(); });
+void Session::open(std::string title, SceneChoice choice) {
+  if (loader_.busy()) cancelLoading();
+  report_.loads.push_back({.title = title, .outcome = "loading"});
+  loadStart_ = lastWatched_ = Clock::now();
+  loader_.start({std::move(title), std::move(choice), options_.rules, state_.forces}, [] { Window::wake(); });
   panelFrames_ = kRestingFrames;
+}
+
+// What is dropped together belongs together: a body and its vessels.
+void Session::openDropped() {
+  std::string title;
+  for (const auto& file : dropped_) title += (title.empty() ? "" : ", ") + file.filename().string();
+  const SceneFile& shown = document_ ? document_->file : options_.file;
+  open(title, [open = options_.open, files = std::exchange(dropped_, {}), shown]() -> Result<SceneFile> {
+    SceneFile scene = shown;
+    for (const auto& file : files) {
+      auto next = open(file, scene);
+      if (!next) return next;
+      scene = std::move(*next);
+    }
+    return scene;
+  });
+}
+
+void Session::cancelLoading() {
+  loader_.cancel();
+  report_.loads.back().outcome = "cancelled";
+  panelFrames_ = kRestingFrames;
+}
+
+// The window goes on being drawn while something is loaded.
+void Session::watchLoading() {
+  const auto now = Clock::now();
+  if (loader_.busy() || arriving_) {
+    LoadReport& load = report_.loads.back();
+    ++load.frames;
+    load.longestMs = std::max(load.longestMs, std::chrono::duration<double, std::milli>(now - lastWatched_).count());
+    load.seconds = std::chrono::duration<double>(now - loadStart_).count();
+    panelFrames_ = std::max(panelFrames_, 1);
+  }
+  if (shown_) arriving_ = false;
+  lastWatched_ = now;
 }
 
 // A document that has been loaded takes the place of the one before.
@@ -75,12 +121,15 @@ void Session::adopt() {
   if (loader_.busy() && options_.script && settling_) loader_.wait();
   const auto answer = loader_.take();
   if (!answer) return;
+  report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
   if (!*answer) {
-    if (!document_) failure_ = answer->error();
-    else say(answer->error().message);
+    constexpr double kTimeToRead = 15;
+    if (!document_ && report_.loads.size() == 1) failure_ = answer->error();
+    else say(answer->error().message, kTimeToRead);
     return;
   }
   document_ = **answer;
+  arriving_ = true;
   body_.reset();
   shown_.reset();
   timings_.clear();
@@ -134,10 +183,8 @@ void Session::orderShape() {
                   .clip = state_.playback.clip,
                   .time = state_.playback.time,
                   .turns = state_.turns,
-                  .volume = state_.forces.volume,
-                  .avoid = state_.forces.avoid,
+                  .forces = state_.forces,
                   .contacts = state_.contacts,
-                  .beat = state_.forces.beat,
                   .measures = state_.selected && !state_.playback.playing};
   const bool done = body_ && body_->order == order;
   // While a shape is being made only a person's wishes go before it, not the next moment of a clip.
@@ -162,25 +209,22 @@ void Session::follow() {
 
 void Session::meetWishes() {
   if (state_.wishQuit) ending_ = true;
-  if (state_.wishCancel) {
-    loader_.cancel();
-    if (!document_) ending_ = true;
-    panelFrames_ = kRestingFrames;
-  }
+  if (state_.wishCancel && loader_.busy()) cancelLoading();
   if (state_.wishPicture && shown_) save({freeName("png"), false});
   state_.wishPicture = state_.wishCancel = false;
   if (saving_) save(*std::exchange(saving_, std::nullopt));
 }
 
-void Session::say(std::string message) {
+void Session::say(std::string message, double seconds) {
   if (!options_.script) logInfo(message);
   message_ = options_.script ? "" : std::move(message);  // paths would make pictures differ
-  messageUntil_ = now_ + 4;
+  messageUntil_ = now_ + seconds;
   panelFrames_ = kRestingFrames;
 }
 
 bool Session::idle() const {
-  if (loader_.busy() || profiling_ || !document_) return false;
+  if (loader_.busy() || profiling_) return false;
+  if (!document_) return true;
   return shown_ && !worker_.busy() && (shown_->fine || !state_.fineStills || state_.playback.playing);
 }
 
@@ -192,8 +236,8 @@ void Session::rest(double drawn) {
   }
   const bool moving = state_.playback.playing || pointer_.dragging() || profiling_ || recording_.running();
   const bool due = panelFrames_ > 0 || !events_.empty();
-  const bool waiting = loader_.busy() || worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
-  const double longest = moving || due ? std::max(kFrame - drawn, 0.0) : waiting ? 0.05 : 1.0;
+  const bool waiting = worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
+  const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0) : moving || due ? std::max(kFrame - drawn, 0.0) : waiting ? 0.05 : 1.0;
   window_.wait(longest);
 }
 
@@ -215,7 +259,6 @@ Result<ViewReport> view(const ViewOptions& options) {
   Settings settings;
   if (!options.script) loadSettings(settings);
   if (options.width > 0) settings.width = options.width, settings.height = options.height;
-  if (settings.width == 0) settings.width = 1280, settings.height = 720;
   auto window = Window::open("vasa", settings.width, settings.height);
   if (!window) return window.error();
   Session session(options, settings, *window);

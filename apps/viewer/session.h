@@ -5,6 +5,7 @@
 #include "gpu/swapchain.h"
 #include "render/profiler.h"
 #include "viewer/app.h"
+#include "viewer/loader.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
 #include "viewer/pointer.h"
@@ -54,8 +55,11 @@ class Session {
 
   // time and shapes
   double pass();
-  void open(const SceneFile& file);
+  void open(std::string title, SceneChoice choice);
+  void openDropped();
   void adopt();
+  void cancelLoading();
+  void watchLoading();
   void takeChoices();
   void orderShape();
   void takeShape();
@@ -76,7 +80,7 @@ class Session {
   void record();
   void profile();
   void save(const SavePicture& wish);
-  void say(std::string message);
+  void say(std::string message, double seconds = 4);
   void rest(double drawn);
   ViewReport report() const;
 
@@ -100,6 +104,7 @@ class Session {
   Timings timings_;
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;
+  std::vector<std::filesystem::path> dropped_;  // in this frame
   std::size_t step_ = 0;            // of the script
   std::uint32_t passing_ = 0;       // frames that it lets pass
   bool settling_ = false;
@@ -110,6 +115,8 @@ class Session {
   double now_ = 0, still_ = 0;      // [s]
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
+  Clock::time_point loadStart_, lastWatched_;
+  bool arriving_ = false;                       // loaded, but not seen yet
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;

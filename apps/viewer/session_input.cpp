@@ -25,6 +25,7 @@ void Session::gather() {
     moved = true;
     if (changesState(event)) break;
   }
+  if (!dropped_.empty()) openDropped();
   recorder_.endFrame();
 }
 
@@ -78,11 +79,10 @@ void Session::handle(const InputEvent& event) {
     width_ = size->width;
     height_ = size->height;
   } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
-    if (key->down && !ui_.wantsKeys()) applyShortcut(key->key, pointer_.control(), state_, document_.get());
+    if (key->down && key->key == Key::escape && loader_.busy()) state_.wishCancel = true;
+    else if (key->down && !ui_.wantsKeys()) applyShortcut(key->key, pointer_.control(), state_, document_.get());
   } else if (const auto* file = std::get_if<FileDropped>(&event)) {
-    const auto scene = options_.open(file->path);
-    if (scene) open(*scene);
-    else say(scene.error().message);
+    dropped_.emplace_back(file->path);
   } else if (std::holds_alternative<CloseAsked>(event)) {
     ending_ = true;
   }

@@ -10,7 +10,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReachPixels = 2.5f;  // of a click
+constexpr float kReachPixels = 2.5f;  // of an ordinary screen, of a click
 constexpr float kSeenThrough = 0.9f;  // opacity below which one can click what lies behind
 constexpr float kSlack = 0.002f;      // [m] a vessel in a bone's groove is no vessel behind it
 
@@ -80,7 +80,7 @@ void Session::click(const Click& click) {
   Ray ray = rayThrough(camera, click.place, {rect.width, rect.height});
   const float farthest = camera.cut ? keepTo(ray, *camera.cut) : std::numeric_limits<float>::infinity();
   const std::vector<char> shown = shownVessels(*document_, state_);
-  const float slack = kReachPixels * 2 * std::tan(state_.orbit.angle() / 2) / rect.height;
+  const float slack = kReachPixels * ui_.scale() * 2 * std::tan(state_.orbit.angle() / 2) / rect.height;
   auto hit = pick(document_->scene.network, body_->points, ray, [&](VesselId v) { return shown[v.value] != 0; }, slack);
   if (hit && (hit->distance > farthest || hit->distance > hiddenBehind(*document_, *body_, state_.look, ray))) hit.reset();
   const auto place = hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;

@@ -138,7 +138,7 @@ void Session::drawWindow() {
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,
               .message = now_ < messageUntil_ ? message_ : "",
-              .loading = loader_.busy() ? loader_.stage() : nullptr,
+              .loading = loader_.busy() ? std::optional(loader_.stage()) : std::nullopt,
               .loadingTitle = loader_.title()});
   const auto declared = Clock::now();
   canvas_.draw(shown_ ? painter_.picture() : nullptr, 0, 0, ui_.end());

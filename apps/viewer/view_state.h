@@ -5,6 +5,7 @@
 
 #include "network/route.h"
 #include "viewer/cut_plane.h"
+#include "viewer/forces.h"
 #include "viewer/orbit.h"
 #include "viewer/playback.h"
 #include "viewer/posing.h"
@@ -18,11 +19,6 @@ struct Detail {
   int around = 8, along = 5;  ///< quads, where not automatic
   int capillaries = 0;        ///< generations
   bool operator==(const Detail&) const = default;
-};
-
-/// What the vessels' shape follows.
-struct Forces {
-  bool volume = true, avoid = true, beat = false;
 };
 
 /// Everything a person can set, apart from how it is set: panels and shortcuts write it, the loop reads it. Nothing in

@@ -71,6 +71,18 @@ vec2 pixelsPerUnit(GLFWwindow* window) {
   return {float(pixelsAcross) / float(width), float(pixelsDown) / float(height)};
 }
 
+glm::ivec2 defaultSize() {
+  glm::ivec2 size{1280, 720};
+  GLFWmonitor* screen = glfwGetPrimaryMonitor();
+  if (!screen) return size;
+  vec2 scale{1};
+  glm::ivec2 corner, room{0};
+  glfwGetMonitorContentScale(screen, &scale.x, &scale.y);
+  glfwGetMonitorWorkarea(screen, &corner.x, &corner.y, &room.x, &room.y);
+  size = glm::ivec2(vec2(size) * glm::max(scale, 1.0f));
+  return room.x > 0 && room.y > 0 ? glm::min(size, room) : size;
+}
+
 void listen(GLFWwindow* window) {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { report(w, PointerMoved{vec2(x, y) * pixelsPerUnit(w)}); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
@@ -100,8 +112,8 @@ Result<Window> Window::open(const std::string& title, std::uint32_t width, std::
     return Error{Fault::failed, "no window can be opened (" + glfwError() +
                                     "); start vasa view on a desktop, or run it under xvfb-run; vasa render needs no window"};
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  GLFWwindow* window = glfwCreateWindow(int(width), int(height), title.c_str(), nullptr, nullptr);
+  const glm::ivec2 size = width > 0 ? glm::ivec2(width, height) : defaultSize();
+  GLFWwindow* window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
   if (!window) {
     const std::string reason = glfwError();
     glfwTerminate();

@@ -15,6 +15,7 @@ namespace vasa::viewer {
 class Window {
  public:
   /// Fails (Fault::failed) where there is no display to open it on.
+  /// @param width  [pixels]; 0: 1280 x 720 of an ordinary screen, at most what the screen has room for
   static Result<Window> open(const std::string& title, std::uint32_t width, std::uint32_t height);
   Window(Window&& other) noexcept;
   Window& operator=(Window&&) = delete;

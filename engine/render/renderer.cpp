@@ -134,7 +134,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
     : device(dev),
       options(chosen),
       ownColours(kindColours(network)),
-      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks}, chosen.sweepsPerBatch),
+      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table}, chosen.sweepsPerBatch),
       forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
       meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),

@@ -38,6 +38,8 @@ struct RenderOptions {
   /// nullptr: made.
   const BodyLevels* levels = nullptr;
   bool forks = true;  ///< vessels join smoothly; false: they end inside one another
+  /// makeSweepTable() of the network, read at construction: planning forks takes a while. nullptr: made.
+  const SweepTable* table = nullptr;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
   bool bgra = false;       ///< Renderer::picture() has blue first, as windows do

@@ -47,8 +47,13 @@ std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, st
 }
 
 TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t batchSweeps)
-    : table_(detail.forks ? makeSweepTable(network) : makeSweepTable(network, planWithoutForks(network))), detail_(detail), vesselCount_(std::uint32_t(network.vessels().size())) {
+    : table_(!detail.forks  ? makeSweepTable(network, planWithoutForks(network))
+             : detail.table ? *detail.table
+                            : makeSweepTable(network)),
+      detail_(detail),
+      vesselCount_(std::uint32_t(network.vessels().size())) {
   assert(detail.automatic() || detail.shape.valid());
+  detail_.table = nullptr;  // it need not stay
   makeBatches(batchSweeps);
   const shared::TubeTables tables = tablesOf();
   sweeps_ = gpu::makeBuffer(device, "sweeps", std::span<const shared::SweepRecord>(table_.sweeps));

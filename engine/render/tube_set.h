@@ -14,6 +14,7 @@ struct TubeDetail {
   SweepShape shape;
   float pixelError = 0;  ///< [pixels] > 0: m and n are the least that keep it, and `shape` is not used
   bool forks = true;     ///< false: all vessels are tubes of their own, which end inside one another
+  const SweepTable* table = nullptr;  ///< makeSweepTable() of the network where there is one already; copied
 
   bool automatic() const { return pixelError > 0; }
   std::uint32_t mostAround() const { return automatic() ? shared::kMaxAround : shape.around; }

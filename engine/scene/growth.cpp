@@ -86,10 +86,9 @@ void findPartners(const Network& network, const PosedNetwork& rest, float farthe
 
 }  // namespace
 
-CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions) {
+CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions, const SweepTable& table) {
   const Network& network = scene.network;
   const SpineSet& spines = scene.binding.spines;
-  const SweepTable table = makeSweepTable(network);
   std::vector<quat> frames(table.knotCount);
   networkFrames(network, network.points(), restReferences(network), frames);
   const PosedNetwork rest{table, network.points(), frames};
@@ -142,6 +141,10 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
 }
 
 Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder) {
+  return loadGrowth(scene, folder, makeSweepTable(scene.network));
+}
+
+Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder, const SweepTable& table) {
   SceneGrowth growth;
   auto rules = readGrowthRules(folder / "capillaries.lsys");
   if (!rules) return rules.error();
@@ -151,7 +154,7 @@ Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& 
   growth.regions = std::move(*regions);
   const float scale = scene.body.height() / kTableHeight;
   for (shared::GrowthSystem& system : growth.rules.tables.system) system.mostRadius *= scale;
-  growth.sites = growthSites(scene, growth.rules, growth.regions);
+  growth.sites = growthSites(scene, growth.rules, growth.regions, table);
   return growth;
 }
 

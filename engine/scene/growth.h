@@ -5,6 +5,8 @@
 
 namespace vasa {
 
+struct SweepTable;
+
 /// What a scene's capillaries grow from, and the regions that CapillarySites::region counts.
 struct SceneGrowth : Growth {
   std::vector<GrowthRegion> regions;
@@ -14,9 +16,11 @@ struct SceneGrowth : Growth {
 /// each span's region by the vessel's name and the joint it moves with, its hub and axis by the body's limbs, its
 /// walls by the nearest skin, its partner by the nearest vessel of the other kind. All of that is 150 bytes a span;
 /// capillaries themselves are stored nowhere.
+/// @param table  makeSweepTable() of the scene's network
+Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder, const SweepTable& table);
 Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder);
 
 /// The same from rules at hand.
-CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions);
+CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions, const SweepTable& table);
 
 }  // namespace vasa

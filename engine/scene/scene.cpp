@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "body/retarget.h"
+#include "core/cancellation.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
-#include "network/file.h"
 #include "network/measure.h"
 #include "network/merge.h"
+#include "scene/vessel_files.h"
 
 namespace vasa {
 namespace {
@@ -70,17 +71,24 @@ Result<Body> loadBody(const SceneFile& file) {
   return body;
 }
 
-Result<Scene> loadScene(const SceneFile& file) {
+Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
+  const auto tell = [&](const char* what) {
+    checkpoint();
+    if (told) told(what, 0, 0);
+  };
+  tell("reading the body");
   auto body = loadBody(file);
   if (!body) return body.error();
   std::vector<Network> networks;
   for (const auto& path : file.networks) {
-    auto network = readNetwork(path);
+    tell("reading vessels");
+    auto network = readVessels(path, body->height(), told);
     if (!network) return network.error();
     networks.push_back(std::move(*network));
   }
   auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
   if (!network) return network.error();
+  tell("binding vessels to the body");
   std::string names;
   for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
   auto binding = vasa::bind(*body, *network, names);

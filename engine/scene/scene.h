@@ -2,6 +2,7 @@
 #include "body/binding.h"
 #include "body/body.h"
 #include "network/network.h"
+#include "scene/reading.h"
 #include "scene/scene_file.h"
 
 namespace vasa {
@@ -16,9 +17,10 @@ struct Scene {
 /// The body alone; where the clip is a .bvh file, with that motion carried to it (body/retarget.h) among its clips.
 Result<Body> loadBody(const SceneFile& file);
 
-/// Reads what a scene file names and binds the vessels to the body. Fails as readers, merging and binding do;
-/// vessels that do not lie in the body are refused.
-Result<Scene> loadScene(const SceneFile& file);
+/// Reads what a scene file names, converts vessels that are no .vasa file (scene/vessel_files.h) and binds them to the
+/// body. Fails as readers, conversion, merging and binding do; vessels that do not lie in the body are refused. Can be
+/// cancelled (core/cancellation.h).
+Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told = {});
 
 /// The body's clip with this name, or the only one that begins with it. badInput lists what there is.
 Result<const Clip*> findClip(const Body& body, std::string_view name);

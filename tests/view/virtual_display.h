@@ -8,7 +8,8 @@ namespace vasa::test {
 /// An X server without a screen (Xvfb) for as long as the object lives. Fails the test case where it cannot be started.
 class VirtualDisplay {
  public:
-  VirtualDisplay();
+  /// @param dpi  of the screen that it stands for; 96 is ordinary
+  explicit VirtualDisplay(int dpi = 96);
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;

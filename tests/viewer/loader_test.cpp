@@ -1,0 +1,123 @@
+#include "viewer/loader.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::viewer;
+using namespace vasa::test;
+
+namespace {
+
+const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
+
+SceneFile human() {
+  SceneFile file;
+  file.body = kData / "human.glb";
+  file.networks = {kData / "human.vasa"};
+  return file;
+}
+
+// A helix of a tube as a binary STL: one element, far more triangles than any vessel has.
+std::filesystem::path largeMesh(const std::filesystem::path& folder, std::uint32_t rings) {
+  constexpr std::uint32_t around = 64;
+  const auto place = [&](std::uint32_t ring, std::uint32_t side) {
+    const float along = 40.0f * float(ring) / float(rings), turn = 2 * kPi * float(side) / around;
+    const vec3 centre(0.1f * std::cos(along), 1 + 0.01f * along, 0.1f * std::sin(along));
+    const vec3 out = glm::normalize(vec3(centre.x, 0, centre.z));
+    return centre + 0.004f * (std::cos(turn) * out + std::sin(turn) * vec3(0, 1, 0));
+  };
+  std::string bytes(80, ' ');
+  const std::uint32_t count = 2 * around * rings;
+  bytes.append(reinterpret_cast<const char*>(&count), 4);
+  const auto triangle = [&](vec3 a, vec3 b, vec3 c) {
+    const vec3 corners[] = {vec3(0), a, b, c};
+    bytes.append(reinterpret_cast<const char*>(corners), 48);
+    bytes.append(2, '\0');
+  };
+  for (std::uint32_t ring = 0; ring < rings; ++ring)
+    for (std::uint32_t side = 0; side < around; ++side) {
+      const vec3 a = place(ring, side), b = place(ring, (side + 1) % around), c = place(ring + 1, side), d = place(ring + 1, (side + 1) % around);
+      triangle(a, b, c);
+      triangle(b, d, c);
+    }
+  const auto path = folder / "large.stl";
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+// How long loading goes on after it was cancelled [ms], for the worst of some moments.
+double slowestStop(const SceneFile& file, double lastMs) {
+  double slowest = 0;
+  constexpr int kMoments = 6;
+  for (int i = 0; i < kMoments; ++i) {
+    Loader loader;
+    loader.start({"scene", [file] { return file; }, kData / "growth", {}}, [] {});
+    std::this_thread::sleep_for(std::chrono::microseconds(std::int64_t(1000 * lastMs * (i + 0.5) / kMoments)));
+    loader.stop();
+    for (const double ms : loader.takeStopTimes()) slowest = std::max(slowest, ms);
+  }
+  return slowest;
+}
+
+double loadMs(const SceneFile& file) {
+  const auto start = std::chrono::steady_clock::now();
+  Loader loader;
+  loader.start({"scene", [file] { return file; }, kData / "growth", {}}, [] {});
+  loader.wait();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+constexpr double kSoon = 1000;  // [ms] less than a fifth of it where nothing else runs
+
+}  // namespace
+
+TEST_CASE("a scene that is being loaded can be given up at any moment, and is soon left") {
+  const double whole = loadMs(human()), slowest = slowestStop(human(), whole);
+  MESSAGE("loading takes " << whole << " ms, stopping at most " << slowest << " ms");
+  CHECK(slowest < kSoon);
+}
+
+TEST_CASE("so can the conversion of one very large mesh") {
+  const TemporaryFolder folder;
+  SceneFile file = human();
+  file.networks = {largeMesh(folder.path(), 4000)};
+  const double whole = loadMs(file), slowest = slowestStop(file, whole);
+  MESSAGE("converting takes " << whole << " ms, stopping at most " << slowest << " ms");
+  CHECK(slowest < kSoon);
+}
+
+TEST_CASE("what is loaded next is not held up by what was given up, and tells what it does") {
+  Loader loader;
+  std::atomic<int> told{0};
+  loader.start({"first", [] { return human(); }, {}, {}}, [] {});
+  loader.start({"second", [] { return human(); }, {}, {}}, [&] { ++told; });
+  CHECK(loader.title() == "second");
+  CHECK(loader.busy());
+  loader.wait();
+  const auto answer = loader.take();
+  REQUIRE(answer);
+  REQUIRE(*answer);
+  CHECK((**answer)->scene.network.vessels().size() > 100);
+  CHECK((**answer)->maker);
+  CHECK(told > 4);
+  CHECK_FALSE(loader.busy());
+  loader.stop();
+  CHECK(loader.takeStopTimes().size() == 1);
+}
+
+TEST_CASE("what cannot be loaded says why") {
+  Loader loader;
+  loader.start({"nothing", [] { return badInput("no scene"); }, {}, {}}, [] {});
+  loader.wait();
+  const auto answer = loader.take();
+  REQUIRE(answer);
+  CHECK_FALSE(*answer);
+  CHECK(answer->error().message == "no scene");
+}
