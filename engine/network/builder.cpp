@@ -157,6 +157,7 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
     for (const std::uint32_t p : {vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1})
       if (glm::distance(vec3(before[p]), vec3(network.points_[p])) > 0.05f * bodyHeight)
         return badInput(place(vessel, i) + ": an end lies more than 5 % of the body height from its node");
+    if (auto checked = checkPoints(network.pointsOf(vessel), place(vessel, i)); !checked) return checked.error();
   }
   return network;
 }

@@ -1,111 +1,23 @@
 #include "network/file.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "core/atomic_file.h"
 #include "core/hash.h"
 #include "network/builder.h"
+#include "network/file_bytes.h"
+#include "network/patch_chunk.h"
 
 // Quantised points: ends that hang on nodes are re-pinned on reading, from points that lie on the grid exactly,
 // so reading a quantised file and writing it again gives the same bytes.
 namespace vasa {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
 constexpr char kMagic[4] = {'V', 'A', 'S', 'A'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 24;
 constexpr float kSteps = 65535;
-constexpr std::size_t kMaximumText = 4096;  // that a name may share with the one before: bounds what a file expands to
-
-class Writer {
- public:
-  template <class T>
-  void raw(T value) {
-    append(std::as_bytes(std::span(&value, 1)));
-  }
-  void number(std::uint64_t value) {
-    for (; value >= 0x80; value >>= 7) raw(std::uint8_t(value | 0x80));
-    raw(std::uint8_t(value));
-  }
-  void text(const std::string& value) {
-    number(value.size());
-    append(std::as_bytes(std::span(value)));
-  }
-  /// The length of what is shared with the text before, and the rest: branches of one vessel have names alike.
-  void text(const std::string& value, const std::string& before) {
-    const auto ends = std::mismatch(value.begin(), value.end(), before.begin(), before.end());
-    const auto shared = std::min(std::size_t(ends.first - value.begin()), kMaximumText);
-    number(shared);
-    text(value.substr(shared));
-  }
-  void chunk(const char (&tag)[5], const Writer& payload) {
-    for (int i = 0; i < 4; ++i) raw(tag[i]);
-    raw(std::uint32_t(payload.bytes.size()));
-    append(payload.bytes);
-  }
-  void append(std::span<const std::byte> more) {
-    if (more.empty()) return;
-    const std::size_t at = bytes.size();
-    bytes.resize(at + more.size());
-    std::memcpy(bytes.data() + at, more.data(), more.size());
-  }
-  std::vector<std::byte> bytes;
-};
-
-// Every read is checked; after a fault everything reads as zero and ok() is false.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
-  template <class T>
-  T raw() {
-    T value{};
-    const auto from = take(sizeof(T));
-    if (ok_) std::memcpy(&value, from.data(), sizeof(T));
-    return value;
-  }
-  std::uint64_t number() {
-    std::uint64_t value = 0;
-    for (int shift = 0; shift < 63; shift += 7) {
-      const auto byte = raw<std::uint8_t>();
-      value |= std::uint64_t(byte & 0x7f) << shift;
-      if (byte < 0x80) return value;
-    }
-    ok_ = false;
-    return 0;
-  }
-  /// A count of things that take at least minimumBytes each: more than can follow is a fault.
-  std::size_t count(std::size_t minimumBytes) {
-    const std::uint64_t value = number();
-    if (value > rest_.size() / minimumBytes) ok_ = false;
-    return ok_ ? std::size_t(value) : 0;
-  }
-  std::string text() {
-    const auto from = take(number());
-    return {reinterpret_cast<const char*>(from.data()), from.size()};
-  }
-  std::string text(const std::string& before) {
-    const std::uint64_t shared = number();
-    if (shared > before.size() || shared > kMaximumText) ok_ = false;
-    if (!ok_) return {};
-    return before.substr(0, std::size_t(shared)) + text();
-  }
-  std::span<const std::byte> take(std::uint64_t size) {
-    if (size > rest_.size()) ok_ = false;
-    if (!ok_) return {};
-    const auto part = rest_.first(std::size_t(size));
-    rest_ = rest_.subspan(std::size_t(size));
-    return part;
-  }
-  bool ok() const { return ok_; }
-  bool empty() const { return rest_.empty(); }
-
- private:
-  std::span<const std::byte> rest_;
-  bool ok_ = true;
-};
 
 struct Grid {
   vec3 origin{0};
@@ -142,8 +54,8 @@ Grid gridOf(std::span<const vec4> points) {
   return grid;
 }
 
-void encodePoints(const Network& network, bool quantise, Writer& out) {
-  Writer payload;
+void encodePoints(const Network& network, bool quantise, ByteWriter& out) {
+  ByteWriter payload;
   if (!quantise) {
     for (const vec4& p : network.points()) payload.raw(p);
     out.chunk("PNTS", payload);
@@ -172,10 +84,11 @@ struct Contents {
   std::vector<std::pair<NetworkBuilder::Label, std::size_t>> vessels;  // with their point counts
   std::vector<std::pair<std::optional<Host>, std::vector<VesselEnd>>> nodes;
   std::vector<vec4> points;
-  bool meta = false, vessel = false, node = false, point = false;
+  std::vector<ForkPatch> patches;
+  bool meta = false, vessel = false, node = false, point = false, patch = false;
 };
 
-bool readVessels(Reader in, Contents& contents) {
+bool readVessels(ByteReader in, Contents& contents) {
   NetworkBuilder::Label before;
   for (std::size_t left = in.count(6); left && in.ok(); --left) {
     NetworkBuilder::Label label;
@@ -192,7 +105,7 @@ bool readVessels(Reader in, Contents& contents) {
   return in.ok() && in.empty();
 }
 
-bool readNodes(Reader in, Contents& contents) {
+bool readNodes(ByteReader in, Contents& contents) {
   for (std::size_t left = in.count(2); left && in.ok(); --left) {
     std::optional<Host> host;
     if (in.raw<std::uint8_t>()) {
@@ -216,7 +129,7 @@ bool readExactPoints(std::span<const std::byte> payload, Contents& contents) {
   return true;
 }
 
-bool readQuantisedPoints(Reader in, Contents& contents) {
+bool readQuantisedPoints(ByteReader in, Contents& contents) {
   Grid grid;
   grid.origin = in.raw<vec3>();
   grid.exponent = in.raw<std::int8_t>();
@@ -232,14 +145,15 @@ bool readQuantisedPoints(Reader in, Contents& contents) {
 bool readChunk(const std::string& tag, std::span<const std::byte> payload, Contents& contents) {
   const auto first = [](bool& seen) { return !std::exchange(seen, true); };
   if (tag == "META") {
-    Reader in(payload);
+    ByteReader in(payload);
     contents.bodyHeight = in.raw<float>();
     return first(contents.meta) && in.ok();
   }
-  if (tag == "VESL") return first(contents.vessel) && readVessels(Reader(payload), contents);
-  if (tag == "NODE") return first(contents.node) && readNodes(Reader(payload), contents);
+  if (tag == "VESL") return first(contents.vessel) && readVessels(ByteReader(payload), contents);
+  if (tag == "NODE") return first(contents.node) && readNodes(ByteReader(payload), contents);
   if (tag == "PNTS") return first(contents.point) && readExactPoints(payload, contents);
-  if (tag == "PNTQ") return first(contents.point) && readQuantisedPoints(Reader(payload), contents);
+  if (tag == "PNTQ") return first(contents.point) && readQuantisedPoints(ByteReader(payload), contents);
+  if (tag == "PTCH") return first(contents.patch) && readPatches(payload, contents.patches);
   return true;
 }
 
@@ -258,6 +172,7 @@ Result<Network> build(Contents contents, const std::string& name) {
                     std::to_string(next) + "; write the file anew");
   for (auto& [host, ends] : contents.nodes) builder.addNode(host, std::move(ends));
   auto network = builder.build(contents.bodyHeight);
+  if (network && !contents.patches.empty()) network = withPatches(std::move(*network), std::move(contents.patches));
   if (!network) return Error{network.error().fault, name + ": " + network.error().message};
   return network;
 }
@@ -269,7 +184,7 @@ float quantisationError(const Network& network) {
 }
 
 std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions options) {
-  Writer meta, vessels, nodes, body, file;
+  ByteWriter meta, vessels, nodes, body, file;
   meta.raw(network.bodyHeight());
   vessels.number(network.vessels().size());
   const Vessel none;
@@ -295,6 +210,7 @@ std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions 
   body.chunk("VESL", vessels);
   body.chunk("NODE", nodes);
   encodePoints(network, options.quantise, body);
+  if (!network.patches().empty()) body.chunk("PTCH", patchPayload(network.patches()));
   for (const char letter : kMagic) file.raw(letter);
   file.raw(kVersion);
   file.raw(std::uint64_t(body.bytes.size()));
@@ -304,7 +220,7 @@ std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions 
 }
 
 Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::string& name) {
-  Reader header(bytes);
+  ByteReader header(bytes);
   const auto magic = header.take(sizeof(kMagic));
   if (!header.ok() || std::memcmp(magic.data(), kMagic, sizeof(kMagic)) != 0)
     return badInput(name + ": is not a .vasa file (it does not begin with VASA); make one with vasa convert");
@@ -320,7 +236,7 @@ Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::strin
   if (hashBytes(body) != checksum)
     return badInput(name + ": the checksum does not match, so the file is damaged; copy it again");
   Contents contents;
-  Reader in(body);
+  ByteReader in(body);
   while (in.ok() && !in.empty()) {
     const auto letters = in.take(4);
     const std::string tag(reinterpret_cast<const char*>(letters.data()), letters.size());

@@ -13,7 +13,10 @@
 //     NODE   count, then per node: u8 has host, [host vessel, f32 parameter], ends (2 · vessel + last)
 //     PNTS   f32 x y z r a de Boor point (exact), or
 //     PNTQ   f32 origin x y z, i8 exponent of the position step, f32 radius step, then u16 x y z r a point
-// Counts and lengths inside VESL and NODE are LEB128; strings are a length and UTF-8 bytes.
+//     PTCH   (only where patches were kept) count, then per patch: u8 rings, per ring: vessel, f32 parameter, centre x y z,
+//            outward x y z, radius, vertices of its loop; vertices, f32 origin x y z, i8 exponent of the position step, per
+//            vertex u16 x y z and u8 a ring; triangles, three indices each
+// Counts and lengths inside VESL, NODE and PTCH are LEB128; strings are a length and UTF-8 bytes.
 namespace vasa {
 
 struct NetworkFileOptions {

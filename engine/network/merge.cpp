@@ -7,6 +7,7 @@ namespace vasa {
 Result<Network> mergeNetworks(std::span<const Network> networks) {
   if (networks.empty()) return badInput("there is no network to merge; name at least one");
   NetworkBuilder builder;
+  std::vector<ForkPatch> patches;
   for (const Network& network : networks) {
     const auto base = std::uint32_t(builder.vesselCount());
     for (const Vessel& vessel : network.vessels()) {
@@ -23,8 +24,14 @@ Result<Network> mergeNetworks(std::span<const Network> networks) {
       }
       builder.addNode(host, std::move(ends));
     }
+    for (ForkPatch patch : network.patches()) {
+      for (PatchRing& ring : patch.rings) ring.vessel.value += base;
+      patches.push_back(std::move(patch));
+    }
   }
-  return builder.build(networks.front().bodyHeight());
+  auto merged = builder.build(networks.front().bodyHeight());
+  if (!merged || patches.empty()) return merged;
+  return withPatches(std::move(*merged), std::move(patches));
 }
 
 }  // namespace vasa

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "core/result.h"
 #include "curve/bspline.h"
+#include "network/fork_patch.h"
 
 namespace vasa {
 
@@ -82,6 +84,9 @@ class Network {
   /// The part each vessel belongs to, numbered by first appearance.
   std::vector<std::uint32_t> components() const;
 
+  /// Walls of the source around some of its forks (network/fork_patch.h); none where none were kept.
+  std::span<const ForkPatch> patches() const { return patches_; }
+
   /// Height of the body that the network belongs to [m]: the unit of the paper's tolerances.
   float bodyHeight() const { return bodyHeight_; }
 
@@ -90,13 +95,19 @@ class Network {
 
  private:
   friend class NetworkBuilder;
+  friend Result<Network> withPatches(Network network, std::vector<ForkPatch> patches);
   std::vector<Vessel> vessels_;
   std::vector<Node> nodes_;
   std::vector<VesselEnd> ends_;
   std::vector<vec4> points_;
   std::vector<NodeId> pinOrder_;
+  std::vector<ForkPatch> patches_;
   float bodyHeight_ = 1;
 };
+
+/// The network with these patches instead of its own. Fails with badInput that numbers the patch and says what is wrong
+/// with it (patchFault).
+Result<Network> withPatches(Network network, std::vector<ForkPatch> patches);
 
 /// Puts every vessel end exactly onto its node, position only, after points were moved: onto the host's centre
 /// line, or onto the first of the node's ends. @param points  as Network::points(). O(ends).

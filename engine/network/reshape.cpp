@@ -14,7 +14,9 @@ Result<Network> reshapeNetwork(const Network& network, std::span<const vec4> poi
     const auto ends = network.ends(node);
     builder.addNode(node.host, {ends.begin(), ends.end()});
   }
-  return builder.build(bodyHeight);
+  auto reshaped = builder.build(bodyHeight);
+  if (!reshaped || network.patches().empty()) return reshaped;
+  return withPatches(std::move(*reshaped), {network.patches().begin(), network.patches().end()});
 }
 
 }  // namespace vasa

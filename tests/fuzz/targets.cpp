@@ -140,6 +140,7 @@ void vasa(Bytes bytes) {
   if (!network) return;
   const auto again = decodeNetwork(encodeNetwork(*network), "f");
   must(again.ok() && again->points().size() == network->points().size());
+  must(again->patches().size() == network->patches().size());
 }
 
 std::span<const Target> targets() {
