@@ -14,6 +14,7 @@
 #include "render/capillary_pass.h"
 #include "render/frame_upload.h"
 #include "render/occlusion_pass.h"
+#include "render/patch_pass.h"
 #include "render/picture.h"
 #include "render/skin_pass.h"
 #include "render/static_tubes.h"
@@ -22,6 +23,7 @@
 //   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
 //   picture, first stretch: clear, bones and heart
 //   for each batch k: write batch k+1 into the other template; stretch: draw batch k; barrier
+//   stretch: patches, if the network has some, which were posed with batch 0
 //   ambient occlusion of what is there
 //   likewise batch by batch: capillaries
 //   picture, last stretch: skin; resolve
@@ -103,11 +105,13 @@ struct Renderer::State {
   std::vector<std::uint32_t> ownColours;  // of the spans, by their vessels' kinds
   TubeSet tubes;
   ForkSet forks;
+  PatchSet patches;
   MeshSet meshes;
   FrameUpload upload;
   DetailPass detailPass;
   TubePass tubePass;
   ForkPass forkPass;
+  std::optional<PatchPass> patchPass;  // where there are patches
   SkinPass skinPass;
   gpu::Target target;
   SurfacePass surfacePass;
@@ -125,6 +129,7 @@ struct Renderer::State {
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
   void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, const Look& look);
   void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
+  void recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look);
   void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
   void recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look);
 };
@@ -136,6 +141,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       ownColours(kindColours(network)),
       tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table}, chosen.sweepsPerBatch),
       forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
+      patches(device, tubes.table().patches),
       meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
@@ -149,8 +155,9 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       readBack(device, readBackSpec(target)),
       drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
                      gpu::MemoryRole::readBack}),
-      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 5) : 0),
+      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 7) : 0),
       staticTimer(device, 1) {
+  if (!patches.empty()) patchPass.emplace(device);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
     capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites, options.capillaries);
@@ -161,6 +168,7 @@ void Renderer::State::setColours(std::span<const std::uint32_t> given) {
   const std::vector<std::uint32_t> colours = recoloured(ownColours, given);
   tubes.setSpanColours(device, colours);
   forks.setSpanColours(device, colours);
+  patches.setSpanColours(device, colours);
   if (capillaries) capillaries->setSpanColours(device, colours);
 }
 
@@ -192,6 +200,14 @@ void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPu
     copyDraws(commands, forkTemplates[batch % 2], tubes.groupCount() + range.firstFork / shared::kGroupForks,
               range.groups());
   }
+}
+
+void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look) {
+  const auto scope = timer.scope(commands, kDraw);
+  target.begin(commands, {}, 0, gpu::Stretch::middle);
+  surfacePass.recordVessels(commands, push, patches.draws(), 1, look, partial);
+  target.pause(commands);
+  gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
 void Renderer::State::copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group,
@@ -248,6 +264,10 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
     detailPass.record(commands, tubes, upload.points(), viewOf(input));
   }
   if (batches > 0) recordTessellation(commands, 0);
+  if (batches > 0 && patchPass) {
+    const auto scope = timer.scope(commands, kForks);
+    patchPass->record(commands, {tubes, patches, detailPass, upload.points(), upload.knots()});
+  }
   {
     const auto scope = timer.scope(commands, kMeshes);
     skinPass.record(commands, meshes, levels, upload.joints(), upload.jointCount(), input.heartScale);
@@ -262,6 +282,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
     recordBatch(commands, push, batch, input.look);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
+  if (batches > 0 && patchPass) recordPatches(commands, push, input.look);
   // Depth of what is translucent is grain.
   if (occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) && input.look.style != LookStyle::xray) recordOcclusion(commands, input);
   if (capillaries && batches > 0 && input.look.capillaryOpacity > 0) recordCapillaries(commands, push, input.look);
@@ -377,7 +398,9 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
 }
 
 std::uint64_t Renderer::triangleCount() const {
-  return state_->tubes.triangleCount() + state_->forks.triangleCount();
+  const State& s = *state_;
+  const std::uint64_t patches = s.options.pixelError > 0 ? 0 : s.patches.triangleCount(s.options.shape.around);
+  return s.tubes.triangleCount() + s.forks.triangleCount() + patches;
 }
 
 std::uint64_t Renderer::drawnTriangleCount() const {

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "surface/fork.h"
 #include "surface/fork_template.h"
+#include "surface/patch.h"
 
 // Rings are written by the tubes; forks and caps use the tubes' vertices. Where two forks share a ring without a tube
 // between them, the ring is written by the first of them.
@@ -20,6 +21,7 @@ class MeshLayout {
     placeTubes();
     placeCaps();
     placeForks();
+    placePatches();
     mesh.positions.resize(vertices_);
     mesh.normals.resize(vertices_);
     mesh.vesselOfVertex.resize(vertices_);
@@ -33,6 +35,7 @@ class MeshLayout {
     std::vector<std::vector<uvec3>> triangles(table.forks.size());
     parallelFor(table.forks.size(), 16, [&](std::size_t i) { triangles[i] = writeFork(std::uint32_t(i)); });
     for (const auto& of : triangles) mesh_.triangles.insert(mesh_.triangles.end(), of.begin(), of.end());
+    writePatches();
   }
 
  private:
@@ -99,6 +102,36 @@ class MeshLayout {
       place.vertex = vertices_;
       vertices_ += (shared::kTrunkRows - 2 + fork.branchCount * shared::kCollarRows) * m;
       forks_.push_back(place);
+    }
+  }
+
+  void placePatches() {
+    const PatchTable& table = network_.table.patches;
+    for (const shared::PatchSeam& seam : table.seams) seams_.push_back(ringFor(seam.ring));
+    patchVertices_.resize(table.vertices.size());
+    for (const PatchTable::Patch& patch : table.patches)
+      for (std::uint32_t i = 0; i < patch.vertexCount; ++i) patchVertices_[patch.firstVertex + i] = vertices_++;
+  }
+
+  void writePatches() {
+    const PatchTable& table = network_.table.patches;
+    std::vector<PosedSeam> posed(table.seams.size());
+    parallelFor(posed.size(), 16, [&](std::size_t i) { posed[i] = poseSeam(network_, std::uint32_t(i), shape_.around); });
+    std::vector<shared::JointRows> joints;
+    for (const PosedSeam& seam : posed) joints.push_back(seam.joint);
+    for (const PatchTable::Patch& patch : table.patches)
+      for (std::uint32_t i = patch.firstVertex; i < patch.firstVertex + patch.vertexCount; ++i)
+        put(patchVertices_[i], poseVertex(table.vertices[i], joints), patch.vessel);
+    for (const uvec3& t : table.triangles)
+      mesh_.triangles.push_back({patchVertices_[t.x], patchVertices_[t.y], patchVertices_[t.z]});
+    for (std::size_t i = 0; i < posed.size(); ++i) {
+      const shared::PatchSeam& seam = table.seams[i];
+      if (seams_[i].own)
+        for (std::uint32_t k = 0; k < shape_.around; ++k) put(seams_[i].first + k, posed[i].ring[k], seam.vessel);
+      const auto target = [&](std::uint32_t v) {
+        return v >= seam.vertex ? seams_[i].first + v - seam.vertex : patchVertices_[v];
+      };
+      for (const uvec3& t : posed[i].strip) mesh_.triangles.push_back({target(t.x), target(t.y), target(t.z)});
     }
   }
 
@@ -178,6 +211,8 @@ class MeshLayout {
   std::uint32_t vertices_ = 0, triangles_ = 0;
   std::vector<Place> tubes_, caps_;
   std::vector<ForkPlace> forks_;
+  std::vector<ForkPlace::Ring> seams_;  // of patches
+  std::vector<std::uint32_t> patchVertices_;  // where those of the table are
   std::map<RingKey, std::uint32_t> rings_;
 };
 

@@ -4,8 +4,8 @@
 namespace vasa {
 
 /// The whole drawn surface of a network as one indexed mesh: what `export` writes and what a picture shows. Tubes, then
-/// caps, then forks; every edge belongs to two triangles. From pose to pose the vertices and what they belong to stay the
-/// same, and the number of triangles, too, where forks stay open; a fork's triangles may begin at another vertex of a ring.
+/// caps, then forks, then patches kept from the source; every edge belongs to two triangles. From pose to pose the vertices
+/// and what they belong to stay the same, and the number of triangles, too, where forks stay open; a fork's triangles may begin at another vertex of a ring.
 /// Some vertices of a stump belong to no triangle.
 struct SurfaceMesh {
   std::vector<vec3> positions, normals;        ///< one a vertex [m], unit

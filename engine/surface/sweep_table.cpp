@@ -35,7 +35,11 @@ void addTube(const Network& network, const TubeStretch& tube, std::uint32_t span
 }  // namespace
 
 SweepTable makeSweepTable(const Network& network) {
-  return makeSweepTable(network, planForks(network));
+  ForkPlan plan = planForks(network);
+  PatchTable patches = takePatches(network, plan);
+  SweepTable table = makeSweepTable(network, std::move(plan));
+  table.patches = std::move(patches);
+  return table;
 }
 
 SweepTable makeSweepTable(const Network& network, ForkPlan plan) {

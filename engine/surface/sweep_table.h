@@ -4,6 +4,7 @@
 
 #include "network/network.h"
 #include "surface/fork_plan.h"
+#include "surface/patch.h"
 
 namespace vasa {
 
@@ -23,11 +24,12 @@ struct SweepTable {
   std::vector<shared::ForkRecord> forks;     ///< those with fewer branches first
   std::vector<shared::ForkBranch> branches;  ///< fork after fork
   std::vector<std::uint32_t> vesselOfFork, spanOfFork;  ///< those whose colour a fork takes
+  PatchTable patches;                        ///< in the place of forks (surface/patch.h)
   std::uint32_t pointCount = 0;              ///< de Boor points of the network
   std::uint32_t knotCount = 0;               ///< knot quaternions: spans + 1 of each vessel, vessel after vessel
   std::uint32_t spanCount = 0;               ///< of all vessels
 };
-/// Cut as planForks() says (surface/fork_plan.h).
+/// Cut as planForks() says (surface/fork_plan.h); patches of the network stand for their forks.
 SweepTable makeSweepTable(const Network& network);
 SweepTable makeSweepTable(const Network& network, ForkPlan plan);
 

@@ -1,0 +1,91 @@
+#include "render/patch_pass.h"
+
+#include "gpu/barrier.h"
+#include "gpu/transfer.h"
+#include "spirv/patches_comp.h"
+#include "spirv/skin_comp.h"
+
+namespace vasa {
+namespace {
+
+// Vertices of the table in whole blocks, then those of the rings.
+std::uint32_t verticesOf(const PatchTable& table) {
+  return table.seams.back().vertex + shared::kMaxAround;
+}
+
+TubeDraws drawsOf(gpu::Device& device, const PatchTable& table) {
+  const shared::PatchSeam& last = table.seams.back();
+  const GroupRoom room{verticesOf(table), last.index + 3 * stripTriangles(last, shared::kMaxAround)};
+  TubeDraws draws(device, room, 1);
+  gpu::uploadBytes(device, draws.indices, std::as_bytes(std::span(table.triangles)));
+  const shared::DrawCommand draw{room.indices, 1, 0, 0, 0};
+  gpu::uploadBytes(device, draws.draws, std::as_bytes(std::span(&draw, 1)));
+  return draws;
+}
+
+}  // namespace
+
+PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
+    : seamCount_(std::uint32_t(table.seams.size())), vertexCount_(std::uint32_t(table.vertices.size())) {
+  if (empty()) return;
+  fixedTriangles_ = table.triangles.size();
+  for (const shared::PatchSeam& seam : table.seams) fixedTriangles_ += seam.loopCount;
+  spanOfBlock_.resize(verticesOf(table) >> shared::kBlockShift);
+  for (const PatchTable::Patch& patch : table.patches) {
+    const auto fill = [&](std::uint32_t first, std::uint32_t count) {
+      for (std::uint32_t v = first; v < first + count; ++v) spanOfBlock_[v >> shared::kBlockShift] = patch.span;
+    };
+    fill(patch.firstVertex, patch.vertexCount);
+    for (std::uint32_t i = 0; i < patch.seamCount; ++i) fill(table.seams[patch.firstSeam + i].vertex, shared::kMaxAround);
+  }
+  seams_ = gpu::makeBuffer(device, "patch seams", std::span<const shared::PatchSeam>(table.seams));
+  shares_ = gpu::makeBuffer(device, "patch shares", std::span<const float>(table.shares));
+  rest_ = gpu::makeBuffer(device, "patches at rest", std::span<const shared::SkinVertex>(table.vertices));
+  joints_ = gpu::Buffer(device, {"patch joints", sizeof(shared::JointRows) * table.seams.size()});
+  draws_ = drawsOf(device, table);
+}
+
+VkDeviceSize PatchSet::bytes() const {
+  return empty() ? 0 : seams_.bytes() + shares_.bytes() + rest_.bytes() + joints_.bytes() + draws_.bytes();
+}
+
+void PatchSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
+  if (empty()) return;
+  std::vector<std::uint32_t> colours;
+  for (const std::uint32_t span : spanOfBlock_) colours.push_back(spanColours[span]);
+  gpu::uploadBytes(device, draws_.colours, std::as_bytes(std::span(colours)));
+}
+
+PatchPass::PatchPass(gpu::Device& device)
+    : seams_(device, {spirv::patches_comp, sizeof(shared::PatchesPush)}),
+      skin_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}) {}
+
+void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
+  const PatchSet& patches = input.patches;
+  const TubeDraws& draws = patches.draws_;
+  seams_.dispatch(commands,
+                  shared::PatchesPush{.points = input.points,
+                                      .knots = input.knots,
+                                      .tables = input.tubes.tables(),
+                                      .seams = patches.seams_.address(),
+                                      .shares = patches.shares_.address(),
+                                      .around = input.detail.around(),
+                                      .joints = patches.joints_.address(),
+                                      .vertices = draws.vertices.address(),
+                                      .indices = draws.indices.address(),
+                                      .count = patches.seamCount_,
+                                      .unused = 0},
+                  gpu::groupsFor(patches.seamCount_, 64));
+  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  skin_.dispatch(commands,
+                 shared::SkinPush{.rest = patches.rest_.address(),
+                                  .joints = patches.joints_.address(),
+                                  .posed = draws.vertices.address(),
+                                  .count = patches.vertexCount_,
+                                  .jointCount = patches.seamCount_,
+                                  .centre = vec3(0),
+                                  .scale = 1},
+                 gpu::groupsFor(patches.vertexCount_, 64));
+}
+
+}  // namespace vasa
