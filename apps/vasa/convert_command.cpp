@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "convert/centreline_report.h"
 #include "convert/convert.h"
+#include "convert/keep_patches.h"
 #include "convert_report.h"
 #include "core/log.h"
 #include "network/file.h"
@@ -28,7 +29,7 @@ struct Options {
   double scale = 1;
   float bodyHeight = 0;
   float tolerance = 0;
-  bool exact = false, quantise = false, noBridges = false;
+  bool exact = false, quantise = false, noBridges = false, keepPatches = false;
 };
 
 const std::map<std::string, VesselKind> kKinds{{"artery", VesselKind::artery},
@@ -68,23 +69,29 @@ ConvertOptions convertOptions(const Options& options) {
 }
 
 // Rounded by default where that is far below the tolerance the sweeps were fitted to.
-Result<ConvertOutput> writeOutput(const Options& options, const ConvertOptions& settings, const Network& network) {
-  ConvertOutput output{.file = options.output};
-  const float rounding = quantisationError(network);
-  output.quantised = !options.exact && (options.quantise || rounding < kRoundingShare * settings.fit.position.least);
-  output.quantisationError = output.quantised ? rounding : 0;
-  const auto written = writeNetwork(options.output, network, {.quantise = output.quantised});
+bool isQuantised(const Options& options, const ConvertOptions& settings, const Network& network) {
+  return !options.exact && (options.quantise || quantisationError(network) < kRoundingShare * settings.fit.position.least);
+}
+
+Result<ConvertOutput> writeOutput(const Options& options, bool quantised, const Network& network) {
+  ConvertOutput output{.file = options.output, .quantised = quantised};
+  if (quantised) output.quantisationError = quantisationError(network);
+  const auto written = writeNetwork(options.output, network, {.quantise = quantised});
   if (!written) return written.error();
   output.bytes = *written;
   return output;
 }
 
-Result<Conversion> convertMeshes(const Options& options, const ConvertOptions& settings) {
-  const auto sources = readSources(options);
-  if (!sources) return sources.error();
-  auto conversion = convertElements(*sources, settings);
-  if (stopRequested()) return stopError();
-  return conversion;
+// Patches are matched by place to the forks of the network that the file gives back.
+Result<PatchReport> addPatches(Conversion& conversion, std::span<const SourceElement> sources, bool quantised) {
+  Result<Network> written = quantised ? decodeNetwork(encodeNetwork(conversion.network, {.quantise = true}), "network")
+                                      : Result<Network>(conversion.network);
+  if (!written) return written.error();
+  KeptPatches kept = keepPatches(*written, sources, conversion.elementOf);
+  auto patched = withPatches(std::move(conversion.network), std::move(kept.patches));
+  if (!patched) return patched.error();
+  conversion.network = std::move(*patched);
+  return std::move(kept.report);
 }
 
 // All lines of all files, in one network.
@@ -103,7 +110,7 @@ Result<Conversion> convertCentrelines(const Options& options) {
   if (options.bodyHeight == 0 && made->network.bodyHeight() > kTallestBody)
     logWarning("the lines are " + std::to_string(int(made->network.bodyHeight())) + " m tall; --scale 0.001 reads millimetres");
   ConvertReport report = reportOfCentrelines(all, *made);
-  return Conversion{std::move(made->network), std::move(report)};
+  return Conversion{std::move(made->network), std::move(report), {}};
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
@@ -111,13 +118,27 @@ Result<void> run(const Globals& globals, const Options& options) {
   ConvertOptions settings = convertOptions(options);
   const bool lines = holdsCentrelines(options.meshes.front());
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
-  const auto conversion = lines ? convertCentrelines(options) : convertMeshes(options, settings);
+  const auto sources = lines ? Result(std::vector<SourceElement>()) : readSources(options);
+  if (!sources) return sources.error();
+  auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
+  if (stopRequested()) return stopError();
   if (!conversion) return conversion.error();
-  auto output = writeOutput(options, settings, conversion->network);
+  const bool quantised = isQuantised(options, settings, conversion->network);
+  std::optional<PatchReport> patches;
+  if (options.keepPatches) {
+    auto kept = addPatches(*conversion, *sources, quantised);
+    if (!kept) return kept.error();
+    patches = std::move(*kept);
+  }
+  auto output = writeOutput(options, quantised, conversion->network);
   if (!output) return output.error();
   output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (globals.json) return printJson(convertJson(conversion->report, *output));
-  return printText(convertText(conversion->report, *output));
+  if (globals.json) {
+    Report report = convertJson(conversion->report, *output);
+    if (patches) report["patches"] = patchesJson(*patches, conversion->network);
+    return printJson(report);
+  }
+  return printText((patches ? patchesText(*patches) : std::string{}) + convertText(conversion->report, *output));
 }
 
 }  // namespace
@@ -131,6 +152,7 @@ void addConvert(CLI::App& app, Command& command) {
       "  vasa convert aorta.stl --scale 0.001 --up z --kind artery -o aorta.vasa --json\n"
       "  vasa convert brain.swc --scale 0.001 --kind artery -o brain.vasa\n"
       "  vasa convert centerlines.vtp --scale 0.001 -o aorta.vasa\n"
+      "  vasa convert arteries.glb -o arteries.vasa --keep-patches\n"
       "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.");
   sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl; or centre lines with radii: .swc, .vtp")->required();
@@ -148,6 +170,8 @@ void addConvert(CLI::App& app, Command& command) {
   sub->add_option("--tolerance", options->tolerance, "Largest distance of a sweep from the sections it fits [mm]")
       ->check(CLI::PositiveNumber);
   sub->add_flag("--no-bridges", options->noBridges, "Do not join vessels of one name across long gaps");
+  sub->add_flag("--keep-patches", options->keepPatches,
+                "Keep the source's own wall around forks where it has one; it is drawn in their place and moves with them");
   auto* exact = sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
   sub->add_flag("--quantise", options->quantise,
                 "Write 16-bit numbers, 8 bytes a point (default where the rounding is far below the tolerance)")

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "network/file.h"
+
 namespace vasa::cli {
 namespace {
 
@@ -114,6 +116,38 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
                           : std::string{},
                       output.quantised ? fmt::format("; rounded by at most {:.3f} mm", 1e3 * output.quantisationError)
                                        : std::string{});
+  return text;
+}
+
+Report patchesJson(const PatchReport& report, const Network& network) {
+  Report forks = Report::array(), without = Report::object();
+  for (const PatchReport::Fork& fork : report.forks) {
+    Report vessels = Report::array();
+    for (const VesselId vessel : fork.vessels) vessels.push_back(network.vessel(vessel).name);
+    const bool kept = fork.outcome == PatchOutcome::kept;
+    forks.push_back({{"vessels", std::move(vessels)},
+                     {"kept", kept},
+                     {"reason", kept ? std::string_view{} : outcomeName(fork.outcome)},
+                     {"triangles", fork.triangles}});
+  }
+  for (std::size_t i = 1; i < kPatchOutcomes; ++i)
+    if (const auto count = report.count(PatchOutcome(i)); count > 0) without[std::string(outcomeName(PatchOutcome(i)))] = count;
+  const auto bare = withPatches(network, {});
+  return {{"forks", report.forks.size()},
+          {"kept", report.count(PatchOutcome::kept)},
+          {"without", std::move(without)},
+          {"vertices", report.vertices},
+          {"triangles", report.triangles},
+          {"bytes", encodeNetwork(network).size() - encodeNetwork(*bare).size()},
+          {"fork", std::move(forks)}};
+}
+
+std::string patchesText(const PatchReport& report) {
+  std::string text = fmt::format("{:<22} {} of {} forks keep the source's wall: {} triangles\n", "patches",
+                                 report.count(PatchOutcome::kept), report.forks.size(), report.triangles);
+  for (std::size_t i = 1; i < kPatchOutcomes; ++i)
+    if (const auto count = report.count(PatchOutcome(i)); count > 0)
+      text += fmt::format("{:<22} {} without: {}\n", "", count, outcomeName(PatchOutcome(i)));
   return text;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "convert/keep_patches.h"
 #include "convert/report.h"
 #include "report.h"
 
@@ -18,5 +19,9 @@ Report convertJson(const ConvertReport& report, const ConvertOutput& output);
 
 /// The same for a person: the summary, and the elements that are not ok.
 std::string convertText(const ConvertReport& report, const ConvertOutput& output);
+
+/// What became of the forks with --keep-patches.
+Report patchesJson(const PatchReport& report, const Network& network);
+std::string patchesText(const PatchReport& report);
 
 }  // namespace vasa::cli

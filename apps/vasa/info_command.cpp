@@ -30,6 +30,7 @@ Report networkReport(const Network& network, std::size_t fileBytes) {
           {"sweeps", network.sweepCount()},
           {"junctions", network.junctionCount()},
           {"components", network.componentCount()},
+          {"patches", network.patches().size()},
           {"length_m", sum.length},
           {"volume_m3", sum.volume},
           {"body_height_m", network.bodyHeight()},

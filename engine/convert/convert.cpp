@@ -84,7 +84,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
   for (const ElementOutcome& outcome : outcomes) standIns.push_back(outcome.standIn);
   const auto errors = measureSurfaceErrors(*assembly, elements, standIns, options.error);
   ConvertReport report = makeReport(*assembly, elements, outcomes, errors, joins);
-  return Conversion{std::move(assembly->network), std::move(report)};
+  return Conversion{std::move(assembly->network), std::move(report), std::move(assembly->elementOf)};
 }
 
 }  // namespace vasa

@@ -26,6 +26,7 @@ struct ConvertOptions {
 struct Conversion {
   Network network;
   ConvertReport report;
+  std::vector<std::uint32_t> elementOf;  ///< vessel -> element
 };
 
 /// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and

@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "network/file.h"
 #include "support/shared_data.h"
+#include "support/tubes.h"
 
 using namespace vasa;
 using namespace vasa::test;
@@ -86,6 +87,35 @@ TEST_CASE("convert: units, axis, kind, height, exact numbers") {
   const auto points = network->points();
   CHECK(std::abs(points.front().z - points.back().z) == doctest::Approx(0.4f).epsilon(0.02));
   CHECK(points[1].w == doctest::Approx(0.008f).epsilon(0.05));
+}
+
+TEST_CASE("convert --keep-patches keeps the wall around forks, and tells what became of each") {
+  const Folder folder;
+  std::string obj = "o aorta\n";
+  const TriangleMesh surface = forkedSurface();
+  for (const vec3& p : surface.positions) obj += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+  for (const uvec3& t : surface.triangles)
+    obj += "f " + std::to_string(t.x + 1) + " " + std::to_string(t.y + 1) + " " + std::to_string(t.z + 1) + "\n";
+  const auto mesh = folder.write("aorta.obj", obj), out = folder.path("out.vasa"), plain = folder.path("plain.vasa");
+  const auto outcome = runProgram({"convert", mesh, "-o", out, "--keep-patches", "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto patches = outcome.json()["patches"];
+  CHECK(patches["forks"] == 2);
+  CHECK(patches["kept"] == 2);
+  CHECK(patches["without"].empty());
+  REQUIRE(patches["fork"].size() == 2);
+  for (const char* key : {"vessels", "kept", "reason", "triangles"}) CHECK(patches["fork"][0].contains(key));
+  REQUIRE(runProgram({"convert", mesh, "-o", plain}).exit == 0);
+  CHECK(patches["bytes"] == std::filesystem::file_size(out) - std::filesystem::file_size(plain));
+  CHECK(runProgram({"info", out, "--json"}).json()["patches"] == 2);
+  CHECK(runProgram({"info", plain, "--json"}).json()["patches"] == 0);
+  CHECK(contains(runProgram({"convert", mesh, "-o", out, "--keep-patches"}).out, "2 of 2 forks keep the source's wall"));
+
+  const auto lines = folder.write("lines.swc", "1 0 0 0 0 5 -1\n2 0 0 100 0 5 1\n3 0 0 200 0 5 2\n4 0 80 120 0 3 2\n5 0 160 140 0 3 4\n");
+  const auto told = runProgram({"convert", lines, "-o", out, "--scale", "0.001", "--keep-patches", "--json"});
+  REQUIRE(told.exit == 0);
+  CHECK(told.json()["patches"]["kept"] == 0);
+  CHECK(told.json()["patches"]["without"]["the source is centre lines, without a wall"] == told.json()["patches"]["forks"]);
 }
 
 TEST_CASE("convert tells what is wrong and leaves no file") {

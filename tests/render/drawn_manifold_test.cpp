@@ -2,41 +2,14 @@
 
 #include "drawn_surface.h"
 #include "real_poses.h"
-#include "support/manifold.h"
 #include "support/networks.h"
 #include "support/shared_data.h"
 #include "surface/fork_check.h"
 
-// What the device draws, read back: tubes, caps and forks make closed surfaces, in which vertices are one where their
+// What the device draws, read back: tubes, caps, forks and patches make closed surfaces, in which vertices are one where their
 // positions are the same bits.
 
 using namespace vasa;
-
-namespace {
-
-void take(const test::Drawn& drawn, std::vector<vec3>& positions, std::vector<uvec3>& triangles) {
-  const std::uint32_t base = std::uint32_t(positions.size());
-  for (const shared::TubeVertex& v : drawn.vertices) positions.emplace_back(v.x, v.y, v.z);
-  for (const shared::DrawCommand& draw : drawn.draws)
-    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
-      const std::uint32_t* index = &drawn.indices[draw.firstIndex + i];
-      triangles.push_back(uvec3(index[0], index[1], index[2]) + base);
-    }
-}
-
-// @return edges that do not belong to exactly two triangles. A cap's pole is a ring of vertices in one place: triangles
-//         without area there are left out.
-std::size_t openEdgesDrawn(const test::Forks& passes) {
-  std::vector<vec3> positions;
-  std::vector<uvec3> triangles;
-  take(passes.tubesDrawn, positions, triangles);
-  take(passes.forksDrawn, positions, triangles);
-  std::vector<uvec3> welded = test::weldedByBits(positions, triangles);
-  std::erase_if(welded, [](const uvec3& t) { return t.x == t.y || t.y == t.z || t.z == t.x; });
-  return test::openEdges(welded);
-}
-
-}  // namespace
 
 TEST_CASE("the drawn surface of branching networks is closed, at fixed and at automatic quads") {
   VASA_REQUIRE_GPU(rig);
@@ -47,7 +20,7 @@ TEST_CASE("the drawn surface of branching networks is closed, at fixed and at au
   for (const TubeDetail& detail : {TubeDetail{{3, 2}, 0}, TubeDetail{{8, 5}, 0}, TubeDetail{{16, 20}, 0},
                                    TubeDetail{{}, 0.02f}}) {
     CAPTURE(detail.shape.around);
-    CHECK(openEdgesDrawn({rig, network, points, frames, detail}) == 0);
+    CHECK(test::openEdgesDrawn({rig, network, points, frames, detail}) == 0);
   }
 }
 
@@ -66,7 +39,7 @@ TEST_CASE("a real body's drawn surface is closed in three poses, and its forks d
       ++forks;
     }
     if (pose.middle && pose.clip != "fist")
-      CHECK(openEdgesDrawn({rig, real->network, pose.points, pose.knotFrames, {{8, 5}, 0}}) == 0);
+      CHECK(test::openEdgesDrawn({rig, real->network, pose.points, pose.knotFrames, {{8, 5}, 0}}) == 0);
   }
   MESSAGE(folded << " of " << forks << " forks in " << real->poses.size() << " frames fold somewhere, in " << triangles
                  << " triangles");

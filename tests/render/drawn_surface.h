@@ -3,6 +3,8 @@
 
 #include "gpu/gpu_rig.h"
 #include "render/fork_pass.h"
+#include "render/patch_pass.h"
+#include "support/manifold.h"
 #include "surface/fork.h"
 
 namespace vasa::test {
@@ -27,7 +29,7 @@ inline std::vector<std::uint32_t> firstVertices(std::span<const std::uint32_t> v
   return first;
 }
 
-/// A network in device memory, and what the passes make of all its tubes, caps and forks.
+/// A network in device memory, and what the passes make of all its tubes, caps, forks and patches.
 struct Forks {
   Forks(const GpuRig& used, const Network& network, std::vector<vec4> posed, std::vector<quat> knotFrames,
         const TubeDetail& detail)
@@ -36,9 +38,11 @@ struct Forks {
         frames(std::move(knotFrames)),
         tubes(rig.device(), network, detail, 1u << 20),
         forks(rig.device(), tubes.table(), detail, 1u << 20),
+        patches(rig.device(), tubes.table().patches),
         detailPass(rig.device(), tubes),
         tubePass(rig.device()),
-        forkPass(rig.device()) {
+        forkPass(rig.device()),
+        patchPass(rig.device()) {
     const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);
     Camera camera;
     camera.position = {0, 0.5f, 9};  // everything is in view, so that nothing is left out
@@ -49,13 +53,17 @@ struct Forks {
     const TubeDraws forkDraws(rig.device(), forks.room(), forks.groupCount());
     rig.run([&](VkCommandBuffer commands) {
       detailPass.record(commands, tubes, pointBuffer.address(), view);
+      if (!patches.empty())
+        patchPass.record(commands, {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address()});
       tubePass.record(commands, {tubes, tubes.batches()[0], detailPass, pointBuffer.address(), knotBuffer.address(),
                                  tubeDraws, false});
-      forkPass.record(commands, {tubes, forks, forks.batches()[0], detailPass, pointBuffer.address(),
-                                 knotBuffer.address(), forkDraws, false});
+      if (!forks.batches().empty())
+        forkPass.record(commands, {tubes, forks, forks.batches()[0], detailPass, pointBuffer.address(),
+                                   knotBuffer.address(), forkDraws, false});
     });
     tubesDrawn = download(tubeDraws);
-    forksDrawn = download(forkDraws);
+    if (!forks.batches().empty()) forksDrawn = download(forkDraws);
+    if (!patches.empty()) patchesDrawn = download(patches.draws());
     around = rig.download<std::uint32_t>(detailPass.aroundBuffer());
     along = rig.download<std::uint32_t>(detailPass.alongBuffer());
   }
@@ -87,12 +95,37 @@ struct Forks {
   std::vector<quat> frames;
   TubeSet tubes;
   ForkSet forks;
+  PatchSet patches;
   DetailPass detailPass;
   TubePass tubePass;
   ForkPass forkPass;
+  PatchPass patchPass;
   shared::DetailView view{};
-  Drawn tubesDrawn, forksDrawn;
+  Drawn tubesDrawn, forksDrawn, patchesDrawn;
   std::vector<std::uint32_t> around, along;
 };
+
+inline void take(const Drawn& drawn, std::vector<vec3>& positions, std::vector<uvec3>& triangles) {
+  const std::uint32_t base = std::uint32_t(positions.size());
+  for (const shared::TubeVertex& v : drawn.vertices) positions.emplace_back(v.x, v.y, v.z);
+  for (const shared::DrawCommand& draw : drawn.draws)
+    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
+      const std::uint32_t* index = &drawn.indices[draw.firstIndex + i];
+      triangles.push_back(uvec3(index[0], index[1], index[2]) + base);
+    }
+}
+
+/// Edges that do not belong to exactly two triangles. A cap's pole is a ring of vertices in one place: triangles without
+/// area there are left out.
+inline std::size_t openEdgesDrawn(const Forks& passes) {
+  std::vector<vec3> positions;
+  std::vector<uvec3> triangles;
+  take(passes.tubesDrawn, positions, triangles);
+  take(passes.forksDrawn, positions, triangles);
+  take(passes.patchesDrawn, positions, triangles);
+  std::vector<uvec3> welded = weldedByBits(positions, triangles);
+  std::erase_if(welded, [](const uvec3& t) { return t.x == t.y || t.y == t.z || t.z == t.x; });
+  return openEdges(welded);
+}
 
 }  // namespace vasa::test

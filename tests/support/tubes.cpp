@@ -1,6 +1,7 @@
 #include "support/tubes.h"
 
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace vasa::test {
@@ -63,6 +64,24 @@ TriangleMesh isosurface(const std::function<float(vec3)>& field, vec3 low, vec3 
           }
         }
   return mesh;
+}
+
+TriangleMesh forkedSurface() {
+  struct Limb {
+    vec3 a, b;
+    float radius;
+  };
+  const Limb limbs[] = {{{0, 0, 0}, {0, 0.12f, 0}, 0.008f},
+                        {{0, 0.12f, 0}, {0.045f, 0.2f, 0.01f}, 0.006f},
+                        {{0, 0.12f, 0}, {-0.05f, 0.19f, 0}, 0.0055f},
+                        {{0, 0.06f, 0}, {0.07f, 0.07f, 0.01f}, 0.0035f}};
+  const auto field = [&](vec3 p) {
+    constexpr float kSoft = 0.0008f;
+    float sum = 0;
+    for (const Limb& limb : limbs) sum += std::exp(-std::min(capsuleDistance(p, limb.a, limb.b, limb.radius), 0.05f) / kSoft);
+    return -kSoft * std::log(sum);
+  };
+  return isosurface(field, {-0.065f, -0.02f, -0.02f}, {0.085f, 0.215f, 0.025f}, 0.0016f);
 }
 
 }  // namespace vasa::test

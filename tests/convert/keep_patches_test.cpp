@@ -1,0 +1,232 @@
+#include "convert/keep_patches.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "convert/forked_source.h"
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "mesh/triangle_tree.h"
+#include "network/file.h"
+#include "network/merge.h"
+#include "network/reshape.h"
+#include "support/manifold.h"
+#include "surface/surface_mesh.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+std::vector<quat> framesOf(const Network& network, std::span<const vec4> points) {
+  std::vector<quat> frames(network.sectionCount());
+  networkFrames(network, points, restReferences(network), frames);
+  return frames;
+}
+
+std::size_t openEdgesOf(const Network& network, std::span<const vec4> points, const SweepShape& shape) {
+  const SurfaceMesh mesh = surfaceMesh(network, points, framesOf(network, points), shape);
+  return openEdges(mesh.triangles);
+}
+
+// Bent about the z axis, the more the higher up.
+std::vector<vec4> bent(const Network& network) {
+  std::vector<vec4> points(network.points().begin(), network.points().end());
+  for (vec4& p : points) {
+    const float angle = 4 * p.y;
+    p = vec4(p.x * std::cos(angle) - 0.2f * (1 - std::cos(angle)), (p.x + 0.2f) * std::sin(angle), p.z, 0.9f * p.w);
+  }
+  pinEnds(network, points);
+  return points;
+}
+
+bool sameBytes(const Network& a, const Network& b) { return encodeNetwork(a) == encodeNetwork(b); }
+
+}  // namespace
+
+TEST_CASE("the wall of a scanned fork is kept, closed with the tubes at rest and bent, whatever their quads") {
+  const Forked made = forked();
+  REQUIRE(made.report.forks.size() == 2);
+  for (const PatchReport::Fork& fork : made.report.forks) CHECK(outcomeName(fork.outcome) == "kept");
+  REQUIRE(made.network.patches().size() == 2);
+  const SweepTable table = makeSweepTable(made.network);
+  CHECK(table.patches.patches.size() == 2);
+  for (const shared::ForkRecord& fork : table.forks) CHECK(fork.branchCount == 0);
+  for (const std::uint32_t around : {3u, 4u, 7u, 8u, 16u}) {
+    CAPTURE(around);
+    CHECK(openEdgesOf(made.network, made.network.points(), {around, 3}) == 0);
+    CHECK(openEdgesOf(made.network, bent(made.network), {around, 3}) == 0);
+  }
+}
+
+TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside the rings") {
+  const Forked made = forked();
+  REQUIRE(!made.network.patches().empty());
+  const TriangleTree wall(made.elements[0].element.mesh);
+  const Network& network = made.network;
+  const SurfaceMesh mesh = surfaceMesh(network, network.points(), framesOf(network, network.points()), {8, 5});
+  std::size_t on = 0, all = 0;
+  for (const ForkPatch& patch : network.patches())
+    for (std::size_t i = 0; i < patch.positions.size(); ++i, ++all) {
+      const float distance = wall.nearest(patch.positions[i]).distance;
+      const auto most = *std::ranges::max_element(patch.weights[i]);
+      on += distance < 1e-5f;
+      CHECK(distance < 0.0015f);
+      if (most < 127) CHECK(distance < 1e-5f);
+    }
+  CHECK(on > all / 4);
+  // Drawn where it was cut out.
+  const PatchTable table = makeSweepTable(network).patches;
+  float moved = 0;
+  std::size_t at = mesh.positions.size();
+  for (const PatchTable::Patch& patch : table.patches) at -= patch.vertexCount;
+  for (const PatchTable::Patch& patch : table.patches)
+    for (std::uint32_t i = 0; i < patch.vertexCount; ++i, ++at) {
+      const shared::SkinVertex& v = table.vertices[patch.firstVertex + i];
+      moved = std::max(moved, glm::distance(mesh.positions[at], vec3(v.x, v.y, v.z)));
+    }
+  CHECK(moved < 1e-6f);
+}
+
+TEST_CASE("patches survive files, merging and other shapes; a plain network's file is as it was") {
+  const Forked made = forked();
+  REQUIRE(made.network.patches().size() == 2);
+  const auto bytes = encodeNetwork(made.network);
+  const auto read = decodeNetwork(bytes, "x.vasa");
+  REQUIRE(read.ok());
+  CHECK(read->patches().size() == 2);
+  CHECK(sameBytes(*read, made.network));
+  for (std::size_t i = 0; i < read->patches()[0].positions.size(); ++i)
+    CHECK(glm::distance(read->patches()[0].positions[i], made.network.patches()[0].positions[i]) < 1e-6f);
+  const auto rounded = decodeNetwork(encodeNetwork(made.network, {.quantise = true}), "x.vasa");
+  REQUIRE(rounded.ok());
+  CHECK(makeSweepTable(*rounded).patches.patches.size() == 2);
+  const std::vector<Network> two{*read, *read};
+  const auto merged = mergeNetworks(two);
+  REQUIRE(merged.ok());
+  CHECK(merged->patches()[2].rings[0].vessel.value == read->patches()[0].rings[0].vessel.value + read->vessels().size());
+  const auto shaped = reshapeNetwork(*read, bent(*read), 1);
+  REQUIRE(shaped.ok());
+  CHECK(shaped->patches().size() == 2);
+  CHECK(openEdgesOf(*shaped, shaped->points(), {8, 3}) == 0);
+  const auto bare = withPatches(*read, {});
+  REQUIRE(bare.ok());
+  CHECK(encodeNetwork(*bare).size() < bytes.size());
+  CHECK(makeSweepTable(*bare).patches.patches.empty());
+}
+
+TEST_CASE("what is wrong with a patch is told") {
+  const Forked made = forked();
+  REQUIRE(!made.network.patches().empty());
+  ForkPatch patch = made.network.patches()[0];
+  const auto fault = [&] { return patchFault(made.network, patch); };
+  CHECK(fault().empty());
+  SUBCASE("rings") {
+    patch.rings.pop_back();
+    CHECK(fault() == "it has 2 rings, not 3 or 4");
+  }
+  SUBCASE("vessel") {
+    patch.rings[1].vessel.value = 999;
+    CHECK(fault() == "a ring is on a vessel that is not there");
+  }
+  SUBCASE("place") {
+    patch.rings[1].parameter = NAN;
+    CHECK(fault() == "a ring lies outside its vessel");
+  }
+  SUBCASE("radius") {
+    patch.rings[0].radius = 0;
+    CHECK(fault() == "a ring has no size or place");
+  }
+  SUBCASE("direction") {
+    patch.rings[0].outward *= 2;
+    CHECK(fault() == "a ring has no direction");
+  }
+  SUBCASE("loop") {
+    patch.rings[0].vertices = 2;
+    CHECK(fault() == "a loop has fewer than 3 vertices");
+  }
+  SUBCASE("loops") {
+    patch.rings[0].vertices = 60000;
+    CHECK(fault() == "its loops have more vertices than it has");
+  }
+  SUBCASE("apart") {
+    patch.rings[2].centre.x = 1e20f;
+    CHECK(fault() == "its rings lie too far apart");
+  }
+  SUBCASE("vertex") {
+    patch.positions.back().y = INFINITY;
+    CHECK(fault() == "a vertex lies too far away");
+  }
+  SUBCASE("weights") {
+    patch.weights.back()[0] ^= 1;
+    CHECK(fault() == "weights do not add up");
+  }
+  SUBCASE("count of weights") {
+    patch.weights.pop_back();
+    CHECK(fault() == "vertices and weights differ in number");
+  }
+  SUBCASE("index") {
+    patch.triangles[0].x = std::uint32_t(patch.positions.size());
+    CHECK(fault() == "a triangle has no three vertices");
+  }
+  SUBCASE("twice") {
+    patch.triangles.push_back(patch.triangles[0]);
+    CHECK(fault() == "triangles overlap or disagree on the outside");
+  }
+  SUBCASE("hole") {
+    patch.triangles.pop_back();
+    CHECK(fault() == "its border is not its loops");
+  }
+  SUBCASE("told with its number") {
+    patch.triangles.pop_back();
+    const auto network = withPatches(made.network, {made.network.patches()[1], patch});
+    REQUIRE(!network.ok());
+    CHECK(network.error().message == "patch 1: its border is not its loops");
+  }
+}
+
+TEST_CASE("no signed garbage in a patch makes the reader crash, and what it takes can be drawn") {
+  std::mt19937 random(7);
+  const Forked made = forked();
+  const auto good = encodeNetwork(made.network), bare = encodeNetwork(*withPatches(made.network, {}));
+  int accepted = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    auto bytes = good;
+    for (int flips = 1 + int(random() % 3); flips; --flips)
+      bytes[bare.size() + random() % (bytes.size() - bare.size())] = std::byte(random());
+    const std::uint64_t sum = hashBytes(std::span(bytes).subspan(24));
+    std::memcpy(&bytes[16], &sum, 8);
+    const auto network = decodeNetwork(bytes, "x.vasa");
+    accepted += network.ok();
+    if (network.ok() && accepted % 16 == 0) CHECK(openEdgesOf(*network, network->points(), {5, 2}) == 0);
+  }
+  CHECK(accepted > 0);
+  CHECK(accepted < 4000);
+}
+
+TEST_CASE("forks without a wall in common, and centre lines, are told") {
+  const std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
+                                            source("left renal artery", tubeBetween({0.007f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
+  const auto conversion = convertElements(elements);
+  REQUIRE(conversion.ok());
+  const KeptPatches kept = keepPatches(conversion->network, elements, conversion->elementOf);
+  CHECK(kept.patches.empty());
+  REQUIRE(kept.report.forks.size() == 1);
+  CHECK(kept.report.forks[0].outcome == PatchOutcome::apart);
+  CHECK(keepPatches(conversion->network, {}, {}).report.count(PatchOutcome::noMesh) == 1);
+}
+
+TEST_CASE("the same patches come out for any number of threads") {
+  std::vector<std::byte> first;
+  for (const unsigned threads : {1u, 3u}) {
+    setThreadCount(threads);
+    const auto bytes = encodeNetwork(forked().network);
+    if (first.empty()) first = bytes;
+    CHECK(bytes == first);
+  }
+  setThreadCount(0);
+}
