@@ -4,6 +4,8 @@
 
 #include <tiny_obj_loader.h>
 
+#include <istream>
+#include <streambuf>
 #include <unordered_map>
 
 #include "core/atomic_file.h"
@@ -88,6 +90,26 @@ class LineCheck {
   std::vector<FaceCorner> corners_;
 };
 
+// Text as a stream that can be cancelled.
+class CancellableText : public std::streambuf {
+ public:
+  explicit CancellableText(std::string_view text) : rest_(text) {}
+
+ private:
+  int_type underflow() override {
+    checkpoint();
+    if (rest_.empty()) return traits_type::eof();
+    const std::string_view part = rest_.substr(0, kPart);
+    rest_.remove_prefix(part.size());
+    char* const first = const_cast<char*>(part.data());  // never written to
+    setg(first, first, first + part.size());
+    return traits_type::to_int_type(*first);
+  }
+
+  static constexpr std::size_t kPart = 1 << 16;
+  std::string_view rest_;
+};
+
 TriangleMesh meshOf(const tinyobj::attrib_t& attributes, const tinyobj::mesh_t& shape, const ImportFrame& frame) {
   TriangleMesh mesh;
   std::unordered_map<int, std::uint32_t> numbers;
@@ -127,19 +149,22 @@ Result<std::vector<MeshElement>> readObj(const std::filesystem::path& path, cons
 Result<std::vector<MeshElement>> parseObj(const std::string& text, const std::filesystem::path& path, const ImportFrame& frame) {
   if (auto checked = LineCheck(path, frame).run(text); !checked) return checked.error();
 
-  tinyobj::ObjReaderConfig settings;
-  settings.triangulate = true;
-  settings.vertex_color = false;
-  tinyobj::ObjReader reader;
-  if (!reader.ParseFromString(text, "", settings))
-    return badInput(path.string() + ": " + reader.Error() + "; export the file again");
+  CancellableText source(text);
+  std::istream stream(&source);
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::string warning, error;
+  const bool read = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, nullptr, true, false);
+  checkpoint();  // a stream keeps to itself what is thrown while it looks ahead
+  if (!read) return badInput(path.string() + ": " + error + "; export the file again");
   std::vector<MeshElement> elements;
-  for (const tinyobj::shape_t& shape : reader.GetShapes()) {
+  for (const tinyobj::shape_t& shape : shapes) {
     if (shape.mesh.indices.empty()) continue;
-    if (!indicesValid(reader.GetAttrib(), shape.mesh))
+    if (!indicesValid(attributes, shape.mesh))
       return badInput(path.string() + ": object '" + shape.name + "' uses vertices that do not exist");
     MeshElement element{shape.name.empty() ? path.stem().string() : shape.name, {}, {},
-                        meshOf(reader.GetAttrib(), shape.mesh, frame)};
+                        meshOf(attributes, shape.mesh, frame)};
     if (!element.mesh.empty()) elements.push_back(std::move(element));
   }
   if (elements.empty())
