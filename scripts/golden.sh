@@ -7,5 +7,5 @@ cmake --build --preset release --target test_golden test_view
 rm -rf tests/golden/pictures tests/view/pictures
 mkdir -p tests/golden/pictures tests/view/pictures
 VASA_WRITE_GOLDEN=1 build/release/tests/golden/test_golden
-VASA_WRITE_GOLDEN=1 build/release/tests/view/test_view --test-case='a session*'
+VASA_WRITE_GOLDEN=1 build/release/tests/view/test_view --test-case='a session*,on a high-DPI*'
 git status --short tests/golden/pictures tests/view/pictures

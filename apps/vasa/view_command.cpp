@@ -113,6 +113,7 @@ Report asReport(const viewer::ViewReport& view) {
           {"height", view.height},
           {"selected", view.selected},
           {"files", files},
+          {"video_frames", view.videoFrames},
           {"loads", loads},
           {"stop_ms", view.stopMs},
           {"profile", profile},

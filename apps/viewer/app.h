@@ -43,6 +43,7 @@ struct ViewReport {
   std::string device, selected, title;
   std::uint32_t width = 0, height = 0;  ///< [pixels] of the scene's picture at the end
   std::vector<std::filesystem::path> files;
+  std::uint64_t videoFrames = 0;  ///< of all videos
   std::vector<LoadReport> loads;
   std::vector<double> stopMs;  ///< how long loads that were cancelled went on
   std::vector<ProfileRow> profile;  ///< of the latest run of Table III

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "viewer/panels.h"
 
@@ -31,9 +32,14 @@ void showSearch(const PanelInput& in) {
   if (state.search.empty()) return;
   const std::string wanted = lower(state.search);
   const auto& vessels = in.document->scene.network.vessels();
-  if (ImGui::BeginChild("##found", {0, 130 * in.scale}, true)) {
-    for (std::uint32_t v = 0; v < vessels.size(); ++v) {
-      if (lower(vessels[v].name).find(wanted) == std::string::npos) continue;
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t v = 0; v < vessels.size(); ++v)
+    if (lower(vessels[v].name).find(wanted) != std::string::npos) found.push_back(v);
+  if (found.empty()) return ImGui::TextDisabled("No vessel has that in its name.");
+  constexpr std::size_t kMostRows = 6;
+  const float rows = float(std::min(found.size(), kMostRows)) * ImGui::GetTextLineHeightWithSpacing();
+  if (ImGui::BeginChild("##found", {0, rows + 2 * ImGui::GetStyle().WindowPadding.y}, true)) {
+    for (const std::uint32_t v : found) {
       ImGui::PushID(int(v));
       const bool chosen = ImGui::Selectable(vessels[v].name.c_str(), state.selected && state.selected->vessel.value == v);
       if (chosen || std::exchange(first, false)) choose(in, {v}, true);
@@ -46,11 +52,11 @@ void showSearch(const PanelInput& in) {
 // Two columns: now, at rest.
 class Facts {
  public:
-  Facts() : open_(ImGui::BeginTable("##facts", 3)) {
+  explicit Facts(float scale) : open_(ImGui::BeginTable("##facts", 3)) {
     if (!open_) return;
-    ImGui::TableSetupColumn("");
-    ImGui::TableSetupColumn("now");
-    ImGui::TableSetupColumn("at rest");
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 72 * scale);
+    ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("at rest", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
   }
   ~Facts() {
@@ -74,8 +80,8 @@ void showFacts(const PanelInput& in, VesselId id) {
   const VesselMeasures now = measureVessel(Network::pointsOf(vessel, in.body->points));
   const VesselMeasures rest = measureVessel(network.pointsOf(vessel));
   const auto mm = [](float metres) { return fmt::format("{:.2f} mm", 1000 * metres); };
-  const auto range = [](const VesselMeasures& m) { return fmt::format("{:.2f}-{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius); };
-  Facts facts;
+  const auto range = [](const VesselMeasures& m) { return fmt::format("{:.2f}–{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius); };
+  Facts facts(in.scale);
   facts.row("Length", fmt::format("{:.1f} mm", 1000 * now.length), fmt::format("{:.1f} mm", 1000 * rest.length));
   facts.row("Radius", range(now), range(rest));
   facts.row("Mean", mm(now.meanRadius), mm(rest.meanRadius));
@@ -120,7 +126,7 @@ void showMeasure(const PanelInput& in) {
 }  // namespace
 
 void showInspectorSection(const PanelInput& in) {
-  if (!in.document || !in.body || !ImGui::CollapsingHeader("Vessel", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (!in.document || !in.body || !ImGui::CollapsingHeader("Chosen vessel", ImGuiTreeNodeFlags_DefaultOpen)) return;
   showSearch(in);
   if (in.state.selected) {
     const VesselId id = in.state.selected->vessel;

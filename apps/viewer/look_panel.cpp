@@ -22,42 +22,44 @@ void choosePreset(ViewState& state) {
   }
 }
 
+// What is shown, and how much it lets shine through.
+void showParts(const PanelInput& in, Look& look) {
+  if (!ImGui::BeginTable("##parts", 2)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 110 * in.scale);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  const auto row = [](const char* name, bool* shown, float& opacity) {
+    ImGui::TableNextColumn();
+    ImGui::PushID(name);
+    if (shown) ImGui::Checkbox(name, shown);
+    else ImGui::AlignTextToFramePadding(), ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-1);
+    ImGui::SliderFloat("##opacity", &opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Opacity");
+    ImGui::PopID();
+  };
+  row("Arteries", &look.drawArteries, look.arteryOpacity);
+  row("Veins", &look.drawVeins, look.veinOpacity);
+  row("Bones", &look.drawBones, look.boneOpacity);
+  row("Heart", &look.drawHeart, look.heartOpacity);
+  row("Organs", &look.drawOther, look.otherOpacity);
+  row("Skin", &look.drawSkin, look.skinOpacity);
+  if (in.state.detail.capillaries > 0) row("Capillaries", nullptr, look.capillaryOpacity);
+  ImGui::EndTable();
+  look.drawOtherVessels = look.drawOther;
+}
+
 }  // namespace
 
 void showLookSection(const PanelInput& in) {
   if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) return;
   Look& look = in.state.look;
   choosePreset(in.state);
-  if (ImGui::BeginTable("##shown", 2)) {
-    const auto item = [&](const char* name, bool& shown) {
-      ImGui::TableNextColumn();
-      ImGui::Checkbox(name, &shown);
-    };
-    item("Arteries", look.drawArteries);
-    item("Veins", look.drawVeins);
-    item("Bones", look.drawBones);
-    item("Heart", look.drawHeart);
-    item("Skin", look.drawSkin);
-    item("Other", look.drawOther);
-    ImGui::EndTable();
-  }
-  look.drawOtherVessels = look.drawOther;
-  ImGui::TextDisabled("Opacity");
-  const auto opacity = [&](const char* name, float& value) {
-    ImGui::SetNextItemWidth(-90 * in.scale);
-    ImGui::SliderFloat(name, &value, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-  };
-  opacity("Skin##opacity", look.skinOpacity);
-  opacity("Bones##opacity", look.boneOpacity);
-  opacity("Heart##opacity", look.heartOpacity);
-  opacity("Arteries##opacity", look.arteryOpacity);
-  opacity("Veins##opacity", look.veinOpacity);
-  if (in.state.detail.capillaries > 0) opacity("Capillaries##opacity", look.capillaryOpacity);
-  look.otherOpacity = look.heartOpacity;
+  showParts(in, look);
   showCutControls(in);
   ImGui::SetNextItemWidth(-90 * in.scale);
-  ImGui::SliderFloat("Cut", &in.state.cut, 0, 1, in.state.cut > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Cuts off what is nearer to you");
+  ImGui::SliderFloat("Near cut", &in.state.cut, 0, 1, in.state.cut > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Cuts off what is nearer to you, wherever you look from");
   bool orthographic = in.state.orbit.orthographic();
   if (ImGui::Checkbox("Orthographic", &orthographic)) in.state.orbit.setOrthographic(orthographic);
   ImGui::SameLine();

@@ -12,8 +12,7 @@ namespace {
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse;
-constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBackground |
-                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
 
 void place(const Rect& rect) {
   ImGui::SetNextWindowPos({rect.left, rect.top});
@@ -53,10 +52,17 @@ void showSide(const PanelInput& in) {
 }  // namespace
 
 void showHeads(const PanelInput& in) {
-  const ImVec4 ink = in.state.look.background.x > 0.5f ? ImVec4(0.15f, 0.15f, 0.17f, 1) : ImVec4(0.85f, 0.86f, 0.88f, 1);
-  ImGui::PushStyleColor(ImGuiCol_Text, ink);
-  ImGui::SetNextWindowPos({in.layout.picture.left, in.layout.picture.top});
-  if (ImGui::Begin("##head", nullptr, kText) && in.document) {
+  if (!in.document) return;
+  const vec4 page = in.state.look.background;
+  const bool light = page.x > 0.5f;
+  const float edge = 6 * in.scale;
+  ImGui::PushStyleColor(ImGuiCol_Text, light ? ImVec4(0.15f, 0.15f, 0.17f, 1) : ImVec4(0.85f, 0.86f, 0.88f, 1));
+  ImGui::PushStyleColor(ImGuiCol_TextDisabled, light ? ImVec4(0.36f, 0.37f, 0.40f, 1) : ImVec4(0.66f, 0.68f, 0.71f, 1));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(page.x, page.y, page.z, 0.82f));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, edge);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * in.scale, 6 * in.scale});
+  ImGui::SetNextWindowPos({in.layout.picture.left + edge, in.layout.picture.top + edge});
+  if (ImGui::Begin("##head", nullptr, kText)) {
     const Network& network = in.document->scene.network;
     ImGui::Text("%s", in.document->title.c_str());
     ImGui::TextDisabled("%zu vessels, %u sweeps", network.vessels().size(), network.sweepCount());
@@ -68,7 +74,8 @@ void showHeads(const PanelInput& in) {
     ImGui::PopTextWrapPos();
   }
   ImGui::End();
-  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor(3);
 }
 
 void showLoading(const PanelInput& in) {

@@ -8,7 +8,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReach = 9;  // [pixels of an ordinary screen] of a handle
+constexpr float kReach = 9, kApart = 8;  // [pixels of an ordinary screen] of a handle, of two handles
 
 std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& picture) {
   const vec4 clip = viewProjection(camera, picture.width / picture.height) * vec4(place, 1);
@@ -18,14 +18,22 @@ std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& picture
 
 }  // namespace
 
-std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture) {
+std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture, float scale) {
   std::vector<JointHandle> handles;
   for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) {
     if (!skeleton.joints[j].parent.valid()) continue;
     const auto place = seenAt(vec3(pose.world[j][3]), camera, picture);
-    if (place && picture.holds(*place)) handles.push_back({{j}, *place});
+    if (!place || !picture.holds(*place)) continue;
+    const auto covers = [&](const JointHandle& other) { return glm::distance(other.place, *place) < kApart * scale; };
+    if (std::ranges::none_of(handles, covers)) handles.push_back({{j}, *place});
   }
   return handles;
+}
+
+std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale) {
+  const auto nearest = std::ranges::min_element(handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place); });
+  if (nearest == handles.end() || glm::distance(nearest->place, place) > kReach * scale) return std::nullopt;
+  return *nearest;
 }
 
 std::vector<JointMotion> jointMotions(const Skeleton& skeleton) {
@@ -53,10 +61,10 @@ bool PoseTool::feed(const InputEvent& event, const Document& document, const Pos
   const auto* button = std::get_if<ButtonChanged>(&event);
   if (!button || button->button != Button::left) return false;
   if (!button->down) return std::exchange(held_, std::nullopt).has_value();
-  const auto handles = jointHandles(skeleton, body.pose, camera, picture);
-  const auto nearest = std::ranges::min_element(handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place_); });
-  if (nearest == handles.end() || glm::distance(nearest->place, place_) > kReach * scale_) return false;
-  held_ = nearest->joint;
+  const auto handle = handleAt(jointHandles(skeleton, body.pose, camera, picture, scale_), place_, scale_);
+  if (!handle) return false;
+  held_ = handle->joint;
+  state.joint = skeleton.joints[held_->value].parent;  // whose sliders go along
   state.playback.playing = false;
   return true;
 }

@@ -1,5 +1,7 @@
 #pragma once
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "render/camera.h"
 #include "viewer/document.h"
@@ -15,7 +17,12 @@ struct JointHandle {
   JointId joint;
   vec2 place;
 };
-std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture);
+/// Of joints that would lie on one another only the one nearest to the root.
+/// @param scale  pixels for one of an ordinary screen
+std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture, float scale);
+
+/// The handle that a press at a place takes hold of.
+std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale);
 
 /// Poses the body by dragging its joints, in the plane of the picture.
 class PoseTool {
@@ -23,6 +30,8 @@ class PoseTool {
   /// @param scale  pixels for one of an ordinary screen
   explicit PoseTool(float scale = 1) : scale_(scale) {}
 
+  /// Where the pointer is while it is somebody else's.
+  void hover(vec2 place) { place_ = place; }
   /// @return whether the event was a drag's: then it is nobody else's
   bool feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
             ViewState& state);

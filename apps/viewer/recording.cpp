@@ -11,10 +11,12 @@ Result<void> Recording::start(const std::filesystem::path& path, std::uint32_t w
   path_ = path;
   width_ = width;
   height_ = height;
+  frames_ = 0;
   return {};
 }
 
 Result<void> Recording::add(const Image& picture) {
+  ++frames_;
   return video_->write(picture);
 }
 

@@ -12,6 +12,7 @@ class Recording {
   Result<void> start(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height);
   /// @param picture  of the size it was started with
   Result<void> add(const Image& picture);
+  std::uint64_t frames() const { return frames_; }  ///< of the video that runs, or ran last
   /// Completes the file, and names it.
   Result<std::filesystem::path> finish();
   bool fits(std::uint32_t width, std::uint32_t height) const { return width == width_ && height == height_; }
@@ -20,6 +21,7 @@ class Recording {
   std::optional<VideoWriter> video_;
   std::filesystem::path path_;
   std::uint32_t width_ = 0, height_ = 0;
+  std::uint64_t frames_ = 0;
 };
 
 /// The first of vasa_001.ext, vasa_002.ext ... that does not exist yet, in the working folder.

@@ -87,6 +87,7 @@ void Session::handle(const InputEvent& event) {
     ending_ = true;
   }
   const bool free = !ui_.wantsPointer();
+  if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !poseTool_.held()) poseTool_.hover(moved->place);
   const bool posing = state_.posing && document_ && body_ && (free || poseTool_.held());
   const bool posed = posing && poseTool_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
   if (posed && !std::holds_alternative<PointerMoved>(event)) return;

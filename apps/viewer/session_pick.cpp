@@ -53,13 +53,13 @@ bool hides(MeshRole role, const Look& look) {
     case MeshRole::bones: return look.drawBones && look.boneOpacity >= kSeenThrough;
     case MeshRole::heart: return look.drawHeart && look.heartOpacity >= kSeenThrough;
     case MeshRole::other: return look.drawOther && look.otherOpacity >= kSeenThrough;
-    case MeshRole::organs:
-    case MeshRole::skin: break;
+    case MeshRole::skin: return look.drawSkin && look.skinOpacity >= kSeenThrough;
+    case MeshRole::organs: break;  // always let light through
   }
   return false;
 }
 
-// How far along the ray a bone or an organ begins to hide what lies behind.
+// How far along the ray a bone, the heart or whole skin begins to hide what lies behind.
 float hiddenBehind(const Document& document, const PosedBody& body, const Look& look, const Ray& ray) {
   float nearest = std::numeric_limits<float>::infinity();
   std::vector<vec3> places;

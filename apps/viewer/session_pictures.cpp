@@ -166,7 +166,7 @@ void Session::record() {
     }
   if (recording_.running() && !state_.recording) {
     const auto file = recording_.finish();
-    if (file) report_.files.push_back(*file);
+    if (file) report_.files.push_back(*file), report_.videoFrames += recording_.frames();
     say(file ? "wrote " + file->string() : file.error().message);
   }
 }

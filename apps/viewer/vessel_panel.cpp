@@ -8,7 +8,11 @@ namespace vasa::viewer {
 void showVesselSection(const PanelInput& in) {
   if (!ImGui::CollapsingHeader("Vessels", ImGuiTreeNodeFlags_DefaultOpen)) return;
   Detail& detail = in.state.detail;
+  const auto explain = [](const char* text) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+  };
   ImGui::Checkbox("Quads by size", &detail.automatic);
+  explain("As many quads around and along each vessel as its size in the picture asks for");
   if (!detail.automatic) {
     int quads[2] = {detail.around, detail.along};
     ImGui::SetNextItemWidth(-90 * in.scale);
@@ -23,12 +27,18 @@ void showVesselSection(const PanelInput& in) {
                      ImGuiSliderFlags_AlwaysClamp);
   }
   Forces& forces = in.state.forces;
-  ImGui::Checkbox("Keep apart", &forces.avoid);
-  ImGui::SameLine();
-  ImGui::Checkbox("Keep volume", &forces.volume);
-  ImGui::Checkbox("Show contacts", &in.state.contacts);
-  ImGui::SameLine();
-  ImGui::Checkbox("Beat", &forces.beat);
+  if (ImGui::BeginTable("##forces", 2)) {
+    const auto item = [&](const char* name, bool& on, const char* text) {
+      ImGui::TableNextColumn();
+      ImGui::Checkbox(name, &on);
+      explain(text);
+    };
+    item("Keep apart", forces.avoid, "Move vessels that run through one another or through bone");
+    item("Keep volume", forces.volume, "A vessel that is stretched gets thinner");
+    item("Contacts (C)", in.state.contacts, "Grey vessels; yellow: ran through another before they were moved, red: still do");
+    item("Heartbeat", forces.beat, "The heart beats, and the vessels beside it go along");
+    ImGui::EndTable();
+  }
   if (in.state.contacts && in.body) {
     const FrameReport& report = in.body->report;
     ImGui::TextDisabled("%u contacts, %u left", report.avoid.before.contacts, report.avoid.after.contacts);

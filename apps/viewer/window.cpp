@@ -200,6 +200,10 @@ void Window::setPointer(Pointer pointer) {
   glfwSetCursor(state_->window, state_->pointers[std::size_t(pointer)]);
 }
 
+GLFWwindow* Window::handle() const {
+  return state_->window;
+}
+
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(state_->window);
   return text ? text : "";

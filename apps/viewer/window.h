@@ -42,6 +42,7 @@ class Window {
   void setTitle(const std::string& title);
   enum class Pointer { arrow, text, hand, resizeAcross, resizeDown };
   void setPointer(Pointer pointer);
+  GLFWwindow* handle() const;  ///< GLFW's own
   std::string clipboard() const;
   void setClipboard(const std::string& text);
 

@@ -53,6 +53,7 @@ Outcome runProgram(const std::vector<std::string>& arguments, const ProgramOptio
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
+  if (!options.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   pid_t child = -1;
   REQUIRE(posix_spawn(&child, VASA_PROGRAM, &actions, nullptr, argv.data(), environment.data()) == 0);
   posix_spawn_file_actions_destroy(&actions);

@@ -17,6 +17,7 @@ struct Outcome {
 
 struct ProgramOptions {
   std::vector<std::string> environment;  ///< NAME=VALUE, on top of ours
+  std::string folder;                    ///< to run in; empty: this one
   std::string standardOutput;            ///< a file instead of a pipe, e.g. /dev/full
   int signalAfterMs = -1;                ///< send SIGINT after so long
 };

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -57,26 +58,92 @@ void checkPicture(const std::filesystem::path& found, const std::string& name) {
   CHECK(golden::same(difference));
 }
 
+// As ffprobe counts them.
+int videoFrames(const std::filesystem::path& video) {
+  const std::string command = "ffprobe -v error -count_frames -select_streams v -show_entries stream=nb_read_frames -of csv=p=0 '" + video.string() + "'";
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe);
+  int frames = -1;
+  CHECK(std::fscanf(pipe, "%d", &frames) == 1);
+  pclose(pipe);
+  return frames;
+}
+
 }  // namespace
 
-TEST_CASE("a session opens, plays, turns, picks, poses, writes pictures, resizes 50 times and quits, and validation is silent") {
+TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts, writes pictures and a video, resizes 50 times, opens "
+          "what is dropped and quits, and validation is silent") {
   const VirtualDisplay display;
   const TemporaryFolder folder;
+  REQUIRE(runProgram({"export", "-o", (folder.path() / "lines.vtp").string()}).exit == 0);
+  std::ofstream(folder.path() / "bad.swc") << "1 1 0 0 0 nonsense -1\n";
   std::string text = contentOf("tests/view/session.txt");
   for (int i = 0; i < 50; ++i) text += "resize " + std::to_string(400 + 13 * (i * 7 % 50)) + " " + std::to_string(300 + 9 * (i * 11 % 50)) + "\n";
-  text += "resize 800 560\nsettle\nwindow OUT/resized.png\nmove 237 200\npress left\nrelease left\nsettle\n";
-  const auto outcome = runProgram({"view", "--clip", "walk", "--size", "800x560", "--validate", "--json", "--script", scriptIn(folder.path(), text)},
-                                  on(display, folder));
+  text += "resize 960 640\nkey 1\nkey home\nsettle\nwindow OUT/resized.png\n";
+  text += "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 252\npress left\nrelease left\nsettle\n";
+  auto options = on(display, folder);
+  options.folder = folder.path().string();
+  const auto outcome = runProgram({"view", "--clip", "walk", "--size", "960x640", "--validate", "--json", "--script", scriptIn(folder.path(), text)}, options);
   CHECK_MESSAGE(outcome.exit == 0, outcome.err);
   CHECK(outcome.err.empty());
   const auto report = outcome.json();
   CHECK(report["validation_messages"] == 0);
-  CHECK(report["files"].size() == 6);
+  CHECK(report["files"].size() == 13);
   CHECK(report["pictures"].get<int>() > 60);  // each new size is drawn
   CHECK(report["selected"] != "");
-  CHECK(report["width"] == 480);              // the panels have the rest
-  for (const char* name : {"posed", "searched"}) checkPicture(folder.path() / (std::string(name) + ".png"), name);
-  CHECK(readPng(folder.path() / "picked.png")->width == 800);
+  CHECK(report["width"] == 640);              // the panels have the rest
+  for (const char* name : {"posed", "measured", "searched"}) checkPicture(folder.path() / (std::string(name) + ".png"), name);
+  CHECK(readPng(folder.path() / "picked.png")->width == 960);
+  CHECK(readPng(folder.path() / "vasa_001.png")->width == 640);
+  CHECK(report["video_frames"].get<int>() >= 10);
+  CHECK(videoFrames(folder.path() / "vasa_001.mp4") == report["video_frames"].get<int>());
+  REQUIRE(report["loads"].size() == 3);
+  CHECK(report["loads"][1]["outcome"].get<std::string>().find("bad.swc:1") != std::string::npos);
+  CHECK(report["loads"][2]["title"] == "lines.vtp");
+  CHECK(report["loads"][2]["outcome"] == "opened");
+}
+
+TEST_CASE("opening goes on beside a living window, and Esc ends it within a step") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  REQUIRE(runProgram({"export", "--quads", "10x8", "-o", (folder.path() / "vessels.obj").string()}).exit == 0);
+  const std::string text = "settle\ndrop OUT/vessels.obj\nlive 1.5\nwindow OUT/opening.png\nkey escape\nsettle\nwindow OUT/still.png\n";
+  const auto outcome = runProgram({"view", "--size", "640x480", "--json", "--script", scriptIn(folder.path(), text)}, on(display, folder));
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  const auto report = outcome.json();
+  REQUIRE(report["loads"].size() == 2);
+  const auto& load = report["loads"][1];
+  CHECK(load["outcome"] == "cancelled");
+  CHECK(load["frames"].get<int>() > 8);
+  REQUIRE(report["stop_ms"].size() == 1);
+  MESSAGE("opening: " << load["frames"] << " pictures of the window in " << load["seconds"] << " s, the longest " << load["longest_ms"]
+                      << " ms; stopped after " << report["stop_ms"][0] << " ms");
+  CHECK(report["stop_ms"][0].get<double>() < 1000);
+  CHECK(load["longest_ms"].get<double>() < 1000);
+}
+
+TEST_CASE("on a high-DPI screen window, panels and texts are as large as on an ordinary one") {
+  const TemporaryFolder folder;
+  const std::string text = "settle\nwindow OUT/large.png\n";
+  {
+    const VirtualDisplay display;
+    const auto outcome = runProgram({"view", "--ui-scale", "2", "--size", "1920x1280", "--json", "--script", scriptIn(folder.path(), text)}, on(display, folder));
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    CHECK(outcome.json()["width"] == 1920 - 2 * 320);
+    CHECK(outcome.json()["height"] == 1280 - 2 * 46);
+    checkPicture(folder.path() / "large.png", "large");
+    CHECK(runProgram({"view", "--ui-scale", "9"}, on(display, folder)).exit == 2);
+  }
+  const VirtualDisplay dense(192);  // the window's own choice, of a person's session
+  auto options = on(dense, folder);
+  options.signalAfterMs = 4000;
+  CHECK(runProgram({"view"}, options).exit == 130);
+  const auto kept = nlohmann::json::parse(contentOf(folder.path() / "vasa" / "view.json"), nullptr, false);
+  REQUIRE(kept.is_object());
+  CHECK(kept["width"] == 2560);
+  CHECK(kept["height"] == 1440);
+  CHECK(runProgram({"view"}, options).exit == 130);
+  CHECK(nlohmann::json::parse(contentOf(folder.path() / "vasa" / "view.json"), nullptr, false)["width"] == 2560);  // no larger each time
 }
 
 TEST_CASE("a recorded session does the same again") {

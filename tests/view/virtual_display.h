@@ -8,8 +8,8 @@ namespace vasa::test {
 /// An X server without a screen (Xvfb) for as long as the object lives. Fails the test case where it cannot be started.
 class VirtualDisplay {
  public:
-  /// @param dpi  of the screen that it stands for; 96 is ordinary
-  explicit VirtualDisplay(int dpi = 96);
+  /// @param dpi  that it tells programs, as desktops do; 0: nothing, which is 96
+  explicit VirtualDisplay(int dpi = 0);
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
@@ -18,6 +18,8 @@ class VirtualDisplay {
   std::string variable() const { return "DISPLAY=" + name_; }
 
  private:
+  void tellDpi(int dpi) const;
+
   pid_t server_ = -1;
   std::string name_;
 };
