@@ -196,7 +196,7 @@ std::string asText(const Report& report) {
     text += "\n";
   }
   text += "\n";
-  for (const auto& [name, value] : report["summary"].items()) text += fmt::format("{:<32}{}\n", name, value.dump());
+  for (const auto& [name, value] : report["summary"].items()) text += fmt::format("{:<32}{}\n", name, plainText(value));
   return text;
 }
 

@@ -211,7 +211,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!report) return report.error();
   if (globals.json) return printJson(*report);
   std::string text;
-  for (const auto& [key, value] : report->items()) text += fmt::format("{:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const auto& [key, value] : report->items()) text += fmt::format("{:<18} {}\n", key, plainText(value));
   return printText(text);
 }
 
@@ -227,7 +227,8 @@ void addExport(CLI::App& app, Command& command) {
       "  vasa export --clip fist --frames 0:74 -o 'lines/{frame:03}.vtp'\n"
       "  vasa export --clip walk -o walk.csv\n"
       ".glb: the vessels as one mesh with a material a kind; the motion as morph targets, so that any viewer plays what\n"
-      "is drawn here: a key a frame and more where motion is fast, each vertex within --tolerance at every key. The mesh's extras name the vessels, the vertex\n"
+      "is drawn here: a key a frame (or --fps) and more where motion is curved, each vertex within --tolerance at every key;\n"
+      "between_error_mm tells how far off it is between keys. The mesh's extras name the vessels, the vertex\n"
       "attribute _VESSEL numbers them. Without --quads, as fine as --budget allows.\n"
       ".obj: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
       "Formats of one frame write the first where none is named.");

@@ -83,13 +83,13 @@ std::string asText(const Report& report, const std::string& indent = "") {
         std::string line;
         for (const auto& [name, field] : item.items())
           line += name == "name" ? fmt::format("{:<28}", field.get<std::string>())
-                                 : fmt::format("  {} {}", name, field.is_string() ? field.get<std::string>() : field.dump());
+                                 : fmt::format("  {} {}", name, plainText(field));
         text += indent + "  " + line + "\n";
       }
     } else if (value.is_object()) {
       text += fmt::format("{}{}:\n", indent, key) + asText(value, indent + "  ");
     } else {
-      text += fmt::format("{}{:<18} {}\n", indent, key, value.is_string() ? value.get<std::string>() : value.dump());
+      text += fmt::format("{}{:<18} {}\n", indent, key, plainText(value));
     }
   }
   return text;

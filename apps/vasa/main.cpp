@@ -69,13 +69,13 @@ int run(int argc, char** argv) {
   Command command;
   addGlobals(app, command.globals);
   addView(app, command);
-  addCompare(app, command);
-  addConvert(app, command);
   addRender(app, command);
-  addExport(app, command);
+  addConvert(app, command);
   addFit(app, command);
+  addExport(app, command);
   addInfo(app, command);
   addCheck(app, command);
+  addCompare(app, command);
   addProfile(app, command);
   addBench(app, command);
   addDevices(app, command);

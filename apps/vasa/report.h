@@ -13,4 +13,7 @@ Result<void> printJson(const Report& report);
 /// The same for text.
 Result<void> printText(const std::string& text);
 
+/// A value for people: text as it is, numbers to six digits.
+std::string plainText(const Report& value);
+
 }  // namespace vasa::cli

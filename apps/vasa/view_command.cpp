@@ -141,14 +141,14 @@ std::string footer() {
       "Examples:\n"
       "  vasa view\n"
       "  vasa view --clip walk --look clinical\n"
-      "  vasa view arteries.stl\n"
+      "  vasa view arteries.stl        # in the built-in human\n"
       "  vasa view --body b.glb --network b.vasa --record-script session.txt\n"
       "  xvfb-run -a vasa view --script session.txt --json\n"
       "Mouse and keys:\n";
   for (const viewer::Shortcut& shortcut : viewer::shortcuts()) text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
   text +=
       "Drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh) on the\n"
-      "window to open it; drop a body and its vessels together. Esc cancels.\n"
+      "window to open it; drop a body and its vessels together.\n"
       "A script is text, one thing a line: move X Y, press|release left|right|middle, scroll STEPS, key|hold|let NAME,\n"
       "type TEXT, resize W H, drop FILE, frames N, live SECONDS, settle, window FILE.png, picture FILE.png, close.";
   return text;

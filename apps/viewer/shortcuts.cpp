@@ -26,7 +26,7 @@ constexpr Shortcut kShortcuts[] = {
     {"Ctrl F", "search"},
     {"F9", "profile: Table III"},
     {"F12", "picture to a file"},
-    {"Esc", "choose nothing"},
+    {"Esc", "choose nothing; give up opening"},
     {"F1", "these keys"},
     {"Ctrl Q", "quit"},
 };
