@@ -128,6 +128,7 @@ Report patchesJson(const PatchReport& report, const Network& network) {
     forks.push_back({{"vessels", std::move(vessels)},
                      {"kept", kept},
                      {"reason", kept ? std::string_view{} : outcomeName(fork.outcome)},
+                     {"joined", kept && fork.joined},
                      {"triangles", fork.triangles}});
   }
   for (std::size_t i = 1; i < kPatchOutcomes; ++i)
@@ -135,6 +136,7 @@ Report patchesJson(const PatchReport& report, const Network& network) {
   const auto bare = withPatches(network, {});
   return {{"forks", report.forks.size()},
           {"kept", report.count(PatchOutcome::kept)},
+          {"joined", report.joined()},
           {"without", std::move(without)},
           {"vertices", report.vertices},
           {"triangles", report.triangles},
@@ -143,8 +145,8 @@ Report patchesJson(const PatchReport& report, const Network& network) {
 }
 
 std::string patchesText(const PatchReport& report) {
-  std::string text = fmt::format("{:<22} {} of {} forks keep the source's wall: {} triangles\n", "patches",
-                                 report.count(PatchOutcome::kept), report.forks.size(), report.triangles);
+  std::string text = fmt::format("{:<22} {} of {} forks keep the source's wall, {} of them of several surfaces; {} triangles\n", "patches",
+                                 report.count(PatchOutcome::kept), report.forks.size(), report.joined(), report.triangles);
   for (std::size_t i = 1; i < kPatchOutcomes; ++i)
     if (const auto count = report.count(PatchOutcome(i)); count > 0)
       text += fmt::format("{:<22} {} without: {}\n", "", count, outcomeName(PatchOutcome(i)));

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "convert/joined_wall.h"
 #include "convert/wall_cut.h"
+#include "convert/wall_thin.h"
 #include "core/parallel.h"
 #include "mesh/boundary.h"
 #include "mesh/weld.h"
@@ -18,6 +21,9 @@ constexpr float kEased = 0.5f;        // weight from which on the wall turns int
 constexpr float kEaseLimit = 0.6f;    // of the radius: farther from the tube it stays as it is
 constexpr int kRounds = 400;          // of relaxation
 constexpr float kNear = 1.5f;         // radii: the wall beside an opening
+constexpr float kAround = 1.9f;       // radii: how far from an opening walls are joined
+constexpr float kCell = 0.28f;        // of the least radius, for joining walls
+constexpr float kThin = 0.15f;        // of the least radius: what a joined wall may be off for having fewer triangles
 
 // A ring of a fork, and the section beside it, nearer to the fork, where the wall is cut.
 struct Ring {
@@ -136,6 +142,7 @@ std::array<std::uint8_t, ForkPatch::kMostRings> rounded(const vec4& weights) {
 struct Kept {
   PatchOutcome outcome = PatchOutcome::apart;
   ForkPatch patch;
+  bool joined = false;
 };
 
 PatchOutcome outcomeOf(WallFault fault) {
@@ -150,19 +157,38 @@ PatchOutcome outcomeOf(WallFault fault) {
   return PatchOutcome::apart;
 }
 
-Kept cutOut(const Network& network, const TriangleMesh& surface, std::span<const Ring> rings) {
-  WallPiece wall = cutWall(surface, openingsOf(rings));
-  Kept kept{outcomeOf(wall.fault), {}};
+Kept patchOf(const Network& network, WallPiece wall, std::span<const Ring> rings) {
+  Kept kept{outcomeOf(wall.fault), {}, false};
   if (kept.outcome != PatchOutcome::kept) return kept;
   const std::vector<vec4> weights = harmonicWeights(wall);
-  if (!easeIntoTubes(rings, weights, wall) || !runsAround(rings, wall)) return {PatchOutcome::notRound, {}};
+  if (!easeIntoTubes(rings, weights, wall) || !runsAround(rings, wall)) return {PatchOutcome::notRound, {}, false};
   for (std::size_t i = 0; i < rings.size(); ++i)
     kept.patch.rings.push_back({rings[i].vessel, rings[i].parameter, vec3(rings[i].section), rings[i].outward,
                                 rings[i].section.w, wall.loops[i]});
   kept.patch.positions = std::move(wall.mesh.positions);
   kept.patch.triangles = std::move(wall.mesh.triangles);
   for (const vec4& w : weights) kept.patch.weights.push_back(rounded(w));
-  if (!patchFault(network, kept.patch).empty()) return {PatchOutcome::torn, {}};
+  if (!patchFault(network, kept.patch).empty()) return {PatchOutcome::torn, {}, false};
+  return kept;
+}
+
+Kept cutOut(const Network& network, const TriangleMesh& surface, std::span<const Ring> rings) {
+  return patchOf(network, cutWall(surface, openingsOf(rings)), rings);
+}
+
+Kept cutOutJoined(const Network& network, std::span<const LooseWall* const> walls, std::span<const Ring> rings) {
+  Aabb box;
+  float least = rings[0].opening.radius;
+  for (const Ring& ring : rings) {
+    box.add(ring.opening.centre, kAround * ring.opening.radius);
+    least = std::min(least, ring.opening.radius);
+  }
+  const WallPiece wall = cutWall(joinedWall(walls, box, kCell * least), openingsOf(rings));
+  Kept kept{outcomeOf(wall.fault), {}, true};
+  if (kept.outcome == PatchOutcome::torn) kept.outcome = PatchOutcome::open;  // its only border is the box
+  if (kept.outcome != PatchOutcome::kept) return kept;
+  kept = patchOf(network, thinned(wall, kThin * least), rings);
+  kept.joined = true;
   return kept;
 }
 
@@ -174,22 +200,25 @@ bool holdsAll(const Aabb& box, std::span<const Ring> rings) {
   });
 }
 
-// The elements' surfaces, their holes closed.
+// The elements' surfaces: with their holes closed, and as they are.
 struct Surfaces {
   std::vector<TriangleMesh> meshes;
   std::vector<Aabb> boxes;
+  std::vector<std::unique_ptr<LooseWall>> loose;
 
-  explicit Surfaces(std::span<const SourceElement> elements) : meshes(elements.size()) {
+  explicit Surfaces(std::span<const SourceElement> elements) : meshes(elements.size()), loose(elements.size()) {
     parallelFor(elements.size(), 1, [&](std::size_t e) {
-      const TriangleMesh welded = weld(elements[e].element.mesh, kWeld);
+      TriangleMesh welded = weld(elements[e].element.mesh, kWeld);
       const MeshEdges edges = buildEdges(welded);
       meshes[e] = fillLoops(welded, edges, boundaryLoops(welded, edges));
+      loose[e] = std::make_unique<LooseWall>(std::move(welded));
     });
     for (const TriangleMesh& mesh : meshes) boxes.push_back(mesh.bounds());
   }
 };
 
-// From the surfaces of its own vessels, or else from another one that holds them all (scanned parts overlap).
+// From a surface of its own vessels, or else from another one that holds them all (scanned parts overlap), or else from
+// what its vessels' surfaces make together.
 Kept keepOne(const Network& network, std::span<const SourceElement> elements, std::span<const std::uint32_t> elementOf,
              const Surfaces& surfaces, std::span<const Ring> rings) {
   std::vector<std::uint32_t> tried;
@@ -205,7 +234,12 @@ Kept keepOne(const Network& network, std::span<const SourceElement> elements, st
   const VesselKind kind = network.vessel(rings[0].vessel).kind;
   for (std::uint32_t e = 0; e < elements.size(); ++e)
     if (sameFamily(elements[e].kind, kind)) attempt(e);
-  return best;
+  if (best.outcome == PatchOutcome::kept) return best;
+  std::vector<const LooseWall*> walls;
+  for (const Ring& ring : rings)
+    if (const LooseWall* wall = surfaces.loose[elementOf[ring.vessel.value]].get(); std::ranges::find(walls, wall) == walls.end())
+      walls.push_back(wall);
+  return cutOutJoined(network, walls, rings);
 }
 
 }  // namespace
@@ -214,7 +248,7 @@ std::string_view outcomeName(PatchOutcome outcome) {
   switch (outcome) {
     case PatchOutcome::kept: return "kept";
     case PatchOutcome::noMesh: return "the source is centre lines, without a wall";
-    case PatchOutcome::apart: return "its vessels have no wall in common in the source";
+    case PatchOutcome::apart: return "the walls of its vessels do not meet in the source";
     case PatchOutcome::torn: return "the wall is torn there";
     case PatchOutcome::open: return "the wall goes on between its vessels";
     case PatchOutcome::crowded: return "its vessels end too near to one another";
@@ -225,6 +259,10 @@ std::string_view outcomeName(PatchOutcome outcome) {
 
 std::uint32_t PatchReport::count(PatchOutcome outcome) const {
   return std::uint32_t(std::ranges::count(forks, outcome, &Fork::outcome));
+}
+
+std::uint32_t PatchReport::joined() const {
+  return std::uint32_t(std::ranges::count_if(forks, [](const Fork& f) { return f.joined && f.outcome == PatchOutcome::kept; }));
 }
 
 KeptPatches keepPatches(const Network& network, std::span<const SourceElement> elements,
@@ -243,6 +281,7 @@ KeptPatches keepPatches(const Network& network, std::span<const SourceElement> e
     PatchReport::Fork& fork = result.report.forks.emplace_back();
     for (const Ring& ring : forks[i]) fork.vessels.push_back(ring.vessel);
     fork.outcome = elements.empty() ? PatchOutcome::noMesh : kept[i].outcome;
+    fork.joined = kept[i].joined;
     if (fork.outcome != PatchOutcome::kept) continue;
     fork.triangles = std::uint32_t(kept[i].patch.triangles.size());
     result.report.vertices += std::uint32_t(kept[i].patch.positions.size());

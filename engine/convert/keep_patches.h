@@ -12,7 +12,7 @@ namespace vasa {
 enum class PatchOutcome {
   kept,
   noMesh,    ///< the source has no surfaces
-  apart,     ///< its vessels have no surface in common in the source: each is a closed or a cut-off tube of its own
+  apart,     ///< its vessels' surfaces do not touch in the source
   torn,      ///< the wall has holes, or triangles that overlap
   open,      ///< the wall goes on between the vessels: something else leaves there
   crowded,   ///< the vessels end too near to one another
@@ -25,12 +25,14 @@ struct PatchReport {
   struct Fork {
     std::vector<VesselId> vessels;  ///< the trunk's, then the branches'
     PatchOutcome outcome = PatchOutcome::noMesh;
+    bool joined = false;  ///< its wall was put together (convert/joined_wall.h)
     std::uint32_t triangles = 0;
   };
   std::vector<Fork> forks;  ///< those with a branch: two vessels joined end to end are none
   std::uint32_t vertices = 0, triangles = 0;  ///< of all patches
 
   std::uint32_t count(PatchOutcome outcome) const;
+  std::uint32_t joined() const;  ///< of those kept
 };
 
 struct KeptPatches {
@@ -39,7 +41,8 @@ struct KeptPatches {
 };
 
 /// For every fork of the network, as it is drawn (surface/fork_plan.h), the piece of the source's wall between its rings,
-/// where there is one. Beside a ring the wall is eased into the tube's round section. How much a vertex moves with each
+/// where there is one: cut out of one surface of the source as it is, or else of the joined wall of the surfaces of the
+/// fork's vessels, as where each vessel is a surface of its own, or torn. Beside a ring the wall is eased into the tube's round section. How much a vertex moves with each
 /// ring is the solution of Laplace's equation on the wall, 1 on that ring's loop and 0 on the others.
 /// @param network    as it is written: patches are matched to its forks by place
 /// @param elements   what it was made of; empty: centre lines

@@ -104,12 +104,12 @@ TEST_CASE("convert --keep-patches keeps the wall around forks, and tells what be
   CHECK(patches["kept"] == 2);
   CHECK(patches["without"].empty());
   REQUIRE(patches["fork"].size() == 2);
-  for (const char* key : {"vessels", "kept", "reason", "triangles"}) CHECK(patches["fork"][0].contains(key));
+  for (const char* key : {"vessels", "kept", "reason", "joined", "triangles"}) CHECK(patches["fork"][0].contains(key));
   REQUIRE(runProgram({"convert", mesh, "-o", plain}).exit == 0);
   CHECK(patches["bytes"] == std::filesystem::file_size(out) - std::filesystem::file_size(plain));
   CHECK(runProgram({"info", out, "--json"}).json()["patches"] == 2);
   CHECK(runProgram({"info", plain, "--json"}).json()["patches"] == 0);
-  CHECK(contains(runProgram({"convert", mesh, "-o", out, "--keep-patches"}).out, "2 of 2 forks keep the source's wall"));
+  CHECK(contains(runProgram({"convert", mesh, "-o", out, "--keep-patches"}).out, "2 of 2 forks keep the source's wall, 0 of them of several surfaces"));
 
   const auto lines = folder.write("lines.swc", "1 0 0 0 0 5 -1\n2 0 0 100 0 5 1\n3 0 0 200 0 5 2\n4 0 80 120 0 3 2\n5 0 160 140 0 3 4\n");
   const auto told = runProgram({"convert", lines, "-o", out, "--scale", "0.001", "--keep-patches", "--json"});

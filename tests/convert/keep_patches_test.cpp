@@ -8,13 +8,16 @@
 #include <random>
 
 #include "convert/forked_source.h"
+#include "convert/wall_thin.h"
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "io/gltf.h"
 #include "mesh/triangle_tree.h"
 #include "network/file.h"
 #include "network/merge.h"
 #include "network/reshape.h"
 #include "support/manifold.h"
+#include "support/shared_data.h"
 #include "surface/surface_mesh.h"
 
 using namespace vasa;
@@ -208,9 +211,36 @@ TEST_CASE("no signed garbage in a patch makes the reader crash, and what it take
   CHECK(accepted < 4000);
 }
 
-TEST_CASE("forks without a wall in common, and centre lines, are told") {
+TEST_CASE("vessels that are surfaces of their own, or torn, keep what these make together") {
+  TriangleMesh branch = tubeBetween({0.004f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.0035f, TubeEnds::open);
+  SUBCASE("as they are") {}
+  SUBCASE("inside out") {
+    for (uvec3& t : branch.triangles) std::swap(t.y, t.z);
+  }
+  SUBCASE("torn") { branch.triangles.erase(branch.triangles.begin() + 200, branch.triangles.begin() + 204); }
   const std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
-                                            source("left renal artery", tubeBetween({0.007f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
+                                            source("left renal artery", branch)};
+  auto conversion = convertElements(elements);
+  REQUIRE(conversion.ok());
+  KeptPatches kept = keepPatches(conversion->network, elements, conversion->elementOf);
+  REQUIRE(kept.report.forks.size() == 1);
+  CHECK(outcomeName(kept.report.forks[0].outcome) == "kept");
+  CHECK(kept.report.joined() == 1);
+  CHECK(kept.report.triangles < 1500);
+  REQUIRE(kept.patches.size() == 1);
+  for (const vec3& p : kept.patches[0].positions) {
+    const float aorta = std::abs(glm::length(vec2(p.x, p.z)) - 0.008f);
+    const float renal = std::abs(capsuleDistance(p, {0, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.0035f));
+    CHECK(std::min(aorta, renal) < 0.0008f);
+  }
+  const auto network = withPatches(std::move(conversion->network), std::move(kept.patches));
+  REQUIRE(network.ok());
+  for (const std::uint32_t around : {4u, 8u, 13u}) CHECK(openEdgesOf(*network, network->points(), {around, 3}) == 0);
+}
+
+TEST_CASE("forks whose walls do not meet, and centre lines, are told") {
+  const std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
+                                            source("left renal artery", tubeBetween({0.0105f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
   const auto conversion = convertElements(elements);
   REQUIRE(conversion.ok());
   const KeptPatches kept = keepPatches(conversion->network, elements, conversion->elementOf);
@@ -218,6 +248,45 @@ TEST_CASE("forks without a wall in common, and centre lines, are told") {
   REQUIRE(kept.report.forks.size() == 1);
   CHECK(kept.report.forks[0].outcome == PatchOutcome::apart);
   CHECK(keepPatches(conversion->network, {}, {}).report.count(PatchOutcome::noMesh) == 1);
+}
+
+TEST_CASE("a thinned wall keeps its shape, its loops and its topology") {
+  const Forked made = forked();
+  REQUIRE(!made.network.patches().empty());
+  for (ForkPatch patch : made.network.patches()) {
+    WallPiece wall{WallFault::none, {patch.positions, patch.triangles}, {}};
+    for (const PatchRing& ring : patch.rings) wall.loops.push_back(ring.vertices);
+    const WallPiece thin = thinned(wall, 0.0004f);
+    CHECK(thin.mesh.triangles.size() < wall.mesh.triangles.size() / 4);
+    patch.positions = thin.mesh.positions;
+    patch.triangles = thin.mesh.triangles;
+    patch.weights.assign(patch.positions.size(), {255, 0, 0, 0});
+    for (std::size_t i = 0; i < patch.rings.size(); ++i) patch.rings[i].vertices = thin.loops[i];
+    CHECK(patchFault(made.network, patch) == "");
+    const TriangleTree tree(thin.mesh);
+    for (const vec3& p : wall.mesh.positions) CHECK(tree.nearest(p).distance < 0.0004f);
+  }
+}
+
+TEST_CASE("a real body's vessels keep walls and stay one closed surface, at rest and bent") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  auto all = readGltfElements(data / "bp3d/bp3d_arteries.glb");
+  REQUIRE(all.ok());
+  std::erase_if(*all, [](const MeshElement& e) {
+    const auto has = [&](const char* part) { return e.name.find(part) != std::string::npos; };
+    return !has("renal artery") && !has("mesenteric");
+  });
+  const std::vector<SourceElement> elements = describeElements(std::move(*all), "bp3d_arteries");
+  auto conversion = convertElements(elements);
+  REQUIRE(conversion.ok());
+  KeptPatches kept = keepPatches(conversion->network, elements, conversion->elementOf);
+  MESSAGE(kept.patches.size() << " of " << kept.report.forks.size() << " forks keep their wall");
+  CHECK(kept.patches.size() > 10);
+  const auto network = withPatches(std::move(conversion->network), std::move(kept.patches));
+  REQUIRE(network.ok());
+  CHECK(makeSweepTable(*network).patches.patches.size() == network->patches().size());
+  CHECK(openEdgesOf(*network, network->points(), {8, 5}) == 0);
+  CHECK(openEdgesOf(*network, bent(*network), {8, 5}) == 0);
 }
 
 TEST_CASE("the same patches come out for any number of threads") {
