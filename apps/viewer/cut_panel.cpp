@@ -1,23 +1,10 @@
 #include <imgui.h>
 
-#include <cmath>
-
 #include "viewer/panels.h"
+#include "viewer/projection.h"
 
 // The cutting plane: sliders in the panel, its outline in the picture.
 namespace vasa::viewer {
-namespace {
-
-bool seenAt(vec3 place, const PanelInput& in, ImVec2& seen) {
-  const Rect& picture = in.layout.picture;
-  const vec4 clip = viewProjection(in.camera, picture.width / picture.height) * vec4(place, 1);
-  if (clip.w <= 1e-6f) return false;
-  seen = {picture.left + (clip.x / clip.w * 0.5f + 0.5f) * picture.width, picture.top + (clip.y / clip.w * 0.5f + 0.5f) * picture.height};
-  return true;
-}
-
-}  // namespace
-
 void showCutControls(const PanelInput& in) {
   CutPlane& cut = in.state.cutPlane;
   ImGui::Checkbox("Cutting plane (X)", &cut.on);
@@ -45,9 +32,8 @@ void showCutOutline(const PanelInput& in) {
   list.PushClipRect({picture.left, picture.top}, {picture.left + picture.width, picture.top + picture.height});
   const auto corners = cutOutline(in.state.cutPlane, in.bodyBox);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    ImVec2 from, to;
-    if (seenAt(corners[i], in, from) && seenAt(corners[(i + 1) % corners.size()], in, to))
-      list.AddLine(from, to, IM_COL32(255, 165, 20, 220), 1.5f * in.scale);
+    const auto from = seenAt(corners[i], in.camera, picture), to = seenAt(corners[(i + 1) % corners.size()], in.camera, picture);
+    if (from && to) list.AddLine({from->x, from->y}, {to->x, to->y}, IM_COL32(255, 165, 20, 220), 1.5f * in.scale);
   }
   list.PopClipRect();
 }

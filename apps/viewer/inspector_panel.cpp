@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "curve/bspline.h"
 #include "viewer/panels.h"
+#include "viewer/projection.h"
 
 // The chosen vessel: what it is, how large, and where it belongs; search by name; measuring along vessels.
 namespace vasa::viewer {
@@ -146,6 +148,23 @@ void showInspectorSection(const PanelInput& in) {
     ImGui::TextDisabled("Click a vessel to choose it.");
   }
   showMeasure(in);
+}
+
+void showChosen(const PanelInput& in) {
+  if (!in.document || !in.body || !in.state.selected) return;
+  constexpr int kStepsPerSpan = 6;
+  const Vessel& vessel = in.document->scene.network.vessel(in.state.selected->vessel);
+  const auto points = Network::pointsOf(vessel, in.body->points);
+  const Rect& picture = in.layout.picture;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({picture.left, picture.top}, {picture.left + picture.width, picture.top + picture.height});
+  std::optional<vec2> before;
+  for (std::uint32_t i = 0; i <= kStepsPerSpan * vessel.spanCount(); ++i) {
+    const auto here = seenAt(vec3(evaluate(points, float(i) / kStepsPerSpan)), in.camera, picture);
+    if (before && here) list.AddLine({before->x, before->y}, {here->x, here->y}, IM_COL32(255, 176, 20, 200), 1.5f * in.scale);
+    before = here;
+  }
+  list.PopClipRect();
 }
 
 }  // namespace vasa::viewer

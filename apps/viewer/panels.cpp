@@ -108,6 +108,7 @@ void showHelp(const PanelInput& in) {
 
 void showPanels(const PanelInput& in) {
   showCutOutline(in);
+  showChosen(in);
   showHandles(in);
   showHeads(in);
   if (in.state.panels) {

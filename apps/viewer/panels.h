@@ -41,6 +41,7 @@ void showCutControls(const PanelInput& in);
 void showCutOutline(const PanelInput& in);  ///< the cutting plane's, over the picture
 void showVesselSection(const PanelInput& in);
 void showInspectorSection(const PanelInput& in);
+void showChosen(const PanelInput& in);  ///< the chosen vessel's line over the picture, also where something hides it
 void showPoseSection(const PanelInput& in);
 void showHandles(const PanelInput& in);  ///< joints to drag, over the picture
 void showTimingSection(const PanelInput& in);

@@ -4,17 +4,12 @@
 #include <cmath>
 
 #include "body/humanoid.h"
+#include "viewer/projection.h"
 
 namespace vasa::viewer {
 namespace {
 
 constexpr float kReach = 9, kApart = 8;  // [pixels of an ordinary screen] of a handle, of two handles
-
-std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& picture) {
-  const vec4 clip = viewProjection(camera, picture.width / picture.height) * vec4(place, 1);
-  if (clip.w <= 1e-6f) return std::nullopt;
-  return vec2(picture.left, picture.top) + (vec2(clip) / clip.w * 0.5f + 0.5f) * vec2(picture.width, picture.height);
-}
 
 }  // namespace
 

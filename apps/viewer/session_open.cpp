@@ -1,0 +1,111 @@
+#include "viewer/session.h"
+
+// How a session comes by what it shows: loaded beside the window, adopted when all of it is there.
+namespace vasa::viewer {
+
+void Session::open(std::string title, SceneChoice choice) {
+  if (loader_.busy()) cancelLoading();
+  report_.loads.push_back({.title = title, .outcome = "loading"});
+  loadStart_ = lastWatched_ = Clock::now();
+  loader_.start({std::move(title), std::move(choice), options_.rules, state_.forces}, [] { Window::wake(); });
+  panelFrames_ = kRestingFrames;
+}
+
+// What is dropped together belongs together: a body and its vessels.
+void Session::openDropped() {
+  std::string title;
+  for (const auto& file : dropped_) title += (title.empty() ? "" : ", ") + file.filename().string();
+  const SceneFile& shown = document_ ? document_->file : options_.file;
+  open(title, [open = options_.open, files = std::exchange(dropped_, {}), shown]() -> Result<SceneFile> {
+    SceneFile scene = shown;
+    for (const auto& file : files) {
+      auto next = open(file, scene);
+      if (!next) return next;
+      scene = std::move(*next);
+    }
+    return scene;
+  });
+}
+
+void Session::cancelLoading() {
+  loader_.cancel();
+  report_.loads.back().outcome = "cancelled";
+  panelFrames_ = kRestingFrames;
+}
+
+// The window goes on being drawn while something is loaded.
+void Session::watchLoading() {
+  const auto now = Clock::now();
+  if (loader_.busy() || arriving_) {
+    LoadReport& load = report_.loads.back();
+    ++load.frames;
+    load.longestMs = std::max(load.longestMs, std::chrono::duration<double, std::milli>(now - lastWatched_).count());
+    load.seconds = std::chrono::duration<double>(now - loadStart_).count();
+    panelFrames_ = std::max(panelFrames_, 1);
+  }
+  if (shown_) arriving_ = false;
+  lastWatched_ = now;
+}
+
+// A document that has been loaded takes the place of the one before.
+void Session::adopt() {
+  if (loader_.busy() && options_.script && settling_) loader_.wait();
+  const auto answer = loader_.take();
+  if (!answer) return;
+  report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
+  if (!*answer) {
+    constexpr double kTimeToRead = 15;
+    if (!document_ && report_.loads.size() == 1) failure_ = answer->error();
+    else say(answer->error().message, kTimeToRead);
+    return;
+  }
+  document_ = **answer;
+  arriving_ = true;
+  body_.reset();
+  shown_.reset();
+  timings_.clear();
+  state_.selected.reset();
+  state_.turns.clear();
+  state_.from = state_.to = std::nullopt;
+  state_.joint = {};
+  profiler_.reset();
+  profiling_ = false;
+  takeChoices();
+  window_.setTitle(document_->title + " - vasa");
+}
+
+// What the scene says of how it is to be shown.
+void Session::takeChoices() {
+  const auto& body = document_->scene.body;
+  const SceneFile& choice = document_->file;
+  const auto clip = choice.clip.empty() ? Result<const Clip*>(nullptr) : findClip(body, choice.clip);
+  if (clip && *clip) state_.playback.clip = int(*clip - body.clips.data());
+  else state_.playback.clip = body.clips.empty() ? -1 : 0;
+  state_.playback.time = state_.playback.clip >= 0 ? body.clips[std::size_t(state_.playback.clip)].start : 0;
+  state_.detail.capillaries = int(choice.capillaries.levels);
+  if (!choice.look.preset.empty() && choice.look.preset != state_.preset) {
+    state_.preset = choice.look.preset;
+    state_.look = lookNamed(state_.preset).value_or(Look{});
+  }
+  Look& look = state_.look;
+  if (choice.look.background) look.background = *choice.look.background;
+  if (choice.look.skinOpacity) look.skinOpacity = *choice.look.skinOpacity;
+  if (!choice.look.skin) look.drawSkin = false;
+  if (!choice.look.bones) look.drawBones = false;
+  if (!choice.look.organs) look.drawHeart = look.drawOther = false;
+  if (!choice.look.arteries) look.drawArteries = false;
+  if (!choice.look.veins) look.drawVeins = false;
+  state_.orbit.look(viewNamed(choice.camera.view).value_or(View::front));
+  state_.wishHome = !choice.camera.position;
+  if (choice.camera.position)
+    state_.orbit.take({.position = *choice.camera.position,
+                       .target = choice.camera.target.value_or(document_->bounds.centre()),
+                       .verticalAngle = glm::radians(choice.camera.angleDegrees)});
+  if (choice.camera.focus.empty()) return;
+  if (const auto subject = findSubject(document_->scene, choice.camera.focus); subject && subject->vessel.valid()) {
+    state_.selected = VesselPlace{subject->vessel, 0};
+    state_.wishFocus = true;
+  }
+}
+
+}  // namespace vasa::viewer
