@@ -54,7 +54,7 @@ template <class Detector>
 Result<Timings> timeRuns(Detector& detector, const TubeList& list, const Options& options) {
   constexpr int kWarmUp = 3;
   Timings timings;
-  std::vector<Bezier> shape;
+  LargeVector<Bezier> shape;
   for (int run = -kWarmUp; run < options.runs; ++run) {
     if (stopRequested()) return stopError();
     list.blend(shareOf(std::abs(run), options.runs, options.pose), shape);

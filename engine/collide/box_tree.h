@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "core/large_pages.h"
 #include "curve/bezier.h"
 
 namespace vasa {
@@ -43,10 +44,9 @@ struct BoxTree {
   std::uint32_t tubeCount = 0;
   std::vector<std::uint32_t> tubes;       ///< slot -> tube, padded to whole groups by repeating the last
   std::vector<std::uint32_t> levelStart;  ///< first group of each level, and the end; at least level 0
-  std::vector<BoxGroup> boxes;            ///< all levels
-  std::vector<ChordCapsule> capsules;     ///< a slot each
-  std::vector<Bezier>
-      shapes;  ///< the tubes' present shape, a slot each: neighbours in space are near in memory
+  LargeVector<BoxGroup> boxes;            ///< all levels
+  LargeVector<ChordCapsule> capsules;     ///< a slot each
+  LargeVector<Bezier> shapes;  ///< the tubes' present shape, a slot each: neighbours in space are near in memory
 
   std::uint32_t levels() const { return std::uint32_t(levelStart.size()) - 1; }
   std::uint32_t groups(std::uint32_t level) const { return levelStart[level + 1] - levelStart[level]; }

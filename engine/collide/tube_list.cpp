@@ -132,7 +132,7 @@ void append(std::string& text, T value, char after) {
 
 }  // namespace
 
-void TubeList::blend(float share, std::vector<Bezier>& tubes) const {
+void TubeList::blend(float share, LargeVector<Bezier>& tubes) const {
   tubes.resize(poses[0].size());
   for (std::size_t i = 0; i < tubes.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) tubes[i].b[k] = glm::mix(poses[0][i].b[k], poses[1][i].b[k], share);

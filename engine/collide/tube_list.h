@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collide/contact.h"
+#include "core/large_pages.h"
 #include "core/result.h"
 #include "curve/bezier.h"
 
@@ -17,7 +18,7 @@ struct TubeList {
   std::vector<TubePair> excluded;
 
   /// The tubes part of the way from pose 0 (share 0) to pose 1 (share 1), control point by control point.
-  void blend(float share, std::vector<Bezier>& tubes) const;
+  void blend(float share, LargeVector<Bezier>& tubes) const;
 };
 
 /// Largest coordinate and radius a tube list may hold: beyond it, single precision has nothing left to

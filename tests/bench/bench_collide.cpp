@@ -44,7 +44,7 @@ double quantile(std::vector<double> values, double share) {
 
 void run(const TubeList& list, int runs, std::vector<Entry>& entries) {
   constexpr int kWarmUp = 2;
-  std::vector<Bezier> shape;
+  LargeVector<Bezier> shape;
   for (int k = -kWarmUp; k < runs; ++k) {
     // Shares that never repeat and jump about: no shape, and no sequence of branches, is learnt by heart.
     list.blend(0.5f - 0.5f * std::cos(2.4f * float(k)), shape);

@@ -96,7 +96,7 @@ TEST_CASE("a crowd without exclusions, at any scale and place, with and without 
 TEST_CASE("the same pairs for 1, 2 and 8 threads") {
   const TubeList list = test::makeTubeNetwork(6000, 3);
   const Exclusions exclusions(6000, list.excluded);
-  std::vector<Bezier> shape;
+  LargeVector<Bezier> shape;
   for (const float share : {0.0f, 0.35f, 1.0f}) {
     list.blend(share, shape);
     std::uint64_t first = 0;
