@@ -52,6 +52,15 @@ std::vector<Pose> extremePoses(const Body& body) {
 
 }  // namespace
 
+std::vector<MotionProbe::Place> MotionProbe::halfSpans(const Network& network) {
+  std::vector<Place> places;
+  for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
+    const std::uint32_t steps = 2 * network.vessels()[v].spanCount();
+    for (std::uint32_t k = 0; k <= steps; ++k) places.push_back({v, float(k) / float(steps)});
+  }
+  return places;
+}
+
 Body bodyOf(const Rig& rig, std::vector<SkinnedMesh> meshes, std::vector<Clip> clips) {
   Body body;
   body.name = "human.glb";
@@ -75,33 +84,56 @@ Body bodyOf(const Rig& rig, std::vector<SkinnedMesh> meshes, std::vector<Clip> c
 
 MotionProbe::MotionProbe(Body body) : body_(std::move(body)), poses_(extremePoses(body_)) {}
 
-Result<std::vector<Escape>> MotionProbe::escapes(const Network& network) const {
+template <class Visit>
+Result<void> MotionProbe::visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh, Visit visit) const {
   const Result<Binding> binding = bind(body_, network, "human.vasa");
   if (!binding.ok()) return binding.error();
-  std::vector<Escape> places;
-  for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
-    const std::uint32_t steps = 2 * network.vessels()[v].spanCount();
-    for (std::uint32_t k = 0; k <= steps; ++k) places.push_back({v, float(k) / float(steps), 0});
-  }
   Deformer deformer(*binding);
   std::vector<vec4> posed(network.points().size());
   for (const Pose& pose : poses_) {
     deformer.run(network, pose, posed);
-    TriangleMesh skin;
-    skin.triangles = body_.meshes[0].mesh.triangles;
-    skinPositions(body_.meshes[0], skinMatrices(body_.skeleton, pose), skin.positions);
-    const Solid solid(skin);
+    TriangleMesh surface;
+    surface.triangles = body_.meshes[mesh].mesh.triangles;
+    skinPositions(body_.meshes[mesh], skinMatrices(body_.skeleton, pose), surface.positions);
+    const Solid solid(surface);
     parallelFor(places.size(), 256, [&](std::size_t i) {
       const Vessel& vessel = network.vessels()[places[i].vessel];
       const vec3 p(evaluate(Network::pointsOf(vessel, posed), places[i].share * float(vessel.spanCount())));
-      if (solid.winding(p) > 0) return;
-      float nearest = 1;  // few places get here: no tree is built for them
-      for (vec3 q : skin.positions) nearest = std::min(nearest, glm::dot(p - q, p - q));
-      places[i].excess = std::max(places[i].excess, std::sqrt(nearest));
+      visit(i, p, solid, surface.positions);
     });
   }
-  std::erase_if(places, [](const Escape& place) { return place.excess <= 0; });
-  return places;
+  return {};
+}
+
+Result<std::vector<Escape>> MotionProbe::escapes(const Network& network) const {
+  const std::vector<Place> places = halfSpans(network);
+  std::vector<float> excess(places.size(), 0.0f);
+  const auto visit = [&](std::size_t i, vec3 p, const Solid& skin, std::span<const vec3> corners) {
+    if (skin.winding(p) > 0) return;
+    float nearest = 1;  // few places get here: no tree is built for them
+    for (vec3 q : corners) nearest = std::min(nearest, glm::dot(p - q, p - q));
+    excess[i] = std::max(excess[i], std::sqrt(nearest));
+  };
+  if (const Result<void> visited = visitPoses(network, places, 0, visit); !visited.ok()) return visited.error();
+  std::vector<Escape> escapes;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (excess[i] > 0) escapes.push_back({places[i].vessel, places[i].share, excess[i]});
+  return escapes;
+}
+
+Result<std::vector<VesselId>> MotionProbe::throughBones(const Network& network, float depth) const {
+  const std::vector<Place> places = halfSpans(network);
+  std::vector<char> deep(places.size(), 0);
+  const auto visit = [&](std::size_t i, vec3 p, const Solid& bones, std::span<const vec3>) {
+    if (deep[i] || bones.winding(p) <= 0) return;
+    const std::optional<Solid::Place> place = bones.at(p, depth);
+    deep[i] = place && place->distance <= -depth;
+  };
+  if (const Result<void> visited = visitPoses(network, places, 1, visit); !visited.ok()) return visited.error();
+  std::vector<VesselId> vessels;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (deep[i] && (vessels.empty() || vessels.back().value != places[i].vessel)) vessels.push_back({places[i].vessel});
+  return vessels;
 }
 
 }  // namespace vasa::human

@@ -1,4 +1,7 @@
 #pragma once
+#include <span>
+#include <vector>
+
 #include "body/body.h"
 #include "make_human/rig.h"
 #include "network/network.h"
@@ -18,13 +21,26 @@ struct Escape {
 /// Looks at vessels in the poses of each of the body's clips that differ most from one another.
 class MotionProbe {
  public:
-  /// @param body  its first mesh is the skin
+  /// @param body  its first mesh is the skin, its second the bones
   explicit MotionProbe(Body body);
 
   /// Where centre lines leave the skin, at every half span; sorted by vessel, then share.
   Result<std::vector<Escape>> escapes(const Network& network) const;
 
+  /// Vessels that a pose brings deeper into a bone than `depth` [m], with their centre lines, at every half span; by
+  /// number, each once.
+  Result<std::vector<VesselId>> throughBones(const Network& network, float depth) const;
+
  private:
+  struct Place {
+    std::uint32_t vessel;
+    float share;  // along it
+  };
+  static std::vector<Place> halfSpans(const Network& network);
+  /// visit(place's number, where it is, what the mesh encloses then, the mesh's corners then), in each pose; parallel.
+  template <class Visit>
+  Result<void> visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh, Visit visit) const;
+
   Body body_;
   std::vector<Pose> poses_;
 };

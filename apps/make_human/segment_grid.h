@@ -1,13 +1,15 @@
 #pragma once
 #include <cstdint>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "math/types.h"
 
 namespace vasa::human {
 
-/// Round pieces of vessels in a grid of cells: which lie near a place. Grows piece by piece.
+/// Round pieces of vessels in a grid of cells: which lie near a place. Grows piece by piece. Blocks of cells in which
+/// there is nothing are passed over, so that cells may be small beside what is looked for.
 class SegmentGrid {
  public:
   struct Segment {
@@ -36,12 +38,17 @@ class SegmentGrid {
 
  private:
   using Key = std::uint64_t;
+  using Cell = glm::i64vec3;
+  static Key keyOf(Cell cell) { return Key(cell.x) << 42 | Key(cell.y) << 21 | Key(cell.z); }
+  Cell cellAt(vec3 p) const;
   template <class Visit>
-  void visitCells(vec3 low, vec3 high, Visit visit) const;
+  void visitCells(Cell low, Cell high, Visit visit) const;
 
   float cell_;
   std::vector<Segment> segments_;
   std::unordered_map<Key, std::vector<std::uint32_t>> cells_;
+  std::unordered_set<Key> blocks_;
+  mutable std::vector<char> occupied_;  // the blocks of a visit
   mutable std::vector<std::uint32_t> found_, stamp_;
   mutable std::uint32_t round_ = 0;
 };

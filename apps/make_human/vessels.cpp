@@ -6,8 +6,9 @@
 namespace vasa::human {
 namespace {
 
-constexpr int kSinkings = 2, kPrunings = 3, kRefinements = 10;
+constexpr int kSinkings = 2, kPrunings = 6, kRefinements = 10;
 constexpr float kAllowedOut = 0.2e-3f;  // [m] of a centre line, in the poses looked at
+constexpr float kAllowedInBone = 4e-3f;  // [m] of a grown one's; less is put right as the vessels move
 constexpr float kDeeper = 2.5e-3f;      // [m] than would just do
 constexpr float kDeepest = 6e-3f;       // at a time
 
@@ -54,6 +55,9 @@ Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const
     bool any = false;
     for (const Escape& escape : *escapes)
       if (escape.excess > kAllowedOut) any |= grower.remove(int(escape.vessel));
+    const Result<std::vector<VesselId>> throughBones = probe.throughBones(*network, kAllowedInBone);
+    if (!throughBones.ok()) return throughBones.error();
+    for (const VesselId vessel : *throughBones) any |= grower.remove(int(vessel.value));
     for (const VesselId vessel : restFaults(*network)) any |= grower.remove(int(vessel.value));
     if (!any) break;
   }

@@ -12,7 +12,7 @@ constexpr float kLeastDiagonal = 1e-4f;    // below it nothing that may move can
 constexpr float kReach = 3;                // how far a multiplier may push on its own: times what is lacking
 constexpr float kMore = 1.5f, kMost = 6;   // a limit that was reached in vain grows by so much a round, and in all
 constexpr unsigned kPatient = 8;           // ... in the first rounds; after these it
-constexpr float kLess = 0.6f;              // falls to this a round
+constexpr float kLess = 0.95f;             // falls to this a round
 constexpr float kLeastLimit = 1e-4f;       // [m] and asks for no more rounds from here on
 // What asks for a longer way than this from where the pose has put a vessel, and was not met at first, comes of where
 // the vessel was pushed.

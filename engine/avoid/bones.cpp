@@ -125,6 +125,7 @@ struct Bones::State {
   bool mayTouch(const Aabb& box, std::uint32_t part) const;
   bool look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
   vec3 home(const Near& at, float s, const Tubes& tubes) const;
+  bool isFree(const vec4& ball, std::uint32_t part) const;
   void leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const;
 };
 
@@ -173,6 +174,15 @@ vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
   return solid.field.distance(before) > 0 ? before : atRest;
 }
 
+// Whether a ball in the pose touches no part but its own.
+bool Bones::State::isFree(const vec4& ball, std::uint32_t own) const {
+  const vec3 centre(ball);
+  for (std::uint32_t part = 0; part < solids.size(); ++part)
+    if (part != own && boxes[part].overlaps({centre, centre}) && solids[part].field.clearance(placed(solids[part].inverse, centre)) < ball.w)
+      return false;
+  return true;
+}
+
 // Returns whether the tube is within the field's band somewhere.
 bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const {
   const Solid& solid = solids[at.part];
@@ -206,9 +216,12 @@ bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneCont
     leave(solid, from, home(at, s, tubes) + deepestAside, small, deepest);
     deepest.point -= mat3(solid.matrix) * deepestAside + off * deepest.normal;
     deepest.nearestPoint -= mat3(solid.matrix) * deepestAside + off * deepest.nearestNormal;
-    // Beyond where the straight way leaves the part, and in it even so.
+    // Beyond where the straight way leaves the part, and in it even so; or into another part that way, and not the other.
     const vec3 now(tubes.now[at.tube].at(s));
-    if (deepest.nearestNormal != vec3(0) && glm::dot(deepest.normal, now - deepest.point) >= ball.w + at.allowed)
+    const auto leadsInto = [&](vec3 point, vec3 normal) { return !isFree({point + ball.w * normal, ball.w}, at.part); };
+    if (deepest.nearestNormal != vec3(0) &&
+        (glm::dot(deepest.normal, now - deepest.point) >= ball.w + at.allowed ||
+         (leadsInto(deepest.point, deepest.normal) && !leadsInto(deepest.nearestPoint, deepest.nearestNormal))))
       deepest.point = deepest.nearestPoint, deepest.normal = deepest.nearestNormal;
     out.push_back(deepest);
   }

@@ -36,7 +36,8 @@ struct PosedTubes {
 /// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way leaves the
 /// part to where the tube belongs, so that a vessel is not pushed through a bone: the place at rest, if that was near
 /// the part and has not turned about it since, as the vessels of the forearm do about the radius, or else the one that
-/// the pose alone gives, if that is outside.
+/// the pose alone gives, if that is outside. Where that way leads into another part and the nearest surface's does not,
+/// the nearest surface's is taken.
 class Bones {
  public:
   /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
