@@ -22,6 +22,8 @@ struct Options {
 
 Report networkReport(const Network& network, std::size_t fileBytes) {
   const NetworkMeasures sum = measure(network, network.points());
+  std::size_t patchTriangles = 0;
+  for (const ForkPatch& patch : network.patches()) patchTriangles += patch.triangles.size();
   return {{"kind", "network"},
           {"vessels", network.vessels().size()},
           {"arteries", sum.arteries},
@@ -31,6 +33,7 @@ Report networkReport(const Network& network, std::size_t fileBytes) {
           {"junctions", network.junctionCount()},
           {"components", network.componentCount()},
           {"patches", network.patches().size()},
+          {"patch_triangles", patchTriangles},
           {"length_m", sum.length},
           {"volume_m3", sum.volume},
           {"body_height_m", network.bodyHeight()},

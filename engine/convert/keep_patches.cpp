@@ -180,6 +180,9 @@ Kept cutOutJoined(const Network& network, std::span<const LooseWall* const> wall
   Aabb box;
   float least = rings[0].opening.radius;
   for (const Ring& ring : rings) {
+    float inside = 0;
+    for (const LooseWall* wall : walls) inside += wall->inside(ring.opening.centre);
+    if (inside < 0.5f) return {PatchOutcome::apart, {}, true};  // nothing to join: told before it takes time
     box.add(ring.opening.centre, kAround * ring.opening.radius);
     least = std::min(least, ring.opening.radius);
   }

@@ -303,6 +303,7 @@ double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderI
     const auto scope = staticTimer.scope(commands, kDraw);
     target.begin(commands, {}, 0, gpu::Stretch::middle);
     tubesAtOnce.recordDraw(commands, surfacePass, push);
+    if (patchPass) surfacePass.recordVessels(commands, push, patches.draws(), 1);
     target.pause(commands);
   }
   gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
@@ -390,6 +391,7 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   gpu::Commands commands = s.device.queue().begin("static vertices");
   s.upload.record(commands);
   s.detailPass.record(commands, s.tubes, s.upload.points(), s.viewOf(input));
+  if (s.patchPass) s.patchPass->record(commands, {s.tubes, s.patches, s.detailPass, s.upload.points(), s.upload.knots()});
   tubes.recordVertices(commands, s.tubePass, s.forkPass, s.detailPass, s.upload.points(), s.upload.knots());
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
@@ -416,7 +418,7 @@ std::uint32_t Renderer::sweepCount() const {
 
 std::uint64_t Renderer::templateBytes() const {
   return state_->templates[0].bytes() + state_->templates[1].bytes() + state_->forkTemplates[0].bytes() +
-         state_->forkTemplates[1].bytes();
+         state_->forkTemplates[1].bytes() + state_->patches.bytes();
 }
 
 const RenderOptions& Renderer::options() const {

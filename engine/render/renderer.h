@@ -37,7 +37,7 @@ struct RenderOptions {
   /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can share them.
   /// nullptr: made.
   const BodyLevels* levels = nullptr;
-  bool forks = true;  ///< vessels join smoothly; false: they end inside one another
+  bool forks = true;  ///< vessels join smoothly, or as the network's patches have it; false: they end inside one another
   /// makeSweepTable() of the network, read at construction: planning forks takes a while. nullptr: made.
   const SweepTable* table = nullptr;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
@@ -124,9 +124,9 @@ class Renderer {
   double staticDraw(const RenderInput& input, unsigned repeats);
 
   std::uint64_t triangleCount() const;     ///< of tubes and caps, seen or not; 0 if the picture decides
-  std::uint64_t drawnTriangleCount() const;  ///< of the latest frame's, those that may be seen; 0 unless timed
+  std::uint64_t drawnTriangleCount() const;  ///< of the latest frame's, those that may be seen, without patches; 0 unless timed
   std::uint32_t sweepCount() const;
-  std::uint64_t templateBytes() const;     ///< device memory for all that batches of tubes write
+  std::uint64_t templateBytes() const;     ///< device memory for all that batches of tubes write, and for patches
   const RenderOptions& options() const;
 
  private:
