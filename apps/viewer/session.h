@@ -52,6 +52,7 @@ class Session {
   void takeScript();
   void handle(const InputEvent& event);
   void click(const Click& click);
+  bool isHidden(vec3 place) const;
 
   // time and shapes
   double pass();

@@ -4,6 +4,7 @@
 #include "body/skinning.h"
 #include "network/pick.h"
 #include "viewer/paint.h"
+#include "viewer/projection.h"
 #include "viewer/session.h"
 
 // What a click in the picture means.
@@ -72,6 +73,17 @@ float hiddenBehind(const Document& document, const PosedBody& body, const Look& 
 }
 
 }  // namespace
+
+// By a bone, the heart or whole skin, from where the camera is.
+bool Session::isHidden(vec3 place) const {
+  const Rect rect = pictureRect();
+  const Camera camera = cameraNow();
+  const auto seen = seenAt(place, camera, rect);
+  if (!seen) return false;
+  Ray ray = rayThrough(camera, *seen - vec2(rect.left, rect.top), {rect.width, rect.height});
+  if (camera.cut) keepTo(ray, *camera.cut);
+  return hiddenBehind(*document_, *body_, state_.look, ray) < glm::dot(place - ray.origin, ray.direction);
+}
 
 void Session::click(const Click& click) {
   if (!document_ || !body_) return;

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "curve/bspline.h"
 #include "io/png.h"
 #include "viewer/paint.h"
 #include "viewer/session.h"
@@ -84,6 +85,9 @@ void Session::moveCamera() {
   if (state_.wishFocus && state_.selected) {
     const Rect rect = pictureRect();
     state_.orbit.frame(subjectBounds(document_->scene, {state_.selected->vessel, {}}, body_->pose, body_->points), rect.width / rect.height);
+    const Vessel& vessel = document_->scene.network.vessel(state_.selected->vessel);
+    const vec3 middle(evaluate(Network::pointsOf(vessel, body_->points), 0.5f * float(vessel.spanCount())));
+    if (isHidden(middle)) say("Something lies before it: lower the opacity of bones, heart or skin, or cut with Near cut", 8);
   }
   state_.wishFocus = false;
 }
