@@ -8,6 +8,8 @@
 namespace vasa {
 namespace {
 
+constexpr std::uint32_t kMostOnLoop = 4096;  // a shader goes around a loop, and devices bound that
+
 bool finite(vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -19,6 +21,7 @@ std::string ringFault(const Network& network, const PatchRing& ring) {
   if (!finite(ring.centre) || !std::isfinite(ring.radius) || !(ring.radius > 0)) return "a ring has no size or place";
   if (!(std::abs(glm::length(ring.outward) - 1) < 1e-3f)) return "a ring has no direction";
   if (ring.vertices < 3) return "a loop has fewer than 3 vertices";
+  if (ring.vertices > kMostOnLoop) return "a loop has more than 4096 vertices";
   return {};
 }
 

@@ -152,8 +152,12 @@ TEST_CASE("what is wrong with a patch is told") {
     patch.rings[0].vertices = 2;
     CHECK(fault() == "a loop has fewer than 3 vertices");
   }
-  SUBCASE("loops") {
+  SUBCASE("long loop") {
     patch.rings[0].vertices = 60000;
+    CHECK(fault() == "a loop has more than 4096 vertices");
+  }
+  SUBCASE("loops") {
+    for (PatchRing& ring : patch.rings) ring.vertices = 4096;
     CHECK(fault() == "its loops have more vertices than it has");
   }
   SUBCASE("apart") {
