@@ -15,10 +15,12 @@ void main() {
   uint m = push.view.view.around;
   if (m == 0) {
     float radius = uintBitsToFloat(push.sizes.size[i]), tolerance = push.view.view.tolerance;
-    m = radius > tolerance ? kRoundAround : kThinAround;
-    while (m >= kRoundAround && m < kMaxAround) {
+    precise float thin = kThinShare * tolerance;
+    bool coarse = tolerance >= kCoarse;
+    m = coarse ? kMinAround : radius > tolerance ? kRoundAround : kThinAround;
+    while (m < kMaxAround && (coarse || m >= kRoundAround)) {
       precise float error = radius * push.tables.tables.aroundError[m];
-      if (error <= tolerance) break;
+      if (error <= (m < kRoundAround ? thin : tolerance)) break;
       ++m;
     }
     push.sizes.size[i] = 0;  // for the next frame

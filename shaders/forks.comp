@@ -11,6 +11,7 @@
 
 void put(uint vertex, SurfacePoint point);
 vec2 stepOf(uint around);
+uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d);
 
 #include "lib/fork_collar.glsl"
 #include "lib/fork_stump.glsl"
@@ -21,27 +22,26 @@ const uint kGroupThreads = kGroupForks;
 layout(local_size_x = kGroupForks) in;
 layout(push_constant, scalar) uniform Push { ForksPush push; };
 
-vec2 places[kMostForkVertices];      // of the vertices, on the picture [samples]
-uint kept, target, firstVertex;
-mat4 viewProjection;
-vec2 samples;
-float snap;
+DetailView view;
 
 void put(uint vertex, SurfacePoint point) {
   corners[vertex] = point;
-  push.vertices.vertex[firstVertex + vertex] = packVertex(point);
-  vec4 clip = viewProjection * vec4(point.position, 1);
-  places[vertex] = clip.z > clip.w || clip.w <= 0 ? vec2(kBehind) : (clip.xy / clip.w + 1.0) * (0.5 * samples) - 0.5;
+  vec4 place = vec4(point.position, 1);
+  places[vertex] = dot(view.planes[4], place) < 0
+                       ? vec2(kBehind)
+                       : vec2(dot(view.picture[0], place), dot(view.picture[1], place)) / dot(view.picture[2], place);
 }
 
-vec2 stepOf(uint around) { return push.tables.tables.step[around]; }
+vec2 stepOf(uint around) { return stepAt(push.tables, around); }
+
+uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d) { return push.keepAll != 0 ? 3 : seenOfQuad(a, b, c, d, vec2(view.columns, view.rows), view.snap); }
 
 // Puts the branch's hole between columns; `directions` have to be the trunk's.
 void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Trunk trunk, Section middle) {
   Section at = wallAt(trunk, middle, branch.centre);
   vec4 cross = pointAt(spanAt(push.points, push.tables, branch.crossPoint, branch.crossClass), branch.crossT);
   vec3 towards = levelled(at, cross.xyz);
-  vec2 wanted = vec2(dotOf(towards, at.u), dotOf(towards, at.v)), halfStep = push.tables.tables.halfStep[shape.a];
+  vec2 wanted = vec2(dotOf(towards, at.u), dotOf(towards, at.v)), halfStep = halfStepAt(push.tables, shape.a);
   precise float share = branch.window * float(shape.a) + 1.0;
   ForkWindow window;
   window.count = min(uint(ceil(share)), fork.branchCount > 1 ? shape.a / fork.branchCount : shape.a - 1);
@@ -50,9 +50,9 @@ void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Tr
   window.first = nearestOf(turned(wanted, vec2(halfAngle.x, -halfAngle.y)), shape.a);
   if (i > 0) {  // beside the first one's
     uint otherFirst = windows[0].first, least = windows[0].count, most = shape.a - window.count;
-    uint behind = (window.first + shape.a - otherFirst) % shape.a;
-    if (behind < least) window.first = (otherFirst + (2 * behind < least ? most : least)) % shape.a;
-    else if (behind > most) window.first = (otherFirst + most) % shape.a;
+    uint behind = wrapped(window.first + shape.a - otherFirst, shape.a);
+    if (behind < least) window.first = wrapped(otherFirst + (2 * behind < least ? most : least), shape.a);
+    else if (behind > most) window.first = wrapped(otherFirst + most, shape.a);
   }
   window.hole = holeDirection(branch, wanted, turned(directions[window.first], halfAngle), halfAngle);
   window.wide = branch.holeAround;
@@ -71,7 +71,7 @@ bool outOfView(ForkRecord fork, Ring a, Ring b) {
     reach = max(reach, distance(centre, end.xyz) + end.w);
   }
   for (uint i = 0; i < 5; ++i) {
-    vec4 plane = push.view.view.planes[i];
+    vec4 plane = view.planes[i];
     if (dot(plane.xyz, centre) + plane.w < -1.8 * reach) return true;
   }
   return false;
@@ -132,15 +132,6 @@ bool build(ForkRecord fork, ForkShape shape) {
   return true;
 }
 
-// Triangles that may be seen move up in the list.
-void keepSeen() {
-  for (uint i = 0; i < triangles; ++i) {
-    uvec3 t = triangleAt(i);
-    if (push.keepAll != 0 || (seenOfQuad(places[t.x], places[t.y], places[t.z], places[t.z], samples, snap) & 1u) != 0u)
-      list[kept++] = list[i];
-  }
-}
-
 ForkShape shapeOf(ForkRecord fork) {
   ForkShape shape;
   shape.a = push.around.value[fork.vesselA];
@@ -151,36 +142,40 @@ ForkShape shapeOf(ForkRecord fork) {
   return shape;
 }
 
+void writeVertices(uint first, uint count, uint blocks, uint colour) {
+  Vertices vertices = push.vertices;
+  for (uint k = 0; k < count; ++k) vertices.vertex[first + k] = packVertex(corners[k]);
+  UintsOut colours = push.blockColours;
+  for (uint k = 0; k < blocks; ++k) colours.value[(first >> kBlockShift) + k] = colour;
+}
+
+void writeTriangles(uint vertex, uint target) {
+  UintsOut indices = push.indices;
+  for (uint i = 0; i < triangles; ++i) {
+    uvec3 corner = vertex + triangleAt(i);
+    indices.value[target++] = corner.x;
+    indices.value[target++] = corner.y;
+    indices.value[target++] = corner.z;
+  }
+}
+
 void main() {
-  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, item = group * kGroupForks + local;
-  bool shown = item < push.forkCount;
-  uint colour = shown ? push.colours.value[push.firstFork + item] : 0, blocks = 0;
-  ForkRecord fork;
-  ForkShape shape;
-  kept = 0;
-  if (shown) shown = (push.view.view.hiddenKinds >> (colour >> 24) & 1u) == 0u;
-  if (shown) {
-    fork = push.forks.fork[push.firstFork + item];
-    shape = shapeOf(fork);
-    uint vertices = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
-    blocks = (vertices + kBlockVertices - 1) >> kBlockShift;
+  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, item = group * kGroupForks + local, vertices = 0, colour = 0;
+  triangles = 0;
+  if (item < push.forkCount) {
+    colour = push.colours.value[push.firstFork + item];
+    view = viewAt(push.view);
+    if ((view.hiddenKinds >> (colour >> 24) & 1u) == 0u) {
+      ForkRecord fork = push.forks.fork[push.firstFork + item];
+      ForkShape shape = shapeOf(fork);
+      if (!build(fork, shape)) triangles = 0;
+      if (triangles != 0) vertices = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
+    }
   }
-  firstVertex = group * push.verticesPerGroup + (sumBefore(local, blocks) << kBlockShift);
-  if (shown) {
-    for (uint k = 0; k < blocks; ++k) push.blockColours.value[(firstVertex >> kBlockShift) + k] = colour;
-    viewProjection = push.view.view.viewProjection;
-    samples = vec2(push.view.view.columns, push.view.view.rows);
-    snap = push.view.view.snap;
-    shown = build(fork, shape);
-  }
-  if (shown) keepSeen();
-  target = group * push.indicesPerGroup + 3 * sumBefore(local, kept);
-  for (uint i = 0; i < kept; ++i) {
-    uvec3 corner = triangleAt(i);
-    push.indices.value[target++] = firstVertex + corner.x;
-    push.indices.value[target++] = firstVertex + corner.y;
-    push.indices.value[target++] = firstVertex + corner.z;
-  }
-  if (local == kGroupForks - 1)
-    push.draws.draw[group] = DrawCommand(target - group * push.indicesPerGroup, 1, group * push.indicesPerGroup, 0, 0);
+  uint blocks = (vertices + kBlockVertices - 1) >> kBlockShift;
+  uint first = group * push.verticesPerGroup + (sumBefore(local, blocks) << kBlockShift);
+  writeVertices(first, vertices, blocks, colour);
+  uint before = sumBefore(local, triangles), firstIndex = group * push.indicesPerGroup;
+  writeTriangles(first, firstIndex + 3 * before);
+  if (local == kGroupForks - 1) push.draws.draw[group] = DrawCommand(3 * (before + triangles), 1, firstIndex, 0, 0);
 }

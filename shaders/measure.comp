@@ -6,7 +6,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/detail.glsl"
-#include "shared/tubes.h"
+#include "lib/records.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { MeasurePush push; };
@@ -14,12 +14,12 @@ layout(push_constant, scalar) uniform Push { MeasurePush push; };
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= push.count) return;
-  DetailView view = push.view.view;
-  SweepRecord record = push.sweeps.sweep[i];
+  DetailView view = viewAt(push.view);
+  SweepRecord record = sweepAt(push.sweeps, i);
   vec4 d0 = vec4Of(push.points.point[record.point]), d1 = vec4Of(push.points.point[record.point + 1]);
   vec4 d2 = vec4Of(push.points.point[record.point + 2]), d3 = vec4Of(push.points.point[record.point + 3]);
   Bezier bezier = Bezier(d0, d1, d2, d3);
-  if (view.along == 0) bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], d0, d1, d2, d3);
+  if (view.along == 0) bezier = bezierOf(spanClassAt(push.tables, record.spanClass), d0, d1, d2, d3);
   SweepExtent extent = sweepExtent(d0, d1, d2, d3, bezier, view);
   bool shown = extent.inView && (view.hiddenKinds >> (push.colours.value[i] >> 24) & 1u) == 0u;
   uint along = view.along != 0 ? view.along : alongFor(extent.bendPixels, view.tolerance);

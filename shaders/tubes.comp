@@ -1,13 +1,16 @@
 #version 460
-// A thread a sweep, a workgroup a group: vertices ring by ring, and the triangles between two rings that may be seen.
-// What a thread writes has its place by the threads before it in the group, so nothing depends on their timing.
+// A thread a sweep, a workgroup a group. First which triangles between two rings may be seen, then the vertices that these
+// need, ring by ring, and the triangles. What a thread writes has its place by the threads before it in the group, so
+// nothing depends on their timing.
 // CPU references: engine/surface/tessellate.h, engine/surface/visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/capped_sweep.glsl"
+#include "lib/picture_ring.glsl"
 #include "lib/ring.glsl"
-#include "lib/visible.glsl"
+#include "lib/strip.glsl"
 
 const uint kGroupThreads = kGroupSweeps;
 #include "lib/group_sum.glsl"
@@ -15,108 +18,113 @@ const uint kGroupThreads = kGroupSweeps;
 layout(local_size_x = kGroupSweeps) in;
 layout(push_constant, scalar) uniform Push { TubesPush push; };
 
-struct Item {
-  uint sweep, along, around, rings, before;  // before: rings of a first cap
-  uint blocks;                               // of vertices
-  uint vertex;                               // its first one
-};
+// Of a group's sums, one word for both: triangles below, blocks of vertices above.
+const uint kTriangleBits = 17, kTriangleMask = (1u << kTriangleBits) - 1u;
 
-vec2 places[2 * kMaxAround];  // of this ring's vertices and the last one's, on the picture [samples]
-vec2 polars[kCapRings + 1];
-uint masks[kMaxStrips];       // bit 2k + i: triangle i of the quad behind direction k
+// What may be seen of a sweep. Bits as in lib/strip.glsl.
+uint masks[kMaxStrips];       // triangles of each strip
+uint needed[kMaxStrips + 1];  // vertices of each ring
+uint firsts[kMaxStrips + 1];  // how many vertices earlier rings need
+uint seenStrips, neededRings; // bit k: any of strip or ring k
 
-Item itemOf(uint local) {
-  uint item = gl_WorkGroupID.x * kGroupSweeps + local;
-  Item it = Item(push.firstSweep + item, 0, 0, 0, 0, 0, 0);
-  if (item >= push.sweepCount) return it;
-  it.along = push.along.value[it.sweep];
-  if (it.along == 0) return it;
-  uint caps = push.sweeps.sweep[it.sweep].caps;
-  it.around = push.around.value[push.sweeps.sweep[it.sweep].vessel];
-  it.before = kCapRings * (caps & 1u);
-  it.rings = it.before + it.along + 1 + kCapRings * (caps >> 1);
-  it.blocks = (it.rings * it.around + kBlockVertices - 1) >> kBlockShift;
-  return it;
+void note(uint ring, uint bits, inout uint vertices) {
+  needed[ring] = bits;
+  firsts[ring] = vertices;
+  vertices += uint(bitCount(bits));
+  if (bits != 0) neededRings |= 1u << ring;
 }
 
-void writeColours(Item it) {
-  if (it.blocks == 0) return;
-  uint colour = push.colours.value[it.sweep], first = it.vertex >> kBlockShift;
-  for (uint k = 0; k < it.blocks; ++k) push.blockColours.value[first + k] = colour;
+// @return blocks of vertices and triangles
+uint look(Item it, SweepCurve curve) {
+  DetailView detail = viewAt(push.view);
+  PictureView view = PictureView(detail.picture[0], detail.picture[1], detail.picture[2], detail.planes[4],
+                                 vec2(detail.columns, detail.rows), detail.snap);
+  uint vertices = 0, triangles = 0, above = 0;
+  PictureRing last;
+  seenStrips = neededRings = 0;
+  for (uint ring = 0; ring < it.rings; ++ring) {
+    Section section = ringSection(curve, innerRing(it, ring), it.along);
+    PictureRing now = pictureRing(section, polarOf(it, ring), outwardOf(it, ring), view);
+    if (ring > 0) {
+      uint mask = push.keepAll != 0 ? wholeStrip(it.around) : seenOfStrip(last, now, it.around, directions[1], view);
+      masks[ring - 1] = mask;
+      if (mask != 0) seenStrips |= 1u << (ring - 1);
+      triangles += uint(bitCount(mask));
+      note(ring - 1, above | firstRingOf(mask, it.around), vertices);
+      above = secondRingOf(mask, it.around);
+    }
+    last = now;
+  }
+  note(it.rings - 1, above, vertices);
+  return (vertices + kBlockVertices - 1) >> kBlockShift << kTriangleBits | triangles;
 }
 
-vec2 placeOf(vec3 position, mat4 viewProjection, vec2 samples) {
-  vec4 clip = viewProjection * vec4(position, 1);
-  if (clip.z > clip.w || clip.w <= 0) return vec2(kBehind);
-  return (clip.xy / clip.w + 1.0) * (0.5 * samples) - 0.5;
+void writeColours(Item it, uint vertex, uint blocks) {
+  uint colour = push.colours.value[it.sweep], first = vertex >> kBlockShift;
+  UintsOut colours = push.blockColours;
+  for (uint k = 0; k < blocks; ++k) colours.value[first + k] = colour;
 }
 
-void writeRing(Item it, uint ring, SweepCurve curve, vec2 step, mat4 viewProjection, vec2 samples) {
-  uint inner = clamp(ring, it.before, it.before + it.along) - it.before;
-  uint polarIndex = ring < it.before ? it.before - ring : ring - it.before - inner;
-  Section section = ringSection(curve, inner, it.along);
-  vec2 polar = polars[polarIndex];
-  float outward = ring < it.before ? -1.0 : 1.0;
-  uint target = it.vertex + ring * it.around, row = (ring & 1u) * kMaxAround;
-  // Turned step by step as ringDirections() does, since a load costs a CPU device more than a rotation.
-  vec2 direction = vec2(1, 0);
-  for (uint k = 0; k < it.around; ++k) {
-    SurfacePoint point = capPoint(section, direction, polar, outward);
-    push.vertices.vertex[target + k] = packVertex(point);
-    places[row + k] = placeOf(point.position, viewProjection, samples);
-    precise vec2 next = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
-    direction = next;
+// One loop over all vertices, not one a ring: a CPU device goes round as often as the sweep that needs most of those
+// beside one another, and a store costs it more than a section.
+void writeVertices(Item it, SweepCurve curve, uint vertex) {
+  Vertices vertices = push.vertices;
+  uint bits = 0, ring = 0, rings = neededRings;
+  while (bits != 0 || rings != 0) {
+    if (bits == 0) {
+      ring = uint(findLSB(rings));
+      rings &= rings - 1;
+      bits = needed[ring];
+    }
+    Section section = ringSection(curve, innerRing(it, ring), it.along);
+    vec2 direction = directions[uint(findLSB(bits)) >> 1];
+    vertices.vertex[vertex++] = packVertex(capPoint(section, direction, polarOf(it, ring), outwardOf(it, ring)));
+    bits &= bits - 1;
   }
 }
 
-// Of the strip between the last ring and this one.
-uint maskOf(uint ring, uint around, vec2 samples, float snap) {
-  if (push.keepAll != 0) return 0xffffffffu >> (32 - 2 * around);
-  uint near = (ring & 1u) * kMaxAround, far = kMaxAround - near, mask = 0;
-  vec2 a = places[far], d = places[near];
-  for (uint k = 0; k < around; ++k) {
-    uint next = k + 1 == around ? 0 : k + 1;
-    vec2 b = places[far + next], c = places[near + next];
-    mask |= seenOfQuad(a, b, c, d, samples, snap) << (2 * k);
-    a = b;
-    d = c;
+void writeTriangles(Item it, uint vertex, uint target) {
+  UintsOut indices = push.indices;
+  uint mask = 0, strips = seenStrips;
+  RingVertices first, second;
+  while (mask != 0 || strips != 0) {
+    if (mask == 0) {
+      uint strip = uint(findLSB(strips));
+      strips &= strips - 1;
+      mask = masks[strip];
+      first = RingVertices(vertex + firsts[strip], needed[strip]);
+      second = RingVertices(vertex + firsts[strip + 1], needed[strip + 1]);
+    }
+    uvec3 corners = stripTriangle(uint(findLSB(mask)), first, second, it.around);
+    indices.value[target] = corners.x;
+    indices.value[target + 1] = corners.y;
+    indices.value[target + 2] = corners.z;
+    target += 3;
+    mask &= mask - 1;
   }
-  return mask;
-}
-
-uint writeStrip(uint mask, uint vertex, uint around, uint target) {
-  for (; mask != 0; mask &= mask - 1) {
-    uint bit = uint(findLSB(mask)), k = bit >> 1, next = k + 1 == around ? 0 : k + 1;
-    uint a = vertex + k, c = vertex + around + next;
-    push.indices.value[target++] = a;
-    push.indices.value[target++] = (bit & 1u) == 0 ? vertex + next : c;
-    push.indices.value[target++] = (bit & 1u) == 0 ? c : a + around;
-  }
-  return target;
 }
 
 void main() {
-  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, triangles = 0;
-  Item it = itemOf(local);
-  it.vertex = group * push.verticesPerGroup + (sumBefore(local, it.blocks) << kBlockShift);
-  writeColours(it);
-  if (it.rings != 0) {
-    SweepCurve curve = sweepCurve(push.points, push.knots, push.tables, push.sweeps.sweep[it.sweep]);
-    mat4 viewProjection = push.view.view.viewProjection;
-    vec2 samples = vec2(push.view.view.columns, push.view.view.rows);
-    float snap = push.view.view.snap;
-    for (uint i = 0; i <= kCapRings; ++i) polars[i] = i == 0 ? vec2(1, 0) : push.tables.tables.polar[i];
-    vec2 step = push.tables.tables.step[it.around];
-    for (uint ring = 0; ring < it.rings; ++ring) {
-      writeRing(it, ring, curve, step, viewProjection, samples);
-      if (ring == 0) continue;
-      masks[ring - 1] = maskOf(ring, it.around, samples, snap);
-      triangles += uint(bitCount(masks[ring - 1]));
-    }
+  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, written = 0;
+  uint item = group * kGroupSweeps + local, sweep = push.firstSweep + item;
+  uint along = item < push.sweepCount ? push.along.value[sweep] : 0;
+  Item it;
+  SweepCurve curve;
+  if (along != 0) {
+    SweepRecord record = sweepAt(push.sweeps, sweep);
+    it = itemOf(record, sweep, along, push.around.value[record.vessel], push.view.view.around != 0);
+    curve = sweepCurve(push.points, push.knots, push.tables, record);
+    prepare(it, push.tables);
+    written = look(it, curve);
   }
-  uint target = group * push.indicesPerGroup + 3 * sumBefore(local, triangles);
-  for (uint ring = 1; ring < it.rings; ++ring)
-    target = writeStrip(masks[ring - 1], it.vertex + (ring - 1) * it.around, it.around, target);
+  uint before = sumBefore(local, written);
+  uint vertex = group * push.verticesPerGroup + (before >> kTriangleBits << kBlockShift);
+  uint triangle = before & kTriangleMask;
+  if (along != 0) {
+    writeColours(it, vertex, written >> kTriangleBits);
+    writeVertices(it, curve, vertex);
+    writeTriangles(it, vertex, group * push.indicesPerGroup + 3 * triangle);
+  }
   if (local == kGroupSweeps - 1)
-    push.draws.draw[group] = DrawCommand(target - group * push.indicesPerGroup, 1, group * push.indicesPerGroup, 0, 0);
+    push.draws.draw[group] = DrawCommand(3 * (triangle + (written & kTriangleMask)), 1, group * push.indicesPerGroup, 0, 0);
 }

@@ -19,9 +19,13 @@
 #include "scene_options.h"
 
 // vasa profile: the paper's Tables I to III on this machine. Each row draws a clip's changing poses at one
-// resolution, and beside it the same triangles from ready vertex buffers.
+// resolution, and beside it the same triangles from ready vertex buffers (render/profiler.h).
 namespace vasa::cli {
 namespace {
+
+constexpr const char* kMeasured =
+    "frame_ms: from one picture to the next, while the next pose is solved on another thread; latency_ms: from a pose to its "
+    "finished picture; stages, solve_ms and picture_ms: one after the other, nothing beside them";
 
 struct Options {
   SceneOptions scene;
@@ -92,7 +96,7 @@ Report storageReport(const Scene& scene) {
 }
 
 std::string asText(const Report& report) {
-  std::string text = fmt::format("{}, {}\n\n", report["device"].get<std::string>(), report["size"].get<std::string>());
+  std::string text = fmt::format("{}, {}\n{}\n\n", report["device"].get<std::string>(), report["size"].get<std::string>(), kMeasured);
   const Report& rows = report["rows"];
   for (const auto& [name, unused] : rows.front().items()) text += fmt::format("{:>{}}", name, std::max<std::size_t>(name.size() + 2, 9));
   text += "\n";
@@ -153,6 +157,7 @@ Result<void> run(const Globals& globals, const Options& options) {
                {"size", options.size},
                {"clip", setting->clip ? setting->clip->name : "rest"},
                {"frames", options.frames},
+               {"measured", kMeasured},
                {"rows", Report::array()}};
     std::vector<ProfileQuads> quads;
     for (const Quads& each : setting->quads) quads.push_back({{each.around, each.along}, each.pixelError});

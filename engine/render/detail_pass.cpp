@@ -16,8 +16,7 @@ constexpr std::uint32_t kGroup = 64;
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
 // Sides of the view volume, from rows of the matrix (Gribb, Hartmann 2001). Clip space holds -w <= x, y <= w, z <= w.
-void setPlanes(shared::DetailView& view) {
-  const mat4 rows = glm::transpose(view.viewProjection);
+void setPlanes(shared::DetailView& view, const mat4& rows) {
   const vec4 sides[5]{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
   for (int i = 0; i < 5; ++i) view.planes[i] = sides[i] / glm::length(vec3(sides[i]));
 }
@@ -28,8 +27,8 @@ shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D
                               const TubeDetail& detail, float snap) {
   shared::DetailView view{};
   const float width = float(size.width), height = float(size.height);
-  view.viewProjection = viewProjection(camera, width / height);
-  setPlanes(view);
+  const mat4 rows = glm::transpose(viewProjection(camera, width / height));
+  setPlanes(view, rows);
   if (camera.orthographicHeight > 0) {
     view.depth = {0, 0, 0, 1};
     view.nearest = 1;
@@ -48,12 +47,15 @@ shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D
   // Vulkan's standard places of four samples lie in four columns and rows of a pixel, evenly.
   view.columns = width * float(samples);
   view.rows = height * float(samples);
+  view.picture[0] = 0.5f * view.columns * (rows[0] + rows[3]) - 0.5f * rows[3];
+  view.picture[1] = 0.5f * view.rows * (rows[1] + rows[3]) - 0.5f * rows[3];
+  view.picture[2] = rows[3];
   view.snap = snap * float(samples);
   return view;
 }
 
 float detailSnap(const gpu::Device& device, VkExtent2D size) {
-  const float rounding = float(std::max(size.width, size.height)) * 0x1p-21f;
+  const float rounding = float(std::max(size.width, size.height)) * 0x1p-19f;  // of the pass's places, and of the rasteriser's
   return std::exp2(-float(device.limits().subPixelPrecisionBits)) + rounding;
 }
 

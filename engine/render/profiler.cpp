@@ -1,13 +1,21 @@
 #include "render/profiler.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <future>
 
 namespace vasa {
 namespace {
 
 constexpr std::uint32_t kWarmUpFrames = 5;  // shaders compile at their first use
 constexpr std::uint32_t kStaticEvery = 8;   // frames: it takes memory for every vertex
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -50,13 +58,49 @@ std::string ProfileRow::name() const {
   return quads.pixelError > 0 ? "auto" : std::to_string(quads.shape.around) + "x" + std::to_string(quads.shape.along);
 }
 
+// Two makers take turns, so that one's frame can be drawn while the other makes the next.
 struct Profiler::Pass {
-  Pass(gpu::Device& device, const ProfileSetting& setting, const RenderOptions& options)
-      : maker(*setting.scene, {.avoid = setting.avoid}), renderer(device, setting.scene->network, setting.meshes, options) {}
-  FrameMaker maker;
+  struct Shape {
+    std::unique_ptr<FrameMaker> maker;
+    Clock::time_point start;
+    double ms = 0;
+  };
+  Pass(gpu::Device& device, const ProfileSetting& chosen, const RenderOptions& options)
+      : setting(chosen), renderer(device, chosen.scene->network, chosen.meshes, options) {
+    for (Shape& shape : shapes) shape.maker = std::make_unique<FrameMaker>(*chosen.scene, FrameOptions{.avoid = chosen.avoid});
+  }
+
+  void make(std::uint32_t number) {
+    Shape& shape = shapes[number % 2];
+    shape.start = Clock::now();
+    const std::uint32_t clipFrames = setting.clip ? setting.clip->frameCount() : 1;
+    shape.maker->make(setting.clip, setting.clip ? setting.clip->timeOfFrame(number % clipFrames) : 0);
+    shape.ms = msSince(shape.start);
+  }
+  // @return what the frame is drawn from, good until the next but one
+  Shape& take(bool ahead) {
+    if (next.valid()) next.get();
+    else make(frame);
+    if (ahead) next = std::async(std::launch::async, [this, number = frame + 1] { make(number); });
+    return shapes[frame % 2];
+  }
+  double draw(const FrameMaker& maker) {
+    const auto start = Clock::now();
+    input = {.points = maker.points(),
+             .knotFrames = maker.knotFrames(),
+             .jointMatrices = setting.meshes.empty() ? std::span<const mat4>() : maker.jointMatrices(),
+             .camera = setting.camera(maker),
+             .look = setting.look};
+    renderer.draw(input);
+    return msSince(start);
+  }
+
+  const ProfileSetting& setting;
   Renderer renderer;
   RenderInput input;
   std::uint32_t frame = 0;
+  std::array<Shape, 2> shapes;
+  std::future<void> next;  // waits for its thread when it goes, before what that writes to
 };
 
 Profiler::Profiler(gpu::Device& device, ProfileSetting setting, std::vector<ProfileQuads> quads)
@@ -76,33 +120,34 @@ bool Profiler::step() {
   if (rows_.size() == wanted_.size()) return false;
   if (!pass_) startPass(false);
   Pass& pass = *pass_;
-  const std::uint32_t clipFrames = setting_.clip ? setting_.clip->frameCount() : 1;
-  const auto start = std::chrono::steady_clock::now();
-  pass.maker.make(setting_.clip, setting_.clip ? setting_.clip->timeOfFrame(pass.frame % clipFrames) : 0);
-  pass.input = {.points = pass.maker.points(),
-                .knotFrames = pass.maker.knotFrames(),
-                .jointMatrices = setting_.meshes.empty() ? std::span<const mat4>() : pass.maker.jointMatrices(),
-                .camera = setting_.camera(pass.maker),
-                .look = setting_.look};
-  pass.renderer.draw(pass.input);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  if (pass.frame++ >= kWarmUpFrames) note(ms);
+  const auto start = Clock::now();
+  const Pass::Shape& shape = pass.take(!pass.renderer.options().timed);
+  const double solveMs = shape.ms, pictureMs = pass.draw(*shape.maker);
+  // What an app did since the last step may have hidden some of the shape's time.
+  const FrameTime time{.frame = std::max(msSince(start), solveMs), .latency = msSince(shape.start), .solve = solveMs, .picture = pictureMs};
+  if (pass.frame++ >= kWarmUpFrames) note(time, *shape.maker);
   if (pass.frame < kWarmUpFrames + setting_.frames) return true;
   if (!pass.renderer.options().timed) startPass(true);
   else finishRow();
   return rows_.size() < wanted_.size();
 }
 
-void Profiler::note(double frameMs) {
+void Profiler::note(const FrameTime& time, const FrameMaker& maker) {
   const auto add = [&](const char* name, double ms) {
     auto found = std::ranges::find(samples_, name, &std::pair<std::string, std::vector<double>>::first);
     if (found == samples_.end()) found = samples_.insert(found, {name, {}});
     found->second.push_back(ms);
   };
   Pass& pass = *pass_;
-  if (!pass.renderer.options().timed) return add("frame_ms", frameMs);
-  for (const auto& [stage, ms] : shapeStages(pass.maker.report(), setting_.avoid)) add(stage, ms);
+  if (!pass.renderer.options().timed) {
+    add("frame_ms", time.frame);
+    add("latency_ms", time.latency);
+    return;
+  }
+  for (const auto& [stage, ms] : shapeStages(maker.report(), setting_.avoid)) add(stage, ms);
+  add("solve_ms", time.solve);
   for (const auto& [stage, ms] : pictureStages(pass.renderer.times(), setting_.render.growth != nullptr)) add(stage, ms);
+  add("picture_ms", time.picture);
   add("triangles_drawn", double(pass.renderer.drawnTriangleCount()));
   if ((pass.frame - kWarmUpFrames) % kStaticEvery == 1) add("static_draw_ms", pass.renderer.staticDraw(pass.input, 1));
 }

@@ -48,8 +48,11 @@ struct ProfileSetting {
   std::uint32_t frames = 40;                 ///< a row, each another pose
 };
 
-/// Measures one row after the other, a frame a step, so that an app can go on between two steps. Stages are timed in one
-/// pass, whole frames in another: taking the stages' times puts barriers between them.
+/// Measures one row after the other, a frame a step, so that an app can go on between two steps. Whole frames are timed in
+/// one pass, as an app draws them: the next frame's shape is made on a thread of its own while this one is drawn
+/// ("frame_ms" from one picture to the next, "latency_ms" from a pose to its picture). Stages are timed in another, one
+/// after the other: taking the device's times puts barriers between them ("solve_ms" all of a shape, "picture_ms" all of
+/// a picture).
 class Profiler {
  public:
   Profiler(gpu::Device& device, ProfileSetting setting, std::vector<ProfileQuads> quads);
@@ -63,8 +66,11 @@ class Profiler {
 
  private:
   struct Pass;
+  struct FrameTime {
+    double frame = 0, latency = 0, solve = 0, picture = 0;  // [ms]
+  };
   void startPass(bool timed);
-  void note(double frameMs);
+  void note(const FrameTime& time, const FrameMaker& maker);
   void finishRow();
 
   gpu::Device& device_;

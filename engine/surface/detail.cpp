@@ -75,10 +75,16 @@ std::span<const float> aroundErrors() {
 }
 
 std::uint32_t aroundFor(float radiusPixels, float tolerance) {
-  if (radiusPixels <= tolerance) return shared::kThinAround;
-  std::uint32_t m = shared::kRoundAround;
-  while (m < shared::kMaxAround && radiusPixels * aroundErrors()[m] > tolerance) ++m;
+  const bool coarse = tolerance >= float(shared::kCoarse);
+  if (!coarse && radiusPixels <= tolerance) return shared::kThinAround;
+  const float thin = float(shared::kThinShare) * tolerance;
+  std::uint32_t m = coarse ? shared::kMinAround : shared::kRoundAround;
+  while (m < shared::kMaxAround && radiusPixels * aroundErrors()[m] > (m < shared::kRoundAround ? thin : tolerance)) ++m;
   return m;
+}
+
+std::uint32_t capRings(std::uint32_t around, const shared::DetailView& view) {
+  return view.around == 0 && around < shared::kRoundAround ? 1 : shared::kCapRings;
 }
 
 std::uint32_t alongFor(float bendPixels, float tolerance) {

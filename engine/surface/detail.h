@@ -13,7 +13,8 @@
 //
 // With fixed quads both are the same everywhere; a sweep out of view has n = 0 and is not tessellated. With
 // --quads auto they follow from DetailView::tolerance:
-//   m = kThinAround where R <= tolerance, else the least m >= kRoundAround with R (1 − cos(π/m)) <= tolerance
+//   m = kThinAround where R <= tolerance, else the least m >= kRoundAround with R (1 − cos(π/m)) <= tolerance; from
+//     tolerance = kCoarse on, the least m with that, or with kThinShare · tolerance where m < kRoundAround
 //     R: largest radius of the vessel's sweeps in view [pixels]
 //   n = the least n with E / n² <= kAlongShare · tolerance
 //     E: height of an arc as bent as the sweep's most bent part, at its outer side [pixels]
@@ -36,7 +37,11 @@ std::uint32_t alongFor(float bendPixels, float tolerance);
 /// (1 − cos(π/m)) for m = 0 .. kMaxAround (m < 3 unused), as the shaders read it.
 std::span<const float> aroundErrors();
 
-/// m of every vessel (kThinAround for one out of view) and n of every sweep (0: out of view).
+/// Rings of a cap, the rim included: kCapRings, or of thin vessels with --quads auto the rim alone before the pole. A cone
+/// in a half ball's place is off by 0.3 R at most.
+std::uint32_t capRings(std::uint32_t around, const shared::DetailView& view);
+
+/// m of every vessel (the least for one out of view) and n of every sweep (0: out of view).
 struct NetworkDetail {
   std::vector<std::uint32_t> around, along;
 };

@@ -21,23 +21,24 @@ bool covers(vec4 outside, float margin) {
   return std::min(std::min(outside.x, outside.y), std::min(outside.z, outside.w)) <= margin;
 }
 
+bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 samples, float snap) {
+  const vec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+  if (high.x >= 0.5f * shared::kBehind) return true;
+  const vec2 first = glm::max(glm::ceil(low - snap), vec2(0)), last = glm::min(glm::floor(high + snap), samples - 1.0f);
+  const vec2 span = last - first;
+  if (span.x < 0 || span.y < 0) return false;
+  const vec2 size = high - low, ab = b - a, ac = c - a;
+  const float margin = 4 * snap * (size.x + size.y + snap);
+  if (cross2(ab, ac) > margin) return false;
+  if (span.x > 1 || span.y > 1) return true;
+  // small: each of its samples is looked at
+  return covers(glm::max(glm::max(beyond(a, ab, first, span), beyond(b, c - b, first, span)), beyond(c, -ac, first, span)), margin);
+}
+
 }  // namespace
 
 std::uint32_t seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, vec2 samples, float snap) {
-  const vec2 low = glm::min(glm::min(a, b), glm::min(c, d)), high = glm::max(glm::max(a, b), glm::max(c, d));
-  if (high.x >= 0.5f * shared::kBehind) return 3;
-  const vec2 first = glm::max(glm::ceil(low - snap), vec2(0)), last = glm::min(glm::floor(high + snap), samples - 1.0f);
-  const vec2 span = last - first;
-  if (span.x < 0 || span.y < 0) return 0;
-  const vec2 size = high - low, ab = b - a, ac = c - a, ad = d - a;
-  const float margin = 4 * snap * (size.x + size.y + snap);
-  bool abc = cross2(ab, ac) <= margin, acd = cross2(ac, ad) <= margin;
-  if (span.x <= 1 && span.y <= 1) {  // small: each of its samples is looked at
-    const vec4 across = beyond(a, ac, first, span);
-    abc = abc && covers(glm::max(glm::max(beyond(a, ab, first, span), beyond(b, c - b, first, span)), -across), margin);
-    acd = acd && covers(glm::max(glm::max(beyond(c, d - c, first, span), beyond(d, -ad, first, span)), across), margin);
-  }
-  return (abc ? 1u : 0u) | (acd ? 2u : 0u);
+  return (seenOfTriangle(a, b, c, samples, snap) ? 1u : 0u) | (seenOfTriangle(a, c, d, samples, snap) ? 2u : 0u);
 }
 
 }  // namespace vasa

@@ -1,6 +1,7 @@
 // Mirrors engine/surface/fork.cpp: the same operations in the same order.
 #ifndef VASA_FORK
 #define VASA_FORK
+#include "lib/records.glsl"
 #include "lib/section.glsl"
 #include "shared/fork.h"
 
@@ -20,7 +21,7 @@ vec3 unitOr(vec3 a, vec3 otherwise) {
 }
 
 Bezier spanAt(Points points, Tables tables, uint point, uint spanClass) {
-  return bezierOf(tables.tables.spanClass[spanClass], vec4Of(points.point[point]), vec4Of(points.point[point + 1]),
+  return bezierOf(spanClassAt(tables, spanClass), vec4Of(points.point[point]), vec4Of(points.point[point + 1]),
                   vec4Of(points.point[point + 2]), vec4Of(points.point[point + 3]));
 }
 
@@ -137,7 +138,8 @@ uint seamAt(Ring ring, vec3 wanted, uint around) {
 }
 
 vec2 seamDirection(Ring ring, uint first, uint k, uint around) {
-  return directions[(ring.turn < 0 ? first + around - k : first + k) % around];
+  uint at = ring.turn < 0 ? first + around - k : first + k;  // below 2 around; a CPU device divides whole numbers lane by lane
+  return directions[at < around ? at : at - around];
 }
 
 float collarParameter(uint row) {

@@ -1,4 +1,4 @@
-// Mirrors engine/surface/fork_stump.cpp and fork_check.cpp: the same operations in the same order. The shader that
+// Mirrors engine/surface/fork_stump.cpp: the same operations in the same order. The shader that
 // includes it has
 //   void put(uint vertex, SurfacePoint point)   takes a vertex
 #ifndef VASA_FORK_STUMP
@@ -7,49 +7,6 @@
 
 const float kStumpWide = 0.8;   // share of the way to the tip
 const float kStumpLeast = 0.5;  // depth in radii
-const float kFlat2 = 1e-10;     // square of the share of its edges that a triangle looks the right way
-
-SurfacePoint corners[kMostForkVertices];
-
-bool folds(uvec3 t) {
-  precise vec3 first = corners[t.y].position - corners[t.x].position, second = corners[t.z].position - corners[t.x].position;
-  precise vec3 normals = corners[t.x].normal + corners[t.y].normal + corners[t.z].normal;
-  float along = dotOf(crossOf(first, second), normals);
-  precise float square = along * along;
-  precise float flat2 = kFlat2 * dotOf(first, first) * dotOf(second, second);
-  return along <= 0 || square <= flat2;
-}
-
-bool anyFolds(uint from) {
-  bool found = false;
-  for (uint i = from; i < triangles && !found; ++i) found = folds(triangleAt(i));
-  return found;
-}
-
-// Branches first: the wall has holes for those that are no stumps.
-void addForkTriangles(ForkShape shape) {
-  cut = false;
-  triangles = 0;
-  for (uint i = 0; i < shape.branchCount; ++i) {
-    uint from = triangles;
-    stumps[i] = false;
-    addBranch(shape, i);
-    stumps[i] = anyFolds(from);
-    if (!stumps[i]) continue;
-    triangles = from;
-    addBranch(shape, i);
-  }
-  uint from = triangles;
-  addTrunk(shape);
-  cut = anyFolds(from);
-  if (!cut) return;
-  triangles = 0;
-  for (uint i = 0; i < shape.branchCount; ++i) {
-    stumps[i] = true;
-    addBranch(shape, i);
-  }
-  addTrunk(shape);
-}
 
 /// `ring`, `wide`, `tip`: rows. `towards`: the tip, unless that lies less deep than half a radius.
 void addStump(ForkShape shape, Ring ring, uint first, vec3 inward, vec3 towards, uint ringRow, uint wideRow, uint tipRow) {

@@ -73,10 +73,8 @@ vec3 secondDerivativeAt(Bezier z, float t) {
 
 vec3 tangentOf(Bezier z, vec3 derivative, vec3 vesselChord) {
   vec3 chord = z.b3.xyz - z.b0.xyz;
-  if (dotOf(derivative, derivative) > kTiny2) return unitOf(derivative);
-  if (dotOf(chord, chord) > kTiny2) return unitOf(chord);
-  if (dotOf(vesselChord, vesselChord) > kTiny2) return unitOf(vesselChord);
-  return vec3(0, 0, 1);
+  vec3 along = dotOf(derivative, derivative) > kTiny2 ? derivative : dotOf(chord, chord) > kTiny2 ? chord : vesselChord;
+  return dotOf(along, along) > kTiny2 ? unitOf(along) : vec3(0, 0, 1);
 }
 
 // The first axis of the blend of two quaternions (x y z w), at right angles to the tangent.

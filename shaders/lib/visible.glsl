@@ -15,20 +15,19 @@ bool covers(vec4 outside, float margin) {
   return min(min(outside.x, outside.y), min(outside.z, outside.w)) <= margin;
 }
 
-uint seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, vec2 samples, float snap) {
-  vec2 low = min(min(a, b), min(c, d)), high = max(max(a, b), max(c, d));
-  if (high.x >= 0.5 * kBehind) return 3;
+bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 samples, float snap) {
+  vec2 low = min(min(a, b), c), high = max(max(a, b), c);
   vec2 first = max(ceil(low - snap), 0.0), last = min(floor(high + snap), samples - 1.0), span = last - first;
-  if (span.x < 0 || span.y < 0) return 0;
-  vec2 size = high - low, ab = b - a, ac = c - a, ad = d - a;
+  vec2 size = high - low, ab = b - a, ac = c - a;
   float margin = 4 * snap * (size.x + size.y + snap);
-  bool abc = cross2(ab, ac) <= margin, acd = cross2(ac, ad) <= margin;
-  if (span.x <= 1 && span.y <= 1) {  // small: each of its samples is looked at
-    vec4 across = beyond(a, ac, first, span);
-    abc = abc && covers(max(max(beyond(a, ab, first, span), beyond(b, c - b, first, span)), -across), margin);
-    acd = acd && covers(max(max(beyond(c, d - c, first, span), beyond(d, -ad, first, span)), across), margin);
-  }
-  return (abc ? 1u : 0u) | (acd ? 2u : 0u);
+  bool seen = span.x >= 0 && span.y >= 0 && cross2(ab, ac) <= margin;
+  bool small = span.x <= 1 && span.y <= 1;  // each of its samples is looked at
+  vec4 outside = max(max(beyond(a, ab, first, span), beyond(b, c - b, first, span)), beyond(c, -ac, first, span));
+  return high.x >= 0.5 * kBehind || (seen && (!small || covers(outside, margin)));
+}
+
+uint seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, vec2 samples, float snap) {
+  return (seenOfTriangle(a, b, c, samples, snap) ? 1u : 0u) | (seenOfTriangle(a, c, d, samples, snap) ? 2u : 0u);
 }
 
 #endif

@@ -11,13 +11,16 @@ namespace vasa::shared {
 #endif
 
 /// Quads around a vessel whose m the picture decides: for one no thicker than its tolerance, and least for any other.
+/// From kCoarse [pixels] on, for pictures that move, a tolerance asks for still fewer than kRoundAround where that takes
+/// kThinShare of it: few corners also make a vessel thinner.
 VASA_CONSTANT uint kThinAround = 5, kRoundAround = 8;
+VASA_CONSTANT float kCoarse = 0.5, kThinShare = 0.25;
 /// Share of the tolerance that corners along a sweep may take: they show sooner than those around it.
 VASA_CONSTANT float kAlongShare = 0.07;
 
 /// A picture's view of the network. Fixed m and n, or those that keep an error in pixels.
 struct DetailView {
-  mat4 viewProjection;
+  vec4 picture[3];   // (dot(picture[0], q), dot(picture[1], q)) / dot(picture[2], q), q = (p, 1): p's place [samples]
   vec4 planes[5];    // left, right, bottom, top, near: dot(plane.xyz, p) + plane.w >= 0 in view; unit normals
   vec4 depth;        // dot(depth.xyz, p) + depth.w: how far p lies before the eye [m]; (0, 0, 0, 1) orthographic
   float nearest;     // [m] least depth that counts; 1 orthographic
@@ -31,7 +34,7 @@ struct DetailView {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(DetailView) == 64 + 80 + 16 + 40);
+static_assert(sizeof(DetailView) == 48 + 80 + 16 + 40 && offsetof(DetailView, rows) == 22 * 8);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -30,8 +30,8 @@ struct TubeTables {
   mat4 spanClass[kSpanClasses];         // de Boor to Bézier points
   vec2 step[kMaxAround + 1];            // (cos, sin) of 2π/m
   vec2 halfStep[kMaxAround + 1];        // (cos, sin) of π/m
-  float aroundError[kMaxAround + 1];    // 1 - cos(π/m)
   vec2 polar[kCapRings + 1];            // (cos φ, sin φ) from a cap's rim to its pole
+  float aroundError[kMaxAround + 1];    // 1 - cos(π/m)
 };
 
 /// VkDrawIndexedIndirectCommand.
@@ -44,9 +44,11 @@ struct DrawCommand {
 #ifndef __cplusplus
 #define VASA_READ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer
 #define VASA_WRITE layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer
-// A CPU device loads and stores lane by lane and word by word: these are vec4 (lib/words.glsl) and TubeVertex.
+// A CPU device loads and stores lane by lane and word by word: these are vec4 (lib/words.glsl) and TubeVertex;
+// lib/records.glsl reads the others so.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Points { u64vec2 point[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Knots { u64vec2 knot[]; };  // x y z w
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Words { uint64_t word[]; };
 VASA_READ Sweeps { SweepRecord sweep[]; };
 VASA_READ Tables { TubeTables tables; };
 VASA_READ View { DetailView view; };
@@ -102,6 +104,7 @@ struct TubesPush {
 };
 
 #ifdef __cplusplus
+static_assert(offsetof(TubeTables, polar) == 8 * (8 * kSpanClasses + 2 * (kMaxAround + 1)));
 static_assert(sizeof(TubeTables) == 64 * 9 + 20 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
 static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 120);
 }  // namespace vasa::shared

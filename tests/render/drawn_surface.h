@@ -5,6 +5,7 @@
 #include "render/fork_pass.h"
 #include "render/patch_pass.h"
 #include "support/manifold.h"
+#include "surface/detail.h"
 #include "surface/fork.h"
 
 namespace vasa::test {
@@ -79,9 +80,10 @@ struct Forks {
 
   std::vector<std::uint32_t> firstTubeVertices() const {
     std::vector<std::uint32_t> counts;
-    for (std::uint32_t i = 0; i < along.size(); ++i)
-      counts.push_back((along[i] + 1 + shared::kCapRings * std::uint32_t(std::popcount(tubes.table().sweeps[i].caps))) *
-                       around[tubes.table().vesselOfSweep[i]]);
+    for (std::uint32_t i = 0; i < along.size(); ++i) {
+      const std::uint32_t m = around[tubes.table().vesselOfSweep[i]], caps = std::uint32_t(std::popcount(tubes.table().sweeps[i].caps));
+      counts.push_back((along[i] + 1 + capRings(m, view) * caps) * m);
+    }
     return firstVertices(counts, shared::kGroupSweeps, tubes.room());
   }
   std::vector<std::uint32_t> firstForkVertices() const {

@@ -70,7 +70,7 @@ void checkSeams(const Forks& passes) {
   const std::vector<std::uint32_t> tubes = passes.firstTubeVertices(), forks = passes.firstForkVertices();
   for (std::uint32_t i = 0; i < table.sweeps.size(); ++i) {
     const std::uint32_t m = passes.around[table.vesselOfSweep[i]], rows = passes.along[i];
-    const std::uint32_t first = tubes[i] + shared::kCapRings * (table.sweeps[i].caps & 1) * m;
+    const std::uint32_t first = tubes[i] + capRings(m, passes.view) * (table.sweeps[i].caps & 1) * m;
     REQUIRE(rows > 0);
     for (std::uint32_t k = 0; k < m; ++k) {
       ++rings[bitsOf(passes.tubesDrawn.vertices[first + k])];

@@ -26,9 +26,10 @@ std::map<std::string, unsigned> mostLoops() {
   return {
       {"measure.comp", chord + kMaxAlong},
       {"around.comp", m},
-      {"tubes.comp", kGroupSweeps + rings + rings * m + kMaxStrips * (1 + m + 2 * m)},
-      // a ring search, m vertices and their directions a row, triangles found up to three times, looked at twice, seen, written, sums over the group
-      {"forks.comp", 4 * kMostForkVertices + 7 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
+      // rings looked at and written, quads, vertices, triangles, blocks of vertices, sums over the group
+      {"tubes.comp", 2 * rings + kMaxStrips * m + rings * m + kMaxStrips * 2 * m + rings * m / kBlockVertices + kGroupSweeps},
+      // a ring search, m vertices and their directions a row, triangles found up to three times, written, sums over the group
+      {"forks.comp", 4 * kMostForkVertices + 4 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
       {"occlusion.comp", kOcclusionTaps},
       {"smooth.comp", kOcclusionTile * (kOcclusionTile + 1)},

@@ -55,9 +55,12 @@ TEST_CASE("m and n are the least that keep the error") {
     for (const float tolerance : {0.05f, 0.25f, 1.0f}) {
       const std::uint32_t m = aroundFor(size, tolerance), n = alongFor(size, tolerance);
       const auto sagitta = [&](std::uint32_t k) { return size * (1 - std::cos(kPi / float(k))); };
-      CHECK((m == shared::kThinAround) == (size <= tolerance));
-      if (m < shared::kMaxAround) CHECK(sagitta(m) <= tolerance * 1.0001f);
-      if (m > shared::kRoundAround) CHECK(sagitta(m - 1) > tolerance * 0.9999f);
+      const bool coarse = tolerance >= shared::kCoarse;
+      const auto share = [&](std::uint32_t k) { return (coarse && k < shared::kRoundAround ? shared::kThinShare : 1) * tolerance; };
+      const std::uint32_t least = coarse ? shared::kMinAround : shared::kRoundAround;
+      if (!coarse) CHECK((m == shared::kThinAround) == (size <= tolerance));
+      if (m < shared::kMaxAround) CHECK(sagitta(m) <= share(m) * 1.0001f);
+      if (m > least) CHECK(sagitta(m - 1) > share(m - 1) * 0.9999f);
       if (n < shared::kMaxAlong) CHECK(size / float(n * n) <= 0.07f * tolerance * 1.0001f);
       if (n > 1) CHECK(size / float((n - 1) * (n - 1)) > 0.07f * tolerance * 0.9999f);
     }

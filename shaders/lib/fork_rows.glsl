@@ -1,0 +1,72 @@
+// A fork's rows of vertices and the list of its triangles. Mirrors parts of engine/surface/fork_template.cpp and
+// fork_check.cpp: the same operations in the same order. The shader that includes it has
+//   uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d)   which triangles of a quad are drawn (lib/visible.glsl)
+#ifndef VASA_FORK_ROWS
+#define VASA_FORK_ROWS
+#include "lib/fork.glsl"
+
+struct ForkShape {
+  uint a, b, branchCount;
+  uint branch[kMostBranches];
+};
+
+const uint kBranchRows = 1 + kCollarRows;
+
+uint holeRow(uint branch) { return kTrunkRows + branch * kBranchRows; }
+uint branchRow(uint branch) { return holeRow(branch) + kCollarRows; }
+
+uint rowSize(ForkShape shape, uint row) {
+  if (row < kTrunkRows) return row + 1 < kTrunkRows ? shape.a : shape.b;
+  return row < kTrunkRows + kBranchRows ? shape.branch[0] : shape.branch[1];
+}
+
+uint rowStart(ForkShape shape, uint row) {
+  if (row < kTrunkRows) return row * shape.a;
+  uint start = (kTrunkRows - 1) * shape.a + shape.b, rest = row - kTrunkRows;
+  if (rest <= kBranchRows) return start + rest * shape.branch[0];
+  return start + kBranchRows * shape.branch[0] + (rest - kBranchRows) * shape.branch[1];
+}
+
+const float kFlat2 = 1e-10;  // square of the share of its edges that a triangle looks the right way
+
+SurfacePoint corners[kMostForkVertices];
+vec2 places[kMostForkVertices];  // on the picture [samples]
+uint list[kMostForkTriangles];   // of the triangles that are drawn, 8 bits a corner
+uint triangles;                  // how many
+bool folded;                     // some triangle that was added folds, drawn or not
+
+// A vertex as the triangles around it need it: loads from an array cost a CPU device more than what is done with them.
+struct Corner {
+  uint vertex;
+  SurfacePoint point;
+  vec2 place;
+};
+
+Corner cornerAt(uint vertex) { return Corner(vertex, corners[vertex], places[vertex]); }
+
+bool folds(SurfacePoint a, SurfacePoint b, SurfacePoint c) {
+  precise vec3 first = b.position - a.position, second = c.position - a.position;
+  precise vec3 normals = a.normal + b.normal + c.normal;
+  float along = dotOf(crossOf(first, second), normals);
+  precise float square = along * along;
+  precise float flat2 = kFlat2 * dotOf(first, first) * dotOf(second, second);
+  return along <= 0 || square <= flat2;
+}
+
+void add(uint a, uint b, uint c) { list[triangles++] = a | b << 8 | c << 16; }
+
+void addTriangle(Corner a, Corner b, Corner c) {
+  folded = folded || folds(a.point, b.point, c.point);
+  if ((seenOf(a.place, b.place, c.place, c.place) & 1u) != 0u) add(a.vertex, b.vertex, c.vertex);
+}
+
+void addQuad(Corner a, Corner b, Corner c, Corner d) {
+  folded = folded || folds(a.point, b.point, c.point) || folds(a.point, c.point, d.point);
+  uint seen = seenOf(a.place, b.place, c.place, d.place);
+  if ((seen & 1u) != 0u) add(a.vertex, b.vertex, c.vertex);
+  if ((seen & 2u) != 0u) add(a.vertex, c.vertex, d.vertex);
+}
+
+uvec3 triangleAt(uint i) { return uvec3(list[i], list[i] >> 8, list[i] >> 16) & 255u; }
+
+#endif
