@@ -341,7 +341,6 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
     }
   }
   if (report.rounds > 0 && certificateOf(places, &remaining).holds()) bringBack(posed, volume, points, report);
-  if (report.rounds > 0) lookAtBones(Bones::Which::all, report);
   report.after = certificateOf(places, &remaining);
   report.sidesChangedAfter = std::uint32_t(changed.size());
   report.bonesAfter = reportOf(boneContacts);
