@@ -8,8 +8,6 @@
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kMostOnLoop = 4096;  // a shader goes around a loop, and devices bound that
-
 bool finite(vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

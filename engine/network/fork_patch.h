@@ -22,6 +22,9 @@ struct PatchRing {
   std::uint32_t vertices = 0;  ///< of the patch's loop beside it, at least 3
 };
 
+/// Most vertices on one loop of a patch: a shader goes around it, and devices bound that.
+constexpr std::uint32_t kMostOnLoop = 4096;
+
 /// A piece of wall with one loop of border edges beside each ring. It does not reach the rings: a strip from loop to ring
 /// closes the surface, whatever number of vertices the ring is drawn with.
 struct ForkPatch {

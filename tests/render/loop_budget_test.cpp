@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "network/fork_patch.h"
 #include "shared/fork.h"
 #include "shared/growth.h"
 #include "shared/occlusion.h"
@@ -31,6 +32,8 @@ std::map<std::string, unsigned> mostLoops() {
       // a ring search, m vertices and their directions a row, triangles found up to three times, written, sums over the group
       {"forks.comp", 4 * kMostForkVertices + 4 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
+      // directions, the ring's vertices, where it begins, the strip's triangles and those without area
+      {"patches.comp", 3 * m + kMostOnLoop + 2 * m},
       {"occlusion.comp", kOcclusionTaps},
       {"smooth.comp", kOcclusionTile * (kOcclusionTile + 1)},
       {"skin.comp", 0},
