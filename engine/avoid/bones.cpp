@@ -246,9 +246,10 @@ void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
   }
 }
 
+// ... now, or once what is in the box was moved, though not far.
 bool Bones::State::mayTouch(const Aabb& box, std::uint32_t part) const {
   const vec3 middle = placed(solids[part].inverse, 0.5f * (box.low + box.high));
-  return solids[part].field.clearance(middle) <= 0.5f * glm::length(box.extent());
+  return solids[part].field.clearance(middle) <= 0.5f * glm::length(box.extent()) + kMovedFar;
 }
 
 // Pairs of tubes and parts that may be near one another.
