@@ -23,7 +23,7 @@ namespace vasa {
 constexpr float kAutoPixelError = 0.3f;
 /// [pixels] of bones, heart and skin beside it: none is so thin as a vessel, and normals stay those of the mesh.
 constexpr float meshPixelError(float pixelError) {
-  return pixelError <= 0 ? 0 : std::max(2 * kAutoPixelError, 0.9f * pixelError);
+  return pixelError <= 0 ? 0 : std::max(2 * kAutoPixelError, 1.5f * pixelError);
 }
 
 /// What is settled for a renderer's life.
