@@ -8,7 +8,7 @@ function(expect pattern)
 endfunction()
 # Line ends instead of semicolons, which would split CMake's lists.
 set(complete "source '${MANUALS}/vasa.bash'\nCOMPREPLY=()\n_vasa\necho \"\${COMPREPLY[@]}\"")
-expect("convert.*render.*export.*help" bash -c "COMP_WORDS=(vasa '')\nCOMP_CWORD=1\n${complete}")
+expect("render.*convert.*export.*help" bash -c "COMP_WORDS=(vasa '')\nCOMP_CWORD=1\n${complete}")
 expect("^artery vein portal lymphatic other\n$" bash -c "COMP_WORDS=(vasa convert --kind '')\nCOMP_CWORD=3\n${complete}")
 expect("^--scale\n$" bash -c "COMP_WORDS=(vasa convert --sc)\nCOMP_CWORD=2\n${complete}")
 expect("^exact paper\n$" bash -c "COMP_WORDS=(vasa bench collide --method '')\nCOMP_CWORD=4\n${complete}")
