@@ -141,8 +141,10 @@ int GrowingTree::add(Branch branch) {
 void GrowingTree::remove(int vessel) {
   Vessel& v = vessels_[std::size_t(vessel)];
   v.removed = true;
-  for (int stem = v.branch.host; stem >= int(laidCount_); stem = vessels_[std::size_t(stem)].branch.host)
-    if (!vessels_[std::size_t(stem)].removed) vessels_[std::size_t(stem)].load -= v.load;
+  // Above a stem that was removed, this branch went with it.
+  for (int stem = v.branch.host; stem >= int(laidCount_) && !vessels_[std::size_t(stem)].removed;
+       stem = vessels_[std::size_t(stem)].branch.host)
+    vessels_[std::size_t(stem)].load -= v.load;
 }
 
 void GrowingTree::enter(int vessel) {
