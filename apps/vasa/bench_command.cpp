@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "collide/paper_detector.h"
 #include "collide/tube_detector.h"
 #include "collide/tube_list.h"
 #include "commands.h"
+#include "core/clock.h"
 #include "core/parallel.h"
 #include "report.h"
 
@@ -15,8 +15,6 @@
 // of its own, near the pose asked for.
 namespace vasa::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::string tubes, pairs, method = "exact";
@@ -28,10 +26,6 @@ struct Options {
 struct Timings {
   std::vector<double> update, detect;  // [ms]
 };
-
-double milliseconds(Clock::time_point since) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
-}
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -60,10 +54,10 @@ Result<Timings> timeRuns(Detector& detector, const TubeList& list, const Options
     list.blend(shareOf(std::abs(run), options.runs, options.pose), shape);
     const auto start = Clock::now();
     detector.update(shape);
-    const double update = milliseconds(start);
+    const double update = msSince(start);
     const auto middle = Clock::now();
     detector.detect();
-    const double detect = milliseconds(middle);
+    const double detect = msSince(middle);
     if (run < 0) continue;
     timings.update.push_back(update);
     timings.detect.push_back(detect);

@@ -1,7 +1,8 @@
 #include "viewer/pose_worker.h"
 
 #include <algorithm>
-#include <chrono>
+
+#include "core/clock.h"
 
 namespace vasa::viewer {
 namespace {
@@ -40,7 +41,7 @@ struct PoseWorker::Maker {
         maker(*frames) {}
 
   std::shared_ptr<const PosedBody> make(const PoseOrder& wanted) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const Body& body = wanted.document->scene.body;
     const Clip* clip = wanted.clip >= 0 ? &body.clips[std::size_t(wanted.clip)] : nullptr;
     if (wanted.turns.empty()) {
@@ -61,7 +62,7 @@ struct PoseWorker::Maker {
       done->touched = spansOf(maker.avoider()->found());
       done->touching = spansOf(maker.avoider()->remaining());
     }
-    done->ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    done->ms = msSince(start);
     if (wanted.measures) {
       if (!meter) meter.emplace(wanted.document->scene.network, kClearanceReach);
       done->measures = meter->run(maker.points());

@@ -66,14 +66,10 @@ vec3 placed(const mat4& matrix, vec3 p) {
   return vec3(matrix * vec4(p, 1));
 }
 
-float distanceOf(const vec4& a, const vec4& b) {
-  return glm::distance(vec3(a), vec3(b));
-}
-
 // By control points, at most; wider or thinner counts, too.
 float distanceMoved(const Bezier& a, const Bezier& b) {
   float most = 0;
-  for (int k = 0; k < 4; ++k) most = std::max(most, distanceOf(a.b[k], b.b[k]) + std::abs(a.b[k].w - b.b[k].w));
+  for (int k = 0; k < 4; ++k) most = std::max(most, glm::distance(vec3(a.b[k]), vec3(b.b[k])) + std::abs(a.b[k].w - b.b[k].w));
   return most;
 }
 

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <future>
+
+#include "core/clock.h"
 
 namespace vasa {
 namespace {
 
 constexpr std::uint32_t kWarmUpFrames = 5;  // shaders compile at their first use
 constexpr std::uint32_t kStaticEvery = 8;   // frames: it takes memory for every vertex
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

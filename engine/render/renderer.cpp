@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
+#include "core/clock.h"
 #include "gpu/barrier.h"
 #include "gpu/device.h"
 #include "gpu/timer.h"
@@ -42,12 +42,6 @@ constexpr const char* kForks = "forks";
 constexpr const char* kDraw = "draw tubes";
 constexpr const char* kCapillaries = "capillaries";
 constexpr const char* kMeshes = "meshes";
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::array<float, 4> clearColour(const Look& look) {
   if (look.transparent) return {0, 0, 0, 0};

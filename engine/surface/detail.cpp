@@ -5,16 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/reference.h"
+
 // The bend: a cubic of n equal steps keeps within max|C''| / (8 n²) of its chords. On the outer side of a bend through
 // the angle α the surface adds r α² / (8 n²). Operations in the order of shaders/lib/detail.glsl, so that both round alike.
 namespace vasa {
 namespace {
-
-constexpr float kTiny2 = 1e-20f;
-
-float dotOf(vec3 a, vec3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 float heightOver(const vec4& plane, const vec4& ball) {
   return plane.x * ball.x + plane.y * ball.y + plane.z * ball.z + plane.w;
@@ -36,13 +32,6 @@ float bulgeOf(const Bezier& z) {
     largest = std::max(largest, std::sqrt(dotOf(vec3(d), vec3(d))) + std::abs(d.w));
   }
   return largest;
-}
-
-Bezier bezierAt(const PosedNetwork& network, const shared::SweepRecord& record) {
-  const mat4& m = spanClassMatrices()[record.spanClass];
-  const vec4* d = &network.points[record.point];
-  const auto row = [&](int i) { return m[0][i] * d[0] + m[1][i] * d[1] + m[2][i] * d[2] + m[3][i] * d[3]; };
-  return {{row(0), row(1), row(2), row(3)}};
 }
 
 }  // namespace
@@ -102,7 +91,7 @@ NetworkDetail networkDetail(const PosedNetwork& network, const shared::DetailVie
   for (std::size_t i = 0; i < table.sweeps.size(); ++i) {
     const shared::SweepRecord& record = table.sweeps[i];
     const std::span<const vec4, 4> points(&network.points[record.point], 4);
-    const SweepExtent extent = sweepExtent(points, bezierAt(network, record), view);
+    const SweepExtent extent = sweepExtent(points, bezierAt(network, record.point, record.spanClass), view);
     if (!extent.inView) continue;
     detail.along[i] = view.along ? view.along : alongFor(extent.bendPixels, view.tolerance);
     float& largest = radius[table.vesselOfSweep[i]];

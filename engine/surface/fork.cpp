@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "surface/fork_stump.h"
+#include "surface/reference.h"
 
 // The specification of shaders/lib/fork.glsl and forks.comp: same operations in the same order.
 //
@@ -17,25 +18,8 @@
 namespace vasa {
 namespace {
 
-constexpr float kTiny2 = 1e-20f;
 constexpr float kRound = 0.55f;  // of a quarter circle's control polygon
 constexpr float kDense = 0.4f;   // rows of the collar beside the hole, against even ones
-
-float dotOf(vec3 a, vec3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-vec3 unitOr(vec3 a, vec3 otherwise) {
-  const float size2 = dotOf(a, a);
-  return size2 > kTiny2 ? a / std::sqrt(size2) : otherwise;
-}
-
-Bezier bezierAt(const PosedNetwork& network, std::uint32_t point, std::uint32_t spanClass) {
-  const mat4& m = spanClassMatrices()[spanClass];
-  const vec4* d = &network.points[point];
-  const auto row = [&](int i) { return m[0][i] * d[0] + m[1][i] * d[1] + m[2][i] * d[2] + m[3][i] * d[3]; };
-  return {{row(0), row(1), row(2), row(3)}};
-}
 
 struct Ring {
   Section section;
@@ -106,17 +90,6 @@ void setFrame(Section& section, vec3 u) {
 
 vec2 turned(vec2 a, vec2 b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
-}
-
-// The one of some directions nearest to another.
-std::uint32_t nearestOf(std::span<const vec2> directions, vec2 wanted) {
-  std::uint32_t first = 0;
-  float best = -3e38f;
-  for (std::uint32_t k = 0; k < directions.size(); ++k) {
-    const float along = wanted.x * directions[k].x + wanted.y * directions[k].y;
-    if (along > best) best = along, first = k;
-  }
-  return first;
 }
 
 ForkSeam seamAt(const Ring& ring, vec3 direction, std::span<const vec2> directions) {

@@ -1,16 +1,13 @@
 #include "surface/fork_check.h"
 
 #include "surface/fork_template.h"
+#include "surface/reference.h"
 
 // The specification of shaders/lib/fork_stump.glsl: same operations in the same order.
 namespace vasa {
 namespace {
 
 constexpr float kFlat2 = 1e-10f;  // square of the share
-
-float dotOf(vec3 a, vec3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 }  // namespace
 

@@ -4,33 +4,16 @@
 #include "surface/fork.h"
 #include "surface/octahedral.h"
 #include "surface/patch.h"
+#include "surface/reference.h"
 #include "surface/tessellate.h"
 
 // The specification of shaders/patches.comp: same operations in the same order.
 namespace vasa {
 namespace {
 
-constexpr float kTiny2 = 1e-20f;
-
-float dotOf(vec3 a, vec3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-vec3 unitOr(vec3 a, vec3 otherwise) {
-  const float size2 = dotOf(a, a);
-  return size2 > kTiny2 ? a / std::sqrt(size2) : otherwise;
-}
-
-Bezier bezierAt(const PosedNetwork& network, const shared::ForkRing& ring) {
-  const mat4& m = spanClassMatrices()[ring.spanClass];
-  const vec4* d = &network.points[ring.point];
-  const auto row = [&](int i) { return m[0][i] * d[0] + m[1][i] * d[1] + m[2][i] * d[2] + m[3][i] * d[3]; };
-  return {{row(0), row(1), row(2), row(3)}};
-}
-
 vec3 centreOf(const PosedNetwork& network, std::uint32_t seam) {
   const shared::ForkRing& ring = network.table.patches.seams[seam].ring;
-  return vec3(bezierAt(network, ring).at(ring.t));
+  return vec3(bezierAt(network, ring.point, ring.spanClass).at(ring.t));
 }
 
 // How a direction moves with a ring, at its own size.
@@ -108,19 +91,14 @@ PosedSeam poseSeam(const PosedNetwork& network, std::uint32_t index, std::uint32
   const shared::PatchSeam& seam = table.seams[index];
   const vec3 chord(network.points[seam.ring.lastPoint] - network.points[seam.ring.firstPoint]);
   const quat* knots = &network.knotFrames[seam.ring.knot];
-  const Section section = sectionAt(bezierAt(network, seam.ring), chord, knots[0], knots[1], seam.ring.t);
+  const Section section = sectionAt(bezierAt(network, seam.ring.point, seam.ring.spanClass), chord, knots[0], knots[1], seam.ring.t);
   const Turn turn = turnOf(network, seam, seam.ring.turn * section.frame.tangent);
   PosedSeam posed{.joint = jointOf(seam, section, turn), .ring = {}, .strip = {}};
   const vec3 start = turn.of(seam.start);
   const vec2 wanted(dotOf(start, section.frame.u), dotOf(start, section.frame.v));
-  ForkSeam order{0, seam.ring.turn < 0};
-  float best = -3e38f;
-  for (const vec2 direction : ringDirections(around)) {
-    const float along = wanted.x * direction.x + wanted.y * direction.y;
-    if (along > best) best = along, order.first = std::uint32_t(posed.ring.size());
-    posed.ring.push_back(surfacePoint(section, direction));
-  }
-  posed.strip = stripOf(table, seam, order, around);
+  const std::vector<vec2> directions = ringDirections(around);
+  for (const vec2 direction : directions) posed.ring.push_back(surfacePoint(section, direction));
+  posed.strip = stripOf(table, seam, {nearestOf(directions, wanted), seam.ring.turn < 0}, around);
   return posed;
 }
 

@@ -2,19 +2,9 @@
 
 #include <cassert>
 
+#include "surface/reference.h"
+
 namespace vasa {
-namespace {
-
-// A sweep's curve from the class matrix, in the order of operations that the shader keeps.
-Bezier bezierAt(const PosedNetwork& network, std::uint32_t point, std::uint32_t spanClass) {
-  const mat4& m = spanClassMatrices()[spanClass];
-  const vec4* d = &network.points[point];
-  const auto row = [&](int i) { return m[0][i] * d[0] + m[1][i] * d[1] + m[2][i] * d[2] + m[3][i] * d[3]; };
-  return {{row(0), row(1), row(2), row(3)}};
-}
-
-}  // namespace
-
 Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring, std::uint32_t along) {
   const shared::SweepRecord& record = network.table.sweeps[sweep];
   const vec3 chord(network.points[record.lastPoint] - network.points[record.firstPoint]);

@@ -5,6 +5,7 @@
 #include "avoid/solver.h"
 #include "network/builder.h"
 #include "support/meshes.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
@@ -16,18 +17,8 @@ struct Setting {
   Network network;
 };
 
-Network vesselAt(float y) {
-  std::vector<vec4> points;
-  for (int k = 0; k < 20; ++k) points.emplace_back(-0.1f + 0.2f * float(k) / 19, y, 0, 0.002f);
-  NetworkBuilder builder;
-  builder.addVessel({"vessel", "", VesselKind::artery}, points);
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
-}
-
 Setting settingAt(float y) {
-  Setting setting{{}, vesselAt(y)};
+  Setting setting{{}, test::levelVessel(0.1f, y)};
   setting.body.skeleton.joints.push_back({.name = "root"});
   setting.body.meshes.push_back(test::boxMesh("bones", {-0.02f, -0.01f, -0.02f}, {0.02f, 0.01f, 0.02f}));
   return setting;
@@ -134,7 +125,7 @@ TEST_CASE("a vessel that is pushed into a bone from farther than its field reach
 
 TEST_CASE("a vessel between two bones that leave it too little room gives way") {
   // 3 mm between two slabs for a vessel of 4 mm.
-  Setting setting{{}, vesselAt(0.0022f)};
+  Setting setting{{}, test::levelVessel(0.1f, 0.0022f)};
   setting.body.skeleton.joints.push_back({.name = "low"});
   setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
   const SkinnedMesh low = test::boxMesh("bones", {-0.02f, -0.01f, -0.02f}, {0.02f, 0, 0.02f});

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "avoid/solver.h"
-#include "network/builder.h"
 #include "support/meshes.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
@@ -18,16 +18,6 @@ Body boxedBody() {
   body.meshes.push_back(test::boxMesh("skin", {-0.05f, -1.65f, -0.05f}, vec3(0.05f)));
   for (SkinInfluence& influence : body.meshes[0].influences) influence = {{0, 1, 0, 0}, {0.5f, 0.5f, 0, 0}};
   return body;
-}
-
-Network vesselAt(float y) {
-  std::vector<vec4> points;
-  for (int k = 0; k < 20; ++k) points.emplace_back(-0.045f + 0.09f * float(k) / 19, y, 0, 0.002f);
-  NetworkBuilder builder;
-  builder.addVessel({"vessel", "", VesselKind::vein}, points);
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
 }
 
 AvoidReport solve(const Network& network, bool wall, float raised, std::vector<vec4>& points) {
@@ -50,7 +40,7 @@ float highest(std::span<const vec4> points) {
 }  // namespace
 
 TEST_CASE("a vessel that a pose pushes through the skin is held below it, if that is asked for") {
-  const Network network = vesselAt(0.046f);
+  const Network network = test::levelVessel(0.045f, 0.046f);
   std::vector<vec4> points;
   const AvoidReport without = solve(network, false, 0.008f, points);
   CHECK(without.skinContacts == 0);
@@ -62,7 +52,7 @@ TEST_CASE("a vessel that a pose pushes through the skin is held below it, if tha
 }
 
 TEST_CASE("a vessel that was through the skin at rest may stay as far out as it was") {
-  const Network network = vesselAt(0.051f);
+  const Network network = test::levelVessel(0.045f, 0.051f);
   std::vector<vec4> points;
   CHECK(solve(network, true, 0, points).skinContacts == 0);
   CHECK(highest(points) == doctest::Approx(0.051f));

@@ -51,6 +51,20 @@ Camera sideView() {
   return camera;
 }
 
+// A bone of 200 x 400 x 400 mm, alone on a transparent page; the vessel that there has to be is not drawn.
+struct LoneBone {
+  LoneBone() { subject.joints = {mat4(1)}; }
+  RenderInput input() const {
+    RenderInput input = subject.input(sideView());
+    input.look.transparent = true;
+    input.look.drawArteries = false;
+    return input;
+  }
+
+  Subject subject{test::straightVessel(1, 0.001f, 0.001f, 1)};
+  std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
+};
+
 RenderOptions small(std::uint32_t samples = 1) {
   RenderOptions options;
   options.width = 161;
@@ -217,15 +231,11 @@ TEST_CASE("a beating heart is smaller, and nothing else is") {
 
 TEST_CASE("a cutting plane of any direction takes away what lies behind it, and nothing else") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
-  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
-  subject.joints = {mat4(1)};
+  const LoneBone bone;
   for (const std::uint32_t samples : {1u, 4u}) {
-    Renderer renderer(rig.device(), subject.network, meshes, small(samples));
+    Renderer renderer(rig.device(), bone.subject.network, bone.meshes, small(samples));
     const auto pixels = [&](std::optional<vec4> cut) {
-      RenderInput input = subject.input(sideView());
-      input.look.transparent = true;
-      input.look.drawArteries = false;
+      RenderInput input = bone.input();
       input.camera.cut = cut;
       renderer.draw(input);
       return double(covered(renderer.readBack()));
@@ -241,15 +251,11 @@ TEST_CASE("a cutting plane of any direction takes away what lies behind it, and 
 
 TEST_CASE("a translucent bone covers its share of the samples, the same ones every time") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
-  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
-  subject.joints = {mat4(1)};
+  const LoneBone bone;
   for (const std::uint32_t samples : {1u, 4u}) {
-    Renderer renderer(rig.device(), subject.network, meshes, small(samples));
+    Renderer renderer(rig.device(), bone.subject.network, bone.meshes, small(samples));
     const auto share = [&](float opacity) {
-      RenderInput input = subject.input(sideView());
-      input.look.transparent = true;
-      input.look.drawArteries = false;
+      RenderInput input = bone.input();
       input.look.boneOpacity = opacity;
       renderer.draw(input);
       const Image image = renderer.readBack();

@@ -126,4 +126,12 @@ Network straightVessel(float length, float r0, float r1, std::uint32_t spans) {
   return built(builder);
 }
 
+Network levelVessel(float reach, float y) {
+  std::vector<vec4> points;
+  for (int k = 0; k < 20; ++k) points.emplace_back(-reach + 2 * reach * float(k) / 19, y, 0, 0.002f);
+  NetworkBuilder builder;
+  builder.addVessel({"level", "", VesselKind::artery}, std::move(points));
+  return built(builder);
+}
+
 }  // namespace vasa::test

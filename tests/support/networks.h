@@ -15,4 +15,7 @@ Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed);
 /// One straight vessel from (0, 0, 0) to (0, 0, length) whose radius runs from r0 to r1.
 Network straightVessel(float length, float r0, float r1, std::uint32_t spans);
 
+/// One straight vessel of 17 spans along x at a height y, of 2 mm radius, whose control points run from -reach to +reach.
+Network levelVessel(float reach, float y);
+
 }  // namespace vasa::test
