@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -22,6 +23,7 @@ constexpr float kStep = 0.001f;  // [m] of the search for the way out, at least
 constexpr float kStride = 0.8f;  // ... and of the distance
 constexpr float kNearAtRest = 0.02f;  // [m] what lay so near a part belongs on that side of it
 const float kAlong = std::cos(0.5f * 50 * kPi / 180);  // ... unless it has turned about it by more than this
+constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
 constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
 
 // One part: what of a mesh one joint carries.
@@ -104,7 +106,7 @@ struct Bones::State {
   struct Near {
     std::uint32_t tube, part;
     float allowed;
-    bool entered = false;  // when all were looked at
+    float f = 0;  // no more than it was anywhere on the tube when all were looked at
   };
   struct Tubes {
     std::span<const Bezier> now;
@@ -123,7 +125,7 @@ struct Bones::State {
   void findNear(std::size_t task, std::span<const Bezier> tubes);
   void findNewlyNear(std::size_t task, const Tubes& tubes);
   bool mayTouch(const Aabb& box, std::uint32_t part) const;
-  bool look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
+  bool look(Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
   vec3 home(const Near& at, float s, const Tubes& tubes) const;
   bool isFree(const vec4& ball, std::uint32_t part) const;
   void leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const;
@@ -184,18 +186,22 @@ bool Bones::State::isFree(const vec4& ball, std::uint32_t own) const {
 }
 
 // Returns whether the tube is within the field's band somewhere.
-bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const {
+bool Bones::State::look(Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const {
   const Solid& solid = solids[at.part];
   const DistanceField& field = solid.field;
   Bezier shape = tubes.now[at.tube];  // from the part's own space
   for (vec4& b : shape.b) b = vec4(placed(solid.inverse, vec3(b)), b.w);
   bool inBand = false;
+  at.f = std::numeric_limits<float>::max();
+  vec3 measured(0);  // where the field was read last
+  float there = -field.band();
   for (int piece = 0; piece <= pieces[at.tube]; ++piece) {
     const float s = float(piece) / float(pieces[at.tube]);
     const vec4 ball = shape.at(s);
     const vec3 centre(ball);
     // A tube wider than the field's band is a ring of balls that are not.
     const float small = std::min(ball.w, kWidest * field.band()), off = ball.w - small;
+    if (off > 0) at.f = -field.band();  // its ring turns with the tube
     if (off > 0 && field.clearance(centre) > ball.w + field.band()) continue;
     const vec3 along = off > 0 ? unitOr(vec3(shape.derivative(s)), {0, 0, 1}) : vec3(0);
     const vec3 u = off > 0 ? anyPerpendicular(along) : vec3(0), v = glm::cross(along, u);
@@ -204,7 +210,14 @@ bool Bones::State::look(const Near& at, const Tubes& tubes, std::vector<BoneCont
     for (int k = 0; k < (off > 0 ? kRing : 1); ++k) {
       const float angle = 2 * kPi * float(k) / kRing;
       const vec3 aside = off > 0 ? off * (std::cos(angle) * u + std::sin(angle) * v) : vec3(0);
+      const float atLeast = there - kSteepest * glm::distance(measured, centre + aside);
+      if (inBand ? atLeast - small >= deepest.f : atLeast >= field.band()) {
+        at.f = std::min(at.f, atLeast - small);
+        continue;
+      }
       const float distance = field.distance(centre + aside);
+      measured = centre + aside, there = distance;
+      at.f = std::min(at.f, distance - small);
       if (distance >= field.band()) continue;
       inBand = true;
       if (distance - small >= deepest.f) continue;
@@ -237,7 +250,7 @@ void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
     for (std::uint32_t part = 0; part < solids.size(); ++part) {
       if (!boxes[part].overlaps(box)) continue;
       if (std::ranges::any_of(near[task], [&](const Near& at) { return at.tube == i && at.part == part; })) continue;
-      if (mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i), true});
+      if (mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i), -solids[part].field.band()});
     }
   }
 }
@@ -325,15 +338,15 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, cons
     else state.findNewlyNear(task, {tubes, posed});
     auto& out = state.found[task];
     std::erase_if(state.near[task], [&](State::Near& at) {
-      const std::size_t before = out.size();
       if (which == Which::nearAtLast) {
-        // What did not enter then, and was not moved, does not now.
-        if (at.entered || distanceMoved(tubes[at.tube], posed.tubes[at.tube]) > 0) state.look(at, {tubes, posed}, out);
+        // What was not moved as far as it was from entering has not entered.
+        if (at.f - at.allowed <= kSteepest * distanceMoved(tubes[at.tube], posed.tubes[at.tube])) {
+          State::Near now = at;
+          state.look(now, {tubes, posed}, out);
+        }
         return false;
       }
-      const bool inBand = state.look(at, {tubes, posed}, out);
-      at.entered = out.size() > before;
-      return !inBand;
+      return !state.look(at, {tubes, posed}, out);
     });
   });
   state.contacts.clear();

@@ -28,7 +28,9 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
   const float side = options_.cell * kBrick;
   origin_ = box_.low;
   counts_ = ivec3(glm::ceil(box_.extent() / side)) + 1;
-  bricks_.assign(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z), kUndecided);
+  brickCount_ = std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z);
+  bricks_ = std::make_unique_for_overwrite<std::atomic<std::uint32_t>[]>(brickCount_);
+  for (std::size_t k = 0; k < brickCount_; ++k) bricks_[k].store(kUndecided, std::memory_order_relaxed);
   surface_ = std::make_unique<Obstacle>(positions, triangles);
   winding_ = std::make_unique<WindingNumber>(positions, triangles);
   markBand(positions, triangles);
@@ -36,7 +38,7 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
   measureRings();
 }
 
-// Numbers the bricks that come within the band of a triangle's box.
+// Bricks that come within the band of a triangle's box have values, once they are looked at.
 void DistanceField::markBand(std::span<const vec3> positions, std::span<const uvec3> triangles) {
   const float side = options_.cell * kBrick;
   Checkpoints checkpoints;
@@ -47,36 +49,32 @@ void DistanceField::markBand(std::span<const vec3> positions, std::span<const uv
     const ivec3 low = ivec3((box.low - origin_) / side), high = glm::min(ivec3((box.high - origin_) / side), counts_ - 1);
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) brick({x, y, z}) = 0;
+        for (int x = low.x; x <= high.x; ++x) set({x, y, z}, kEmpty);
   }
-  std::uint32_t count = 0;
-  for (std::uint32_t& number : bricks_)
-    if (number == 0) number = count++;
-  filled_ = count;
-  values_ = std::make_unique_for_overwrite<float[]>(std::size_t(count) * kValues);
-  states_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < brickCount_; ++k) count += bricks_[k].load(std::memory_order_relaxed) == kEmpty;
+  values_ = std::make_unique_for_overwrite<float[]>(count * kValues);
+  filled_ = std::make_unique<std::atomic<std::uint32_t>>(0);
 }
 
-const float* DistanceField::valuesOf(std::uint32_t number, ivec3 at) const {
-  if (states_[number].load(std::memory_order_acquire) != full) fill(number, at);
-  return values_.get() + std::size_t(number) * kValues;
-}
-
-void DistanceField::fill(std::uint32_t number, ivec3 at) const {
-  std::uint8_t found = empty;
-  if (!states_[number].compare_exchange_strong(found, beingFilled, std::memory_order_acquire)) {
-    while (states_[number].load(std::memory_order_acquire) != full) std::this_thread::yield();
-    return;
+std::uint32_t DistanceField::fill(ivec3 at) const {
+  std::atomic<std::uint32_t>& own = bricks_[indexOf(at)];
+  std::uint32_t place = kEmpty;
+  if (!own.compare_exchange_strong(place, kBeingFilled, std::memory_order_acquire)) {
+    while ((place = own.load(std::memory_order_acquire)) == kBeingFilled) std::this_thread::yield();
+    return place;
   }
+  place = filled_->fetch_add(1, std::memory_order_relaxed);
   thread_local std::vector<std::uint32_t> near;
   std::array<vec3, kValues> corners;
   const vec3 low = origin_ + options_.cell * kBrick * vec3(at);
   for (int k = 0; k < kValues; ++k)
     corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
-  const std::span<float, kValues> values(values_.get() + std::size_t(number) * kValues, kValues);
+  const std::span<float, kValues> values(values_.get() + std::size_t(place) * kValues, kValues);
   surface_->distances(corners, options_.band, near, values);
   giveSigns(corners, values);
-  states_[number].store(full, std::memory_order_release);
+  own.store(place, std::memory_order_release);
+  return place;
 }
 
 // No surface passes between two corners of a brick if one is farther from it than the other corner is from that: they
@@ -117,7 +115,7 @@ void DistanceField::sortOutInside() {
         if (brick({x, y, z}) != kUndecided) continue;
         const vec3 middle = origin_ + side * (vec3(x, y, z) + 0.5f);
         const std::uint32_t found = winding_->at(middle) > kInsideFrom ? kInside : kOutside;
-        brick({x, y, z}) = found;
+        set({x, y, z}, found);
         region.assign(1, {x, y, z});
         for (std::size_t k = 0; k < region.size(); ++k)
           for (int axis = 0; axis < 3; ++axis)
@@ -125,7 +123,7 @@ void DistanceField::sortOutInside() {
               ivec3 next = region[k];
               next[axis] += step;
               if (next[axis] < 0 || next[axis] >= counts_[axis] || brick(next) != kUndecided) continue;
-              brick(next) = found;
+              set(next, found);
               region.push_back(next);
             }
       }
@@ -134,44 +132,41 @@ void DistanceField::sortOutInside() {
 // Chessboard distance of bricks, a pass an axis.
 void DistanceField::measureRings() {
   constexpr std::uint8_t kFarthest = 255;
-  rings_.resize(bricks_.size());
-  for (std::size_t k = 0; k < bricks_.size(); ++k) rings_[k] = bricks_[k] == kOutside ? kFarthest : 0;
-  const auto index = [&](ivec3 at) { return std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x); };
+  std::vector<std::uint8_t> rings(brickCount_);
+  for (std::size_t k = 0; k < brickCount_; ++k) rings[k] = bricks_[k].load(std::memory_order_relaxed) == kOutside ? kFarthest : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const int first = (axis + 1) % 3, second = (axis + 2) % 3, count = counts_[axis];
     std::vector<std::uint8_t> line(static_cast<std::size_t>(count));
     ivec3 at;
     for (at[first] = 0; at[first] < counts_[first]; ++at[first])
       for (at[second] = 0; at[second] < counts_[second]; ++at[second]) {
-        for (int k = 0; k < count; ++k) at[axis] = k, line[std::size_t(k)] = rings_[index(at)];
+        for (int k = 0; k < count; ++k) at[axis] = k, line[std::size_t(k)] = rings[indexOf(at)];
         for (int k = 0; k < count; ++k) {
           int least = kFarthest;
           for (int other = 0; other < count; ++other) least = std::min(least, std::max(int(line[std::size_t(other)]), std::abs(other - k)));
-          at[axis] = k, rings_[index(at)] = std::uint8_t(least);
+          at[axis] = k, rings[indexOf(at)] = std::uint8_t(least);
         }
       }
   }
+  for (std::size_t k = 0; k < brickCount_; ++k)
+    if (rings[k] > 0) bricks_[k].store(kOutside + rings[k], std::memory_order_relaxed);
 }
 
 float DistanceField::clearance(vec3 point) const {
   if (box_.empty()) return std::numeric_limits<float>::infinity();
   const vec3 in = glm::clamp(point, box_.low, box_.high);
-  const ivec3 at = glm::clamp(ivec3((in - origin_) / options_.cell), ivec3(0), counts_ * kBrick - 1) / kBrick;
-  if (in != point) return options_.band + glm::distance(in, point);
-  const std::uint32_t number = brick(at);
-  if (number == kInside) return 0;
-  if (number < kInside) return std::max(distance(point), 0.0f);
-  const int ring = rings_[std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x)];
-  return std::max(options_.band, float(ring - 1) * options_.cell * kBrick);
+  return in != point ? options_.band + glm::distance(in, point) : std::max(distance(point), 0.0f);
 }
 
 DistanceField::Cell DistanceField::cellAt(vec3 point) const {
   if (glm::any(glm::lessThan(point, box_.low)) || glm::any(glm::greaterThan(point, box_.high))) return {nullptr, options_.band, {}, {}};
   const vec3 cells = (point - origin_) / options_.cell;
   const ivec3 cell = glm::clamp(ivec3(cells), ivec3(0), counts_ * kBrick - 1);
-  const std::uint32_t number = brick(cell / kBrick);
-  if (number >= kInside) return {nullptr, number == kInside ? -options_.band : options_.band, {}, {}};
-  return {valuesOf(number, cell / kBrick), 0, cell % kBrick, cells - vec3(cell)};
+  std::uint32_t place = brick(cell / kBrick);
+  if (place >= kOutside) return {nullptr, options_.band + float(place - kOutside - 1) * options_.cell * kBrick, {}, {}};
+  if (place == kInside) return {nullptr, -options_.band, {}, {}};
+  if (place >= kBeingFilled) place = fill(cell / kBrick);
+  return {values_.get() + std::size_t(place) * kValues, 0, cell % kBrick, cells - vec3(cell)};
 }
 
 float DistanceField::distance(vec3 point) const {
@@ -197,7 +192,8 @@ DistanceField::Sample DistanceField::at(vec3 point) const {
 }
 
 std::size_t DistanceField::bytes() const {
-  return std::size_t(filled_) * kValues * sizeof(float) + bricks_.size() * sizeof(std::uint32_t);
+  const std::size_t filled = filled_ ? filled_->load(std::memory_order_relaxed) : 0;
+  return filled * kValues * sizeof(float) + brickCount_ * sizeof(std::uint32_t);
 }
 
 }  // namespace vasa

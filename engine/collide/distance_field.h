@@ -12,7 +12,7 @@
 namespace vasa {
 
 /// The signed distance from a rigid closed surface, sampled near it: bricks of 4x4x4 cells that share their corners,
-/// values in between trilinear. Beyond the band it is +band outside and -band inside. Error: h²/8R over a surface
+/// values in between trilinear. Error: h²/8R over a surface
 /// that bends with radius R, up to half a cell at sharp edges. A look-up costs some nanoseconds, however many triangles
 /// there are; that is what it is for (collide/obstacle.h is exact, and a thousand times slower). A brick is filled when it
 /// is first looked at, by whichever thread comes first; what is in it does not depend on that.
@@ -28,10 +28,12 @@ class DistanceField {
   DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options);
 
   struct Sample {
-    float distance;  ///< [m]
+    float distance;  ///< as distance()
     vec3 gradient;   ///< of the trilinear field; 0 beyond the band
   };
   Sample at(vec3 point) const;
+  /// Outside beyond the band: no less than the band, no more than the distance. Inside beyond it: -band. The slope along
+  /// an axis is at most 1.
   float distance(vec3 point) const;
   /// No more than the distance from the surface, also far beyond the band; 0 inside.
   float clearance(vec3 point) const;
@@ -43,7 +45,9 @@ class DistanceField {
 
  private:
   static constexpr int kBrick = 4, kCorners = kBrick + 1, kValues = kCorners * kCorners * kCorners;
-  static constexpr std::uint32_t kOutside = 0xffffffffu, kUndecided = 0xfffffffeu, kInside = 0xfffffffdu;
+  // Of a brick: where its values are, or what else it is. Outside, the last byte tells how many bricks off the nearest
+  // with values is.
+  static constexpr std::uint32_t kOutside = 0xffffff00u, kInside = 0xfffffeffu, kEmpty = 0xfffffefeu, kBeingFilled = 0xfffffefdu, kUndecided = 0xfffffefcu;
   struct Cell {
     const float* values;  // of the brick, or null
     float beyond;         // where it is null
@@ -51,11 +55,11 @@ class DistanceField {
     vec3 share;
   };
   Cell cellAt(vec3 point) const;
-  std::uint32_t& brick(ivec3 at) { return bricks_[std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x)]; }
-  std::uint32_t brick(ivec3 at) const { return bricks_[std::size_t((at.z * counts_.y + at.y) * counts_.x + at.x)]; }
+  std::size_t indexOf(ivec3 brick) const { return std::size_t((brick.z * counts_.y + brick.y) * counts_.x + brick.x); }
+  std::uint32_t brick(ivec3 at) const { return bricks_[indexOf(at)].load(std::memory_order_acquire); }
+  void set(ivec3 at, std::uint32_t what) { bricks_[indexOf(at)].store(what, std::memory_order_relaxed); }
   void markBand(std::span<const vec3> positions, std::span<const uvec3> triangles);
-  const float* valuesOf(std::uint32_t number, ivec3 at) const;
-  void fill(std::uint32_t number, ivec3 at) const;
+  std::uint32_t fill(ivec3 brick) const;
   void giveSigns(std::span<const vec3, kValues> corners, std::span<float, kValues> distances) const;
   void sortOutInside();
   void measureRings();
@@ -63,15 +67,14 @@ class DistanceField {
   Options options_;
   Aabb box_;
   vec3 origin_{0};
-  ivec3 counts_{0};                    // bricks a side
-  std::vector<std::uint32_t> bricks_;  // number of its values, or one of the three
-  std::vector<std::uint8_t> rings_;    // of an outer brick: how many bricks off the nearest with values is
-  enum State : std::uint8_t { empty, beingFilled, full };
+  ivec3 counts_{0};  // bricks a side
+  std::size_t brickCount_ = 0;
   std::unique_ptr<Obstacle> surface_;
   std::unique_ptr<WindingNumber> winding_;
-  std::uint32_t filled_ = 0;                             // bricks that have values
-  std::unique_ptr<float[]> values_;                      // kValues a brick
-  std::unique_ptr<std::atomic<std::uint8_t>[]> states_;  // of a brick's values
+  std::unique_ptr<std::atomic<std::uint32_t>[]> bricks_;
+  // kValues a brick, in the order of filling: what is looked at lies together, and the rest takes no memory.
+  std::unique_ptr<float[]> values_;
+  std::unique_ptr<std::atomic<std::uint32_t>> filled_;  // bricks
 };
 
 }  // namespace vasa

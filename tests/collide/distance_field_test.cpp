@@ -42,7 +42,10 @@ TEST_CASE("the field is the distance from a box, near it") {
     const auto [distance, gradient] = field.at(p);
     CHECK(distance == field.distance(p));
     CHECK(field.clearance(p) <= std::max(boxDistance(p, low, high), 0.0f) + 0.001f);
-    worst = std::max(worst, std::abs(distance - exact));
+    if (exact >= 0.006f) CHECK(distance <= boxDistance(p, low, high) + 1e-6f);
+    const vec3 other = p + 0.05f * vec3(any(random), any(random), any(random));
+    if (distance < 0.006f) CHECK(std::min(field.distance(other), 0.006f) >= distance - std::sqrt(3.0f) * glm::distance(p, other) - 1e-6f);
+    worst = std::max(worst, std::abs(std::min(distance, 0.006f) - exact));
     if (exact > 0.0025f && exact < 0.004f)
       CHECK(glm::length(gradient) == doctest::Approx(1).epsilon(0.3));
   }
@@ -61,7 +64,7 @@ TEST_CASE("a hollow whose ways out are narrower than the band is outside") {
   shell.add(test::boxMesh("floor", {-0.03f, -0.04f, -0.03f}, {0.03f, -0.03f, 0.03f}));
   shell.add(test::boxMesh("ceiling", {-0.03f, 0.03f, -0.03f}, {0.03f, 0.04f, 0.03f}));
   const DistanceField field(shell.positions, shell.triangles, {.cell = 0.001f, .band = 0.006f});
-  CHECK(field.distance({0, 0, 0}) == doctest::Approx(0.006f));
+  CHECK(field.distance({0, 0, 0}) >= 0.006f);
   CHECK(field.distance({0.025f, 0, 0}) < -0.004f);
 }
 
