@@ -1,5 +1,7 @@
 #include "surface/fork_check.h"
 
+#include <algorithm>
+
 #include "surface/fork_template.h"
 #include "surface/reference.h"
 
@@ -8,6 +10,10 @@ namespace vasa {
 namespace {
 
 constexpr float kFlat2 = 1e-10f;  // square of the share
+
+ForkShape evenShape(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around) {
+  return forkShape(network.table, fork, [around](std::uint32_t) { return around; });
+}
 
 }  // namespace
 
@@ -19,12 +25,19 @@ bool folds(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) 
 }
 
 std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around, ForkForm form) {
-  const ForkShape shape = forkShape(network.table, fork, [around](std::uint32_t) { return around; });
+  const ForkShape shape = evenShape(network, fork, around);
   std::vector<SurfacePoint> points(shape.vertices());
   const ForkLayout layout = evaluateFork(network, fork, shape, points, form);
   std::uint32_t count = 0;
   for (const uvec3& t : forkTriangles(shape, layout)) count += folds(points[t.x], points[t.y], points[t.z]);
   return count;
+}
+
+bool isStump(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around) {
+  const ForkShape shape = evenShape(network, fork, around);
+  std::vector<SurfacePoint> points(shape.vertices());
+  const ForkLayout layout = evaluateFork(network, fork, shape, points);
+  return layout.cut || std::ranges::any_of(layout.stump, std::identity{});
 }
 
 }  // namespace vasa

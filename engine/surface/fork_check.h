@@ -10,4 +10,7 @@ bool folds(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c);
 /// Triangles of a fork that fold. @param form  see evaluateFork()
 std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around, ForkForm form);
 
+/// Whether some part of a fork is a stump.
+bool isStump(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around);
+
 }  // namespace vasa

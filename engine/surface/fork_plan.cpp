@@ -249,7 +249,7 @@ class Planner {
     item.radius = radius;
     item.room.centre = middle;
     item.room.before = item.room.after = kBesideJoin * radius + join.gap / 2;
-    item.room.want = item.room.before + radius * (0.3f + bend) + std::abs(before.w - after.w);
+    item.room.want = item.room.before + radius * (2 + bend) + std::abs(before.w - after.w);
     item.mustLow = join.at;
     item.mustHigh = join.at + join.gap;
     return item;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "surface/fork_check.h"
+#include "surface/fork_smooth.h"
 #include "surface/fork_template.h"
 
 // Why a stump cannot fold: its vertices' normals are the directions d of the ring's vertices. A face between directions
@@ -51,6 +52,18 @@ vec3 Stump::tip() const {
   const vec3 way = towards - ring.centre;
   const float depth = way.x * inward.x + way.y * inward.y + way.z * inward.z;
   return towards + std::max(kStumpLeast * ring.radius - depth, 0.0f) * inward;
+}
+
+void smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices) {
+  for (std::uint32_t step = 0; step < shared::kMostSmoothings; ++step) {
+    std::array<bool, shared::kMostBranches> folded{};
+    for (std::uint32_t i = 0; i < shape.branchCount; ++i) folded[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
+    const bool trunk = anyFolds(vertices, trunkTriangles(shape, layout));
+    if (!trunk && std::ranges::none_of(folded, std::identity{})) return;
+    if (trunk) smoothTrunk(shape, vertices);
+    for (std::uint32_t i = 0; i < shape.branchCount; ++i)
+      if (folded[i]) smoothCollar(shape, layout, i, vertices);
+  }
 }
 
 void ForkStumps::replaceFolds(const ForkShape& shape, ForkLayout& layout, std::span<SurfacePoint> vertices) const {

@@ -18,9 +18,12 @@ struct ForkStumps {
   Stump a, b;
   std::array<Stump, shared::kMostBranches> branch;
 
-  /// Looks for folds among a fork's triangles, and puts stumps in the place of parts that have some: of one branch, or
-  /// of all tubes where the trunk folds, the wall where stumps left no hole included. Sets layout.stump and layout.cut.
+  /// Puts stumps in the place of parts that still fold: of one branch, or of all tubes where the trunk does, the wall where
+  /// stumps left no hole included. Sets layout.stump and layout.cut. To be called after smoothFolds().
   void replaceFolds(const ForkShape& shape, ForkLayout& layout, std::span<SurfacePoint> vertices) const;
 };
+
+/// Smooths parts of a fork that fold until they do not, at most shared::kMostSmoothings times (surface/fork_smooth.h).
+void smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices);
 
 }  // namespace vasa

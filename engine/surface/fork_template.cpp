@@ -83,20 +83,20 @@ class Writer {
 
   void wall(std::uint32_t branch) {
     window_ = layout_.window[branch];
-    const std::uint32_t outline = 2 * window_.count + 4, hole = shape_.branch[branch];
+    const std::uint32_t outlined = outlineSize(window_), hole = shape_.branch[branch];
     const std::uint32_t first = shape_.rowStart(holeRow(branch));
     const std::vector<vec2> directions = ringDirections(hole);
     const auto holeWay = [&](std::uint32_t i) { return i == hole ? 4.0f : squareWay(directions[i]); };
     const float start = squareWay(outlineDirection(0)), startWay = start > 2 ? start - 4.0f : start;
     const auto outerWay = [&](std::uint32_t i) {
-      return i == 0 ? startWay : i == outline ? startWay + 4.0f : squareWay(outlineDirection(i));
+      return i == 0 ? startWay : i == outlined ? startWay + 4.0f : squareWay(outlineDirection(i));
     };
-    for (std::uint32_t o = 0, h = 0; o < outline || h < hole;) {
-      const std::uint32_t outer = outlineVertex(o == outline ? 0 : o), inner = first + (h == hole ? 0 : h);
+    for (std::uint32_t o = 0, h = 0; o < outlined || h < hole;) {
+      const std::uint32_t outer = outline(o == outlined ? 0 : o), inner = first + (h == hole ? 0 : h);
       // By the middles of the next steps: both fronts keep abreast.
-      if (h == hole || (o < outline && outerWay(o) + outerWay(o + 1) <= holeWay(h) + holeWay(h + 1))) {
+      if (h == hole || (o < outlined && outerWay(o) + outerWay(o + 1) <= holeWay(h) + holeWay(h + 1))) {
         ++o;
-        add(inner, outer, outlineVertex(o == outline ? 0 : o));
+        add(inner, outer, outline(o == outlined ? 0 : o));
       } else {
         ++h;
         add(inner, outer, first + (h == hole ? 0 : h));
@@ -111,19 +111,9 @@ class Writer {
   }
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) { triangles.push_back({a, b, c}); }
 
-  // The window's outline from the middle of its right side on: up, to the left along row 3, down, along row 1.
-  uvec2 outlinePlace(std::uint32_t i) const {
-    if (i == 0) return {2, window_.count};
-    if (i <= window_.count + 1) return {3, window_.count + 1 - i};
-    if (i == window_.count + 2) return {2, 0};
-    return {1, i - window_.count - 3};
-  }
-  std::uint32_t outlineVertex(std::uint32_t i) const {
-    const uvec2 place = outlinePlace(i);
-    return shape_.rowStart(place.x) + (window_.first + place.y) % shape_.a;
-  }
+  std::uint32_t outline(std::uint32_t i) const { return outlineVertex(shape_, window_, i); }
   vec2 outlineDirection(std::uint32_t i) const {
-    const uvec2 place = outlinePlace(i);
+    const uvec2 place = outlinePlace(window_, i);
     const vec2 column = columns_[(window_.first + place.y) % shape_.a];
     const float along = column.x * window_.hole.x + column.y * window_.hole.y;
     const float aside = column.y * window_.hole.x - column.x * window_.hole.y;
@@ -137,6 +127,18 @@ class Writer {
 };
 
 }  // namespace
+
+uvec2 outlinePlace(const ForkWindow& window, std::uint32_t i) {
+  if (i == 0) return {2, window.count};
+  if (i <= window.count + 1) return {3, window.count + 1 - i};
+  if (i == window.count + 2) return {2, 0};
+  return {1, i - window.count - 3};
+}
+
+std::uint32_t outlineVertex(const ForkShape& shape, const ForkWindow& window, std::uint32_t i) {
+  const uvec2 place = outlinePlace(window, i);
+  return shape.rowStart(place.x) + (window.first + place.y) % shape.a;
+}
 
 std::vector<uvec3> trunkTriangles(const ForkShape& shape, const ForkLayout& layout) {
   Writer writer(shape, layout);

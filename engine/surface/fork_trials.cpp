@@ -48,10 +48,10 @@ ForkFolds ForkTrials::tried(const SweepTable& table, const shared::ForkRecord& f
   ForkFolds folds;
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const PosedNetwork posed{table, shapes_[i].points, shapes_[i].frames};
-    const std::uint32_t found = foldedTriangles(posed, fork, kAround, ForkForm::open);
+    const std::uint32_t found = foldedTriangles(posed, fork, kAround, ForkForm::bare);
     (i == 0 ? folds.rest : folds.strained) += found;
     for (const std::uint32_t around : kOtherAround)
-      if (i == 0) folds.others += foldedTriangles(posed, fork, around, ForkForm::open);
+      if (i == 0) folds.others += foldedTriangles(posed, fork, around, ForkForm::bare);
     if (folds.rest > 0) break;  // not to be drawn anyway
   }
   return folds;

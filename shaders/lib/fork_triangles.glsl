@@ -1,8 +1,9 @@
-// Mirrors engine/surface/fork_template.cpp. The shader that includes it has what lib/fork_rows.glsl asks for and
+// Mirrors engine/surface/fork_template.cpp, and smoothFolds() of fork_stump.cpp. The shader that includes it has what
+// lib/fork_rows.glsl and lib/fork_smooth.glsl ask for and
 //   vec2 stepOf(uint around)           (cos, sin) of 2π/m
 #ifndef VASA_FORK_TRIANGLES
 #define VASA_FORK_TRIANGLES
-#include "lib/fork_wall.glsl"
+#include "lib/fork_smooth.glsl"
 
 bool stumps[kMostBranches], cut;   // parts that are stumps
 
@@ -97,22 +98,40 @@ void addBranchStump(ForkShape shape, uint branch) {
   addStumpQuads(shape, ring - 1);
 }
 
-// Branches first: the wall has holes for those that are no stumps.
-void addForkTriangles(ForkShape shape) {
-  cut = false;
+// All triangles, and which parts fold: a bit a branch, then one for the trunk, whose wall has holes for branches that are
+// no stumps.
+uint addParts(ForkShape shape) {
+  uint wrong = 0;
   triangles = 0;
   for (uint i = 0; i < shape.branchCount; ++i) {
-    uint from = triangles;
-    stumps[i] = folded = false;
-    addBranch(shape, i);
-    stumps[i] = folded;
-    if (!folded) continue;
-    triangles = from;
-    addBranchStump(shape, i);
+    folded = false;
+    if (stumps[i]) addBranchStump(shape, i);
+    else addBranch(shape, i);
+    if (folded) wrong |= 1u << i;
   }
   folded = false;
   addTrunk(shape);
-  cut = folded;
+  return folded ? wrong | 1u << kMostBranches : wrong;
+}
+
+void smoothParts(ForkShape shape, uint wrong) {
+  if ((wrong >> kMostBranches & 1u) != 0u) smoothTrunk(shape);
+  for (uint i = 0; i < shape.branchCount; ++i)
+    if ((wrong >> i & 1u) != 0u) smoothCollar(shape, i);
+}
+
+// Parts that fold are smoothed; branches that fold yet become stumps, and then everything, where the trunk does.
+void addForkTriangles(ForkShape shape) {
+  cut = false;
+  for (uint i = 0; i < kMostBranches; ++i) stumps[i] = false;
+  uint wrong = 0;
+  for (uint step = 0; step <= kMostSmoothings + 1; ++step) {
+    if (step <= kMostSmoothings) smoothParts(shape, wrong);
+    else for (uint i = 0; i < shape.branchCount; ++i) stumps[i] = (wrong >> i & 1u) != 0u;
+    wrong = addParts(shape);
+    if (wrong == 0) break;
+  }
+  cut = wrong != 0;
   if (!cut) return;
   triangles = 0;
   for (uint i = 0; i < shape.branchCount; ++i) {

@@ -16,6 +16,9 @@ VASA_CONSTANT uint kCollarRows = 4;
 /// Most branches of one fork.
 VASA_CONSTANT uint kMostBranches = 2;
 
+/// Most steps of smoothing a fork's parts that fold.
+VASA_CONSTANT uint kMostSmoothings = 16;
+
 /// A ring of a vessel: its section at t of one span.
 struct ForkRing {
   uint point;      // first of the span's four de Boor points

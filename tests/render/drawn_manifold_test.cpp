@@ -30,18 +30,20 @@ TEST_CASE("a real body's drawn surface is closed in three poses, and its forks d
   const Result<test::RealPoses> real = test::realPoses(data, {"elbow_flex", "knee_squat", "fist"}, 12);
   REQUIRE(real.ok());
   const SweepTable table = makeSweepTable(real->network);
-  std::size_t forks = 0, folded = 0, triangles = 0;
+  std::size_t forks = 0, folded = 0, triangles = 0, stumps = 0;
   for (const test::RealPoses::Pose& pose : real->poses) {
     for (const shared::ForkRecord& fork : table.forks) {
       const std::uint32_t folds = foldedTriangles({table, pose.points, pose.knotFrames}, fork, 8, ForkForm::fitting);
       triangles += folds;
       folded += folds > 0;
+      stumps += isStump({table, pose.points, pose.knotFrames}, fork, 8);
       ++forks;
     }
     if (pose.middle && pose.clip != "fist")
       CHECK(test::openEdgesDrawn({rig, real->network, pose.points, pose.knotFrames, {{8, 5}, 0}}) == 0);
   }
   MESSAGE(folded << " of " << forks << " forks in " << real->poses.size() << " frames fold somewhere, in " << triangles
-                 << " triangles");
+                 << " triangles; " << stumps << " have stumps");
   CHECK(folded == 0);
+  CHECK(1000 * stumps < forks);
 }

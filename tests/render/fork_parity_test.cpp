@@ -7,6 +7,7 @@
 #include "drawn_surface.h"
 #include "support/networks.h"
 #include "surface/detail.h"
+#include "surface/fork_check.h"
 #include "surface/fork_template.h"
 #include "surface/octahedral.h"
 
@@ -120,6 +121,24 @@ TEST_CASE("forks of bent networks keep to the reference and to their seams") {
   }
   pinEnds(network, points);
   const Forks passes(rig, network, points, framesOf(network, points), {{8, 5}, 0});
+  checkAgainstReference(passes);
+  checkSeams(passes);
+}
+
+TEST_CASE("forks that waves fold are smoothed, and some turned into stumps, as in the reference") {
+  VASA_REQUIRE_GPU(rig);
+  const Network network = test::branchingNetwork(61, 4);
+  std::vector<vec4> points = restPoints(network);
+  for (vec4& p : points) p += 0.006f * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
+  pinEnds(network, points);
+  const Forks passes(rig, network, points, framesOf(network, points), {{8, 5}, 0});
+  std::uint32_t folded = 0, stumps = 0;
+  for (const shared::ForkRecord& fork : passes.tubes.table().forks) {
+    folded += foldedTriangles(passes.posed(), fork, 8, ForkForm::bare) > 0;
+    stumps += isStump(passes.posed(), fork, 8);
+  }
+  CHECK(folded > stumps);
+  CHECK(stumps > 0);
   checkAgainstReference(passes);
   checkSeams(passes);
 }

@@ -24,13 +24,16 @@ std::map<std::string, unsigned> mostLoops() {
   using namespace shared;
   constexpr unsigned m = kMaxAround, rings = kMaxStrips + 1, chord = 5;
   constexpr unsigned forkRows = kTrunkRows + 1 + kCollarRows;
+  constexpr unsigned forkTries = kMostSmoothings + 2;
   return {
       {"measure.comp", chord + kMaxAlong},
       {"around.comp", m},
       // rings looked at and written, quads, vertices, triangles, blocks of vertices, sums over the group
       {"tubes.comp", 2 * rings + kMaxStrips * m + rings * m + kMaxStrips * 2 * m + rings * m / kBlockVertices + kGroupSweeps},
-      // a ring search, m vertices and their directions a row, triangles found up to three times, written, sums over the group
-      {"forks.comp", 4 * kMostForkVertices + 4 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
+      // a ring search, m vertices and their directions a row, quads found and vertices smoothed, triangles written, sums over
+      // the group
+      {"forks.comp", 4 * kMostForkVertices + forkTries * (kMostForkTriangles / 2 + 2 * kMostForkVertices) +
+                         kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
       // directions, the ring's vertices, where it begins, the strip's triangles and those without area
       {"patches.comp", 3 * m + kMostOnLoop + 2 * m},

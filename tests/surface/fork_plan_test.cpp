@@ -67,7 +67,7 @@ Outcome checkedSurface(const Network& network) {
     CHECK(test::openEdges(mesh.triangles) == 0);
     CHECK(test::openEdges(test::weldedByBits(mesh.positions, mesh.triangles)) == 0);
   }
-  for (const shared::ForkRecord& fork : table.forks) outcome.folds += foldedTriangles(posed, fork, 8, ForkForm::open);
+  for (const shared::ForkRecord& fork : table.forks) outcome.folds += foldedTriangles(posed, fork, 8, ForkForm::bare);
   return outcome;
 }
 
@@ -130,6 +130,6 @@ TEST_CASE("random trees: every branch is accounted for, no fork folds at rest") 
     networkFrames(network, network.points(), restReferences(network), frames);
     const SweepTable table = makeSweepTable(network);
     for (const shared::ForkRecord& fork : table.forks)
-      CHECK(foldedTriangles({table, network.points(), frames}, fork, 8, ForkForm::open) == 0);
+      CHECK(foldedTriangles({table, network.points(), frames}, fork, 8, ForkForm::bare) == 0);
   }
 }

@@ -1,0 +1,85 @@
+// A fork's vertices and triangles from its rings. Mirrors evaluateFork() of engine/surface/fork.cpp: the same operations in
+// the same order. The shader that includes it has what lib/fork_collar.glsl and lib/fork_stump.glsl ask for and
+//   Ring ringAt(ForkRing ring)
+//   ForkBranch branchAt(uint branch)
+//   vec3 piercingOf(ForkBranch branch)     where its axis pierces the wall at rest
+//   vec2 halfStepOf(uint around)        (cos, sin) of π/m
+#ifndef VASA_FORK_BUILD
+#define VASA_FORK_BUILD
+#include "lib/fork_collar.glsl"
+#include "lib/fork_stump.glsl"
+
+// Puts the branch's hole between columns; `directions` have to be the trunk's.
+void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Trunk trunk, Section middle) {
+  Section at = wallAt(trunk, middle, branch.centre);
+  vec3 towards = levelled(at, piercingOf(branch));
+  vec2 wanted = vec2(dotOf(towards, at.u), dotOf(towards, at.v)), halfStep = halfStepOf(shape.a);
+  precise float share = branch.window * float(shape.a) + 1.0;
+  ForkWindow window;
+  window.count = min(uint(ceil(share)), fork.branchCount > 1 ? shape.a / fork.branchCount : shape.a - 1);
+  vec2 halfAngle = vec2(1, 0);
+  for (uint c = 0; c < window.count; ++c) halfAngle = turned(halfAngle, halfStep);
+  window.first = nearestOf(turned(wanted, vec2(halfAngle.x, -halfAngle.y)), shape.a);
+  if (i > 0) {  // beside the first one's
+    uint otherFirst = windows[0].first, least = windows[0].count, most = shape.a - window.count;
+    uint behind = wrapped(window.first + shape.a - otherFirst, shape.a);
+    if (behind < least) window.first = wrapped(otherFirst + (2 * behind < least ? most : least), shape.a);
+    else if (behind > most) window.first = wrapped(otherFirst + most, shape.a);
+  }
+  window.hole = holeDirection(branch, wanted, turned(directions[window.first], halfAngle), halfAngle);
+  window.wide = branch.holeAround;
+  precise vec3 rows = (vec3(fork.row1, fork.row2, fork.row3) - branch.centre) / branch.holeAlong;
+  window.rows = rows;
+  windows[i] = window;
+}
+
+void trunkRow(uint start, uint around, float s, Trunk trunk, Section middle) {
+  Section section = wallAt(trunk, middle, s);
+  for (uint k = 0; k < around; ++k) put(start + k, surfacePoint(section, directions[k]));
+}
+
+void build(ForkRecord fork, ForkShape shape, Ring a, Ring b) {
+  precise float thirdA = fork.scaleA / 3.0, thirdB = -(fork.scaleB / 3.0);
+  precise vec3 chord = b.section.centre - a.section.centre;
+  Trunk trunk = Trunk(Bezier(vec4(a.section.centre, a.section.radius), innerPoint(a, thirdA), innerPoint(b, thirdB),
+                             vec4(b.section.centre, b.section.radius)), chord);
+  precise vec3 tangentA = a.turn * a.section.tangent, tangentB = b.turn * b.section.tangent;
+  Section bare = trunkAt(trunk, fork.row2);
+  Section middle = framed(bare, carried(a.section.u, a.section.centre, tangentA, bare.centre, bare.tangent));
+
+  setDirections(stepOf(shape.b), shape.b);
+  uint first = seamAt(b, carried(middle.u, middle.centre, middle.tangent, b.section.centre, tangentB), shape.b);
+  for (uint k = 0; k < shape.b; ++k)
+    put(rowStart(shape, kTrunkRows - 1) + k, surfacePoint(b.section, seamDirection(b, first, k, shape.b)));
+  setDirections(stepOf(shape.a), shape.a);
+  for (uint k = 0; k < shape.a; ++k) {
+    columns[k] = directions[k];
+    put(k, surfacePoint(a.section, seamDirection(a, 0, k, shape.a)));
+  }
+  trunkRow(rowStart(shape, 1), shape.a, fork.row1, trunk, middle);
+  trunkRow(rowStart(shape, 2), shape.a, fork.row2, trunk, middle);
+  trunkRow(rowStart(shape, 3), shape.a, fork.row3, trunk, middle);
+  for (uint i = 0; i < fork.branchCount; ++i)
+    placeWindow(i, fork, branchAt(fork.firstBranch + i), shape, trunk, middle);
+  uint seams[kMostBranches];
+  for (uint i = 0; i < fork.branchCount; ++i) {
+    ForkBranch branch = branchAt(fork.firstBranch + i);
+    seams[i] = collar(branch, ringAt(branch.ring), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
+  }
+  addForkTriangles(shape);
+  if (cut) {
+    addStump(shape, a, 0, tangentA, b.section.centre, 0, 1, 2);
+    addStump(shape, b, first, -tangentB, a.section.centre, kTrunkRows - 1, kTrunkRows - 2, kTrunkRows - 2);
+  }
+  for (uint i = 0; i < fork.branchCount; ++i) {
+    stumps[i] = stumps[i] || cut;
+    if (!stumps[i]) continue;
+    ForkBranch branch = branchAt(fork.firstBranch + i);
+    Ring ring = ringAt(branch.ring);
+    precise vec3 inward = -ring.turn * ring.section.tangent;
+    addStump(shape, ring, seams[i], inward, wallAt(trunk, middle, branch.centre).centre, branchRow(i), branchRow(i) - 1,
+             branchRow(i) - 2);
+  }
+}
+
+#endif

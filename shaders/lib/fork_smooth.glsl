@@ -1,0 +1,57 @@
+// Mirrors engine/surface/fork_smooth.cpp: the same operations in the same order. The shader that includes it has what
+// lib/fork_triangles.glsl asks for and
+//   void put(uint vertex, SurfacePoint point)   takes a vertex
+#ifndef VASA_FORK_SMOOTH
+#define VASA_FORK_SMOOTH
+#include "lib/fork_wall.glsl"
+
+const float kStep = 0.5, kHoleStep = 0.25;       // of the way to the neighbours' mean
+const float kNormalStep = 1.0, kSeamStep = 0.3;  // weight of the surface's own normal: within, and beside other parts
+
+// The vertex of a row beside place k of m.
+uint besideIn(ForkShape shape, uint row, uint k, uint m) {
+  uint own = rowSize(shape, row), at = own == m ? k : (k * own + m / 2) / m;
+  return rowStart(shape, row) + (at == own ? 0 : at);
+}
+
+void moveTo(uint vertex, float share, uint a, uint b, uint c, uint d) {
+  precise vec3 p = corners[vertex].position;
+  precise vec3 moved = p + share * (0.25 * (corners[a].position + corners[b].position + corners[c].position + corners[d].position) - p);
+  corners[vertex].position = moved;
+}
+
+void smoothRows(ForkShape shape, uint first, uint last) {
+  for (uint row = first + 1; row < last; ++row) {
+    uint m = rowSize(shape, row), start = rowStart(shape, row);
+    for (uint k = 0; k < m; ++k)
+      moveTo(start + k, kStep, start + (k + 1 == m ? 0 : k + 1), start + (k == 0 ? m : k) - 1, besideIn(shape, row - 1, k, m),
+             besideIn(shape, row + 1, k, m));
+  }
+  for (uint row = first; row <= last; ++row) {
+    uint m = rowSize(shape, row), start = rowStart(shape, row);
+    uint before = row == first ? row : row - 1, after = row == last ? row : row + 1;
+    float share = before == row || after == row ? kSeamStep : kNormalStep;
+    for (uint k = 0; k < m; ++k) {
+      precise vec3 around = corners[start + (k + 1 == m ? 0 : k + 1)].position - corners[start + (k == 0 ? m : k) - 1].position;
+      precise vec3 along = corners[besideIn(shape, after, k, m)].position - corners[besideIn(shape, before, k, m)].position;
+      SurfacePoint point = corners[start + k];
+      precise vec3 normal = point.normal + share * unitOr(crossOf(around, along), point.normal);
+      put(start + k, SurfacePoint(point.position, unitOr(normal, point.normal)));
+    }
+  }
+}
+
+void smoothTrunk(ForkShape shape) { smoothRows(shape, 0, kTrunkRows - 1); }
+
+void smoothCollar(ForkShape shape, uint branch) {
+  ForkWindow window = windows[branch];
+  uint m = shape.branch[branch], hole = rowStart(shape, holeRow(branch)), outline = 2 * window.count + 4;
+  for (uint k = 0; k < m; ++k) {
+    uint outer = (k * outline + m / 2) / m;
+    moveTo(hole + k, kHoleStep, hole + (k + 1 == m ? 0 : k + 1), hole + (k == 0 ? m : k) - 1,
+           outlineVertex(shape, window, outer == outline ? 0 : outer), hole + m + k);
+  }
+  smoothRows(shape, holeRow(branch), branchRow(branch));
+}
+
+#endif

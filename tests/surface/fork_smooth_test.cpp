@@ -1,0 +1,107 @@
+#include "surface/fork_smooth.h"
+
+#include <doctest/doctest.h>
+
+#include "support/networks.h"
+#include "surface/fork_check.h"
+
+using namespace vasa;
+
+namespace {
+
+// A network whose points follow waves of 3 cm through space.
+class Waves {
+ public:
+  explicit Waves(const Network& network) : table(makeSweepTable(network)), network_(network), frames_(network.sectionCount()) {}
+
+  /// @param height  of the waves [m]
+  PosedNetwork at(float height) {
+    points_.assign(network_.points().begin(), network_.points().end());
+    for (vec4& p : points_) p += height * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
+    pinEnds(network_, points_);
+    networkFrames(network_, points_, restReferences(network_), frames_);
+    return {table, points_, frames_};
+  }
+
+  const SweepTable table;
+
+ private:
+  const Network& network_;
+  std::vector<vec4> points_;
+  std::vector<quat> frames_;
+};
+
+struct Shown {
+  std::vector<SurfacePoint> points;
+  bool stump = false;
+};
+
+Shown show(const PosedNetwork& posed, const shared::ForkRecord& fork, ForkForm form) {
+  const ForkShape shape = forkShape(posed.table, fork, [](std::uint32_t) { return 8u; });
+  Shown shown{std::vector<SurfacePoint>(shape.vertices())};
+  const ForkLayout layout = evaluateFork(posed, fork, shape, shown.points, form);
+  shown.stump = layout.cut || layout.stump[0] || layout.stump[1];
+  return shown;
+}
+
+bool alike(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].position != b[i].position || a[i].normal != b[i].normal) return false;
+  return true;
+}
+
+float farthest(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
+  float way = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) way = std::max(way, glm::distance(a[i].position, b[i].position));
+  return way;
+}
+
+}  // namespace
+
+TEST_CASE("smoothing leaves forks that do not fold as they are, to the bit, and unfolds nearly all others") {
+  const Network network = test::branchingNetwork(61, 4);
+  Waves waves(network);
+  std::uint32_t folded = 0, stumps = 0;
+  for (const float height : {0.0f, 0.002f, 0.004f, 0.006f}) {
+    const PosedNetwork posed = waves.at(height);
+    for (const shared::ForkRecord& fork : waves.table.forks) {
+      const bool folds = foldedTriangles(posed, fork, 8, ForkForm::bare) > 0;
+      const Shown fitting = show(posed, fork, ForkForm::fitting);
+      if (!folds) CHECK(alike(fitting.points, show(posed, fork, ForkForm::bare).points));
+      CHECK(foldedTriangles(posed, fork, 8, ForkForm::fitting) == 0);
+      folded += folds;
+      stumps += fitting.stump;
+    }
+  }
+  MESSAGE(folded << " fold, " << stumps << " are stumps");
+  CHECK(folded >= 10);
+  CHECK(5 * stumps <= folded);
+}
+
+TEST_CASE("a fork that begins to fold does not jump") {
+  const Network network = test::branchingNetwork(61, 4);
+  Waves waves(network);
+  constexpr int kSteps = 240;
+  std::vector<Shown> before(waves.table.forks.size());
+  float farthestJump = 0;
+  std::uint32_t began = 0;
+  std::vector<bool> folded(before.size());
+  for (int step = 0; step <= kSteps; ++step) {
+    const PosedNetwork posed = waves.at(0.006f * float(step) / kSteps);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const shared::ForkRecord& fork = waves.table.forks[i];
+      const bool folds = foldedTriangles(posed, fork, 8, ForkForm::bare) > 0;
+      Shown now = show(posed, fork, ForkForm::fitting);
+      if (step > 0 && folds && !folded[i] && !now.stump && !before[i].stump) {
+        ++began;
+        const float radius = posed.points[fork.a.point].w;
+        farthestJump = std::max(farthestJump, farthest(before[i].points, now.points) / radius);
+      }
+      folded[i] = folds;
+      before[i] = std::move(now);
+    }
+  }
+  MESSAGE(began << " begin to fold; one moves by " << farthestJump << " radii then");
+  CHECK(began >= 5);
+  CHECK(farthestJump < 0.5f);
+}
