@@ -1,16 +1,16 @@
 #include "collide/network_tubes.h"
 
 #include <algorithm>
-#include <map>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "math/quadrature.h"
 
 // Neighbours come from a graph whose places are the spans' ends and the points where side branches sit, and
 // whose edges are the stretches between places of one span, as long as the arc. A node's ends are one place.
-// From the places of each tube a shortest-path search runs as far as radii may reach; every tube that has a
-// place within reach is linked.
+// From the places of each tube a shortest-path search runs as far as it and tubes no wider than it may reach; each of
+// these that has a place within reach is linked. So many narrow tubes cost no more for a wide one somewhere.
 namespace vasa {
 namespace {
 
@@ -65,50 +65,54 @@ Graph buildGraph(const Network& network, const NetworkTubes& tubes) {
   return graph;
 }
 
-// All links of one tube to tubes of a higher number.
+// All links of one tube to tubes that are narrower, or as wide and of a lower number.
 class LinkSearch {
  public:
   LinkSearch(const Graph& graph, std::span<const Bezier> tubes, std::span<const float> lengths, float reach)
-      : graph_(graph), tubes_(tubes), lengths_(lengths), reach_(reach) {
-    for (const Bezier& tube : tubes) largest_ = std::max(largest_, radiusOf(tube));
+      : graph_(graph), lengths_(lengths), reach_(reach), searched_(graph.tubesAt.size(), 0) {
+    for (const Bezier& tube : tubes) radii_.push_back(std::max(std::max(tube.b[0].w, tube.b[1].w), std::max(tube.b[2].w, tube.b[3].w)));
   }
 
   void linksOf(std::uint32_t tube, std::vector<TubeLink>& links) {
     for (const Place& start : graph_.placesOf[tube]) {
-      search(start.id, reach_ * (radiusOf(tubes_[tube]) + largest_));
-      for (const auto& [place, gap] : settled_)
-        for (const auto& [other, t] : graph_.tubesAt[place])
-          if (other > tube && gap < reach_ * (radiusOf(tubes_[tube]) + radiusOf(tubes_[other])))
-            links.push_back({tube, other, start.t, t, gap});
+      search(start.id, reach_ * 2 * radii_[tube]);
+      for (const auto& [gap, place] : settled_)
+        for (const auto& [other, t] : graph_.tubesAt[place]) {
+          if (std::tie(radii_[other], other) >= std::tie(radii_[tube], tube)) continue;
+          if (gap >= reach_ * (radii_[tube] + radii_[other])) continue;
+          if (other > tube) links.push_back({tube, other, start.t, t, gap});
+          else links.push_back({other, tube, t, start.t, gap});
+        }
     }
   }
 
  private:
-  static float radiusOf(const Bezier& tube) {
-    return std::max(std::max(tube.b[0].w, tube.b[1].w), std::max(tube.b[2].w, tube.b[3].w));
-  }
+  using Reached = std::pair<float, std::uint32_t>;  // how far off, place
 
   void search(std::uint32_t start, float limit) {
-    using Open = std::pair<float, std::uint32_t>;
-    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
     settled_.clear();
+    ++searches_;
     open.push({0, start});
     while (!open.empty()) {
       const auto [distance, place] = open.top();
       open.pop();
       if (distance >= limit) return;
-      if (!settled_.emplace(place, distance).second) continue;
+      if (std::exchange(searched_[place], searches_) == searches_) continue;
+      settled_.emplace_back(distance, place);
       for (const auto& [tube, t] : graph_.tubesAt[place])
         for (const Place& next : graph_.placesOf[tube])
-          open.push({distance + std::abs(next.t - t) * lengths_[tube], next.id});
+          if (searched_[next.id] != searches_) open.push({distance + std::abs(next.t - t) * lengths_[tube], next.id});
     }
   }
 
   const Graph& graph_;
-  std::span<const Bezier> tubes_;
   std::span<const float> lengths_;
-  float reach_, largest_ = 0;
-  std::map<std::uint32_t, float> settled_;
+  float reach_;
+  std::vector<float> radii_;
+  std::vector<std::uint32_t> searched_;  // by which search a place was settled last
+  std::uint32_t searches_ = 0;
+  std::vector<Reached> settled_;
 };
 
 }  // namespace
