@@ -1,6 +1,7 @@
 #!/bin/sh
-# Draws the README's rows of forks, stills and capillaries from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
-# A row is drawn in several pictures, set side by side and reduced to 256 colours by ffmpeg.
+# Draws the README's rows of forks, stills, capillaries and the app from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
+# A row is drawn in several pictures, set side by side and reduced to 256 colours by ffmpeg. The app's windows are those of
+# the tests' session, on a display without a screen (xvfb-run).
 set -eu
 vasa=${1:-build/release/bin/vasa}
 folder=${2:-docs/pictures}
@@ -63,3 +64,13 @@ only='--clip stand --hide skin,bones,organs'
   draw foot 240x240 --clip stand --hide skin --capillaries 3 --focus LeftFoot --distance 0.7
   row regions brain face hand foot
 }
+
+sed "s|OUT|$parts|" tests/view/session.txt > "$parts/session.txt"
+vasa_path=$(realpath "$vasa")
+(cd "$parts" && XDG_CONFIG_HOME=$parts xvfb-run -a -s '-screen 0 1280x1024x24' "$vasa_path" --quiet view --clip walk --size 960x640 --script session.txt)
+inputs=''
+for window in posed picked measured searched cut slid; do inputs="$inputs -i $parts/$window.png"; done
+# shellcheck disable=SC2086
+ffmpeg -loglevel error -y $inputs -filter_complex \
+  "xstack=inputs=6:layout=0_0|w0_0|w0+w1_0|0_h0|w0_h0|w0+w1_h0,scale=1440:-1:flags=area,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=sierra2_4a" \
+  "$folder/session.png"

@@ -66,9 +66,9 @@ void showHeads(const PanelInput& in) {
     const Network& network = in.document->scene.network;
     ImGui::Text("%s", in.document->title.c_str());
     ImGui::TextDisabled("%zu vessels, %u sweeps", network.vessels().size(), network.sweepCount());
-    if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording, a thirtieth of a second a picture (R ends it)");
+    if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording (R ends it)");
     if (in.state.posing) ImGui::TextUnformatted("drag a joint (P ends it)");
-    if (in.state.measuring) ImGui::TextUnformatted("click two vessels to measure between them (M ends it)");
+    if (in.state.measuring) ImGui::TextUnformatted("click two vessels (M ends it)");
     ImGui::PushTextWrapPos(in.layout.picture.width - ImGui::GetStyle().WindowPadding.x);
     if (!in.message.empty()) ImGui::TextUnformatted(in.message.c_str());
     ImGui::PopTextWrapPos();
