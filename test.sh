@@ -13,15 +13,16 @@ scripts/install-dependencies.sh
 if [ "$preset" = fuzz ] && ! command -v clang++ > /dev/null; then scripts/install-dependencies.sh clang; fi
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
-  readers='swc vtp bvh obj stl scene vasa'
-  cmake --build --preset fuzz --target $(printf 'fuzz_%s ' $readers)
+  readers=(swc vtp bvh obj stl scene vasa)
+  cmake --build --preset fuzz --target "${readers[@]/#/fuzz_}"
   mkdir -p build/fuzz/found
-  for reader in $readers; do
-    mkdir -p "build/fuzz/corpus/$reader"
-    echo "fuzzing $reader"
-    "build/fuzz/tests/fuzz/fuzz_$reader" -max_total_time="${1:-30}" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-      -verbosity=0 -artifact_prefix="build/fuzz/found/$reader-" "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader"
-  done
+  # As many at a time as there are cores.
+  # shellcheck disable=SC2016
+  printf '%s\n' "${readers[@]}" | xargs -P "$(nproc)" -I{} sh -c 'mkdir -p build/fuzz/corpus/{}
+    build/fuzz/tests/fuzz/fuzz_{} -max_total_time="$1" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
+      -artifact_prefix=build/fuzz/found/{}- build/fuzz/corpus/{} tests/fuzz/corpus/{} > build/fuzz/{}.log 2>&1 ||
+      { cat build/fuzz/{}.log; exit 1; }
+    echo "fuzz {}: $(grep -E "number_of_executed_units" build/fuzz/{}.log | tr -s " " | cut -d" " -f2) runs, nothing found"' sh "${1:-30}"
   exit 0
 fi
 select=()
