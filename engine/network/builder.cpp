@@ -1,6 +1,7 @@
 #include "network/builder.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace vasa {
@@ -73,6 +74,10 @@ class PinOrder {
   std::vector<char> state_;
 };
 
+std::uint64_t keyOf(const Host& host) {
+  return std::uint64_t(host.vessel.value) << 32 | std::bit_cast<std::uint32_t>(host.parameter + 0.0f);  // -0 as 0
+}
+
 }  // namespace
 
 VesselId NetworkBuilder::addVessel(Label label, std::vector<vec4> points) {
@@ -82,8 +87,10 @@ VesselId NetworkBuilder::addVessel(Label label, std::vector<vec4> points) {
 }
 
 NodeId NetworkBuilder::addNode(std::optional<Host> host, std::vector<VesselEnd> ends) {
+  const NodeId node{std::uint32_t(nodes_.size())};
+  if (host) hosted_.try_emplace(keyOf(*host), node.value);
   nodes_.push_back({host, std::move(ends)});
-  return {std::uint32_t(nodes_.size() - 1)};
+  return node;
 }
 
 NodeId NetworkBuilder::joinEnds(std::vector<VesselEnd> ends) {
@@ -91,12 +98,10 @@ NodeId NetworkBuilder::joinEnds(std::vector<VesselEnd> ends) {
 }
 
 NodeId NetworkBuilder::joinToSide(VesselEnd end, Host host) {
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].host != host) continue;
-    nodes_[i].ends.push_back(end);
-    return {i};
-  }
-  return addNode(host, {end});
+  const auto known = hosted_.find(keyOf(host));
+  if (known == hosted_.end()) return addNode(host, {end});
+  addEnd({known->second}, end);
+  return {known->second};
 }
 
 void NetworkBuilder::addEnd(NodeId node, VesselEnd end) {
