@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <queue>
 
 #include "body/arcs.h"
 #include "core/cancellation.h"
@@ -27,7 +30,6 @@ constexpr float kSkinMargin = 0.08f;  // shares of the skin below this and above
 constexpr float kTwistTilt = 8;       // largest ratio by which nearness to one bone tilts the spread of twist
 constexpr float kSlope = 1.5f * 1.25f;  // over an arc
 constexpr float kTwistSlope = 6;        // over a link
-constexpr int kMostSweeps = 100;
 constexpr std::size_t kBlock = 64;
 
 float smoothstep(float x) {
@@ -178,46 +180,63 @@ class PhaseMeter {
   float skinDistance_ = 0;
 };
 
-/// A tie and the most that a value may change along it.
-struct Limit {
-  std::uint32_t a, b;
-  float change;
+/// Each point's ties.
+class TieTable {
+ public:
+  struct Way {
+    std::uint32_t to;
+    float length;  ///< [m]
+  };
+  TieTable(std::span<const vec4> points, std::span<const Tie> ties) : first_(points.size() + 1, 0), ways_(2 * ties.size()) {
+    for (const Tie& tie : ties) ++first_[tie.a], ++first_[tie.b];
+    std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0u);
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const Tie& tie : ties) {
+      const float length = glm::distance(vec3(points[tie.a]), vec3(points[tie.b]));
+      ways_[next[tie.a]++] = {tie.b, length};
+      ways_[next[tie.b]++] = {tie.a, length};
+    }
+  }
+  std::span<const Way> from(std::uint32_t point) const { return std::span(ways_).subspan(first_[point], first_[point + 1] - first_[point]); }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<Way> ways_;
 };
 
-/// Lowers values until none exceeds a neighbour's by more than allowed; raises them with sign = -1.
-void level(std::span<float> values, std::span<const Limit> limits, float sign) {
-  bool changed = true;
-  const auto relax = [&](const Limit& limit) {
-    float &a = values[limit.a], &b = values[limit.b];
-    const float difference = sign * (a - b);
-    if (difference > limit.change)
-      a = b + sign * limit.change;
-    else if (-difference > limit.change)
-      b = a + sign * limit.change;
-    else
-      return;
-    changed = true;
+/// Lowers values until none exceeds a neighbour's by more than the slope allows; raises them with sign = -1. From the
+/// least value on (Dijkstra), so that each is lowered once and what is flat is left alone.
+/// @return whether there was any
+bool level(std::span<float> values, const TieTable& ties, float slope, float sign) {
+  using Open = std::pair<float, std::uint32_t>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  const auto lowerBeyond = [&](std::uint32_t point) {
+    for (const auto& [to, length] : ties.from(point)) {
+      const float change = slope * length;
+      if (!(sign * (values[to] - values[point]) > change)) continue;
+      values[to] = values[point] + sign * change;
+      open.emplace(sign * values[to], to);
+    }
   };
-  for (int sweep = 0; changed && sweep < kMostSweeps; ++sweep) {
-    changed = false;
-    checkpoint();
-    for (const Limit& limit : limits) relax(limit);
-    for (auto limit = limits.rbegin(); limit != limits.rend(); ++limit) relax(*limit);
+  std::vector<Open> steep;
+  for (std::uint32_t point = 0; point < values.size(); ++point)
+    if (std::ranges::any_of(ties.from(point), [&](const auto& way) { return sign * (values[way.to] - values[point]) > slope * way.length; }))
+      steep.emplace_back(sign * values[point], point);
+  for (const Open& from : steep) open.push(from);
+  Checkpoints checkpoints;
+  while (!open.empty()) {
+    checkpoints.pass();
+    const auto [value, point] = open.top();
+    open.pop();
+    if (value == sign * values[point]) lowerBeyond(point);
   }
+  return !steep.empty();
 }
 
-void limitSlope(std::span<float> values, float slope, std::span<const Tie> ties,
-                std::span<const float> lengths) {
-  std::vector<Limit> limits;
-  bool steep = false;
-  for (std::size_t i = 0; i < ties.size(); ++i) {
-    limits.push_back({ties[i].a, ties[i].b, slope * lengths[i]});
-    steep = steep || std::abs(values[ties[i].a] - values[ties[i].b]) > limits.back().change;
-  }
-  if (!steep) return;
+void limitSlope(std::span<float> values, float slope, const TieTable& ties) {
   std::vector<float> low(values.begin(), values.end());
-  level(values, limits, 1);
-  level(low, limits, -1);
+  if (!level(values, ties, slope, 1)) return;
+  level(low, ties, slope, -1);
   for (std::size_t i = 0; i < low.size(); ++i) values[i] = 0.5f * (values[i] + low[i]);
 }
 
@@ -238,16 +257,15 @@ Phases measurePhases(const SpineSet& spines, const BoneField& bones, const SkinF
 
 void limitSlopes(Phases& phases, const SpineSet& spines, std::span<const vec4> points,
                  std::span<const Tie> ties) {
-  std::vector<float> lengths;
-  for (const Tie& tie : ties) lengths.push_back(glm::distance(vec3(points[tie.a]), vec3(points[tie.b])));
+  const TieTable tied(points, ties);
   parallelFor(spines.joints.size(), 1, [&](std::size_t j) {
     const SpineJoint& joint = spines.joints[j];
     const auto ofJoint = [&](std::vector<float>& table) {
       return std::span(table).subspan(phases.at(j, 0), phases.pointCount);
     };
-    limitSlope(ofJoint(phases.bend), kSlope / joint.arc, ties, lengths);
-    limitSlope(ofJoint(phases.nearness), kSlope / joint.arc, ties, lengths);
-    if (joint.spreadsTwist) limitSlope(ofJoint(phases.twist), kTwistSlope / joint.link, ties, lengths);
+    limitSlope(ofJoint(phases.bend), kSlope / joint.arc, tied);
+    limitSlope(ofJoint(phases.nearness), kSlope / joint.arc, tied);
+    if (joint.spreadsTwist) limitSlope(ofJoint(phases.twist), kTwistSlope / joint.link, tied);
   });
 }
 
