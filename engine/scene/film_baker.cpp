@@ -8,9 +8,9 @@
 namespace vasa {
 namespace {
 
-// All frames share their triangles, so forks stay open.
+// All frames share their triangles and move from key to key in straight lines, so forks stay as they are.
 SurfaceMesh surface(const SweepTable& table, const PosedFrame& frame, const SweepShape& shape) {
-  return surfaceMesh({table, frame.points, frame.knotFrames}, shape, ForkForm::open);
+  return surfaceMesh({table, frame.points, frame.knotFrames}, shape, ForkForm::bare);
 }
 
 // A part for each kind of vessel that there is.

@@ -283,8 +283,8 @@ ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& f
     layout.branch[i] = Collar(wall, branch, direction, ring).write(shape, i, vertices);
     stumps.branch[i] = {ring.section, -ring.turn * ring.section.frame.tangent, at.centre};
   }
-  if (form != ForkForm::bare) smoothFolds(shape, layout, vertices);
   if (form == ForkForm::fitting) {
+    smoothFolds(shape, layout, vertices);
     stumps.a = {a.section, tangentA, b.section.centre};
     stumps.b = {b.section, -tangentB, a.section.centre};
     stumps.replaceFolds(shape, layout, vertices);

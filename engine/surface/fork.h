@@ -85,8 +85,7 @@ struct ForkLayout {
 /// What is done about parts of a fork that fold in a pose.
 enum class ForkForm {
   fitting,  ///< they are smoothed; those that fold yet become stumps
-  open,     ///< they are smoothed: triangles belong to the same parts in all poses
-  bare      ///< nothing
+  bare      ///< nothing: triangles belong to the same parts in all poses, and move with the pose without a step
 };
 
 /// The CPU reference of shaders/forks.comp. Vertices at rings are the tubes' own, bit for bit.
