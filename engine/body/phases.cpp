@@ -210,27 +210,25 @@ class TieTable {
 bool level(std::span<float> values, const TieTable& ties, float slope, float sign) {
   using Open = std::pair<float, std::uint32_t>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  const auto lowerBeyond = [&](std::uint32_t point) {
-    for (const auto& [to, length] : ties.from(point)) {
-      const float change = slope * length;
-      if (!(sign * (values[to] - values[point]) > change)) continue;
-      values[to] = values[point] + sign * change;
-      open.emplace(sign * values[to], to);
-    }
+  const auto exceeds = [&](const TieTable::Way& way, std::uint32_t point) {
+    return sign * (values[way.to] - values[point]) > slope * way.length;
   };
-  std::vector<Open> steep;
   for (std::uint32_t point = 0; point < values.size(); ++point)
-    if (std::ranges::any_of(ties.from(point), [&](const auto& way) { return sign * (values[way.to] - values[point]) > slope * way.length; }))
-      steep.emplace_back(sign * values[point], point);
-  for (const Open& from : steep) open.push(from);
+    if (std::ranges::any_of(ties.from(point), [&](const auto& way) { return exceeds(way, point); })) open.emplace(sign * values[point], point);
+  const bool any = !open.empty();
   Checkpoints checkpoints;
   while (!open.empty()) {
     checkpoints.pass();
     const auto [value, point] = open.top();
     open.pop();
-    if (value == sign * values[point]) lowerBeyond(point);
+    if (value != sign * values[point]) continue;  // lowered since
+    for (const TieTable::Way& way : ties.from(point)) {
+      if (!exceeds(way, point)) continue;
+      values[way.to] = values[point] + sign * (slope * way.length);
+      open.emplace(sign * values[way.to], way.to);
+    }
   }
-  return !steep.empty();
+  return any;
 }
 
 void limitSlope(std::span<float> values, float slope, const TieTable& ties) {

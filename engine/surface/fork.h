@@ -11,10 +11,10 @@
 // along the branch's wall: tangent planes agree at both ends. Which columns are a hole's window, and which of a ring's
 // vertices a row begins at, is found anew in each pose, so that nothing twists.
 //
-// Where a pose makes a collar or the trunk fold, it is smoothed, step by step, until it does not (surface/fork_smooth.h): so
-// the fork changes with the pose without a jump. Few go on folding. Then a branch becomes a stump: its tube runs straight
-// on to the trunk's axis and is closed there, and the wall has no hole; where it is the trunk, its two tubes and all branches
-// are stumps. A stump cannot fold: surface/fork_stump.h.
+// Where a pose makes a collar or the trunk fold, it is smoothed, step by step, until it does not (surface/fork_smooth.h): a
+// fork that begins to fold moves by a part of its radius at most. Few go on folding. Then a branch becomes a stump: its tube
+// runs straight on to the trunk's axis and is closed there, and the wall has no hole; where it is the trunk, its two tubes and
+// all branches are stumps. A stump cannot fold: surface/fork_stump.h.
 namespace vasa {
 
 /// Rows of a fork: kTrunkRows of trunk, of which the first and the last are the tubes' rings; then for each branch the

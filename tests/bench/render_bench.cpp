@@ -13,6 +13,7 @@
 #include "network/file.h"
 #include "network/measure.h"
 #include "render/renderer.h"
+#include "taken.h"
 
 using namespace vasa;
 
@@ -25,13 +26,6 @@ constexpr const char* kUsage =
 void print(const char* name, std::vector<double> values) {
   std::sort(values.begin(), values.end());
   std::printf("  %-12s min %8.2f  median %8.2f ms\n", name, values.front(), values[values.size() / 2]);
-}
-
-template <class T>
-T taken(Result<T> result) {
-  if (result) return std::move(*result);
-  std::fprintf(stderr, "%s\n", result.error().message.c_str());
-  std::exit(int(result.error().fault));
 }
 
 struct Arguments {

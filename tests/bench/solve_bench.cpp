@@ -9,19 +9,13 @@
 #include "core/parallel.h"
 #include "render/profiler.h"
 #include "scene/frame.h"
+#include "taken.h"
 
 using namespace vasa;
 
 namespace {
 
 constexpr const char* kUsage = "usage: bench_solve BODY.glb NETWORK.vasa CLIP [THREADS [ROUNDS [FRAMES]]]\n";
-
-template <class T>
-T taken(Result<T> result) {
-  if (result) return std::move(*result);
-  std::fprintf(stderr, "%s\n", result.error().message.c_str());
-  std::exit(int(result.error().fault));
-}
 
 }  // namespace
 
