@@ -140,6 +140,8 @@ void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, 
 void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t top, ImDrawData& panels) {
   gpu::Commands commands = device_.queue().begin("panels");
   recordPicture(commands, picture, left, top);
+  if (!picture || fresh_) changes_.forget();
+  changes_.keepChanged(panels, picture ? Rect{float(left), float(top), float(picture->size().width), float(picture->size().height)} : Rect{});
   VkRenderPassBeginInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
   info.renderPass = renderPass_.get();

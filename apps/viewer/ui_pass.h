@@ -4,6 +4,7 @@
 #include "gpu/image.h"
 #include "gpu/queue.h"
 #include "gpu/window_handles.h"
+#include "viewer/ui_changes.h"
 
 struct ImDrawData;
 
@@ -39,6 +40,7 @@ class UiPass {
   gpu::Image canvas_;
   gpu::Unique<VkFramebuffer> frame_;
   bool fresh_ = true;  // nothing has been drawn on it
+  UiChanges changes_;
 };
 
 }  // namespace vasa::viewer

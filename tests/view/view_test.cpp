@@ -80,6 +80,8 @@ TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts
   std::string text = contentOf("tests/view/session.txt");
   for (int i = 0; i < 50; ++i) text += "resize " + std::to_string(400 + 13 * (i * 7 % 50)) + " " + std::to_string(300 + 9 * (i * 11 % 50)) + "\n";
   text += "resize 960 640\nkey 1\nkey home\nsettle\nwindow OUT/resized.png\n";
+  // Panels are drawn where they change; after a change of size all of them are.
+  text += "key space\nframes 4\nkey space\nsettle\nwindow OUT/changed.png\nresize 900 600\nframes 2\nresize 960 640\nsettle\nwindow OUT/anew.png\n";
   text += "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 252\npress left\nrelease left\nsettle\n";
   auto options = on(display, folder);
   options.folder = folder.path().string();
@@ -88,11 +90,12 @@ TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts
   CHECK(outcome.err.empty());
   const auto report = outcome.json();
   CHECK(report["validation_messages"] == 0);
-  CHECK(report["files"].size() == 13);
+  CHECK(report["files"].size() == 15);
   CHECK(report["pictures"].get<int>() > 60);  // each new size is drawn
   CHECK(report["selected"] != "");
   CHECK(report["width"] == 640);              // the panels have the rest
   for (const char* name : {"posed", "measured", "searched"}) checkPicture(folder.path() / (std::string(name) + ".png"), name);
+  CHECK(contentOf(folder.path() / "changed.png") == contentOf(folder.path() / "anew.png"));
   CHECK(readPng(folder.path() / "picked.png")->width == 960);
   CHECK(readPng(folder.path() / "vasa_001.png")->width == 640);
   CHECK(report["video_frames"].get<int>() >= 10);
