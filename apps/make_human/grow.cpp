@@ -16,6 +16,8 @@ constexpr float kHostCell = 0.016f, kObstacleCell = 0.010f, kLeastCell = 0.0015f
 constexpr int kCandidates = 8;  // places of which the emptiest is chosen, at first
 constexpr int kRelaxations = 8;
 constexpr int kFailuresToClose = 150;  // in a row: the region is full
+constexpr float kFiner = 0.85f;         // times as thin is what grows where all regions are full
+constexpr int kMostFiner = 4;           // times
 constexpr int kFailuresToLowerSights =
     8;  // in a row: half as many candidates, and branches that stop on the way
 constexpr float kShortenings[] = {1, 0.6f, 0.35f};
@@ -86,8 +88,8 @@ struct Grower::State {
       RegionState* poorest = nullptr;
       for (RegionState& state : states_)
         if (state.failures < kFailuresToClose && (!poorest || state.grown < poorest->grown)) poorest = &state;
-      if (!poorest) break;
-      if (!growIn(*poorest)) ++poorest->failures;
+      if (!poorest && !goFiner()) break;
+      if (poorest && !growIn(*poorest)) ++poorest->failures;
     }
     for (std::size_t i = laidCount_; i < vessels_.size(); ++i) setRadii(i);
   }
@@ -113,6 +115,14 @@ struct Grower::State {
   }
 
  private:
+  /// Opens full regions again, for thinner branches. False where that has been done often enough.
+  bool goFiner() {
+    if (finer_++ == kMostFiner) return false;
+    scale_ *= kFiner;
+    for (RegionState& state : states_) state.failures = 0;
+    return true;
+  }
+
   void enter(SegmentGrid& grid, int vessel) {
     const GrowingTree::Vessel& v = tree_.vessels()[std::size_t(vessel)];
     for (std::size_t k = 0; k + 1 < v.branch.points.size(); ++k)
@@ -389,7 +399,8 @@ struct Grower::State {
   std::vector<LaidVessel>& vessels_;
   const Surroundings& around_;
   const GrowOptions options_;
-  const float scale_;  // of lengths, against the reference
+  float scale_;  // of lengths, against the reference
+  int finer_ = 0;
   GrowingTree tree_;
   std::vector<RegionState> states_;
   std::size_t laidCount_;
