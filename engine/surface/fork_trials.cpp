@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kAround = 8;
 constexpr std::uint32_t kOtherAround[] = {4, 6, 12, 16};
-constexpr float kSqueezed = 0.7f, kSheared = 0.4f;
+constexpr float kSqueezed = 0.9f, kSheared = 0.15f;
 
 std::vector<mat3> strains() {
   std::vector<mat3> maps{mat3(1)};
