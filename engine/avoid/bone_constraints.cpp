@@ -1,6 +1,7 @@
 #include "avoid/bone_constraints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace vasa {
@@ -19,6 +20,9 @@ constexpr float kLeastLimit = 1e-4f;       // [m] and asks for no more rounds fr
 constexpr float kFarthest = 2, kFartherStill = 0.008f;  // radii; [m]
 constexpr float kSameWay = 0.9f;  // cosine
 constexpr float kFartherThanPosed = 1.5f;
+// In turning: the cosine below which one plane is given up for another, and how near along the vessel; and the depth that
+// is not too far, wherever the vessel was posed.
+constexpr float kContradicts = 0.5f, kBeside = 2, kNearlyOut = 0.004f;  // -; spans; [m]
 
 }  // namespace
 
@@ -34,7 +38,26 @@ void BoneConstraints::restart() {
   rounds_ = 0;
 }
 
+void BoneConstraints::turnTo(std::span<const BoneContact> places) {
+  turning_ = true;
+  rounds_ = 1;
+  next_.clear();
+  nextKeys_.clear();
+  for (std::size_t own = 0; own < keys_.size(); ++own) {
+    const auto [vessel, span] = layout_->address(keys_[own].tube);
+    const float u = float(span) + keys_[own].s;
+    if (std::ranges::none_of(places, [&](const BoneContact& place) {
+          const auto [other, at] = layout_->address(place.tube);
+          return other == vessel && std::abs(float(at) + place.s - u) < kBeside && glm::dot(place.normal, constraints_[own].normal) < kContradicts;
+        }))
+      keep(own);
+  }
+  constraints_.swap(next_);
+  keys_.swap(nextKeys_);
+}
+
 void BoneConstraints::clear() {
+  turning_ = false;
   restart();
   letThrough_.assign(network_->vessels().size(), 0);
   lackAtFirst_.assign(network_->vessels().size(), 0.0f);
@@ -99,13 +122,15 @@ std::size_t BoneConstraints::update(std::span<const BoneContact> places, std::sp
       constraint.start = glm::dot(place.nearestNormal, posedPlace - place.nearestPoint);
       lack = constraint.distance - constraint.start;
     }
-    const bool tooFar = lack > farthest;
+    const bool nearlyOut = turning_ && place.allowed - place.f < kNearlyOut;
+    const bool tooFar = lack > farthest && !nearlyOut;
     const std::size_t same = sameWay(old, end, constraint.normal);
     for (; old < end; ++old) {
       if (tooFar) {
         constraints_[old].limit *= kLess;
         constraints_[old].multiplier = std::min(constraints_[old].multiplier, constraints_[old].limit);
       }
+      if (turning_ && !tooFar && old != same && glm::dot(constraints_[old].normal, constraint.normal) < kContradicts) continue;
       if (old != same || tooFar) keep(old);
       else renew(constraint, constraints_[old]);
     }

@@ -20,6 +20,10 @@ class BoneConstraints {
   void letThrough(VesselId vessel) { letThrough_[vessel.value] = 1; }
   /// Forgets the constraints.
   void restart();
+  /// Forgets the planes that push against the ways out of these places, within some spans of them along their vessels,
+  /// and begins with the first rounds again. From now on until clear() a place's plane replaces those that it
+  /// contradicts, and what is nearly out is not given up for the way it has come. O(constraints · places).
+  void turnTo(std::span<const BoneContact> places);
 
   /// To be called in every round: holds the places that enter a bone now. Changes constraints' normals, so what the
   /// multipliers move must be summed up anew.
@@ -54,6 +58,7 @@ class BoneConstraints {
   std::vector<char> letThrough_;  // one a vessel
   std::vector<float> lackAtFirst_;  // [m] one a vessel: the most that was asked for where the pose had put it
   unsigned rounds_ = 0;
+  bool turning_ = false;
 };
 
 }  // namespace vasa

@@ -28,6 +28,12 @@ constexpr float kSettled = 1e-6f;     // [m]
 constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000, 0, 0, 0};
 
 constexpr unsigned kBringBack = 3;  // times that more rounds are tried for the sides
+// The same for what is in bones: how many times, and how many of them in vain; of so many rounds.
+constexpr unsigned kLeaveBones = 5, kInVain = 2, kRoundsToLeave = 5;
+constexpr float kVolumeError = 1e-4f;  // relative, that is borne for it
+// No more points than so many, and one in so many, may be moved farther for that.
+constexpr float kFar = 4;  // radii
+constexpr std::size_t kFew = 16, kOneIn = 1000;
 
 class Timer {
  public:
@@ -101,11 +107,26 @@ struct Avoider::State {
   void push(const Constraint& constraint, const MotionSpace::Rows& rows, float amount);
   void sumUp();
   void place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
-  void separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void separate(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
   void letThroughBones(unsigned nodes);
   void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void tryAgain(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  void tryAgain(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  // What a round has come to.
+  struct Outcome {
+    std::size_t changed;
+    BoneReport bones;
+    std::uint32_t inSkin;
+    std::vector<vec4> points;
+    std::vector<NarrowPlace> narrowed;
+    VolumeKeeper::Outcome volume;
+  };
+  Outcome present(std::span<const vec4> points) const {
+    return {changed.size(), reportOf(boneContacts), tubesOf(skinContacts), {points.begin(), points.end()}, narrowed, volumeOutcome};
+  }
+  void restore(const Outcome& outcome, const PosedVessels& posed, std::span<vec4> points, AvoidReport& report);
   void bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
+  bool isJump(std::span<const vec4> from, std::span<const vec4> to) const;
+  void leaveBones(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
 
   const Network& network;
   AvoidOptions options;
@@ -201,8 +222,9 @@ void Avoider::State::lookAtBones(Bones::Which which, AvoidReport& report) {
   std::ranges::merge(boneContacts, skinContacts, std::back_inserter(allContacts), {}, &placeOf, &placeOf);
 }
 
-void Avoider::State::separate(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  for (unsigned round = 0; round < options.rounds; ++round) {
+void Avoider::State::separate(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points,
+                              AvoidReport& report) {
+  for (unsigned round = 0; round < rounds; ++round) {
     {
       Timer timer(report.solveMs);
       const std::span<const Bezier> tubes = interference.tubes();
@@ -273,41 +295,65 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
 }
 
 // From the multipliers as they are, after some were given up.
-void Avoider::State::tryAgain(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+void Avoider::State::tryAgain(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points,
+                              AvoidReport& report) {
   {
     Timer timer(report.solveMs);
     sumUp();
     place(posed, volume, points);
   }
   look(posed, points, Bones::Which::nearAtLast, report);
-  separate(posed, volume, points, report);
+  separate(rounds, posed, volume, points, report);
   giveWay(posed, volume, points, report);
+}
+
+void Avoider::State::restore(const Outcome& outcome, const PosedVessels& posed, std::span<vec4> points, AvoidReport& report) {
+  std::ranges::copy(outcome.points, points.begin());
+  narrowed = outcome.narrowed;
+  volumeOutcome = outcome.volume;
+  look(posed, points, Bones::Which::nearAtLast, report);
 }
 
 // Some rounds more where vessels have ended on the wrong side of one another, without what was asked for between them on
 // the way there. The best of what comes of them stands: as certified as before, and fewer on a wrong side.
 void Avoider::State::bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  struct Best {
-    std::size_t changed;
-    std::vector<vec4> points;
-    std::vector<NarrowPlace> narrowed;
-    VolumeKeeper::Outcome volume;
-  };
-  const auto present = [&] { return Best{changed.size(), {points.begin(), points.end()}, narrowed, volumeOutcome}; };
   if (changed.empty()) return;
-  Best best = present();
+  Outcome best = present(points);
   bool isBest = true;
   for (unsigned attempt = 0; attempt < kBringBack && !changed.empty(); ++attempt) {
     pool.forget(changed);
-    tryAgain(posed, volume, points, report);
+    tryAgain(options.rounds, posed, volume, points, report);
     isBest = changed.size() < best.changed && certificateOf(places, &remaining).holds();
-    if (isBest) best = present();
+    if (isBest) best = present(points);
   }
-  if (isBest) return;
-  std::ranges::copy(best.points, points.begin());
-  narrowed = best.narrowed;
-  volumeOutcome = best.volume;
-  look(posed, points, Bones::Which::nearAtLast, report);
+  if (!isBest) restore(best, posed, points, report);
+}
+
+bool Avoider::State::isJump(std::span<const vec4> from, std::span<const vec4> to) const {
+  std::size_t far = 0;
+  for (std::size_t p = 0; p < to.size(); ++p) far += glm::distance(vec3(from[p]), vec3(to[p])) > kFar * network.points()[p].w;
+  return far > kFew + to.size() / kOneIn;
+}
+
+// The same where they have ended in a bone that they were not in at rest, without what pushes them against the way out
+// from where they are now. Only what moves few points far stands: from frame to frame, a jump is seen more than a vessel
+// in a bone.
+void Avoider::State::leaveBones(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
+  if (reportOf(boneContacts).contacts == 0) return;
+  const auto in = [](const BoneReport& own) { return std::tuple(own.contacts, own.deeper, own.depth); };
+  Outcome best = present(points);
+  const std::vector<vec4> start = best.points;
+  bool isBest = true;
+  for (unsigned attempt = 0, vain = 0; attempt < kLeaveBones && vain < kInVain && reportOf(boneContacts).contacts > 0; ++attempt) {
+    boneConstraints.turnTo(boneContacts);
+    tryAgain(std::min(kRoundsToLeave, options.rounds), posed, volume, points, report);
+    isBest = changed.size() <= best.changed && in(reportOf(boneContacts)) < in(best.bones) && tubesOf(skinContacts) <= best.inSkin &&
+             volumeOutcome.largestError <= std::max(best.volume.largestError, kVolumeError) && !isJump(start, points) &&
+             certificateOf(places, &remaining).holds();
+    if (isBest) best = present(points);
+    else ++vain;
+  }
+  if (!isBest) restore(best, posed, points, report);
 }
 
 AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
@@ -331,16 +377,19 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   report.bones = reportOf(boneContacts);
   report.skinContacts = tubesOf(skinContacts);
   if (!report.before.holds() || !changed.empty() || report.bones.contacts + report.bones.deeper + report.skinContacts > 0) {
-    separate(posed, volume, points, report);
+    separate(options.rounds, posed, volume, points, report);
     giveWay(posed, volume, points, report);
     for (const unsigned nodes : kResorts) {
       if (options.rounds == 0 || certificateOf(places, &remaining).holds()) break;
       if (nodes > 0 && bones) letThroughBones(nodes);
       pool.partAsTheyLie(remaining);
-      tryAgain(posed, volume, points, report);
+      tryAgain(options.rounds, posed, volume, points, report);
     }
   }
-  if (report.rounds > 0 && certificateOf(places, &remaining).holds()) bringBack(posed, volume, points, report);
+  if (report.rounds > 0 && certificateOf(places, &remaining).holds()) {
+    bringBack(posed, volume, points, report);
+    leaveBones(posed, volume, points, report);
+  }
   report.after = certificateOf(places, &remaining);
   report.sidesChangedAfter = std::uint32_t(changed.size());
   report.bonesAfter = reportOf(boneContacts);

@@ -11,7 +11,7 @@
 namespace vasa {
 
 /// Fixed budgets: no frame takes more than these, once, again at each of eight resorts where there is no room, and up to
-/// three times more for vessels on the wrong side of one another.
+/// three times more for vessels on the wrong side of one another, and half of them up to five times for those in bones.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
   unsigned rounds = 10;      ///< detections, each followed by sweeps

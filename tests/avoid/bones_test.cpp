@@ -123,6 +123,33 @@ TEST_CASE("a vessel that is pushed into a bone from farther than its field reach
   CHECK(report.bonesAfter.contacts == 0);
 }
 
+TEST_CASE("a vessel that the bone's faces push against one another in comes out even so") {
+  // Turned and tilted about a place of its own, from one face of the lower bone through another and past the upper one.
+  Setting setting = settingAt(0.011f);
+  setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
+  SkinnedMesh high = test::boxMesh("bones", {-0.015f, 0.016f, -0.03f}, {0.015f, 0.03f, 0.03f});
+  for (SkinInfluence& influence : high.influences) influence.joints = {1, 0, 0, 0};
+  setting.body.meshes = {test::boxMesh("bones", {-0.012f, -0.006f, -0.03f}, {0.012f, 0.006f, 0.03f}), high};
+  Avoider avoider(setting.network, &setting.body);
+  struct Through {
+    float turn, tilt, lowered, aside;
+  };
+  for (const auto& [turn, tilt, lowered, aside] :
+       {Through{-0.97f, 0.5672f, 0.0095f, 0.0053f}, Through{-0.9184f, 0.5774f, 0.0136f, 0.0023f}, Through{0.9932f, -0.54f, 0.015f, -0.0098f}}) {
+    CAPTURE(turn);
+    const mat4 turned = glm::rotate(glm::rotate(mat4(1), turn, vec3(0, 1, 0)), tilt, vec3(0, 0, 1));
+    const mat4 move = glm::translate(mat4(1), vec3(0, 0.011f - lowered, aside)) * turned * glm::translate(mat4(1), vec3(0, -0.011f, 0));
+    std::vector<vec4> posed;
+    for (const vec4& p : setting.network.points()) posed.emplace_back(vec3(move * vec4(vec3(p), 1)), p.w);
+    std::vector<vec4> points = posed;
+    const std::vector<quat> rotations(posed.size(), glm::quat_cast(mat3(move)));
+    const std::vector<mat4> joints{mat4(1), mat4(1)};
+    const AvoidReport report = avoider.run({posed, rotations, joints}, nullptr, points);
+    CHECK(report.bones.contacts > 0);
+    CHECK(report.bonesAfter.contacts == 0);
+  }
+}
+
 TEST_CASE("a vessel between two bones that leave it too little room gives way") {
   // 3 mm between two slabs for a vessel of 4 mm.
   Setting setting{{}, test::levelVessel(0.1f, 0.0022f)};
