@@ -2,6 +2,7 @@
 
 #include "gpu/barrier.h"
 #include "gpu/transfer.h"
+#include "spirv/patch_triangles_comp.h"
 #include "spirv/patches_comp.h"
 #include "spirv/skin_comp.h"
 
@@ -13,15 +14,13 @@ std::uint32_t verticesOf(const PatchTable& table) {
   return table.seams.back().vertex + shared::kMaxAround;
 }
 
-TubeDraws drawsOf(gpu::Device& device, const PatchTable& table) {
+// Patches' and strips', these with room for the most vertices around.
+std::uint32_t triangleRoomOf(const PatchTable& table) {
   const shared::PatchSeam& last = table.seams.back();
-  const GroupRoom room{verticesOf(table), last.index + 3 * stripTriangles(last, shared::kMaxAround)};
-  TubeDraws draws(device, room, 1);
-  gpu::uploadBytes(device, draws.indices, std::as_bytes(std::span(table.triangles)));
-  const shared::DrawCommand draw{room.indices, 1, 0, 0, 0};
-  gpu::uploadBytes(device, draws.draws, std::as_bytes(std::span(&draw, 1)));
-  return draws;
+  return last.index / 3 + stripTriangles(last, shared::kMaxAround);
 }
+
+constexpr std::uint32_t kGroupTriangles = shared::kPatchThreads * shared::kThreadTriangles;
 
 }  // namespace
 
@@ -42,11 +41,16 @@ PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
   shares_ = gpu::makeBuffer(device, "patch shares", std::span<const float>(table.shares));
   rest_ = gpu::makeBuffer(device, "patches at rest", std::span<const shared::SkinVertex>(table.vertices));
   joints_ = gpu::Buffer(device, {"patch joints", sizeof(shared::JointRows) * table.seams.size()});
-  draws_ = drawsOf(device, table);
+  triangleRoom_ = triangleRoomOf(table);
+  groups_ = (triangleRoom_ + kGroupTriangles - 1) / kGroupTriangles;
+  all_ = gpu::Buffer(device, {"patch triangles", VkDeviceSize(12) * triangleRoom_});
+  gpu::uploadBytes(device, all_, std::as_bytes(std::span(table.triangles)));
+  draws_ = TubeDraws(device, {inBlocks(verticesOf(table)), 3 * triangleRoom_}, 1);
+  draws_.draws = gpu::Buffer(device, {"patch draws", sizeof(shared::DrawCommand) * groups_});
 }
 
 VkDeviceSize PatchSet::bytes() const {
-  return empty() ? 0 : seams_.bytes() + shares_.bytes() + rest_.bytes() + joints_.bytes() + draws_.bytes();
+  return empty() ? 0 : seams_.bytes() + shares_.bytes() + rest_.bytes() + joints_.bytes() + all_.bytes() + draws_.bytes();
 }
 
 void PatchSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
@@ -58,7 +62,8 @@ void PatchSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t
 
 PatchPass::PatchPass(gpu::Device& device)
     : seams_(device, {spirv::patches_comp, sizeof(shared::PatchesPush)}),
-      skin_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}) {}
+      skin_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}),
+      triangles_(device, {spirv::patch_triangles_comp, sizeof(shared::PatchTrianglesPush)}) {}
 
 void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
   const PatchSet& patches = input.patches;
@@ -72,7 +77,7 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                       .around = input.detail.around(),
                                       .joints = patches.joints_.address(),
                                       .vertices = draws.vertices.address(),
-                                      .indices = draws.indices.address(),
+                                      .indices = patches.all_.address(),
                                       .count = patches.seamCount_,
                                       .unused = 0},
                   gpu::groupsFor(patches.seamCount_, 64));
@@ -86,6 +91,21 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                   .centre = vec3(0),
                                   .scale = 1},
                  gpu::groupsFor(patches.vertexCount_, 64));
+  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  recordTriangles(commands, patches, input.detail, input.cull);
+}
+
+void PatchPass::recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail, bool cull) const {
+  const TubeDraws& draws = patches.draws_;
+  triangles_.dispatch(commands,
+                      shared::PatchTrianglesPush{.vertices = draws.vertices.address(),
+                                                 .all = patches.all_.address(),
+                                                 .view = detail.view(),
+                                                 .indices = draws.indices.address(),
+                                                 .draws = draws.draws.address(),
+                                                 .count = patches.triangleRoom_,
+                                                 .keepAll = cull ? 0u : 1u},
+                      patches.groups_);
 }
 
 }  // namespace vasa

@@ -15,22 +15,26 @@ class PatchSet {
   std::uint64_t triangleCount(std::uint32_t around) const { return fixedTriangles_ + std::uint64_t(seamCount_) * around; }
   VkDeviceSize bytes() const;
 
-  /// Vertices, colours, indices and one draw; vertices and strips are a frame's. Empty without patches.
+  /// Vertices, colours, indices of the triangles to draw, and a draw a group; all of a frame but the colours. Empty without
+  /// patches.
   const TubeDraws& draws() const { return draws_; }
+  std::uint32_t groups() const { return groups_; }
+  /// Indices of all triangles, seen or not: those of PatchTable, then the strips' (PatchSeam::index).
+  const gpu::Buffer& allIndices() const { return all_; }
   /// Waits for the device. @param spanColours  one a span of the network, kind in the highest 8 bits
   void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
 
  private:
   friend class PatchPass;
-  std::uint32_t seamCount_ = 0, vertexCount_ = 0;
+  std::uint32_t seamCount_ = 0, vertexCount_ = 0, triangleRoom_ = 0, groups_ = 0;
   std::uint64_t fixedTriangles_ = 0;
   std::vector<std::uint32_t> spanOfBlock_;
-  gpu::Buffer seams_, shares_, rest_, joints_;
+  gpu::Buffer seams_, shares_, rest_, joints_, all_;
   TubeDraws draws_;
 };
 
-/// Carries patches by the rings of their vessels, and closes the surface between them.
-/// CPU reference: surface/patch.h.
+/// Carries patches by the rings of their vessels, closes the surface between them, and leaves out triangles that cannot be
+/// seen. CPU references: surface/patch.h, surface/visible.h.
 class PatchPass {
  public:
   explicit PatchPass(gpu::Device& device);
@@ -40,12 +44,15 @@ class PatchPass {
     const PatchSet& patches;  ///< not empty
     const DetailPass& detail;
     VkDeviceAddress points, knots;  ///< de Boor points (vec4) and knot quaternions (x y z w) of the frame
+    bool cull = true;               ///< false: every triangle is drawn
   };
-  /// Barriers between its own two dispatches only.
+  /// Barriers between its own dispatches only.
   void record(VkCommandBuffer commands, const Input& input) const;
+  /// Only chooses what is drawn of the latest frame's vertices and strips.
+  void recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail, bool cull) const;
 
  private:
-  gpu::ComputePipeline seams_, skin_;
+  gpu::ComputePipeline seams_, skin_, triangles_;
 };
 
 }  // namespace vasa

@@ -199,7 +199,7 @@ void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPu
 void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look) {
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
-  surfacePass.recordVessels(commands, push, patches.draws(), 1, look, partial);
+  surfacePass.recordVessels(commands, push, patches.draws(), patches.groups(), look, partial);
   target.pause(commands);
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
@@ -260,7 +260,7 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (batches > 0) recordTessellation(commands, 0);
   if (batches > 0 && patchPass) {
     const auto scope = timer.scope(commands, kForks);
-    patchPass->record(commands, {tubes, patches, detailPass, upload.points(), upload.knots()});
+    patchPass->record(commands, {tubes, patches, detailPass, upload.points(), upload.knots(), cull});
   }
   {
     const auto scope = timer.scope(commands, kMeshes);
@@ -290,6 +290,10 @@ double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderI
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   gpu::Commands commands = device.queue().begin("static draw");
   staticTimer.begin(commands);
+  if (patchPass) {
+    patchPass->recordTriangles(commands, patches, detailPass, false);
+    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+  }
   target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
   target.pause(commands);
   gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
@@ -297,7 +301,7 @@ double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderI
     const auto scope = staticTimer.scope(commands, kDraw);
     target.begin(commands, {}, 0, gpu::Stretch::middle);
     tubesAtOnce.recordDraw(commands, surfacePass, push);
-    if (patchPass) surfacePass.recordVessels(commands, push, patches.draws(), 1);
+    if (patchPass) surfacePass.recordVessels(commands, push, patches.draws(), patches.groups());
     target.pause(commands);
   }
   gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);

@@ -1,7 +1,9 @@
-// Read by C++ and GLSL (scalar layout): walls of the source mesh kept around forks. Two passes:
+// Read by C++ and GLSL (scalar layout): walls of the source mesh kept around forks. Three passes:
 //   patches    a thread a seam   -> how the vertices that follow its ring move, the ring's vertices, and the triangles of the
 //                                   strip between ring and patch
 //   skin       a thread a vertex -> the patch's vertices (shared/skin.h)
+//   patch_triangles  a thread some triangles, a workgroup a group of them -> indices of those that may be seen, in their
+//                                   order, and an indirect draw a group
 #ifndef VASA_SHARED_PATCH_H
 #define VASA_SHARED_PATCH_H
 #include "shared/fork.h"
@@ -9,9 +11,14 @@
 #ifdef __cplusplus
 namespace vasa::shared {
 #define VASA_ADDRESS(Block) std::uint64_t
+#define VASA_CONSTANT constexpr
 #else
 #define VASA_ADDRESS(Block) Block
+#define VASA_CONSTANT const
 #endif
+
+/// Threads of a workgroup that looks at triangles, and triangles of a thread.
+VASA_CONSTANT uint kPatchThreads = 128, kThreadTriangles = 8;
 
 /// Where a patch meets a tube; constant over time. What is said to be at rest is so when the patch was cut out.
 struct PatchSeam {
@@ -30,6 +37,7 @@ struct PatchSeam {
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Seams { PatchSeam seam[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Shares { float share[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer JointsOut { u64vec2 row[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer VerticesIn { u64vec2 vertex[]; };
 #endif
 
 struct PatchesPush {
@@ -46,9 +54,20 @@ struct PatchesPush {
   uint unused;
 };
 
+struct PatchTrianglesPush {
+  VASA_ADDRESS(VerticesIn) vertices;
+  VASA_ADDRESS(Uints) all;          // indices of all triangles
+  VASA_ADDRESS(View) view;
+  VASA_ADDRESS(UintsOut) indices;
+  VASA_ADDRESS(Draws) draws;
+  uint count;                       // of all triangles
+  uint keepAll;                     // 1: every triangle is drawn
+};
+
 #ifdef __cplusplus
-static_assert(sizeof(PatchSeam) == 116 && sizeof(PatchesPush) == 80);
+static_assert(sizeof(PatchSeam) == 116 && sizeof(PatchesPush) == 80 && sizeof(PatchTrianglesPush) == 48);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS
+#undef VASA_CONSTANT
 #endif

@@ -55,7 +55,7 @@ struct Forks {
     rig.run([&](VkCommandBuffer commands) {
       detailPass.record(commands, tubes, pointBuffer.address(), view);
       if (!patches.empty())
-        patchPass.record(commands, {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address()});
+        patchPass.record(commands, {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address(), false});
       tubePass.record(commands, {tubes, tubes.batches()[0], detailPass, pointBuffer.address(), knotBuffer.address(),
                                  tubeDraws, false});
       if (!forks.batches().empty())

@@ -8,6 +8,7 @@
 #include "shared/fork.h"
 #include "shared/growth.h"
 #include "shared/occlusion.h"
+#include "shared/patch.h"
 #include "shared/tubes.h"
 
 // lavapipe stops all loops of an invocation silently when they have gone round 65,535 times together. So the most that
@@ -36,6 +37,7 @@ std::map<std::string, unsigned> mostLoops() {
                          kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
       // directions, the ring's vertices, where it begins, the strip's triangles and those without area
+      {"patch_triangles.comp", 2 * kThreadTriangles + kPatchThreads},
       {"patches.comp", 3 * m + kMostOnLoop + 2 * m},
       {"occlusion.comp", kOcclusionTaps},
       {"smooth.comp", kOcclusionTile * (kOcclusionTile + 1)},

@@ -1,0 +1,57 @@
+#version 460
+// A workgroup a run of triangles of patches and their strips: those that may be seen, in their order, and an indirect draw.
+// CPU reference: engine/surface/visible.h.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/records.glsl"
+#include "lib/visible.glsl"
+#include "shared/patch.h"
+
+const uint kGroupThreads = kPatchThreads;
+#include "lib/group_sum.glsl"
+
+layout(local_size_x = kPatchThreads) in;
+layout(push_constant, scalar) uniform Push { PatchTrianglesPush push; };
+
+DetailView view;
+
+vec2 placeOf(uint vertex) {
+  u64vec2 words = push.vertices.vertex[vertex];
+  uvec2 xy = unpack32(words.x), zNormal = unpack32(words.y);
+  vec4 place = vec4(uintBitsToFloat(xy), uintBitsToFloat(zNormal.x), 1);
+  return dot(view.planes[4], place) < 0
+             ? vec2(kBehind)
+             : vec2(dot(view.picture[0], place), dot(view.picture[1], place)) / dot(view.picture[2], place);
+}
+
+uvec3 triangleAt(uint triangle) {
+  uint first = 3 * triangle;
+  return uvec3(push.all.value[first], push.all.value[first + 1], push.all.value[first + 2]);
+}
+
+bool isSeen(uvec3 t) {
+  if (push.keepAll != 0) return true;
+  if (t.x == t.y) return false;  // a strip's room that is not used
+  return seenOfTriangle(placeOf(t.x), placeOf(t.y), placeOf(t.z), vec2(view.columns, view.rows), view.snap);
+}
+
+void main() {
+  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x;
+  uint first = (group * kPatchThreads + local) * kThreadTriangles, seen = 0;
+  view = viewAt(push.view);
+  for (uint k = 0; k < kThreadTriangles && first + k < push.count; ++k)
+    if (isSeen(triangleAt(first + k))) seen |= 1u << k;
+  uint count = uint(bitCount(seen)), before = sumBefore(local, count);
+  uint start = 3 * kPatchThreads * kThreadTriangles * group, target = start + 3 * before;
+  for (uint k = 0; k < kThreadTriangles; ++k) {
+    if ((seen >> k & 1u) == 0u) continue;
+    uvec3 t = triangleAt(first + k);
+    push.indices.value[target] = t.x;
+    push.indices.value[target + 1] = t.y;
+    push.indices.value[target + 2] = t.z;
+    target += 3;
+  }
+  if (local == kPatchThreads - 1) push.draws.draw[group] = DrawCommand(3 * (before + count), 1, start, 0, 0);
+}
