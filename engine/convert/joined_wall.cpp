@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
-#include "mesh/boundary.h"
+#include "math/closest_point.h"
 
 namespace vasa {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr float kMostCells = 200000;
 constexpr int kBlock = 4;            // cells: blocks far from any wall are not looked at more closely
 constexpr float kSure = 0.3f;        // of the winding number from 1/2, there
+constexpr float kClear = 1.2f;      // cells: a node this far from any wall has the next one on its side
 constexpr float kAside = 0.06f;      // of an edge: crossings stay this far from its ends, so that no triangle has no area
 constexpr int kRounds = 2;           // of smoothing
 using ivec3 = glm::ivec3;
@@ -23,7 +25,8 @@ constexpr std::array<std::array<int, 3>, 6> kOrders{
 
 class Field {
  public:
-  Field(std::span<const LooseWall* const> walls, const Aabb& box, float cell) : walls_(walls), low_(box.low) {
+  Field(std::span<const LooseWall* const> walls, std::span<const Capsule> cores, const Aabb& box, float cell)
+      : walls_(walls), cores_(cores), low_(box.low) {
     const vec3 extent = box.extent();
     cell_ = std::max(cell, std::cbrt(extent.x * extent.y * extent.z / kMostCells));
     count_ = ivec3(glm::ceil(extent / (cell_ * kBlock))) * kBlock + 1;
@@ -49,23 +52,40 @@ class Field {
     return within;
   }
 
+  float coreDistance(vec3 p) const {
+    float least = std::numeric_limits<float>::infinity();
+    for (const Capsule& core : cores_) {
+      const vec3 nearest = glm::mix(core.a, core.b, closestOnSegment(p, core.a, core.b));
+      least = std::min(least, glm::distance(p, nearest) - core.radius);
+    }
+    return least;
+  }
+
   // The block's nodes up to, without, those of the next ones.
   void fill(ivec3 first) {
     const vec3 middle = place(first) + 0.5f * cell_ * float(kBlock - 1);
     const float reach = 0.9f * cell_ * float(kBlock);
     const float winding = inside(middle);
-    const bool far = distance(middle, 2 * reach) > 1.5f * reach && std::abs(winding - 0.5f) > kSure;
+    const float core = coreDistance(middle);
+    const bool far = distance(middle, 2 * reach) > 1.5f * reach && std::abs(winding - 0.5f) > kSure && core > 1.5f * reach;
     const ivec3 end = glm::min(first + kBlock, count_);
     for (int z = first.z; z < end.z; ++z)
-      for (int y = first.y; y < end.y; ++y)
+      for (int y = first.y; y < end.y; ++y) {
+        float around = winding;
+        bool same = far;  // no wall, and no tear in one, lies before the next node
         for (int x = first.x; x < end.x; ++x) {
           const vec3 p = place({x, y, z});
-          const float side = (far ? winding : inside(p)) > 0.5f ? -1.0f : 1.0f;
-          values_[number({x, y, z})] = side * (far ? reach : std::max(distance(p, reach), 1e-9f));
+          if (!same) around = inside(p);
+          const float off = far ? reach : std::max(distance(p, reach), 1e-9f);
+          const float wall = around > 0.5f ? -off : off;
+          values_[number({x, y, z})] = far ? wall : std::min(wall, coreDistance(p));
+          same = far || (off > kClear * cell_ && std::abs(around - 0.5f) > kSure);
         }
+      }
   }
 
   std::span<const LooseWall* const> walls_;
+  std::span<const Capsule> cores_;
   vec3 low_;
   float cell_ = 1;
   ivec3 count_{0};
@@ -155,13 +175,10 @@ void smooth(TriangleMesh& mesh) {
 
 }  // namespace
 
-LooseWall::LooseWall(TriangleMesh mesh) : mesh_(std::move(mesh)), tree_(mesh_), winding_(mesh_.positions, mesh_.triangles) {
-  const MeshEdges edges = buildEdges(mesh_);
-  side_ = fillLoops(mesh_, edges, boundaryLoops(mesh_, edges)).volume() < 0 ? -1.0f : 1.0f;
-}
+LooseWall::LooseWall(TriangleMesh mesh) : mesh_(std::move(mesh)), tree_(mesh_), winding_(mesh_.positions, mesh_.triangles) {}
 
-TriangleMesh joinedWall(std::span<const LooseWall* const> walls, const Aabb& box, float cell) {
-  TriangleMesh mesh = Polygoniser(Field(walls, box, cell)).run();
+TriangleMesh joinedWall(std::span<const LooseWall* const> walls, std::span<const Capsule> cores, const Aabb& box, float cell) {
+  TriangleMesh mesh = Polygoniser(Field(walls, cores, box, cell)).run();
   smooth(mesh);
   return mesh;
 }

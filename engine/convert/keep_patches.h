@@ -42,8 +42,8 @@ struct KeptPatches {
 
 /// For every fork of the network, as it is drawn (surface/fork_plan.h), the piece of the source's wall between its rings,
 /// where there is one: cut out of one surface of the source as it is, or else of the joined wall of the surfaces of the
-/// fork's vessels, as where each vessel is a surface of its own, or torn. Beside a ring the wall is eased into the tube's round section. How much a vertex moves with each
-/// ring is the solution of Laplace's equation on the wall, 1 on that ring's loop and 0 on the others.
+/// fork's vessels (convert/joined_wall.h), as where each vessel is a surface of its own, or torn; gaps of a radius or two are
+/// closed. Where real walls part later than their round tubes, rings move out to there (convert/fork_openings.h).
 /// @param network    as it is written: patches are matched to its forks by place
 /// @param elements   what it was made of; empty: centre lines
 /// @param elementOf  vessel -> element; empty without elements

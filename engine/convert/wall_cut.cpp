@@ -54,15 +54,20 @@ class Cutter {
   }
 
  private:
-  // Distances of the vertices beyond the plane; none is 0.
+  // Distance of a vertex beyond the plane; never 0. All that asks for a side asks here: so all agree on vertices beside it.
+  float sideOf(const WallOpening& opening, std::uint32_t vertex) const {
+    const float least = 1e-4f * opening.radius, side = glm::dot(mesh_.positions[vertex] - opening.centre, opening.outward);
+    return std::abs(side) < least ? least : side;
+  }
   std::vector<float> sidesOf(const WallOpening& opening) const {
-    const float least = 1e-4f * opening.radius;
     std::vector<float> sides;
-    for (const vec3& p : mesh_.positions) {
-      const float side = glm::dot(p - opening.centre, opening.outward);
-      sides.push_back(std::abs(side) < least ? least : side);
-    }
+    for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) sides.push_back(sideOf(opening, v));
     return sides;
+  }
+  static std::uint32_t third(const uvec3& triangle, const uvec2& edge) {
+    for (int k = 0; k < 3; ++k)
+      if (triangle[k] != edge.x && triangle[k] != edge.y) return triangle[k];
+    return triangle.x;
   }
 
   // From an edge on through triangles; open where it comes to a border.
@@ -154,11 +159,8 @@ class Cutter {
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
       const uvec2 v = edges.vertices[e];
       if (!barrier_.contains({v.x, v.y}) || !onLoop(loop, v.x) || !onLoop(loop, v.y)) continue;
-      for (const std::uint32_t t : edges.trianglesOf(e)) {
-        vec3 middle(0);
-        for (int k = 0; k < 3; ++k) middle += mesh_.positions[mesh_.triangles[t][k]] / 3.0f;
-        if (glm::dot(middle - opening.centre, opening.outward) < 0) inner.push_back(t);
-      }
+      for (const std::uint32_t t : edges.trianglesOf(e))
+        if (sideOf(opening, third(mesh_.triangles[t], v)) < 0) inner.push_back(t);
     }
     return inner;
   }

@@ -25,11 +25,9 @@ SpanPlace spanPlace(const Network& network, const VesselPlace& place) {
   return {vessel.firstPoint + span, spanClassOf(span, vessel.spanCount()), span, t};
 }
 
-shared::ForkRing ringAt(const Network& network, const VesselPlace& place, bool against) {
-  const Vessel& vessel = network.vessels()[place.vessel];
-  const SpanPlace at = spanPlace(network, place);
-  return {at.point, firstKnot(network, {place.vessel}) + at.span, at.spanClass, vessel.firstPoint,
-          vessel.firstPoint + vessel.pointCount - 1, at.t, place.reversed != against ? -1.0f : 1.0f};
+VesselPlace turned(VesselPlace place, bool around) {
+  place.reversed = place.reversed != around;
+  return place;
 }
 
 // d/ds of the trunk from d/du of a ring's vessel.
@@ -60,7 +58,7 @@ float nearestParameter(const Bezier& trunk, vec3 point) {
 
 shared::ForkBranch branchRecord(const Network& network, const ForkCourse::Branch& branch, const Bezier& trunk) {
   shared::ForkBranch record{};
-  record.ring = ringAt(network, branch.ring, branch.last);
+  record.ring = forkRingAt(network, turned(branch.ring, branch.last));
   record.vessel = branch.ring.vessel;
   const SpanPlace cross = spanPlace(network, branch.cross);
   record.crossPoint = cross.point;
@@ -80,6 +78,13 @@ shared::ForkBranch branchRecord(const Network& network, const ForkCourse::Branch
 
 }  // namespace
 
+shared::ForkRing forkRingAt(const Network& network, const VesselPlace& place) {
+  const Vessel& vessel = network.vessels()[place.vessel];
+  const SpanPlace at = spanPlace(network, place);
+  return {at.point, firstKnot(network, {place.vessel}) + at.span, at.spanClass, vessel.firstPoint,
+          vessel.firstPoint + vessel.pointCount - 1, at.t, place.reversed ? -1.0f : 1.0f};
+}
+
 std::uint32_t spanClassOf(std::uint32_t span, std::uint32_t spans) {
   return 3 * std::min(span, 2u) + std::min(spans - 1 - span, 2u);
 }
@@ -88,8 +93,8 @@ shared::ForkRecord makeForkRecord(const Network& network, const ForkCourse& cour
                                   std::vector<shared::ForkBranch>& branches) {
   assert(course.branches.size() <= shared::kMostBranches);
   shared::ForkRecord record{};
-  record.a = ringAt(network, course.low, false);
-  record.b = ringAt(network, course.high, false);
+  record.a = forkRingAt(network, course.low);
+  record.b = forkRingAt(network, course.high);
   record.scaleA = scaleAt(network, course.low, course);
   record.scaleB = scaleAt(network, course.high, course);
   record.vesselA = course.low.vessel;

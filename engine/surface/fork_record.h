@@ -25,6 +25,9 @@ struct ForkCourse {
 shared::ForkRecord makeForkRecord(const Network& network, const ForkCourse& course,
                                   std::vector<shared::ForkBranch>& branches);
 
+/// A ring at a place. Its turn is +1 where the place is not reversed.
+shared::ForkRing forkRingAt(const Network& network, const VesselPlace& place);
+
 /// Class of a span among `spans` (spanClassMatrices of surface/sweep_table.h).
 std::uint32_t spanClassOf(std::uint32_t span, std::uint32_t spans);
 

@@ -2,40 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "surface/octahedral.h"
 
 namespace vasa {
 namespace {
 
-constexpr float kSamePlace = 0.25f;  // of the radius: a ring this near is the patch's
+constexpr float kSamePlace = 0.25f;  // radii: a ring that lies this far outside the patch's is taken for it
+constexpr float kFarthest = 20;      // radii: from a ring to the patch's, behind it
 constexpr std::size_t kMostSeams = 65536;
 
-struct ForkRings {
-  std::array<const shared::ForkRing*, ForkPatch::kMostRings> ring{};
-  std::array<std::uint32_t, ForkPatch::kMostRings> vessel{};
-  std::size_t count = 0;
+// Where a fork's rings are to be for a patch, and how far its own are from there altogether, in radii of the rings.
+struct Meeting {
+  std::array<float, ForkPatch::kMostRings> parameters{};
+  float apart = 0;
 };
 
-ForkRings ringsOf(const ForkPlan& plan, const shared::ForkRecord& fork) {
-  ForkRings rings{{&fork.a, &fork.b}, {fork.vesselA, fork.vesselB}, 2 + std::size_t(fork.branchCount)};
-  for (std::uint32_t i = 0; i < fork.branchCount; ++i) {
-    rings.ring[2 + i] = &plan.branches[fork.firstBranch + i].ring;
-    rings.vessel[2 + i] = plan.branches[fork.firstBranch + i].vessel;
-  }
-  return rings;
-}
-
-bool meets(const Network& network, const ForkPatch& patch, const ForkRings& rings) {
-  if (patch.rings.size() != rings.count) return false;
+// None where the patch is another fork's: a ring of it lies within the fork, or too far out.
+std::optional<Meeting> meeting(const Network& network, const ForkPatch& patch, const ForkRings& rings) {
+  if (patch.rings.size() != rings.count) return std::nullopt;
+  for (std::size_t i = 0; i < rings.count; ++i)
+    if (patch.rings[i].vessel.value != rings.vessel[i]) return std::nullopt;
+  Meeting met;
   for (std::size_t i = 0; i < rings.count; ++i) {
-    if (patch.rings[i].vessel.value != rings.vessel[i]) return false;
-    const Vessel& vessel = network.vessels()[rings.vessel[i]];
-    const vec4 own = evaluate(network.pointsOf(vessel), patch.rings[i].parameter);
-    const vec4 there = evaluate(network.pointsOf(vessel), forkRingParameter(network, *rings.ring[i], rings.vessel[i]));
-    if (glm::distance(vec3(own), vec3(there)) > kSamePlace * own.w) return false;
+    const auto points = network.pointsOf(network.vessels()[rings.vessel[i]]);
+    const float wanted = patch.rings[i].parameter, there = forkRingParameter(network, *rings.ring[i], rings.vessel[i]);
+    const vec4 own = evaluate(points, wanted);
+    const float distance = glm::distance(vec3(own), vec3(evaluate(points, there)));
+    const bool behind = rings.outward(i) * (wanted - there) > 0;
+    if (distance > (behind ? kFarthest : kSamePlace) * own.w) return std::nullopt;
+    met.parameters[i] = behind ? wanted : there;
+    met.apart += distance / own.w;
   }
-  return true;
+  return met;
 }
 
 // The patch's frame at rest; see turnOf() of patch_pose.cpp.
@@ -138,22 +138,22 @@ void add(const Network& network, const ForkPatch& patch, const ForkRings& rings,
 
 }  // namespace
 
-float forkRingParameter(const Network& network, const shared::ForkRing& ring, std::uint32_t vessel) {
-  return float(ring.point - network.vessels()[vessel].firstPoint) + ring.t;
-}
-
 PatchTable takePatches(const Network& network, ForkPlan& plan) {
   PatchTable table;
   std::vector<bool> taken(plan.forks.size());
   for (const ForkPatch& patch : network.patches()) {
     if (table.seams.size() + patch.rings.size() > kMostSeams) break;
+    std::size_t nearest = plan.forks.size();
+    Meeting best;
     for (std::size_t i = 0; i < plan.forks.size(); ++i) {
-      const ForkRings rings = ringsOf(plan, plan.forks[i]);
-      if (taken[i] || !meets(network, patch, rings)) continue;
-      taken[i] = true;
-      add(network, patch, rings, table);
-      break;
+      if (taken[i] || plan.forks[i].vesselA != patch.rings[0].vessel.value) continue;
+      const std::optional<Meeting> met = meeting(network, patch, ringsOf(plan, plan.forks[i]));
+      if (met && (nearest == plan.forks.size() || met->apart < best.apart)) nearest = i, best = *met;
     }
+    if (nearest == plan.forks.size()) continue;
+    if (!moveRings(network, plan, nearest, std::span(best.parameters).first(patch.rings.size()))) continue;
+    taken[nearest] = true;
+    add(network, patch, ringsOf(plan, plan.forks[nearest]), table);
   }
   std::uint32_t vertex = std::uint32_t(table.vertices.size() + shared::kBlockVertices - 1) >> shared::kBlockShift << shared::kBlockShift;
   std::uint32_t index = 3 * std::uint32_t(table.triangles.size());

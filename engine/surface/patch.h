@@ -4,7 +4,7 @@
 
 #include "network/network.h"
 #include "shared/patch.h"
-#include "surface/fork_plan.h"
+#include "surface/fork_rings.h"
 #include "surface/section.h"
 
 // The source's own walls around forks (network/fork_patch.h), carried by the rings of their vessels.
@@ -34,12 +34,10 @@ struct PatchTable {
   std::vector<uvec3> triangles;              ///< of the patches, without strips
 };
 
-/// Gives every patch the fork in the plan whose rings are where its own are, and takes that fork out of the plan. Patches
-/// without such a fork, and those beyond the 65,536 rings that a vertex can name, are left out.
+/// Gives every patch the nearest fork in the plan of its vessels, and takes that fork out of the plan. The fork's rings move
+/// out to where the patch's are, if need be, and the tubes behind them become shorter. Patches without such a fork, those
+/// whose tubes are too short, and those beyond the 65,536 rings that a vertex can name, are left out.
 PatchTable takePatches(const Network& network, ForkPlan& plan);
-
-/// A ring's place on its vessel, in [0, spans].
-float forkRingParameter(const Network& network, const shared::ForkRing& ring, std::uint32_t vessel);
 
 /// A seam in a pose.
 struct PosedSeam {
