@@ -38,9 +38,9 @@ only='--clip stand --hide skin,bones,organs'
 {
   for forks in off on; do
     close="--clip stand --forks $forks"
-    draw "y_$forks" 240x240 $close --hide skin,bones,organs,veins --camera 0.003,1.085,0.25/0.003,1.071,0.004/16
-    draw "t_$forks" 240x240 $close --hide skin,bones,organs,veins --camera 0.0,1.33,-0.25/0.022,1.3,-0.037/13
-    draw "crossing_$forks" 240x240 $close --hide skin,bones,organs,arteries --camera -0.03,1.19,-0.25/-0.02,1.182,0.0/17
+    draw "y_$forks" 240x240 $close --hide skin,bones,organs,veins --camera 0.003,1.085,0.25/0.003,1.066,0.004/8
+    draw "t_$forks" 240x240 $close --hide skin,bones,organs,veins --camera 0.0,1.33,-0.25/0.013,1.306,-0.037/6
+    draw "crossing_$forks" 240x240 $close --hide skin,bones,organs,arteries --camera -0.03,1.19,-0.25/-0.022,1.182,0.0/10
   done
   row forks y_off y_on t_off t_on crossing_off crossing_on
 
