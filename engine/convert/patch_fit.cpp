@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "convert/unfold.h"
 #include "mesh/edges.h"
 
 namespace vasa {
@@ -95,6 +96,9 @@ std::array<std::uint8_t, ForkPatch::kMostRings> rounded(const vec4& weights) {
 ForkPatch fitPatch(std::span<const ForkOpening> openings, WallPiece wall) {
   const std::vector<vec4> weights = harmonicWeights(wall);
   if (!easeIntoTubes(openings, weights, wall) || !runsAround(openings, wall)) return {};
+  std::size_t onLoops = 0;
+  for (const std::uint32_t count : wall.loops) onLoops += count;
+  unfold(wall.mesh, onLoops);
   ForkPatch patch;
   for (std::size_t i = 0; i < openings.size(); ++i) {
     const ForkOpening& o = openings[i];

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "convert/forked_source.h"
+#include "convert/unfold.h"
 #include "convert/wall_thin.h"
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -64,6 +65,12 @@ TEST_CASE("the wall of a scanned fork is kept, closed with the tubes at rest and
     CHECK(openEdgesOf(made.network, made.network.points(), {around, 3}) == 0);
     CHECK(openEdgesOf(made.network, bent(made.network), {around, 3}) == 0);
   }
+}
+
+TEST_CASE("no triangle of a patch is folded at rest") {
+  const Forked made = forked();
+  REQUIRE(!made.network.patches().empty());
+  for (const ForkPatch& patch : made.network.patches()) CHECK(foldedTriangles({patch.positions, patch.triangles}).empty());
 }
 
 TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside the rings") {
