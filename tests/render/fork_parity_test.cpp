@@ -129,7 +129,7 @@ TEST_CASE("forks that waves fold are smoothed, and some turned into stumps, as i
   VASA_REQUIRE_GPU(rig);
   const Network network = test::branchingNetwork(61, 4);
   std::vector<vec4> points = restPoints(network);
-  for (vec4& p : points) p += 0.006f * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
+  for (vec4& p : points) p += 0.010f * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
   pinEnds(network, points);
   const Forks passes(rig, network, points, framesOf(network, points), {{8, 5}, 0});
   std::uint32_t folded = 0, stumps = 0;
