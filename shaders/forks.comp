@@ -6,8 +6,8 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/picture_place.glsl"
 #include "lib/ring.glsl"
-#include "lib/visible.glsl"
 
 void put(uint vertex, SurfacePoint point);
 vec2 stepOf(uint around);
@@ -28,14 +28,9 @@ const uint kGroupThreads = kGroupForks;
 layout(local_size_x = kGroupForks) in;
 layout(push_constant, scalar) uniform Push { ForksPush push; };
 
-DetailView view;
-
 void put(uint vertex, SurfacePoint point) {
   corners[vertex] = point;
-  vec4 place = vec4(point.position, 1);
-  places[vertex] = dot(view.planes[4], place) < 0
-                       ? vec2(kBehind)
-                       : vec2(dot(view.picture[0], place), dot(view.picture[1], place)) / dot(view.picture[2], place);
+  places[vertex] = placeOf(point.position);
 }
 
 vec2 stepOf(uint around) { return stepAt(push.tables, around); }

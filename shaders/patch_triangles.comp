@@ -5,8 +5,8 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/picture_place.glsl"
 #include "lib/records.glsl"
-#include "lib/visible.glsl"
 #include "shared/patch.h"
 
 const uint kGroupThreads = kPatchThreads;
@@ -15,15 +15,10 @@ const uint kGroupThreads = kPatchThreads;
 layout(local_size_x = kPatchThreads) in;
 layout(push_constant, scalar) uniform Push { PatchTrianglesPush push; };
 
-DetailView view;
-
-vec2 placeOf(uint vertex) {
+vec3 positionOf(uint vertex) {
   u64vec2 words = push.vertices.vertex[vertex];
   uvec2 xy = unpack32(words.x), zNormal = unpack32(words.y);
-  vec4 place = vec4(uintBitsToFloat(xy), uintBitsToFloat(zNormal.x), 1);
-  return dot(view.planes[4], place) < 0
-             ? vec2(kBehind)
-             : vec2(dot(view.picture[0], place), dot(view.picture[1], place)) / dot(view.picture[2], place);
+  return vec3(uintBitsToFloat(xy), uintBitsToFloat(zNormal.x));
 }
 
 uvec3 triangleAt(uint triangle) {
@@ -34,7 +29,7 @@ uvec3 triangleAt(uint triangle) {
 bool isSeen(uvec3 t) {
   if (push.keepAll != 0) return true;
   if (t.x == t.y) return false;  // a strip's room that is not used
-  return seenOfTriangle(placeOf(t.x), placeOf(t.y), placeOf(t.z), vec2(view.columns, view.rows), view.snap);
+  return seenOfTriangle(placeOf(positionOf(t.x)), placeOf(positionOf(t.y)), placeOf(positionOf(t.z)), vec2(view.columns, view.rows), view.snap);
 }
 
 void main() {

@@ -88,8 +88,11 @@ struct Grower::State {
       RegionState* poorest = nullptr;
       for (RegionState& state : states_)
         if (state.failures < kFailuresToClose && (!poorest || state.grown < poorest->grown)) poorest = &state;
-      if (!poorest && !goFiner()) break;
-      if (poorest && !growIn(*poorest)) ++poorest->failures;
+      if (!poorest) {
+        if (!goFiner()) break;
+      } else if (!growIn(*poorest)) {
+        ++poorest->failures;
+      }
     }
     for (std::size_t i = laidCount_; i < vessels_.size(); ++i) setRadii(i);
   }
@@ -117,7 +120,8 @@ struct Grower::State {
  private:
   /// Opens full regions again, for thinner branches. False where that has been done often enough.
   bool goFiner() {
-    if (finer_++ == kMostFiner) return false;
+    if (finer_ == kMostFiner) return false;
+    ++finer_;
     scale_ *= kFiner;
     for (RegionState& state : states_) state.failures = 0;
     return true;

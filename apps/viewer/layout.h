@@ -5,6 +5,7 @@ namespace vasa::viewer {
 
 struct Rect {
   float left = 0, top = 0, width = 0, height = 0;  ///< [pixels]
+  bool operator==(const Rect&) const = default;
   bool holds(vec2 place) const {
     return place.x >= left && place.y >= top && place.x < left + width && place.y < top + height;
   }

@@ -38,10 +38,6 @@ Rect boxOf(const ImDrawList& list) {
 
 }  // namespace
 
-bool UiChanges::Drawn::operator==(const Drawn& other) const {
-  return bytes == other.bytes;
-}
-
 UiChanges::Drawn UiChanges::drawnAs(const ImDrawList& list) {
   Drawn drawn{boxOf(list), {}};
   append(drawn.bytes, list.VtxBuffer);
@@ -56,11 +52,9 @@ void UiChanges::keepChanged(ImDrawData& panels, const Rect& overwritten) {
   for (const ImDrawList* list : lists) now.push_back(drawnAs(*list));
   const std::size_t count = now.size();
   // Where windows come, go, move or change places, what lay below them shows.
-  const bool sameBoxes = std::ranges::equal(now, drawn_, [](const Drawn& a, const Drawn& b) {
-    return a.box.left == b.box.left && a.box.top == b.box.top && a.box.width == b.box.width && a.box.height == b.box.height;
-  });
+  const bool sameBoxes = std::ranges::equal(now, drawn_, {}, &Drawn::box, &Drawn::box);
   std::vector<bool> changed(count, !sameBoxes);
-  for (std::size_t i = 0; i < count; ++i) changed[i] = changed[i] || overlap(now[i].box, overwritten) || now[i] != drawn_[i];
+  for (std::size_t i = 0; i < count; ++i) changed[i] = changed[i] || overlap(now[i].box, overwritten) || now[i].bytes != drawn_[i].bytes;
   for (bool more = true; more;) {
     more = false;
     for (std::size_t i = 0; i < count; ++i)

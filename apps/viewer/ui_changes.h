@@ -24,7 +24,6 @@ class UiChanges {
   struct Drawn {
     Rect box;
     std::vector<unsigned char> bytes;  ///< corners, indices and commands
-    bool operator==(const Drawn& other) const;
   };
   static Drawn drawnAs(const ImDrawList& list);
 

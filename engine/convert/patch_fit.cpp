@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "convert/unfold.h"
 #include "mesh/edges.h"
@@ -13,6 +14,9 @@ namespace {
 constexpr float kEased = 0.5f;        // weight from which on the wall turns into the tube
 constexpr float kEaseLimit = 0.6f;    // of the radius: farther from the tube it stays as it is
 constexpr int kRounds = 400;          // of relaxation
+
+// Vertices on the wall's loops: its first ones.
+std::size_t onLoops(const WallPiece& wall) { return std::accumulate(wall.loops.begin(), wall.loops.end(), std::size_t(0)); }
 
 // Each vertex' share of each loop, by relaxation: neighbours count by their nearness.
 std::vector<vec4> harmonicWeights(const WallPiece& wall) {
@@ -38,8 +42,7 @@ std::vector<vec4> harmonicWeights(const WallPiece& wall) {
 
 // Towards the tube's wall beside a ring. @return whether the wall was near enough
 bool easeIntoTubes(std::span<const ForkOpening> openings, std::span<const vec4> weights, WallPiece& wall) {
-  std::size_t onLoops = 0, vertex = 0;
-  for (const std::uint32_t count : wall.loops) onLoops += count;
+  std::size_t vertex = 0;
   const auto level = [](const WallOpening& o, vec3 p) {
     const vec3 d = p - o.centre;
     return d - glm::dot(d, o.outward) * o.outward;
@@ -51,7 +54,7 @@ bool easeIntoTubes(std::span<const ForkOpening> openings, std::span<const vec4> 
       if (glm::length(d) < 0.2f * o.radius) return false;
       wall.mesh.positions[vertex] = o.centre + o.radius * glm::normalize(d);
     }
-    for (std::size_t v = onLoops; v < wall.mesh.positions.size(); ++v) {
+    for (std::size_t v = onLoops(wall); v < wall.mesh.positions.size(); ++v) {
       const float t = std::clamp((weights[v][int(i)] - kEased) / (1 - kEased), 0.0f, 1.0f);
       const vec3 d = level(o, wall.mesh.positions[v]);
       const float size = glm::length(d), off = o.radius - size;
@@ -96,9 +99,7 @@ std::array<std::uint8_t, ForkPatch::kMostRings> rounded(const vec4& weights) {
 ForkPatch fitPatch(std::span<const ForkOpening> openings, WallPiece wall) {
   const std::vector<vec4> weights = harmonicWeights(wall);
   if (!easeIntoTubes(openings, weights, wall) || !runsAround(openings, wall)) return {};
-  std::size_t onLoops = 0;
-  for (const std::uint32_t count : wall.loops) onLoops += count;
-  unfold(wall.mesh, onLoops);
+  unfold(wall.mesh, onLoops(wall));
   ForkPatch patch;
   for (std::size_t i = 0; i < openings.size(); ++i) {
     const ForkOpening& o = openings[i];

@@ -1,6 +1,7 @@
 #include "convert/unfold.h"
 
 #include "mesh/edges.h"
+#include "surface/fork_check.h"
 
 namespace vasa {
 namespace {
@@ -24,8 +25,8 @@ std::vector<std::uint32_t> foldedTriangles(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> folded;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const uvec3& t = mesh.triangles[i];
-    const vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-    if (glm::dot(glm::cross(b - a, c - a), normals[t.x] + normals[t.y] + normals[t.z]) <= 0) folded.push_back(i);
+    const auto corner = [&](std::uint32_t v) { return SurfacePoint{mesh.positions[v], normals[v]}; };
+    if (folds(corner(t.x), corner(t.y), corner(t.z))) folded.push_back(i);
   }
   return folded;
 }

@@ -3,7 +3,7 @@
 
 namespace vasa {
 
-/// Triangles that look against the normals of their corners (mesh/triangle_mesh.h). O(n).
+/// Triangles that look against the normals of their corners (surface/fork_check.h, mesh/triangle_mesh.h). O(n).
 std::vector<std::uint32_t> foldedTriangles(const TriangleMesh& mesh);
 
 /// Moves the corners of triangles that fold towards the middle of their neighbours, step by step until none folds; where

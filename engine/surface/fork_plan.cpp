@@ -22,10 +22,9 @@ struct Manner {
   float clearance, longest;  // of findForkExit()
   float fillet;
 };
-constexpr Manner kManners[] = {{1.3f, 4, 0.9f},    {1.3f, 4, 0.6f},  {1.0f, 3, 0.6f},     {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
-                               {1.4f, 3, 0.5f},    {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},  {0.3f, 1, 0.15f},
-                               {1.2f, 1.5f, 0.2f}, {2.5f, 4, 0.5f},  {0.5f, 2, 0.15f},    {1.8f, 2.5f, 0.25f},
-                               {3.5f, 5, 0.35f}};
+constexpr Manner kManners[] = {{1.3f, 4, 0.9f},      {1.3f, 4, 0.6f},     {1.0f, 3, 0.6f},   {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
+                               {1.4f, 3, 0.5f},      {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},   {0.3f, 1, 0.15f},  {1.2f, 1.5f, 0.2f},
+                               {2.5f, 4, 0.5f},      {0.5f, 2, 0.15f},    {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
 constexpr float kWidestHole = 0.9f;        // sine of half its angle
 constexpr float kHoleMargin = 1.1f;       // rows of the trunk stay outside the hole
 constexpr float kBetweenHoles = 0.3f;      // [radians] around the host

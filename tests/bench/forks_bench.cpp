@@ -1,5 +1,5 @@
 // What a clip does to a network's forks: how many fold and are smoothed, how many of these become stumps, and how often one
-// becomes a stump or is one no longer from one frame to the next.
+// becomes a stump or is one no longer from one frame to the next. All forks count, those with walls of the source too.
 #include <cstdio>
 #include <cstdlib>
 
@@ -26,10 +26,10 @@ int main(int argc, char** argv) {
   for (int k = 5; k < argc; ++k) arounds.push_back(std::uint32_t(std::atoi(argv[k])));
   if (arounds.empty()) arounds = {4, 8, 16};
   const Clock::time_point start = Clock::now();
-  const ForkPlan::Report plan = planForks(scene.network).report;
-  std::printf("planned in %.0f ms: %u branches, %u forked, %u crowded, %u folded at rest\n", msSince(start), plan.branches,
-              plan.forked, plan.crowded, plan.folded);
-  const SweepTable table = makeSweepTable(scene.network);
+  ForkPlan plan = planForks(scene.network);
+  std::printf("planned in %.0f ms: %u branches, %u forked, %u crowded, %u folded at rest\n", msSince(start), plan.report.branches,
+              plan.report.forked, plan.report.crowded, plan.report.folded);
+  const SweepTable table = makeSweepTable(scene.network, std::move(plan));
   struct Count {
     std::size_t folds = 0, stumps = 0, switches = 0;
     std::vector<bool> was;
