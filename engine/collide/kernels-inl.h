@@ -9,6 +9,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using F8 = hn::CappedTag<float, kGroup>;
 using FN = hn::CappedTag<float, 16>;
+using S8 = hn::CappedTag<std::int16_t, kGroup>;
 constexpr float kEpsilon = 1.1920929e-7f;
 // A computed squared distance may exceed the true minimum by rounding errors of the squared lengths
 // (math/segment_distance.h); a computed reach may be short by a few of its own.
@@ -71,103 +72,117 @@ HWY_INLINE Nearest<V> nearestOnSegments(D d, const Vec3<V>& w, const Vec3<V>& u,
   return {s, t, dot(gap, gap), slack};
 }
 
-// ---- refit
+template <class V>
+struct TubeLanes {
+  Vec3<V> p[4];
+  V r[4];
+};
 
-// Component c (0..15: point c/4, coordinate c%4) of the tubes whose first floats lie at `at`.
-template <class D, class VI>
-HWY_INLINE hn::Vec<D> component(D d, const float* tubes, VI at, int c) {
-  return hn::GatherIndex(d, tubes + c, at);
+// A lane for each of the tubes whose first floats lie at `at`, radii grown.
+template <class D, class VI, class V = hn::Vec<D>>
+HWY_INLINE TubeLanes<V> gatherTubes(D d, const BoxTreeView& tree, VI at) {
+  static_assert(sizeof(Bezier) == 16 * sizeof(float));
+  const float* base = reinterpret_cast<const float*>(tree.tubes);
+  const V grow = hn::Set(d, tree.grow);
+  TubeLanes<V> tube;
+  for (int k = 0; k < 4; ++k) {
+    const float* point = base + 4 * k;
+    tube.p[k] = {hn::GatherIndex(d, point, at), hn::GatherIndex(d, point + 1, at),
+                 hn::GatherIndex(d, point + 2, at)};
+    tube.r[k] = hn::Add(hn::GatherIndex(d, point + 3, at), grow);
+  }
+  return tube;
 }
 
-void fitLeaves(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin,
-               std::uint32_t end) {
+// Radius of a capsule around the chord that holds the tube: largest radius and deviation from the chord.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V capsuleRadius(D d, const TubeLanes<V>& tube, const Vec3<V>& chord) {
+  const V radius = hn::Max(hn::Max(tube.r[0], tube.r[1]), hn::Max(tube.r[2], tube.r[3]));
+  const Vec3<V> third = scaled(chord, hn::Set(d, 1.0f / 3));
+  const Vec3<V> x1 = tube.p[1] - tube.p[0] - third, x2 = tube.p[2] - tube.p[3] + third;
+  const V deviation = hn::Mul(hn::Set(d, 0.75f), hn::Sqrt(hn::Max(dot(x1, x1), dot(x2, x2))));
+  return hn::Mul(hn::Add(radius, deviation), hn::Set(d, kReachSlack));
+}
+
+// ---- refit
+
+template <class V>
+HWY_INLINE V largestCoordinate(const Vec3<V>& p) {
+  return hn::Max(hn::Abs(p.x), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
+}
+
+// Steps of BoxGrid along one axis, and `more`.
+template <class V>
+HWY_INLINE void storeSteps(F8 d, const BoxGrid& grid, int axis, V v, int more, std::int16_t* to) {
+  const hn::Rebind<std::int16_t, F8> narrow;
+  const hn::RebindToSigned<F8> whole;
+  const V most = hn::Set(d, float(BoxGrid::kMost));
+  const V steps = hn::Mul(hn::Sub(v, hn::Set(d, grid.middle[axis])), hn::Set(d, grid.stepsPerMetre[axis]));
+  const V held = hn::Max(hn::Neg(most), hn::Min(steps, most));
+  hn::Store(hn::DemoteTo(narrow, hn::Add(hn::ConvertTo(whole, held), hn::Set(whole, more))), narrow, to);
+}
+
+HWY_INLINE void fitLanes(const BoxTreeView& tree, BoxGroup& box, std::uint32_t lane) {
   const F8 d;
   const hn::RebindToSigned<F8> di;
   using V = hn::Vec<F8>;
-  const hn::CappedTag<float, 16> whole;
-  const V relative = hn::Set(d, 2 * kEpsilon), third = hn::Set(d, 1.0f / 3);
-  HWY_ALIGN float growth[16] = {};
-  for (int k = 0; k < 4; ++k) growth[4 * k + 3] = grow;
-  constexpr std::uint32_t kAhead = 3 * kGroup;
-  for (std::uint32_t group = begin; group < end; ++group) {
-    // In the caller's order a group's tubes lie anywhere: ask for those of later groups now.
-    float* own = &tree.shapes[group * kGroup].b[0].x;
-    for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
-      const std::uint32_t slot = group * kGroup + lane, later = slot + kAhead;
-      if (later < end * kGroup) hwy::Prefetch(tubes + std::size_t(16) * tree.tubes[later]);
-      const float* from = tubes + std::size_t(16) * tree.tubes[slot];
-      for (std::size_t k = 0; k < 16; k += hn::Lanes(whole))
-        hn::StoreU(hn::Add(hn::LoadU(whole, from + k), hn::Load(whole, growth + k)), whole,
-                   own + 16 * lane + k);
+  const auto tubes = hn::Load(di, reinterpret_cast<const std::int32_t*>(box.tubes) + lane);
+  const TubeLanes<V> tube = gatherTubes(d, tree, hn::ShiftLeft<4>(tubes));
+  const Vec3<V>* p = tube.p;
+  const V reach = capsuleRadius(d, tube, p[3] - p[0]);
+  const V size = hn::Max(largestCoordinate(p[0]), largestCoordinate(p[3]));
+  const V rounding = hn::Mul(hn::Set(d, 2 * kEpsilon), hn::Add(size, reach));
+  // Two boxes hold the tube: the hull's and the capsule's. Their intersection does too.
+  const auto fitAxis = [&](int axis, V Vec3<V>::*at) HWY_ATTR {
+    V low = hn::Sub(p[0].*at, tube.r[0]), high = hn::Add(p[0].*at, tube.r[0]);
+    for (int k = 1; k < 4; ++k) {
+      low = hn::Min(low, hn::Sub(p[k].*at, tube.r[k]));
+      high = hn::Max(high, hn::Add(p[k].*at, tube.r[k]));
     }
-    BoxGroup& box = tree.boxes[group];
-    HWY_ALIGN float capsule[7][kGroup];  // start, radius, chord
-    for (std::uint32_t lane = 0; lane < kGroup; lane += std::uint32_t(hn::Lanes(d))) {
-      const auto at = hn::ShiftLeft<4>(hn::Iota(di, std::int32_t(lane)));
-      V r[4];
-      for (int k = 0; k < 4; ++k) r[k] = component(d, own, at, 4 * k + 3);
-      const V radius = hn::Max(hn::Max(r[0], r[1]), hn::Max(r[2], r[3]));
-      V low[3], high[3], first[3], last[3];
-      V e1 = hn::Zero(d), e2 = hn::Zero(d);
-      for (int axis = 0; axis < 3; ++axis) {
-        V p[4];
-        for (int k = 0; k < 4; ++k) p[k] = component(d, own, at, 4 * k + axis);
-        low[axis] = hn::Min(hn::Min(hn::Sub(p[0], r[0]), hn::Sub(p[1], r[1])),
-                            hn::Min(hn::Sub(p[2], r[2]), hn::Sub(p[3], r[3])));
-        high[axis] = hn::Max(hn::Max(hn::Add(p[0], r[0]), hn::Add(p[1], r[1])),
-                             hn::Max(hn::Add(p[2], r[2]), hn::Add(p[3], r[3])));
-        const V chord = hn::Sub(p[3], p[0]);
-        const V x1 = hn::NegMulAdd(third, chord, hn::Sub(p[1], p[0])),
-                x2 = hn::MulAdd(third, chord, hn::Sub(p[2], p[3]));
-        e1 = hn::MulAdd(x1, x1, e1);
-        e2 = hn::MulAdd(x2, x2, e2);
-        first[axis] = p[0];
-        last[axis] = p[3];
-        hn::Store(p[0], d, &capsule[axis][lane]);
-        hn::Store(chord, d, &capsule[4 + axis][lane]);
-      }
-      const V deviation = hn::Mul(hn::Set(d, 0.75f), hn::Sqrt(hn::Max(e1, e2)));
-      const V reach = hn::Mul(hn::Add(radius, deviation), hn::Set(d, kReachSlack));
-      V size = hn::Zero(d);
-      for (int axis = 0; axis < 3; ++axis)
-        size = hn::Max(size, hn::Max(hn::Abs(first[axis]), hn::Abs(last[axis])));
-      const V rounding = hn::Mul(relative, hn::Add(size, reach));
-      hn::Store(reach, d, &capsule[3][lane]);
-      // Two boxes hold the tube: the hull's and the capsule's. Their intersection does too.
-      for (int axis = 0; axis < 3; ++axis) {
-        const V capsuleLow = hn::Sub(hn::Min(first[axis], last[axis]), reach);
-        const V capsuleHigh = hn::Add(hn::Max(first[axis], last[axis]), reach);
-        hn::Store(hn::Sub(hn::Max(low[axis], capsuleLow), rounding), d, &box.low[axis][lane]);
-        hn::Store(hn::Add(hn::Min(high[axis], capsuleHigh), rounding), d, &box.high[axis][lane]);
-      }
-    }
-    float* out = tree.capsules[group * kGroup].start;
-    for (std::uint32_t lane = 0; lane < kGroup; ++lane)
-      for (std::uint32_t c = 0; c < 7; ++c) out[8 * lane + c] = capsule[c][lane];
-  }
-  if (end * kGroup > tree.tubeCount && begin < end) {
-    for (std::uint32_t slot = tree.tubeCount; slot < end * kGroup; ++slot)
-      for (int axis = 0; axis < 3; ++axis) {
-        tree.boxes[slot / kGroup].low[axis][slot % kGroup] = std::numeric_limits<float>::infinity();
-        tree.boxes[slot / kGroup].high[axis][slot % kGroup] = -std::numeric_limits<float>::infinity();
-      }
+    low = hn::Max(low, hn::Sub(hn::Min(p[0].*at, p[3].*at), reach));
+    high = hn::Min(high, hn::Add(hn::Max(p[0].*at, p[3].*at), reach));
+    storeSteps(d, tree.grid, axis, hn::Sub(low, rounding), 0, &box.low[axis][lane]);
+    storeSteps(d, tree.grid, axis, hn::Add(high, rounding), 1, &box.high[axis][lane]);
+  };
+  fitAxis(0, &Vec3<V>::x);
+  fitAxis(1, &Vec3<V>::y);
+  fitAxis(2, &Vec3<V>::z);
+}
+
+HWY_INLINE void emptyLane(BoxGroup& box, std::uint32_t lane) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis][lane] = BoxGrid::kMost + 1;
+    box.high[axis][lane] = -BoxGrid::kMost - 2;
   }
 }
 
+void fitLeaves(const BoxTreeView& tree, std::uint32_t begin, std::uint32_t end) {
+  constexpr std::uint32_t kAhead = 3;
+  for (std::uint32_t group = begin; group < end; ++group) {
+    // In the caller's order a group's tubes lie anywhere: ask for those of later groups now.
+    if (group + kAhead < end)
+      for (const std::uint32_t tube : tree.boxes[group + kAhead].tubes) hwy::Prefetch(tree.tubes + tube);
+    for (std::uint32_t lane = 0; lane < kGroup; lane += std::uint32_t(hn::Lanes(F8())))
+      fitLanes(tree, tree.boxes[group], lane);
+  }
+  if (begin < end)
+    for (std::uint32_t slot = tree.tubeCount; slot < end * kGroup; ++slot)
+      emptyLane(tree.boxes[slot / kGroup], slot % kGroup);
+}
+
 void fitLevel(const BoxTreeView& tree, std::uint32_t level, std::uint32_t begin, std::uint32_t end) {
-  const F8 d;
+  const S8 d;
   const BoxGroup* children = &tree.boxes[tree.levelStart[level - 1]];
   const std::uint32_t childCount = tree.levelStart[level] - tree.levelStart[level - 1];
   for (std::uint32_t group = begin; group < end; ++group) {
     BoxGroup& box = tree.boxes[tree.levelStart[level] + group];
     for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
       const std::uint32_t child = group * kGroup + lane;
+      if (child >= childCount) {
+        emptyLane(box, lane);
+        continue;
+      }
       for (int axis = 0; axis < 3; ++axis) {
-        if (child >= childCount) {
-          box.low[axis][lane] = std::numeric_limits<float>::infinity();
-          box.high[axis][lane] = -std::numeric_limits<float>::infinity();
-          continue;
-        }
         auto low = hn::Load(d, children[child].low[axis]);
         auto high = hn::Load(d, children[child].high[axis]);
         for (std::size_t k = hn::Lanes(d); k < kGroup; k += hn::Lanes(d)) {
@@ -192,73 +207,131 @@ HWY_INLINE std::uint32_t bitsOf(D d, M mask) {
 
 // Which lanes of a and b have boxes that meet. No branches: all 64 pairs are tested.
 HWY_INLINE LanePairs overlaps(const BoxGroup& a, const BoxGroup& b) {
-  const F8 d;
+#if HWY_TARGET == HWY_SCALAR
   LanePairs pairs = 0;
-  for (std::size_t k = 0; k < kGroup; k += hn::Lanes(d)) {
-    const auto lowX = hn::Load(d, b.low[0] + k), lowY = hn::Load(d, b.low[1] + k),
-               lowZ = hn::Load(d, b.low[2] + k);
-    const auto highX = hn::Load(d, b.high[0] + k), highY = hn::Load(d, b.high[1] + k),
-               highZ = hn::Load(d, b.high[2] + k);
-    std::uint8_t rows[kGroup + 8];
-    for (std::size_t i = 0; i < kGroup; ++i) {
-      const auto x = hn::And(hn::Le(hn::Set(d, a.low[0][i]), highX), hn::Le(lowX, hn::Set(d, a.high[0][i])));
-      const auto y = hn::And(hn::Le(hn::Set(d, a.low[1][i]), highY), hn::Le(lowY, hn::Set(d, a.high[1][i])));
-      const auto z = hn::And(hn::Le(hn::Set(d, a.low[2][i]), highZ), hn::Le(lowZ, hn::Set(d, a.high[2][i])));
-      hn::StoreMaskBits(d, hn::And(x, hn::And(y, z)), rows + i);
+  for (std::size_t i = 0; i < kGroup; ++i)
+    for (std::size_t j = 0; j < kGroup; ++j) {
+      bool meet = true;
+      for (int axis = 0; axis < 3; ++axis)
+        meet &= a.low[axis][i] < b.high[axis][j] && b.low[axis][j] < a.high[axis][i];
+      pairs |= LanePairs(meet) << (i * kGroup + j);
     }
-    LanePairs part;
-    hwy::CopyBytes<8>(rows, &part);
-    pairs |= part << k;
-  }
   return pairs;
+#else
+  // Blocks of eight lanes: each holds one box of a against all of b.
+  const hn::CappedTag<std::int16_t, 32> d;
+  const hn::Repartition<std::uint8_t, decltype(d)> bytes;
+  const std::size_t rowsAtOnce = hn::Lanes(d) / kGroup;
+  const auto place = hn::Iota(bytes, 0);
+  // Of a's lanes, the bytes of the one that each block is to hold.
+  auto own =
+      hn::Or(hn::And(hn::ShiftRight<3>(place), hn::Set(bytes, 0xfe)), hn::And(place, hn::Set(bytes, 1)));
+  std::uint8_t rows[kGroup + 8];
+  for (std::size_t i = 0; i < kGroup; i += rowsAtOnce) {
+    const auto meet = [&](int axis) HWY_ATTR {
+      const auto low = hn::TableLookupBytes(hn::LoadDup128(d, a.low[axis]), hn::BitCast(d, own)),
+                 high = hn::TableLookupBytes(hn::LoadDup128(d, a.high[axis]), hn::BitCast(d, own));
+      return hn::And(hn::Lt(low, hn::LoadDup128(d, b.high[axis])),
+                     hn::Lt(hn::LoadDup128(d, b.low[axis]), high));
+    };
+    hn::StoreMaskBits(d, hn::And(meet(0), hn::And(meet(1), meet(2))), rows + i);
+    own = hn::Add(own, hn::Set(bytes, std::uint8_t(2 * rowsAtOnce)));
+  }
+  LanePairs pairs;
+  hwy::CopyBytes<8>(rows, &pairs);
+  return pairs;
+#endif
 }
 
 // Of a group against itself: each pair once.
 constexpr LanePairs kUpper = 0x80c0e0f0f8fcfeull;          // q > p
 constexpr LanePairs kUpperOrSelf = 0x80c0e0f0f8fcfeffull;  // q >= p
 
-void meetGroups(Traversal& work, std::uint32_t ga, std::uint32_t gb) {
-  LanePairs pairs = overlaps(work.tree.boxes[ga], work.tree.boxes[gb]);
-  if (ga == gb) pairs &= kUpper;
-  if (pairs == 0) return;
-  const ExcludedGroup* end = work.excluded + work.firstExcluded[ga + 1];
-  for (const ExcludedGroup* e = work.excluded + work.firstExcluded[ga]; e != end; ++e)
-    if (e->group == gb) pairs &= ~e->pairs;
+// The pairs of children whose boxes meet. @param out  room for kGroupPairs
+HWY_INLINE std::size_t openPair(const BoxTreeView& tree, const GroupPair& pair, GroupPair* out) {
+  const BoxGroup* boxes = &tree.boxes[tree.levelStart[pair.level]];
+  LanePairs pairs = overlaps(boxes[pair.a], boxes[pair.b]);
+  if (pair.a == pair.b) pairs &= kUpperOrSelf;
+  std::size_t count = 0;
   for (; pairs; pairs &= pairs - 1) {
     const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
-    work.candidates[work.candidateCount++] = {ga * kGroup + bit / kGroup, gb * kGroup + bit % kGroup};
-    // What is read next lies anywhere in memory once the tree is larger than the cache.
-    hwy::Prefetch(&work.tree.capsules[ga * kGroup + bit / kGroup]);
-    hwy::Prefetch(&work.tree.capsules[gb * kGroup + bit % kGroup]);
+    out[count++] = {pair.level - 1, pair.a * kGroup + bit / kGroup, pair.b * kGroup + bit % kGroup};
   }
+  return count;
 }
 
 void openNode(Traversal& work) {
   const GroupPair top = work.stack[--work.stackSize];
-  const BoxGroup* boxes = &work.tree.boxes[work.tree.levelStart[top.level]];
-  const BoxGroup* below = &work.tree.boxes[work.tree.levelStart[top.level - 1]];
-  LanePairs pairs = overlaps(boxes[top.a], boxes[top.b]);
-  if (top.a == top.b) pairs &= kUpperOrSelf;
-  for (; pairs; pairs &= pairs - 1) {
-    const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
-    work.stack[work.stackSize++] = {top.level - 1, top.a * kGroup + bit / kGroup,
-                                    top.b * kGroup + bit % kGroup};
-    const BoxGroup* later = &below[top.b * kGroup + bit % kGroup];
-    hwy::Prefetch(&later->low[0]);
-    hwy::Prefetch(&later->low[2]);
-    hwy::Prefetch(&later->high[1]);
-  }
+  work.stackSize += openPair(work.tree, top, work.stack + work.stackSize);
 }
 
-void traverse(Traversal& work, std::size_t enough) {
-  while (work.stackSize > 0 && work.candidateCount < enough) {
-    const GroupPair top = work.stack[work.stackSize - 1];
-    if (top.level > 0) {
-      openNode(work);
+// Takes pairs off the stack down to the leaves. @param leaves  room for kLeafBatch + kGroupPairs
+HWY_INLINE std::size_t findLeaves(Traversal& work, GroupPair* leaves) {
+  std::size_t count = 0;
+  while (work.stackSize > 0 && count < kLeafBatch) {
+    const GroupPair top = work.stack[--work.stackSize];
+    if (top.level > 1) {
+      work.stackSize += openPair(work.tree, top, work.stack + work.stackSize);
+    } else if (top.level == 1) {
+      count += openPair(work.tree, top, leaves + count);
     } else {
-      --work.stackSize;
-      meetGroups(work, top.a, top.b);
+      leaves[count++] = top;
     }
+  }
+  return count;
+}
+
+HWY_INLINE LanePairs excludedPairs(const Traversal& work, const GroupPair& leaves) {
+  LanePairs pairs = 0;
+  const ExcludedGroups* end = work.excluded + work.firstExcluded[leaves.a + 1];
+  for (const ExcludedGroups* e = work.excluded + work.firstExcluded[leaves.a]; e != end; ++e)
+    for (int k = 0; k < 4; ++k) pairs |= e->pairs[k] & -LanePairs(e->group[k] == leaves.b);
+  return pairs;
+}
+
+// Keeps the pairs of leaves that hold tubes whose boxes meet, and which those are.
+HWY_INLINE std::size_t meetLeaves(const Traversal& work, GroupPair* leaves, std::size_t count,
+                                  LanePairs* meeting) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const GroupPair pair = leaves[k];
+    const LanePairs once = pair.a == pair.b ? kUpper : ~LanePairs(0);
+    const LanePairs pairs = overlaps(work.tree.boxes[pair.a], work.tree.boxes[pair.b]) & once;
+    leaves[kept] = pair;
+    meeting[kept] = pairs & ~excludedPairs(work, pair);
+    kept += meeting[kept] != 0;
+  }
+  return kept;
+}
+
+// @param meeting  has a zero behind its last
+HWY_INLINE void listCandidates(Traversal& work, const GroupPair* leaves, const LanePairs* meeting,
+                               std::size_t count) {
+  TubePair* out = work.candidates + work.candidateCount;
+  LanePairs pairs = meeting[0];
+  for (std::size_t k = 0; k < count; ++out) {
+    const std::uint32_t bit = std::uint32_t(__builtin_ctzll(pairs));
+    out->i = work.tree.boxes[leaves[k].a].tubes[bit / kGroup];
+    out->j = work.tree.boxes[leaves[k].b].tubes[bit % kGroup];
+    // What is read next lies anywhere in memory once the tubes are more than the cache holds.
+    hwy::Prefetch(work.tree.tubes + out->i);
+    hwy::Prefetch(work.tree.tubes + out->j);
+    pairs &= pairs - 1;
+    k += pairs == 0;
+    pairs |= meeting[k] & -LanePairs(pairs == 0);
+  }
+  work.candidateCount = std::size_t(out - work.candidates);
+}
+
+// In stages without branches on what was found: in a large tree the processor would guess most of them
+// wrongly, and each wrong guess also holds up the reads behind it.
+void traverse(Traversal& work, std::size_t enough) {
+  GroupPair leaves[kLeafBatch + kGroupPairs];
+  LanePairs meeting[kLeafBatch + kGroupPairs + 1];
+  while (work.stackSize > 0 && work.candidateCount < enough) {
+    const std::size_t count = meetLeaves(work, leaves, findLeaves(work, leaves), meeting);
+    meeting[count] = 0;
+    listCandidates(work, leaves, meeting, count);
   }
 }
 
@@ -271,21 +344,18 @@ std::size_t meetCapsules(const BoxTreeView& tree, const TubePair* candidates, st
   const FN d;
   const hn::RebindToSigned<FN> di;
   using V = hn::Vec<FN>;
-  const float* base = tree.capsules[0].start;
   std::size_t kept = 0;
   HWY_ALIGN std::int32_t first[kMaxLanes], second[kMaxLanes];
   for (std::size_t begin = 0; begin < count; begin += hn::Lanes(d)) {
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
       const TubePair& pair = candidates[begin + lane < count ? begin + lane : count - 1];
-      first[lane] = std::int32_t(pair.i * 8);
-      second[lane] = std::int32_t(pair.j * 8);
+      first[lane] = std::int32_t(pair.i * 16);
+      second[lane] = std::int32_t(pair.j * 16);
     }
-    const auto at = hn::Load(di, first), bt = hn::Load(di, second);
-    const auto load = [&](decltype(at) index, int c) HWY_ATTR { return hn::GatherIndex(d, base + c, index); };
-    const Vec3<V> w = {hn::Sub(load(at, 0), load(bt, 0)), hn::Sub(load(at, 1), load(bt, 1)),
-                       hn::Sub(load(at, 2), load(bt, 2))};
-    const V reach = hn::Add(load(at, 3), load(bt, 3));
-    const Vec3<V> u = {load(at, 4), load(at, 5), load(at, 6)}, v = {load(bt, 4), load(bt, 5), load(bt, 6)};
+    const TubeLanes<V> a = gatherTubes(d, tree, hn::Load(di, first));
+    const TubeLanes<V> b = gatherTubes(d, tree, hn::Load(di, second));
+    const Vec3<V> w = a.p[0] - b.p[0], u = a.p[3] - a.p[0], v = b.p[3] - b.p[0];
+    const V reach = hn::Add(capsuleRadius(d, a, u), capsuleRadius(d, b, v));
     const auto near = nearestOnSegments(d, w, u, v);
     const std::uint32_t meet = bitsOf(d, hn::Le(hn::Sub(near.squared, near.slack), hn::Mul(reach, reach)));
     const std::size_t used = count - begin < hn::Lanes(d) ? count - begin : hn::Lanes(d);
@@ -293,8 +363,6 @@ std::size_t meetCapsules(const BoxTreeView& tree, const TubePair* candidates, st
     for (std::size_t lane = 0; lane < used; ++lane) {
       const TubePair& pair = candidates[begin + lane];
       pieces[kept] = {pair.i, pair.j, 0, 0, std::uint32_t(kept)};
-      hwy::Prefetch(&tree.shapes[pair.i]);
-      hwy::Prefetch(&tree.shapes[pair.j]);
       kept += meet >> lane & 1;
     }
   }
@@ -302,23 +370,6 @@ std::size_t meetCapsules(const BoxTreeView& tree, const TubePair* candidates, st
 }
 
 // ---- narrow phase: a lane is a candidate
-
-template <class V>
-struct TubeLanes {
-  Vec3<V> p[4];
-  V r[4];
-};
-
-template <class D, class VI, class V = hn::Vec<D>>
-HWY_INLINE TubeLanes<V> gatherTubes(D d, const float* base, VI at) {
-  TubeLanes<V> tube;
-  for (int k = 0; k < 4; ++k) {
-    tube.p[k] = {component(d, base, at, 4 * k), component(d, base, at, 4 * k + 1),
-                 component(d, base, at, 4 * k + 2)};
-    tube.r[k] = component(d, base, at, 4 * k + 3);
-  }
-  return tube;
-}
 
 template <class V>
 struct Ball {
@@ -355,18 +406,15 @@ HWY_INLINE V deviation(D d, const TubeLanes<V>& tube, int level) {
   return hn::Mul(hn::Add(hn::Sqrt(largest), radius), hn::Set(d, 0.75f / float(1 << (2 * level))));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V largestCoordinate(D d, const TubeLanes<V>& tube) {
-  V largest = hn::Zero(d);
-  for (int k = 0; k < 4; ++k)
-    largest = hn::Max(largest, hn::Max(hn::Max(hn::Abs(tube.p[k].x), hn::Abs(tube.p[k].y)),
-                                       hn::Max(hn::Abs(tube.p[k].z), tube.r[k])));
+template <class V>
+HWY_INLINE V largestCoordinate(const TubeLanes<V>& tube) {
+  V largest = tube.r[0];
+  for (int k = 0; k < 4; ++k) largest = hn::Max(largest, hn::Max(largestCoordinate(tube.p[k]), tube.r[k]));
   return largest;
 }
 
 std::size_t narrow(const BoxTreeView& tree, int level, const PiecePair* pieces, std::size_t count,
                    std::uint8_t* settled, PiecePair* halves) {
-  const float* base = &tree.shapes[0].b[0].x;
   const FN d;
   const hn::RebindToSigned<FN> di;
   using V = hn::Vec<FN>;
@@ -384,12 +432,11 @@ std::size_t narrow(const BoxTreeView& tree, int level, const PiecePair* pieces, 
       fromS[lane] = pair.s;
       fromT[lane] = pair.t;
     }
-    TubeLanes<V> a = gatherTubes(d, base, hn::Load(di, first));
-    TubeLanes<V> b = gatherTubes(d, base, hn::Load(di, second));
+    TubeLanes<V> a = gatherTubes(d, tree, hn::Load(di, first));
+    TubeLanes<V> b = gatherTubes(d, tree, hn::Load(di, second));
     const Vec3<V> origin = a.p[0];
     for (int k = 0; k < 4; ++k) a.p[k] = a.p[k] - origin, b.p[k] = b.p[k] - origin;
-    const V rounding =
-        hn::Mul(hn::Set(d, 8 * kEpsilon), hn::Add(largestCoordinate(d, a), largestCoordinate(d, b)));
+    const V rounding = hn::Mul(hn::Set(d, 8 * kEpsilon), hn::Add(largestCoordinate(a), largestCoordinate(b)));
     const V slackReach = hn::Add(hn::Add(deviation(d, a, level + 1), deviation(d, b, level + 1)), rounding);
     const V s0 = hn::Load(d, fromS), t0 = hn::Load(d, fromT);
     const Ball<V> sampleA[3] = {ballAt(d, a, s0), ballAt(d, a, hn::Add(s0, half)),

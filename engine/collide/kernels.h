@@ -6,39 +6,42 @@
 
 // The vector code of the fast detector, compiled for every instruction set at hand and chosen at run time
 // (Google Highway). All arithmetic that decides is conservative: a rejection and an acceptance are proofs,
-// and what remains is left to the branch and bound in double precision. `tubes` is 16 floats a tube: Bezier's
-// own layout.
+// and what remains is left to the branch and bound in double precision.
 namespace vasa {
 
 /// Pairs of lanes of two groups: bit 8 p + q stands for lane p of the first and lane q of the second.
 using LanePairs = std::uint64_t;
 
-/// A group that holds excluded partners of another group's tubes, and which they are.
-struct ExcludedGroup {
-  std::uint32_t group;
-  LanePairs pairs;
+/// Groups that hold excluded partners of another group's tubes, and which they are. Most groups have no more
+/// than four.
+struct ExcludedGroups {
+  std::uint32_t group[4];  ///< filled up with kNoGroup
+  LanePairs pairs[4];
 };
+constexpr std::uint32_t kNoGroup = ~0u;
 
 /// Two groups of one level that are to be tested against one another, a <= b.
 struct GroupPair {
   std::uint32_t level, a, b;
 };
 constexpr std::size_t kGroupPairs = kGroup * kGroup;  ///< most pairs that two groups can add
+constexpr std::size_t kLeafBatch = 128;  ///< pairs of leaves that are tested in one go, or a few more
+constexpr std::size_t kMostAdded =
+    (kLeafBatch + kGroupPairs) * kGroupPairs;  ///< most candidates that they can add
 
 /// One traversal's input and working memory.
 struct Traversal {
   BoxTreeView tree;
   const std::uint32_t*
-      firstExcluded;              ///< a group's entries are firstExcluded[group] .. firstExcluded[group + 1]
-  const ExcludedGroup* excluded;  ///< only groups that do not come before the group itself
-  GroupPair* stack;               ///< room for kGroupPairs more a level than is put there first
+      firstExcluded;               ///< a group's entries are firstExcluded[group] .. firstExcluded[group + 1]
+  const ExcludedGroups* excluded;  ///< only groups that do not come before the group itself
+  GroupPair* stack;                ///< room for kGroupPairs more a level than is put there first
   std::size_t stackSize;
-  TubePair* candidates;  ///< pairs of slots whose boxes meet; room for `enough` and kGroupPairs more
+  TubePair* candidates;  ///< tubes whose boxes meet; room for `enough` and kMostAdded more
   std::size_t candidateCount;
 };
 
-/// A piece of the tube in slot i from parameter s on against a piece of that in slot j from t on; both have
-/// length 2^-level.
+/// A piece of tube i from parameter s on against a piece of tube j from t on; both have length 2^-level.
 struct PiecePair {
   std::uint32_t i, j;
   float s, t;
@@ -46,10 +49,8 @@ struct PiecePair {
 };
 
 struct Kernels {
-  /// Copies the tubes of the groups [begin, end) into the tree's order, radii grown by `grow`, and fills
-  /// their boxes and capsules.
-  void (*fitLeaves)(const BoxTreeView& tree, const float* tubes, float grow, std::uint32_t begin,
-                    std::uint32_t end);
+  /// Fills the boxes of the groups [begin, end) of level 0.
+  void (*fitLeaves)(const BoxTreeView& tree, std::uint32_t begin, std::uint32_t end);
   /// Fills the boxes of the groups [begin, end) of a level above 0 from the level below.
   void (*fitLevel)(const BoxTreeView& tree, std::uint32_t level, std::uint32_t begin, std::uint32_t end);
   /// Replaces the pair on top of the stack, of a level above 0, by its children.

@@ -11,11 +11,11 @@ constexpr std::uint8_t kMeets = 1, kSearched = 2;
 
 }  // namespace
 
-void NarrowPhase::settle(const Kernels& kernels, const BoxTreeView& tree, std::span<const TubePair> slots,
+void NarrowPhase::settle(const Kernels& kernels, const BoxTreeView& tree, std::span<const TubePair> tubes,
                          double tolerance, std::vector<TubePair>& pairs) {
-  if (pieces_.size() < slots.size() + 1) pieces_.resize(slots.size() + 1);
-  const std::size_t candidates = kernels.meetCapsules(tree, slots.data(), slots.size(), pieces_.data());
-  statistics.boxPairs += slots.size();
+  if (pieces_.size() < tubes.size() + 1) pieces_.resize(tubes.size() + 1);
+  const std::size_t candidates = kernels.meetCapsules(tree, tubes.data(), tubes.size(), pieces_.data());
+  statistics.boxPairs += tubes.size();
   meeting_.resize(candidates);
   for (std::size_t c = 0; c < candidates; ++c) meeting_[c] = {pieces_[c].i, pieces_[c].j};
   settled_.assign(candidates, 0);
@@ -30,11 +30,11 @@ void NarrowPhase::settle(const Kernels& kernels, const BoxTreeView& tree, std::s
     std::uint8_t& settled = settled_[piece.candidate];
     if (settled) continue;
     ++statistics.searched;
-    settled = tubesIntersect(tree.shapes[piece.i], tree.shapes[piece.j], tolerance) ? kMeets : kSearched;
+    const Bezier &a = tree.tubes[piece.i], &b = tree.tubes[piece.j];
+    settled = tubesIntersect(a, b, tolerance, 2 * double(tree.grow)) ? kMeets : kSearched;
   }
   for (std::size_t c = 0; c < candidates; ++c)
-    if (settled_[c] == kMeets)
-      pairs.push_back(orderedPair(tree.tubes[meeting_[c].i], tree.tubes[meeting_[c].j]));
+    if (settled_[c] == kMeets) pairs.push_back(orderedPair(meeting_[c].i, meeting_[c].j));
 }
 
 }  // namespace vasa

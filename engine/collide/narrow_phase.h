@@ -20,15 +20,15 @@ class NarrowPhase {
   };
 
   /// Appends those that intersect, as ordered pairs of tubes.
-  /// @param slots      pairs of slots of the tree
+  /// @param tubes      pairs of tubes, in any order
   /// @param tolerance  [m] as in tubesIntersect()
-  void settle(const Kernels& kernels, const BoxTreeView& tree, std::span<const TubePair> slots,
+  void settle(const Kernels& kernels, const BoxTreeView& tree, std::span<const TubePair> tubes,
               double tolerance, std::vector<TubePair>& pairs);
 
   Statistics statistics;
 
  private:
-  std::vector<TubePair> meeting_;  // slots whose capsules meet
+  std::vector<TubePair> meeting_;  // tubes whose capsules meet
   std::vector<PiecePair> pieces_, halves_;
   std::vector<std::uint8_t> settled_;  // by index into meeting_
 };

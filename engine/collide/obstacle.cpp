@@ -7,7 +7,6 @@
 #include <map>
 
 #include "collide/box_tree.h"
-#include "collide/kernels.h"
 #include "collide/spatial_order.h"
 #include "core/cancellation.h"
 #include "core/parallel.h"
@@ -32,6 +31,24 @@ float cornerAngle(vec3 at, vec3 b, vec3 c) {
   return std::acos(glm::clamp(glm::dot(u, v), -1.0f, 1.0f));
 }
 
+// Eight boxes, one a lane; a lane without a box is empty.
+struct TriangleBoxes {
+  float low[3][kGroup];
+  float high[3][kGroup];
+
+  void set(std::uint32_t lane, const Aabb& box) {
+    for (int axis = 0; axis < 3; ++axis) low[axis][lane] = box.low[axis], high[axis][lane] = box.high[axis];
+  }
+  Aabb whole() const {
+    Aabb box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = *std::min_element(low[axis], low[axis] + kGroup);
+      box.high[axis] = *std::max_element(high[axis], high[axis] + kGroup);
+    }
+    return box;
+  }
+};
+
 // A point's nearest surface point among some triangles, with the sign.
 struct Signed {
   float distance = std::numeric_limits<float>::infinity();  // negative inside
@@ -46,7 +63,7 @@ struct Obstacle::State {
   std::vector<std::array<std::uint32_t, 3>> across;  // neighbour over edge k (corners k, k + 1), or none
   std::vector<std::uint32_t> order;                  // slot -> triangle
   std::vector<std::uint32_t> levelStart{0};
-  std::vector<BoxGroup> boxes;
+  std::vector<TriangleBoxes> boxes;
   std::vector<vec3> positions, faceNormals, cornerNormals;
   std::vector<std::vector<ObstacleContact>> found;  // a task each
   std::vector<ObstacleContact> contacts;
@@ -95,16 +112,15 @@ void Obstacle::State::fitBoxes() {
       Aabb box;  // empty lanes stay empty
       if (slot < order.size())
         for (int k = 0; k < 3; ++k) box.add(positions[triangles[order[slot]][k]]);
-      for (int axis = 0; axis < 3; ++axis) {
-        boxes[group].low[axis][lane] = box.low[axis];
-        boxes[group].high[axis][lane] = box.high[axis];
-      }
+      boxes[group].set(lane, box);
     }
   });
-  const BoxTreeView view{
-      0, std::uint32_t(levelStart.size()) - 1, nullptr, levelStart.data(), boxes.data(), nullptr, nullptr};
-  for (std::uint32_t level = 1; level < view.levels; ++level)
-    fastKernels().fitLevel(view, level, 0, levelStart[level + 1] - levelStart[level]);
+  for (std::size_t level = 1; level + 1 < levelStart.size(); ++level)
+    for (std::uint32_t group = levelStart[level]; group < levelStart[level + 1]; ++group)
+      for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
+        const std::uint32_t child = levelStart[level - 1] + (group - levelStart[level]) * kGroup + lane;
+        boxes[group].set(lane, child < levelStart[level] ? boxes[child].whole() : Aabb());
+      }
 }
 
 void Obstacle::State::fitNormals() {
@@ -130,7 +146,7 @@ void Obstacle::State::trianglesNear(const Aabb& box, std::vector<std::uint32_t>&
   stack[size++] = {std::uint32_t(levelStart.size()) - 2, 0};
   while (size > 0) {
     const auto [level, group] = stack[--size];
-    const BoxGroup& lanes = boxes[levelStart[level] + group];
+    const TriangleBoxes& lanes = boxes[levelStart[level] + group];
     for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
       bool meets = true;
       for (int axis = 0; axis < 3; ++axis)

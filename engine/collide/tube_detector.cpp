@@ -22,15 +22,10 @@ constexpr std::size_t kTasksPerThread = 16;
 
 struct Worker {
   std::vector<GroupPair> stack;
-  std::vector<TubePair> candidates;  // slots
+  std::vector<TubePair> candidates;
   NarrowPhase narrow;
   std::vector<TubePair> pairs;
 };
-
-static_assert(sizeof(Bezier) == 16 * sizeof(float));
-const float* floatsOf(std::span<const Bezier> tubes) {
-  return reinterpret_cast<const float*>(tubes.data());
-}
 
 // Least significant digit first, as many digits as tube numbers have.
 void sortPairs(std::vector<TubePair>& pairs, std::vector<TubePair>& scratch, std::uint32_t tubes) {
@@ -67,9 +62,7 @@ struct TubeDetector::State {
   const Kernels& kernels;
   BoxTree tree;
   std::vector<std::uint32_t> firstExcluded;
-  std::vector<ExcludedGroup> excluded;
-  std::span<const Bezier> tubes;
-  float margin = 0;
+  std::vector<ExcludedGroups> excluded;
   std::vector<GroupPair> tasks, nextTasks;
   std::vector<Worker> workers;
   std::size_t workersUsed = 0;
@@ -79,36 +72,39 @@ struct TubeDetector::State {
 
 void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
   std::vector<std::uint32_t> slotOf(tree.tubeCount);
-  for (std::uint32_t slot = 0; slot < tree.tubeCount; ++slot) slotOf[tree.tubes[slot]] = slot;
-  const std::uint32_t groups = std::uint32_t(tree.tubes.size()) / kGroup;
+  for (std::uint32_t slot = 0; slot < tree.tubeCount; ++slot) slotOf[tree.tubeAt(slot)] = slot;
+  const std::uint32_t groups = tree.slots() / kGroup;
   firstExcluded.assign(groups + 1, 0);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> partners;  // slot of the partner, lane in this group
   for (std::uint32_t group = 0; group < groups; ++group) {
     partners.clear();
     for (std::uint32_t lane = 0; lane < kGroup && group * kGroup + lane < tree.tubeCount; ++lane)
-      for (const std::uint32_t tube : exclusions.partnersOf(tree.tubes[group * kGroup + lane]))
+      for (const std::uint32_t tube : exclusions.partnersOf(tree.tubeAt(group * kGroup + lane)))
         if (slotOf[tube] / kGroup >= group) partners.emplace_back(slotOf[tube], lane);
     std::sort(partners.begin(), partners.end());
-    const std::size_t begin = excluded.size();
+    std::uint32_t last = kNoGroup;
+    std::size_t used = 4;  // of the last entry's four
     for (const auto& [slot, lane] : partners) {
-      if (excluded.size() == begin || excluded.back().group != slot / kGroup)
-        excluded.push_back({slot / kGroup, 0});
-      excluded.back().pairs |= LanePairs(1) << (lane * kGroup + slot % kGroup);
+      if (slot / kGroup != last) {
+        last = slot / kGroup;
+        if (used == 4) excluded.push_back({{kNoGroup, kNoGroup, kNoGroup, kNoGroup}, {}}), used = 0;
+        excluded.back().group[used++] = last;
+      }
+      excluded.back().pairs[used - 1] |= LanePairs(1) << (lane * kGroup + slot % kGroup);
     }
     firstExcluded[group + 1] = std::uint32_t(excluded.size());
   }
 }
 
-void TubeDetector::State::update(std::span<const Bezier> shape, float wantedMargin) {
+void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   assert(shape.size() == tree.tubeCount);
-  tubes = shape;
-  margin = wantedMargin;
-  if (tubes.empty()) return;
+  if (shape.empty()) return;
+  tree.setShape(shape, 0.5f * margin);
   const BoxTreeView view = tree.view();
   const std::uint32_t groups = tree.groups(0);
   const auto fitBlock = [&](std::size_t block) {
     const std::uint32_t begin = std::uint32_t(block) * kLeafBlock;
-    kernels.fitLeaves(view, floatsOf(tubes), 0.5f * margin, begin, std::min(groups, begin + kLeafBlock));
+    kernels.fitLeaves(view, begin, std::min(groups, begin + kLeafBlock));
   };
   const std::size_t blocks = (groups + kLeafBlock - 1) / kLeafBlock;
   if (blocks > 2) {
@@ -142,7 +138,7 @@ void TubeDetector::State::run(Worker& worker, std::span<const GroupPair> work) {
   worker.pairs.clear();
   worker.narrow.statistics = {};
   worker.stack.resize(work.size() + kGroupPairs * (tree.levels() + 1));
-  worker.candidates.resize(kChunk + kGroupPairs);
+  worker.candidates.resize(kChunk + kMostAdded);
   std::copy(work.begin(), work.end(), worker.stack.begin());
   Traversal traversal{tree.view(),
                       firstExcluded.data(),
@@ -172,7 +168,7 @@ void TubeDetector::update(std::span<const Bezier> tubes, float margin) {
 std::span<const TubePair> TubeDetector::detect() {
   State& state = *state_;
   state.pairs.clear();
-  if (state.tubes.empty()) return {};
+  if (state.tree.tubes.empty()) return {};
   state.findTasks();
   const std::span<const GroupPair> tasks = state.tasks;
   const std::size_t blocks = threadCount() > 1 ? std::min(tasks.size(), kTasksPerThread * threadCount()) : 1;
@@ -198,7 +194,7 @@ std::span<const Contact> TubeDetector::contacts() {
   state.contacts.resize(state.pairs.size());
   parallelFor(state.pairs.size(), 64, [&state](std::size_t k) {
     const TubePair pair = state.pairs[k];
-    Contact contact = nearestPlace(state.tubes[pair.i], state.tubes[pair.j]);
+    Contact contact = nearestPlace(state.tree.tubes[pair.i], state.tree.tubes[pair.j]);
     contact.i = pair.i;
     contact.j = pair.j;
     state.contacts[k] = contact;
@@ -219,7 +215,7 @@ TubeDetector::Statistics TubeDetector::statistics() const {
 
 std::size_t TubeDetector::treeBytes() const {
   return state_->tree.bytes() + state_->firstExcluded.size() * sizeof(std::uint32_t) +
-         state_->excluded.size() * sizeof(ExcludedGroup);
+         state_->excluded.size() * sizeof(ExcludedGroups);
 }
 
 }  // namespace vasa

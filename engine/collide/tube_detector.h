@@ -53,7 +53,7 @@ class TubeDetector {
   /// What the last detect() did.
   using Statistics = NarrowPhase::Statistics;
   Statistics statistics() const;
-  /// Memory of boxes, capsules and order.
+  /// Memory of boxes, order and exclusions.
   std::size_t treeBytes() const;
 
  private:

@@ -46,17 +46,22 @@ class EmbreeDetector {
 
  private:
   void fit(std::span<const Bezier> tubes) {
-    fastKernels().fitLeaves(tree_.view(), &tubes[0].b[0].x, 0, 0, tree_.groups(0));
+    tree_.setShape(tubes, 0);
+    fastKernels().fitLeaves(tree_.view(), 0, tree_.groups(0));
     rtcCommitGeometry(geometry_);
     rtcCommitScene(scene_);
   }
+  // A step more than the tree's own box, for rounding.
   float edge(unsigned slot, int axis, bool high) const {
     const BoxGroup& group = tree_.boxes[slot / kGroup];
-    return (high ? group.high : group.low)[axis][slot % kGroup];
+    const int steps = high ? group.high[axis][slot % kGroup] + 1 : group.low[axis][slot % kGroup] - 2;
+    return tree_.grid.middle[axis] + float(steps) / tree_.grid.stepsPerMetre[axis];
   }
   bool overlap(unsigned a, unsigned b) const {
+    const BoxGroup &first = tree_.boxes[a / kGroup], &second = tree_.boxes[b / kGroup];
     for (int axis = 0; axis < 3; ++axis)
-      if (edge(a, axis, false) > edge(b, axis, true) || edge(b, axis, false) > edge(a, axis, true))
+      if (first.low[axis][a % kGroup] >= second.high[axis][b % kGroup] ||
+          second.low[axis][b % kGroup] >= first.high[axis][a % kGroup])
         return false;
     return true;
   }
@@ -74,8 +79,9 @@ class EmbreeDetector {
     auto& self = *static_cast<EmbreeDetector*>(user);
     for (unsigned k = 0; k < count; ++k) {
       const unsigned a = collisions[k].primID0, b = collisions[k].primID1;
-      if (a < b && self.overlap(a, b) && !self.exclusions_.contains(self.tree_.tubes[a], self.tree_.tubes[b]))
-        self.candidates_.push_back({a, b});
+      if (a >= b || !self.overlap(a, b)) continue;
+      const TubePair tubes{self.tree_.tubeAt(a), self.tree_.tubeAt(b)};
+      if (!self.exclusions_.contains(tubes.i, tubes.j)) self.candidates_.push_back(tubes);
     }
   }
 

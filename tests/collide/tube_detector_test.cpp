@@ -129,6 +129,35 @@ TEST_CASE("degenerate tubes: points, copies, needles, giants") {
   CHECK(std::count_if(found.begin(), found.end(), [](TubePair p) { return p.i == 70 || p.j == 70; }) == 99);
 }
 
+TEST_CASE("tubes far outside the grid, all in one plane, or far away from where they were at rest") {
+  const auto rest = test::randomTubes(2000, 6, 0.3f, 0.05f, 0.003f);
+  const Exclusions none(2000);
+  TubeDetector fast(rest, none), plain(rest, none, {.scalar = true});
+  std::vector<Bezier> scattered = rest, flat = rest, moved = rest;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (i % 997 == 0) scattered[i].b[k] += vec4(1e3f, -1e3f, 0, 0);
+      flat[i].b[k].z = 0.7f;
+      moved[i].b[k] += vec4(-40, 0, 40, 0);
+    }
+  for (const auto& tubes : {scattered, flat, moved}) {
+    const Pairs found = detect(fast, tubes);
+    CHECK(found.size() > 100);
+    checkEqualButForTies(found, intersectingPairsByBruteForce(tubes, none, 1e-9), tubes);
+    CHECK(found == detect(plain, tubes));
+  }
+}
+
+TEST_CASE("a tube that is excluded with most others") {
+  const auto tubes = test::randomTubes(300, 8, 0.2f, 0.08f, 0.006f);
+  std::vector<TubePair> pairs;
+  for (std::uint32_t j = 1; j < 300; ++j)
+    if (j % 7) pairs.push_back({0, j});
+  const Exclusions hub(300, pairs);
+  TubeDetector detector(tubes, hub);
+  checkEqualButForTies(detect(detector, tubes), intersectingPairsByBruteForce(tubes, hub, 1e-9), tubes);
+}
+
 TEST_CASE("none and one") {
   const Exclusions nothing(0), single(1);
   TubeDetector none({}, nothing);
