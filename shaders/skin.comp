@@ -11,8 +11,6 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { SkinPush push; };
 
-vec2 unpackSnorm(uint bits) { return max(vec2(bitfieldExtract(int(bits), 0, 16), int(bits) >> 16) / 32767.0, -1.0); }
-
 void blend(inout JointRows sum, uint joint, float weight) {
   if (weight == 0) return;  // bones have one joint: on a CPU device the loads saved are most of the work
   uint row = 3 * min(joint, push.jointCount - 1);

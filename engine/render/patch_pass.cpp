@@ -2,6 +2,8 @@
 
 #include "gpu/barrier.h"
 #include "gpu/transfer.h"
+#include "spirv/patch_smooth_comp.h"
+#include "spirv/patch_strain_comp.h"
 #include "spirv/patch_triangles_comp.h"
 #include "spirv/patches_comp.h"
 #include "spirv/skin_comp.h"
@@ -20,12 +22,22 @@ std::uint32_t triangleRoomOf(const PatchTable& table) {
   return last.index / 3 + stripTriangles(last, shared::kMaxAround);
 }
 
+std::vector<shared::PatchWall> wallsOf(const PatchTable& table) {
+  std::vector<shared::PatchWall> walls;
+  for (const PatchTable::Patch& patch : table.patches)
+    walls.push_back({patch.firstSeam, patch.seamCount, patch.firstVertex, patch.vertexCount});
+  return walls;
+}
+
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr std::uint32_t kGroupTriangles = shared::kPatchThreads * shared::kThreadTriangles;
 
 }  // namespace
 
 PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
-    : seamCount_(std::uint32_t(table.seams.size())), vertexCount_(std::uint32_t(table.vertices.size())) {
+    : seamCount_(std::uint32_t(table.seams.size())),
+      patchCount_(std::uint32_t(table.patches.size())),
+      vertexCount_(std::uint32_t(table.vertices.size())) {
   if (empty()) return;
   fixedTriangles_ = table.triangles.size();
   for (const shared::PatchSeam& seam : table.seams) fixedTriangles_ += seam.loopCount;
@@ -45,12 +57,22 @@ PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
   groups_ = (triangleRoom_ + kGroupTriangles - 1) / kGroupTriangles;
   all_ = gpu::Buffer(device, {"patch triangles", VkDeviceSize(12) * triangleRoom_});
   gpu::uploadBytes(device, all_, std::as_bytes(std::span(table.triangles)));
+  walls_ = gpu::makeBuffer(device, "patch walls", std::span<const shared::PatchWall>(wallsOf(table)));
+  firstFan_ = gpu::makeBuffer(device, "patch fans' firsts", std::span<const std::uint32_t>(table.firstFan));
+  fans_ = gpu::makeBuffer(device, "patch fans", std::span<const shared::FanTriangle>(table.fans));
+  strained_ = gpu::Buffer(device, {"strained patches", sizeof(shared::StrainedPatch) * table.patches.size()});
+  dispatch_ = gpu::Buffer(device, {"patch smoothing", sizeof(VkDispatchIndirectCommand)});
+  between_ = gpu::Buffer(device, {"patches between steps", sizeof(shared::TubeVertex) * table.vertices.size()});
   draws_ = TubeDraws(device, {inBlocks(verticesOf(table)), 3 * triangleRoom_}, 1);
   draws_.draws = gpu::Buffer(device, {"patch draws", sizeof(shared::DrawCommand) * groups_});
 }
 
 VkDeviceSize PatchSet::bytes() const {
-  return empty() ? 0 : seams_.bytes() + shares_.bytes() + rest_.bytes() + joints_.bytes() + all_.bytes() + draws_.bytes();
+  if (empty()) return 0;
+  VkDeviceSize sum = draws_.bytes();
+  for (const gpu::Buffer* buffer : {&seams_, &shares_, &rest_, &joints_, &all_, &walls_, &firstFan_, &fans_, &strained_, &dispatch_, &between_})
+    sum += buffer->bytes();
+  return sum;
 }
 
 void PatchSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
@@ -63,6 +85,8 @@ void PatchSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t
 PatchPass::PatchPass(gpu::Device& device)
     : seams_(device, {spirv::patches_comp, sizeof(shared::PatchesPush)}),
       skin_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}),
+      strain_(device, {spirv::patch_strain_comp, sizeof(shared::PatchStrainPush)}),
+      smooth_(device, {spirv::patch_smooth_comp, sizeof(shared::PatchSmoothPush)}),
       triangles_(device, {spirv::patch_triangles_comp, sizeof(shared::PatchTrianglesPush)}) {}
 
 void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
@@ -81,7 +105,7 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                       .count = patches.seamCount_,
                                       .unused = 0},
                   gpu::groupsFor(patches.seamCount_, 64));
-  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  gpu::stageBarrier(commands, kCompute, kCompute);
   skin_.dispatch(commands,
                  shared::SkinPush{.rest = patches.rest_.address(),
                                   .joints = patches.joints_.address(),
@@ -91,7 +115,25 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                   .centre = vec3(0),
                                   .scale = 1},
                  gpu::groupsFor(patches.vertexCount_, 64));
-  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  strain_.dispatch(commands,
+                   shared::PatchStrainPush{.seams = patches.seams_.address(),
+                                           .walls = patches.walls_.address(),
+                                           .joints = patches.joints_.address(),
+                                           .strained = patches.strained_.address(),
+                                           .dispatch = patches.dispatch_.address(),
+                                           .count = patches.patchCount_,
+                                           .unused = 0},
+                   1);
+  gpu::stageBarrier(commands, kCompute, kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
+  smooth_.dispatchIndirect(commands,
+                           shared::PatchSmoothPush{.walls = patches.walls_.address(),
+                                                   .strained = patches.strained_.address(),
+                                                   .firstFan = patches.firstFan_.address(),
+                                                   .fans = patches.fans_.address(),
+                                                   .vertices = draws.vertices.address(),
+                                                   .between = patches.between_.address()},
+                           patches.dispatch_);
+  gpu::stageBarrier(commands, kCompute, kCompute);
   recordTriangles(commands, patches, input.detail, input.cull);
 }
 

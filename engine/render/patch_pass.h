@@ -26,15 +26,16 @@ class PatchSet {
 
  private:
   friend class PatchPass;
-  std::uint32_t seamCount_ = 0, vertexCount_ = 0, triangleRoom_ = 0, groups_ = 0;
+  std::uint32_t seamCount_ = 0, patchCount_ = 0, vertexCount_ = 0, triangleRoom_ = 0, groups_ = 0;
   std::uint64_t fixedTriangles_ = 0;
   std::vector<std::uint32_t> spanOfBlock_;
   gpu::Buffer seams_, shares_, rest_, joints_, all_;
+  gpu::Buffer walls_, firstFan_, fans_, strained_, dispatch_, between_;  // for smoothing
   TubeDraws draws_;
 };
 
-/// Carries patches by the rings of their vessels, closes the surface between them, and leaves out triangles that cannot be
-/// seen. CPU references: surface/patch.h, surface/visible.h.
+/// Carries patches by the rings of their vessels, smooths those that these press together, closes the surface between them,
+/// and leaves out triangles that cannot be seen. CPU references: surface/patch.h, surface/patch_smooth.h, surface/visible.h.
 class PatchPass {
  public:
   explicit PatchPass(gpu::Device& device);
@@ -52,7 +53,7 @@ class PatchPass {
   void recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail, bool cull) const;
 
  private:
-  gpu::ComputePipeline seams_, skin_, triangles_;
+  gpu::ComputePipeline seams_, skin_, strain_, smooth_, triangles_;
 };
 
 }  // namespace vasa

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "surface/octahedral.h"
+#include "surface/patch_smooth.h"
 
 namespace vasa {
 namespace {
@@ -171,6 +172,7 @@ PatchTable takePatches(const Network& network, ForkPlan& plan) {
   }
   plan.forks.resize(kept);
   plan.vesselOfFork.resize(kept);
+  addFans(table);
   return table;
 }
 

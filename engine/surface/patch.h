@@ -13,7 +13,8 @@
 // span, then the least turn that brings the ring's outward direction where it is; sizes across the vessel follow the
 // ring's radius. So neither the twist of a vessel's frames nor a bend elsewhere reaches the patch. A vertex takes the mean
 // of its rings' maps by its weights. Between the patch's loop and the ring, which has as many vertices as its vessel's
-// tube, lies a strip of triangles that is found anew in each pose, so that the surface is closed to the last bit.
+// tube, lies a strip of triangles that is found anew in each pose, so that the surface is closed to the last bit. A patch
+// whose rings a pose moves far against one another is smoothed (surface/patch_smooth.h).
 namespace vasa {
 
 struct PosedNetwork;
@@ -32,6 +33,8 @@ struct PatchTable {
   std::vector<shared::SkinVertex> vertices;  ///< patch after patch; joints are seams
   std::vector<float> shares;                 ///< one a vertex, of those on loops
   std::vector<uvec3> triangles;              ///< of the patches, without strips
+  std::vector<std::uint32_t> firstFan;       ///< one a vertex, and the end
+  std::vector<shared::FanTriangle> fans;     ///< vertex after vertex; none of those that stay where their rings carry them
 };
 
 /// Gives every patch the nearest fork in the plan of its vessels, and takes that fork out of the plan. The fork's rings move
@@ -48,7 +51,7 @@ struct PosedSeam {
 /// The CPU reference of shaders/patches.comp. @param around  m of the seam's vessel
 PosedSeam poseSeam(const PosedNetwork& network, std::uint32_t seam, std::uint32_t around);
 
-/// A patch's vertex in a pose, the CPU reference of shaders/skin.comp. @param seams  of the whole table
+/// A patch's vertex in a pose before it is smoothed, the CPU reference of shaders/skin.comp. @param seams  of the whole table
 SurfacePoint poseVertex(const shared::SkinVertex& vertex, std::span<const shared::JointRows> seams);
 
 /// Triangles of a seam's strip.

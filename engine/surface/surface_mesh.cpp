@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "surface/fork.h"
 #include "surface/fork_template.h"
-#include "surface/patch.h"
+#include "surface/patch_smooth.h"
 
 // Rings are written by the tubes; forks and caps use the tubes' vertices. Where two forks share a ring without a tube
 // between them, the ring is written by the first of them.
@@ -119,9 +119,11 @@ class MeshLayout {
     parallelFor(posed.size(), 16, [&](std::size_t i) { posed[i] = poseSeam(network_, std::uint32_t(i), shape_.around); });
     std::vector<shared::JointRows> joints;
     for (const PosedSeam& seam : posed) joints.push_back(seam.joint);
-    for (const PatchTable::Patch& patch : table.patches)
-      for (std::uint32_t i = patch.firstVertex; i < patch.firstVertex + patch.vertexCount; ++i)
-        put(patchVertices_[i], poseVertex(table.vertices[i], joints), patch.vessel);
+    parallelFor(table.patches.size(), 4, [&](std::size_t i) {
+      const PatchTable::Patch& patch = table.patches[i];
+      const std::vector<SurfacePoint> points = posePatch(table, patch, joints);
+      for (std::uint32_t k = 0; k < points.size(); ++k) put(patchVertices_[patch.firstVertex + k], points[k], patch.vessel);
+    });
     for (const uvec3& t : table.triangles)
       mesh_.triangles.push_back({patchVertices_[t.x], patchVertices_[t.y], patchVertices_[t.z]});
     for (std::size_t i = 0; i < posed.size(); ++i) {

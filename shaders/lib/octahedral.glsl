@@ -20,6 +20,8 @@ uint packOctahedral(vec3 unit) {
   return toSnorm16(x) | toSnorm16(y) << 16;
 }
 
+vec2 unpackSnorm(uint bits) { return max(vec2(bitfieldExtract(int(bits), 0, 16), int(bits) >> 16) / 32767.0, -1.0); }
+
 // x and y as the fixed-function fetch of two signed normalised 16-bit numbers gives them.
 vec3 unpackOctahedral(vec2 folded) {
   float z = 1 - abs(folded.x) - abs(folded.y);

@@ -1,7 +1,9 @@
-// Read by C++ and GLSL (scalar layout): walls of the source mesh kept around forks. Three passes:
+// Read by C++ and GLSL (scalar layout): walls of the source mesh kept around forks. Five passes:
 //   patches    a thread a seam   -> how the vertices that follow its ring move, the ring's vertices, and the triangles of the
 //                                   strip between ring and patch
 //   skin       a thread a vertex -> the patch's vertices (shared/skin.h)
+//   patch_strain     a thread some patches -> those that their rings strain, and a dispatch of
+//   patch_smooth     a workgroup a strained patch -> its vertices, smoothed where they are pressed together
 //   patch_triangles  a thread some triangles, a workgroup a group of them -> indices of those that may be seen, in their
 //                                   order, and an indirect draw a group
 #ifndef VASA_SHARED_PATCH_H
@@ -20,6 +22,13 @@ namespace vasa::shared {
 /// Threads of a workgroup that looks at triangles, and triangles of a thread.
 VASA_CONSTANT uint kPatchThreads = 128, kThreadTriangles = 8;
 
+/// Threads that look for strained patches, and of a workgroup that smooths one.
+VASA_CONSTANT uint kStrainThreads = 64, kSmoothThreads = 64;
+/// Steps of smoothing a strained patch; odd, as they go to and fro between two buffers.
+VASA_CONSTANT uint kPatchSteps = 7;
+/// Larger patches are not smoothed, nor are vertices with more triangles: devices bound the loops.
+VASA_CONSTANT uint kMostSmoothed = 4096, kMostFan = 32;
+
 /// Where a patch meets a tube; constant over time. What is said to be at rest is so when the patch was cut out.
 struct PatchSeam {
   ForkRing ring;              // turn: +1 where the vessel runs away from the fork
@@ -33,11 +42,36 @@ struct PatchSeam {
   uint vessel;
 };
 
+/// A patch's seams and vertices.
+struct PatchWall {
+  uint firstSeam, seamCount;
+  uint firstVertex, vertexCount;
+};
+
+/// A triangle at a vertex of a patch that no loop holds.
+struct FanTriangle {
+  uint corners;   // the two others, counted from the patch's first vertex, in 16 bits each
+  float perArea;  // one by twice its area at rest [1/m2]
+};
+
+/// A patch to be smoothed, and how much, in (0, 1].
+struct StrainedPatch {
+  uint wall;
+  float share;
+};
+
 #ifndef __cplusplus
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Seams { PatchSeam seam[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Shares { float share[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer JointsOut { u64vec2 row[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer VerticesIn { u64vec2 vertex[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PatchWalls { PatchWall wall[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PatchJoints { u64vec2 row[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fans { uint64_t triangle[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Strained { StrainedPatch patches[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer StrainedOut { StrainedPatch patches[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer DispatchOut { uint x, y, z; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) coherent buffer SmoothedVertices { u64vec2 vertex[]; };
 #endif
 
 struct PatchesPush {
@@ -54,6 +88,25 @@ struct PatchesPush {
   uint unused;
 };
 
+struct PatchStrainPush {
+  VASA_ADDRESS(Seams) seams;
+  VASA_ADDRESS(PatchWalls) walls;
+  VASA_ADDRESS(PatchJoints) joints;
+  VASA_ADDRESS(StrainedOut) strained;  // room for all patches
+  VASA_ADDRESS(DispatchOut) dispatch;  // a workgroup a strained patch
+  uint count;                          // of patches
+  uint unused;
+};
+
+struct PatchSmoothPush {
+  VASA_ADDRESS(PatchWalls) walls;
+  VASA_ADDRESS(Strained) strained;
+  VASA_ADDRESS(Uints) firstFan;        // of each vertex, and the end
+  VASA_ADDRESS(Fans) fans;
+  VASA_ADDRESS(SmoothedVertices) vertices;
+  VASA_ADDRESS(SmoothedVertices) between;  // as many
+};
+
 struct PatchTrianglesPush {
   VASA_ADDRESS(VerticesIn) vertices;
   VASA_ADDRESS(Uints) all;          // indices of all triangles
@@ -66,6 +119,8 @@ struct PatchTrianglesPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(PatchSeam) == 116 && sizeof(PatchesPush) == 80 && sizeof(PatchTrianglesPush) == 48);
+static_assert(sizeof(PatchWall) == 16 && sizeof(FanTriangle) == 8 && sizeof(StrainedPatch) == 8);
+static_assert(sizeof(PatchStrainPush) == 48 && sizeof(PatchSmoothPush) == 48 && kPatchSteps % 2 == 1);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

@@ -1,4 +1,7 @@
 #pragma once
+#include <cmath>
+#include <vector>
+
 #include "convert/convert.h"
 #include "convert/keep_patches.h"
 #include "convert/sources.h"
@@ -19,6 +22,17 @@ inline Forked forked() {
   auto network = withPatches(std::move(conversion->network), std::move(kept.patches));
   if (!network) return {};
   return {std::move(elements), std::move(*network), std::move(kept.report)};
+}
+
+/// A network bent about the z axis from y = 0.1 on upwards and downwards, so many radians a metre of height.
+inline std::vector<vec4> deepBend(const Network& network, float bend) {
+  std::vector<vec4> points(network.points().begin(), network.points().end());
+  for (vec4& p : points) {
+    const float angle = bend * (p.y - 0.1f);
+    if (bend != 0) p = vec4((p.x + 1 / bend) * std::cos(angle) - 1 / bend, 0.1f + (p.x + 1 / bend) * std::sin(angle), p.z, p.w);
+  }
+  pinEnds(network, points);
+  return points;
 }
 
 }  // namespace vasa::test

@@ -36,8 +36,12 @@ std::map<std::string, unsigned> mostLoops() {
       {"forks.comp", 4 * kMostForkVertices + forkTries * (kMostForkTriangles / 2 + 2 * kMostForkVertices) +
                          kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
-      // directions, the ring's vertices, where it begins, the strip's triangles and those without area
       {"patch_triangles.comp", 2 * kThreadTriangles + kPatchThreads},
+      // patches, their pairs of rings
+      {"patch_strain.comp", 65536 / 3 / kStrainThreads * (1 + 4 + 6)},
+      // steps and normals, vertices, their triangles
+      {"patch_smooth.comp", (kPatchSteps + 1) * (1 + kMostSmoothed / kSmoothThreads * (1 + kMostFan))},
+      // directions, the ring's vertices, where it begins, the strip's triangles and those without area
       {"patches.comp", 3 * m + kMostOnLoop + 2 * m},
       {"occlusion.comp", kOcclusionTaps},
       {"smooth.comp", kOcclusionTile * (kOcclusionTile + 1)},

@@ -1,0 +1,106 @@
+#version 460
+// A workgroup a strained patch. CPU reference: smoothPatch() of engine/surface/patch_smooth.h.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/ring.glsl"
+#include "lib/fork.glsl"
+#include "shared/patch.h"
+
+layout(local_size_x = kSmoothThreads) in;
+layout(push_constant, scalar) uniform Push { PatchSmoothPush push; };
+
+const float kSpared = 0.6;  // of its size at rest: a larger triangle moves no corner
+const float kStep = 0.6;    // of the way to the neighbours' middle
+
+const float kSameSide = 0.8;  // cosine: a normal that is so near to the surface's stays
+
+float ramp(float x) {
+  precise float t = clamp(x, 0.0, 1.0);
+  precise float share = t * t * (3.0 - 2.0 * t);
+  return share;
+}
+
+struct Vertex {
+  vec3 position, normal;
+  uint packedNormal;
+};
+
+Vertex vertexAt(SmoothedVertices vertices, uint v) {
+  u64vec2 words = vertices.vertex[v];
+  uvec2 xy = unpack32(words.x), zNormal = unpack32(words.y);
+  return Vertex(vec3(uintBitsToFloat(xy), uintBitsToFloat(zNormal.x)), unpackOctahedral(unpackSnorm(zNormal.y)), zNormal.y);
+}
+
+vec3 positionAt(SmoothedVertices vertices, uint v) {
+  u64vec2 words = vertices.vertex[v];
+  return vec3(uintBitsToFloat(unpack32(words.x)), uintBitsToFloat(unpack32(words.y).x));
+}
+
+u64vec2 packed(vec3 position, uint normal) {
+  uvec3 place = floatBitsToUint(position);
+  return u64vec2(pack64(place.xy), pack64(uvec2(place.z, normal)));
+}
+
+// The two other corners of a triangle at a vertex.
+uvec2 cornersOf(uint64_t triangle, uint firstVertex) {
+  uint corners = unpack32(triangle).x;
+  return firstVertex + uvec2(corners & 0xffffu, corners >> 16);
+}
+
+vec3 moved(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex, float share) {
+  precise vec3 sum = vec3(0);
+  float least = 3e38;
+  for (uint k = fan.x; k < fan.y; ++k) {
+    uint64_t triangle = push.fans.triangle[k];
+    uvec2 corners = cornersOf(triangle, firstVertex);
+    vec3 a = positionAt(from, corners.x), b = positionAt(from, corners.y);
+    precise vec3 first = a - own.position, second = b - own.position;
+    precise float size = dotOf(crossOf(first, second), own.normal) * uintBitsToFloat(unpack32(triangle).y);
+    least = min(least, size);
+    sum += a + b;
+  }
+  precise float pressed = 1.0 - ramp(least / kSpared);
+  precise vec3 place = own.position + (share * kStep * pressed) * (sum / float(2 * (fan.y - fan.x)) - own.position);
+  return place;
+}
+
+vec3 turned(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex, float share) {
+  precise vec3 sum = vec3(0);
+  for (uint k = fan.x; k < fan.y; ++k) {
+    uvec2 corners = cornersOf(push.fans.triangle[k], firstVertex);
+    precise vec3 first = positionAt(from, corners.x) - own.position, second = positionAt(from, corners.y) - own.position;
+    sum += crossOf(first, second);
+  }
+  vec3 surface = unitOr(sum, own.normal);
+  precise float away = share * ramp(1.0 - dotOf(surface, own.normal) / kSameSide);
+  precise vec3 normal = own.normal + away * (surface - own.normal);
+  return unitOr(normal, own.normal);
+}
+
+void main() {
+  StrainedPatch strained = push.strained.patches[gl_WorkGroupID.x];
+  PatchWall wall = push.walls.wall[strained.wall];
+  uint first = wall.firstVertex + gl_LocalInvocationID.x, end = wall.firstVertex + wall.vertexCount;
+  SmoothedVertices from = push.vertices, to = push.between;
+  for (uint step = 0; step < kPatchSteps; ++step) {
+    for (uint v = first; v < end; v += kSmoothThreads) {
+      Vertex own = vertexAt(from, v);
+      uvec2 fan = uvec2(push.firstFan.value[v], push.firstFan.value[v + 1]);
+      if (fan.x < fan.y) own.position = moved(from, own, fan, wall.firstVertex, strained.share);
+      to.vertex[v] = packed(own.position, own.packedNormal);
+    }
+    memoryBarrierBuffer();
+    barrier();
+    SmoothedVertices next = from;
+    from = to;
+    to = next;
+  }
+  for (uint v = first; v < end; v += kSmoothThreads) {
+    uvec2 fan = uvec2(push.firstFan.value[v], push.firstFan.value[v + 1]);
+    if (fan.x == fan.y) continue;
+    Vertex own = vertexAt(from, v);
+    to.vertex[v] = packed(own.position, packOctahedral(turned(from, own, fan, wall.firstVertex, strained.share)));
+  }
+}
