@@ -302,6 +302,19 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
 Bones::~Bones() = default;
 Bones::Bones(Bones&&) noexcept = default;
 
+float Bones::allowed(std::uint32_t tube, std::uint32_t part) const {
+  return state_->solids[part].allowed(tube);
+}
+
+float Bones::room(vec3 place, std::span<const float> allowed) const {
+  float room = std::numeric_limits<float>::max();
+  for (std::uint32_t part = 0; part < allowed.size(); ++part) {
+    const State::Solid& solid = state_->solids[part];
+    if (state_->boxes[part].overlaps({place, place})) room = std::min(room, solid.field.distance(placed(solid.inverse, place)) - allowed[part]);
+  }
+  return room;
+}
+
 std::uint32_t Bones::partCount() const {
   return std::uint32_t(state_->solids.size());
 }

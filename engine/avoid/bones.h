@@ -56,6 +56,12 @@ class Bones {
   enum class Which { all, nearAtLast };
   std::span<const BoneContact> contacts(std::span<const Bezier> tubes, const PosedTubes& posed, Which which = Which::all);
 
+  /// No more than the distance of a place in the pose from the parts, each less what is allowed there, or than a field's band.
+  /// @param allowed  [m] <= 0, one a part
+  float room(vec3 place, std::span<const float> allowed) const;
+  /// How deep a tube may be in a part [m], <= 0.
+  float allowed(std::uint32_t tube, std::uint32_t part) const;
+
   std::uint32_t partCount() const;
   JointId jointOf(std::uint32_t part) const;  ///< that carries a part
   std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest

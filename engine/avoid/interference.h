@@ -34,6 +34,9 @@ class Interference {
   /// @param points  as Network::points()
   std::span<const Place> find(std::span<const vec4> points, float margin = 0);
 
+  /// A pair's f at rest [m], where that is negative; otherwise 0.
+  float allowed(TubePair pair) const;
+
   const NetworkTubes& layout() const { return layout_; }
   /// The shape of the last find(), and that at rest.
   std::span<const Bezier> tubes() const { return tubes_; }
@@ -50,8 +53,6 @@ class Interference {
     TubePair tubes;
     float f;
   };
-  float allowed(TubePair pair) const;
-
   NetworkTubes layout_;
   std::vector<Bezier> rest_, tubes_;
   std::unique_ptr<TubeDetector> detector_;

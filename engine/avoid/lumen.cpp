@@ -49,11 +49,11 @@ void narrow(const Network& network, const NetworkTubes& layout, std::span<const 
 }
 
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const BoneContact> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most) {
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most) {
   const Narrower narrower{network, points, most};
   for (const BoneContact& place : places) {
     const float radius = shape[place.tube].at(place.s).w;
-    narrower.tube(layout.address(place.tube), std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), false);
+    narrower.tube(layout.address(place.tube), std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), ringsToo);
   }
 }
 

@@ -27,9 +27,9 @@ constexpr float kLeastLumen = 0.25f;
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
             std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most);
 
-/// The same where a bone leaves a tube too little room; points at nodes keep their radius.
+/// The same where a bone leaves a tube too little room.
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const BoneContact> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, std::span<float> most);
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most);
 
 /// Spans one of whose points is thinner than in `before`, in order.
 std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before, std::span<const vec4> points);

@@ -1,17 +1,12 @@
-#include "avoid/solver.h"
+#include "avoid/solver_state.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <tuple>
 #include <utility>
-
-#include "avoid/bone_constraints.h"
-#include "avoid/constraints.h"
-#include "avoid/skin_wall.h"
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
@@ -26,27 +21,6 @@ constexpr float kSettled = 1e-6f;     // [m]
 // What is tried, one after the other, where there is no room for all that is asked for: the vessels that are still in
 // one another's way are parted the way they lie, and let through bones with what is joined to them within some nodes.
 constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000, 0, 0, 0};
-
-constexpr unsigned kBringBack = 3;  // times that more rounds are tried for the sides
-// The same for what is in bones: how many times, and how many of them in vain; of so many rounds.
-constexpr unsigned kLeaveBones = 5, kInVain = 2, kRoundsToLeave = 5;
-constexpr float kVolumeError = 1e-4f;  // relative, that is borne for it
-// No more points than so many, and one in so many, may be moved farther for that.
-constexpr float kFar = 4;  // radii
-constexpr std::size_t kFew = 16, kOneIn = 1000;
-
-class Timer {
- public:
-  explicit Timer(double& sum) : sum_(sum) {}
-  ~Timer() { sum_ += std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
-  Timer(const Timer&) = delete;
-  Timer& operator=(const Timer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& sum_;
-  Clock::time_point start_ = Clock::now();
-};
 
 void noteMovement(std::span<const vec4> from, std::span<const vec4> to, AvoidReport& report) {
   double sum = 0;
@@ -70,6 +44,8 @@ std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts)
   return count;
 }
 
+}  // namespace
+
 std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
   return tubesOf(contacts, [](const BoneContact&) { return true; });
 }
@@ -80,76 +56,6 @@ BoneReport reportOf(std::span<const BoneContact> contacts) {
   for (const BoneContact& contact : contacts) report.depth = std::max(report.depth, contact.allowed - contact.f);
   return report;
 }
-
-}  // namespace
-
-struct Avoider::State {
-  State(const Network& own, const Body* body, AvoidOptions chosen)
-      : network(own),
-        options(chosen),
-        interference(own),
-        space(own, chosen.bending),
-        sides(own, interference),
-        pool(own, space, interference, sides),
-        boneConstraints(own, space, interference.layout()),
-        z(space.variableCount()),
-        posedTubes(interference.layout().count()),
-        posedTurns(interference.layout().count()) {
-    if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
-    if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
-  }
-
-  AvoidReport run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
-  void look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report);
-  void lookAtBones(Bones::Which which, AvoidReport& report);
-  void ascend();
-  float ascend(Constraint& constraint, const MotionSpace::Rows& rows);
-  void push(const Constraint& constraint, const MotionSpace::Rows& rows, float amount);
-  void sumUp();
-  void place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
-  void separate(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void letThroughBones(unsigned nodes);
-  void giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  void tryAgain(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  // What a round has come to.
-  struct Outcome {
-    std::size_t changed;
-    BoneReport bones;
-    std::uint32_t inSkin;
-    std::vector<vec4> points;
-    std::vector<NarrowPlace> narrowed;
-    VolumeKeeper::Outcome volume;
-  };
-  Outcome present(std::span<const vec4> points) const {
-    return {changed.size(), reportOf(boneContacts), tubesOf(skinContacts), {points.begin(), points.end()}, narrowed, volumeOutcome};
-  }
-  void restore(const Outcome& outcome, const PosedVessels& posed, std::span<vec4> points, AvoidReport& report);
-  void bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-  bool isJump(std::span<const vec4> from, std::span<const vec4> to) const;
-  void leaveBones(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report);
-
-  const Network& network;
-  AvoidOptions options;
-  Interference interference;
-  MotionSpace space;
-  RestSides sides;
-  std::unique_ptr<Bones> bones;
-  std::unique_ptr<SkinWall> wall;
-  ConstraintPool pool;
-  BoneConstraints boneConstraints;
-  std::vector<vec3> z;
-  std::vector<Bezier> posedTubes;
-  std::vector<quat> posedTurns;  // of their middles
-  VolumeKeeper::Outcome volumeOutcome;
-  std::vector<vec4> before;  // lumen gave way
-  std::vector<float> most;   // radius of a point, since it did
-  std::vector<Interference::Place> found, remaining;
-  std::span<const Interference::Place> places;  // of the last look, as the next two
-  std::vector<Contact> changed;
-  std::span<const BoneContact> boneContacts;
-  std::vector<BoneContact> skinContacts, allContacts;  // of the last look; bones and skin together, sorted alike
-  std::vector<NarrowPlace> narrowed;
-};
 
 void Avoider::State::push(const Constraint& constraint, const MotionSpace::Rows& rows, float amount) {
   const vec3 force = amount * constraint.normal;
@@ -270,7 +176,6 @@ void Avoider::State::letThroughBones(unsigned nodes) {
 // Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the end, where
 // that only moves the trouble about, volume is given up for the certificate.
 void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  narrowed.clear();
   bool gave = false;
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
     const bool apart = certificateOf(places, &remaining).holds(), lastResort = 2 * round >= options.lumenRounds;
@@ -278,12 +183,11 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
     {
       Timer timer(report.solveMs);
       if (!gave) {
-        gave = true;
-        before.assign(points.begin(), points.end());
+        gave = gaveWay = true;
         most.assign(points.size(), std::numeric_limits<float>::infinity());
       }
       const bool keepVolume = volume && !lastResort;
-      if (!lastResort) narrow(network, interference.layout(), boneContacts, interference.tubes(), points, most);
+      if (!lastResort) narrow(network, interference.layout(), boneContacts, interference.tubes(), points, false, most);
       narrow(network, interference.layout(), remaining, interference.tubes(), points, lastResort, most);
       for (std::size_t p = 0; p < points.size(); ++p)
         points[p].w = keepVolume ? network.points()[p].w : std::min(points[p].w, most[p]);
@@ -291,7 +195,14 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
     }
     look(posed, points, Bones::Which::nearAtLast, report);
   }
-  if (gave) narrowed = narrowPlaces(network, before, points);
+}
+
+// The points with the radii that they would have if nothing gave way.
+std::vector<vec4> Avoider::State::widePoints(const VolumeKeeper* volume, std::span<const vec4> points) const {
+  std::vector<vec4> wide(points.begin(), points.end());
+  for (std::size_t p = 0; p < wide.size(); ++p) wide[p].w = network.points()[p].w;
+  if (volume) volume->run(wide);
+  return wide;
 }
 
 // From the multipliers as they are, after some were given up.
@@ -307,60 +218,12 @@ void Avoider::State::tryAgain(unsigned rounds, const PosedVessels& posed, const 
   giveWay(posed, volume, points, report);
 }
 
-void Avoider::State::restore(const Outcome& outcome, const PosedVessels& posed, std::span<vec4> points, AvoidReport& report) {
-  std::ranges::copy(outcome.points, points.begin());
-  narrowed = outcome.narrowed;
-  volumeOutcome = outcome.volume;
-  look(posed, points, Bones::Which::nearAtLast, report);
-}
-
-// Some rounds more where vessels have ended on the wrong side of one another, without what was asked for between them on
-// the way there. The best of what comes of them stands: as certified as before, and fewer on a wrong side.
-void Avoider::State::bringBack(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  if (changed.empty()) return;
-  Outcome best = present(points);
-  bool isBest = true;
-  for (unsigned attempt = 0; attempt < kBringBack && !changed.empty(); ++attempt) {
-    pool.forget(changed);
-    tryAgain(options.rounds, posed, volume, points, report);
-    isBest = changed.size() < best.changed && certificateOf(places, &remaining).holds();
-    if (isBest) best = present(points);
-  }
-  if (!isBest) restore(best, posed, points, report);
-}
-
-bool Avoider::State::isJump(std::span<const vec4> from, std::span<const vec4> to) const {
-  std::size_t far = 0;
-  for (std::size_t p = 0; p < to.size(); ++p) far += glm::distance(vec3(from[p]), vec3(to[p])) > kFar * network.points()[p].w;
-  return far > kFew + to.size() / kOneIn;
-}
-
-// The same where they have ended in a bone that they were not in at rest, without what pushes them against the way out
-// from where they are now. Only what moves few points far stands: from frame to frame, a jump is seen more than a vessel
-// in a bone.
-void Avoider::State::leaveBones(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  if (reportOf(boneContacts).contacts == 0) return;
-  const auto in = [](const BoneReport& own) { return std::tuple(own.contacts, own.deeper, own.depth); };
-  Outcome best = present(points);
-  const std::vector<vec4> start = best.points;
-  bool isBest = true;
-  for (unsigned attempt = 0, vain = 0; attempt < kLeaveBones && vain < kInVain && reportOf(boneContacts).contacts > 0; ++attempt) {
-    boneConstraints.turnTo(boneContacts);
-    tryAgain(std::min(kRoundsToLeave, options.rounds), posed, volume, points, report);
-    isBest = changed.size() <= best.changed && in(reportOf(boneContacts)) < in(best.bones) && tubesOf(skinContacts) <= best.inSkin &&
-             volumeOutcome.largestError <= std::max(best.volume.largestError, kVolumeError) && !isJump(start, points) &&
-             certificateOf(places, &remaining).holds();
-    if (isBest) best = present(points);
-    else ++vain;
-  }
-  if (!isBest) restore(best, posed, points, report);
-}
-
 AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
   AvoidReport report;
   pool.clear();
   boneConstraints.clear();
   narrowed.clear();
+  gaveWay = false;
   std::fill(z.begin(), z.end(), vec3(0));
   if (bones) {
     bones->pose(posed.jointMatrices);
@@ -389,7 +252,9 @@ AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* v
   if (report.rounds > 0 && certificateOf(places, &remaining).holds()) {
     bringBack(posed, volume, points, report);
     leaveBones(posed, volume, points, report);
+    goAroundBones(posed, volume, points, report);
   }
+  if (gaveWay) narrowed = narrowPlaces(network, widePoints(volume, points), points);
   report.after = certificateOf(places, &remaining);
   report.sidesChangedAfter = std::uint32_t(changed.size());
   report.bonesAfter = reportOf(boneContacts);

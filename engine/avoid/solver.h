@@ -11,7 +11,8 @@
 namespace vasa {
 
 /// Fixed budgets: no frame takes more than these, once, again at each of eight resorts where there is no room, and up to
-/// three times more for vessels on the wrong side of one another, and half of them up to five times for those in bones.
+/// three times more for vessels on the wrong side of one another, and half of them up to five times for those in bones,
+/// of which each may then have some detours looked for.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
   unsigned rounds = 10;      ///< detections, each followed by sweeps
@@ -50,8 +51,9 @@ struct AvoidReport {
 /// over a pool of contacts that is detected anew each round and only grows, 0 <= multipliers <= a limit, so that what
 /// cannot be met does not fling vessels about; then, where there is no room, thinner vessels. Where vessels are in one
 /// another's way even so, what was asked for between them is forgotten, on which sides they belong too, and in the end
-/// bones let them through: the certificate by an exact query, which comes last, goes before all else. Budgets are fixed and the order
-/// is that of the pairs: the result depends on the scene and the pose alone.
+/// bones let them through; what is in a bone after all is led around it (avoid/detour.h). The certificate by an exact
+/// query, which comes last, goes before all else. Budgets are fixed and the order is that of the pairs: the result depends
+/// on the scene and the pose alone.
 class Avoider {
  public:
   /// @param network  must outlive this

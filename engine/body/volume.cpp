@@ -53,43 +53,46 @@ VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
 
 VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const float> most) const {
   Outcome outcome;
-  for (std::size_t v = 0; v < restVolumes_.size(); ++v) {
-    const Vessel& vessel = network_->vessels()[v];
-    const auto own = Network::pointsOf(vessel, points);
-    const auto rest = network_->pointsOf(vessel);
-    const auto limit = [&](std::uint32_t l) { return most.empty() ? std::numeric_limits<float>::infinity() : most[vessel.firstPoint + l]; };
-    // A point that has come to its limit stays there, and the others share what it lacks.
-    const auto held = [&](std::uint32_t l) { return pinned(vessel, l) || own[l].w >= limit(l); };
-    for (std::uint32_t l = 0; l < vessel.pointCount && !most.empty(); ++l)
-      if (!pinned(vessel, l)) own[l].w = std::min(own[l].w, limit(l));
-    for (bool settled = false; !settled;) {
-      settled = true;
-      const Quadratic q = quadraticOf(vessel, own, [&](std::uint32_t l) { return held(l) ? 0.0f : own[l].w; });
-      const double excess = q.volume - restVolumes_[v];
-      const double discriminant = q.b * q.b - 4 * q.a * excess;
-      double lambda = excess > 0 ? -1 : 1;  // no root: as thin, or as wide, as it gets
-      if (discriminant >= 0 && q.b > 0) lambda = -2 * excess / (q.b + std::sqrt(discriminant));
-      double kept = lambda;
-      for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
-        if (held(l)) continue;
-        const double now = own[l].w;
-        if (now > 0) kept = std::clamp(kept, kLowestFactor * rest[l].w / now - 1, std::max(kHighestFactor * rest[l].w / now - 1, 0.0));
-      }
-      for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
-        if (held(l)) continue;
-        const float wanted = own[l].w * float(1 + kept);
-        if (wanted > limit(l)) settled = false;
-        own[l].w = std::min(wanted, limit(l));
-      }
-      if (!settled) continue;
-      const double error = restVolumes_[v] > 0 ? std::abs(q.at(kept) - restVolumes_[v]) / restVolumes_[v] : 0;
-      const bool clamped = error > kNegligible;
-      outcome.clampedCount += clamped;
-      float& worst = clamped ? outcome.clampedError : outcome.largestError;
-      worst = std::max(worst, float(error));
-    }
-  }
+  for (std::uint32_t v = 0; v < restVolumes_.size(); ++v) keep({v}, points, most, outcome);
   return outcome;
+}
+
+void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const float> most, Outcome& outcome) const {
+  const Vessel& vessel = network_->vessel(id);
+  const double restVolume = restVolumes_[id.value];
+  const auto own = Network::pointsOf(vessel, points);
+  const auto rest = network_->pointsOf(vessel);
+  const auto limit = [&](std::uint32_t l) { return most.empty() ? std::numeric_limits<float>::infinity() : most[vessel.firstPoint + l]; };
+  // A point that has come to its limit stays there, and the others share what it lacks.
+  const auto held = [&](std::uint32_t l) { return pinned(vessel, l) || own[l].w >= limit(l); };
+  for (std::uint32_t l = 0; l < vessel.pointCount && !most.empty(); ++l)
+    if (!pinned(vessel, l)) own[l].w = std::min(own[l].w, limit(l));
+  for (bool settled = false; !settled;) {
+    settled = true;
+    const Quadratic q = quadraticOf(vessel, own, [&](std::uint32_t l) { return held(l) ? 0.0f : own[l].w; });
+    const double excess = q.volume - restVolume;
+    const double discriminant = q.b * q.b - 4 * q.a * excess;
+    double lambda = excess > 0 ? -1 : 1;  // no root: as thin, or as wide, as it gets
+    if (discriminant >= 0 && q.b > 0) lambda = -2 * excess / (q.b + std::sqrt(discriminant));
+    double kept = lambda;
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
+      if (held(l)) continue;
+      const double now = own[l].w;
+      if (now > 0) kept = std::clamp(kept, kLowestFactor * rest[l].w / now - 1, std::max(kHighestFactor * rest[l].w / now - 1, 0.0));
+    }
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
+      if (held(l)) continue;
+      const float wanted = own[l].w * float(1 + kept);
+      if (wanted > limit(l)) settled = false;
+      own[l].w = std::min(wanted, limit(l));
+    }
+    if (!settled) continue;
+    const double error = restVolume > 0 ? std::abs(q.at(kept) - restVolume) / restVolume : 0;
+    const bool clamped = error > kNegligible;
+    outcome.clampedCount += clamped;
+    float& worst = clamped ? outcome.clampedError : outcome.largestError;
+    worst = std::max(worst, float(error));
+  }
 }
 
 }  // namespace vasa

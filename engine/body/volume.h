@@ -23,6 +23,8 @@ class VolumeKeeper {
   /// @param points  a posed network's points; radii must be those at rest. O(spans), no allocation.
   /// @param most    if given, one a point: radii may not be larger; the rest of the vessel makes up for it
   Outcome run(std::span<vec4> points, std::span<const float> most = {}) const;
+  /// The same for one vessel; its errors are added to an outcome.
+  void keep(VesselId vessel, std::span<vec4> points, std::span<const float> most, Outcome& outcome) const;
 
   /// How far radii may go: between half and twice those at rest.
   static constexpr float kLowestFactor = 0.5f, kHighestFactor = 2.0f;
