@@ -7,6 +7,7 @@
 
 #include "convert/unfold.h"
 #include "mesh/edges.h"
+#include "surface/reference.h"
 
 namespace vasa {
 namespace {
@@ -66,6 +67,17 @@ bool easeIntoTubes(std::span<const ForkOpening> openings, std::span<const vec4> 
   return true;
 }
 
+// As they are drawn: across the vessel, where tubes go on (surface/patch.cpp).
+std::vector<vec3> loopNormals(std::span<const ForkOpening> openings, const WallPiece& wall) {
+  std::vector<vec3> normals;
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    for (std::uint32_t k = 0; k < wall.loops[i]; ++k) {
+      const vec3 d = wall.mesh.positions[normals.size()] - vec3(openings[i].section);
+      normals.push_back(unitOr(d - glm::dot(d, openings[i].direction) * openings[i].direction, openings[i].direction));
+    }
+  return normals;
+}
+
 // Each loop once around its axis, without steps back.
 bool runsAround(std::span<const ForkOpening> openings, const WallPiece& wall) {
   std::size_t first = 0;
@@ -99,7 +111,7 @@ std::array<std::uint8_t, ForkPatch::kMostRings> rounded(const vec4& weights) {
 ForkPatch fitPatch(std::span<const ForkOpening> openings, WallPiece wall) {
   const std::vector<vec4> weights = harmonicWeights(wall);
   if (!easeIntoTubes(openings, weights, wall) || !runsAround(openings, wall)) return {};
-  unfold(wall.mesh, onLoops(wall));
+  unfold(wall.mesh, loopNormals(openings, wall));
   ForkPatch patch;
   for (std::size_t i = 0; i < openings.size(); ++i) {
     const ForkOpening& o = openings[i];

@@ -1,5 +1,7 @@
 #include "convert/unfold.h"
 
+#include <algorithm>
+
 #include "mesh/edges.h"
 #include "surface/fork_check.h"
 
@@ -20,8 +22,9 @@ vec3 middleOfNeighbours(const TriangleMesh& mesh, const VertexTriangles& around,
 
 }  // namespace
 
-std::vector<std::uint32_t> foldedTriangles(const TriangleMesh& mesh) {
-  const std::vector<vec3> normals = vertexNormals(mesh);
+std::vector<std::uint32_t> foldedTriangles(const TriangleMesh& mesh, std::span<const vec3> held) {
+  std::vector<vec3> normals = vertexNormals(mesh);
+  std::ranges::copy(held, normals.begin());
   std::vector<std::uint32_t> folded;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const uvec3& t = mesh.triangles[i];
@@ -31,10 +34,10 @@ std::vector<std::uint32_t> foldedTriangles(const TriangleMesh& mesh) {
   return folded;
 }
 
-std::size_t unfold(TriangleMesh& mesh, std::size_t fixed) {
+std::size_t unfold(TriangleMesh& mesh, std::span<const vec3> held) {
   const VertexTriangles around = buildVertexTriangles(mesh);
   for (int step = 0;; ++step) {
-    const std::vector<std::uint32_t> folded = foldedTriangles(mesh);
+    const std::vector<std::uint32_t> folded = foldedTriangles(mesh, held);
     if (folded.empty() || step == kSteps) return folded.size();
     std::vector<bool> moves(mesh.positions.size());
     const auto take = [&](std::uint32_t triangle) {
@@ -47,7 +50,7 @@ std::size_t unfold(TriangleMesh& mesh, std::size_t fixed) {
         for (const std::uint32_t beside : around.of(mesh.triangles[triangle][k])) take(beside);
     }
     std::vector<vec3> moved = mesh.positions;
-    for (std::uint32_t v = std::uint32_t(fixed); v < moved.size(); ++v)
+    for (std::uint32_t v = std::uint32_t(held.size()); v < moved.size(); ++v)
       if (moves[v]) moved[v] = glm::mix(moved[v], middleOfNeighbours(mesh, around, v), kStep);
     mesh.positions.swap(moved);
   }

@@ -19,6 +19,7 @@
 #include "network/reshape.h"
 #include "support/manifold.h"
 #include "support/shared_data.h"
+#include "surface/octahedral.h"
 #include "surface/surface_mesh.h"
 
 using namespace vasa;
@@ -71,6 +72,12 @@ TEST_CASE("no triangle of a patch is folded at rest") {
   const Forked made = forked();
   REQUIRE(!made.network.patches().empty());
   for (const ForkPatch& patch : made.network.patches()) CHECK(foldedTriangles({patch.positions, patch.triangles}).empty());
+  TriangleMesh drawn;  // normals on loops are those of the tubes
+  std::vector<vec3> normals;
+  const PatchTable table = makeSweepTable(made.network).patches;
+  for (const shared::SkinVertex& v : table.vertices) drawn.positions.emplace_back(v.x, v.y, v.z), normals.push_back(unpackOctahedral(v.normal));
+  drawn.triangles = table.triangles;
+  CHECK(foldedTriangles(drawn, normals).empty());
 }
 
 TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside the rings") {
