@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "body/mesh_role.h"
@@ -87,6 +88,14 @@ Aabb placed(const mat4& matrix, const Aabb& box) {
   return out;
 }
 
+// Bernstein's polynomials at the places of a tube of so many pieces.
+const auto kWeights = [] {
+  std::array<std::array<vec4, kMostPieces + 1>, kMostPieces + 1> weights{};
+  for (int pieces = 1; pieces <= kMostPieces; ++pieces)
+    for (int k = 0; k <= pieces; ++k) weights[pieces][k] = bernstein(float(k) / float(pieces));
+  return weights;
+}();
+
 }  // namespace
 
 struct Bones::State {
@@ -125,6 +134,7 @@ struct Bones::State {
   void findNear(std::size_t task, std::span<const Bezier> tubes);
   void findNewlyNear(std::size_t task, const Tubes& tubes);
   bool mayTouch(const Aabb& box, std::uint32_t part) const;
+  std::optional<bool> lookIfThin(Near& at, const Bezier& shape) const;
   bool look(Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
   vec3 home(const Near& at, float s, const Tubes& tubes) const;
   bool isFree(const vec4& ball, std::uint32_t part) const;
@@ -185,12 +195,36 @@ bool Bones::State::isFree(const vec4& ball, std::uint32_t own) const {
   return true;
 }
 
+// What most tubes need: the same for one that is thin and enters nowhere, all its places at once. Nothing for others.
+std::optional<bool> Bones::State::lookIfThin(Near& at, const Bezier& shape) const {
+  const DistanceField& field = solids[at.part].field;
+  std::array<vec4, kMostPieces + 1> balls;
+  std::array<float, kMostPieces + 1> distances;
+  const int count = pieces[at.tube] + 1;
+  for (int k = 0; k < count; ++k) {
+    const vec4& w = kWeights[count - 1][k];
+    balls[k] = w.x * shape.b[0] + w.y * shape.b[1] + w.z * shape.b[2] + w.w * shape.b[3];
+  }
+  field.distances(std::span(balls).first(count), distances);
+  float f = std::numeric_limits<float>::max();
+  bool inBand = false;
+  for (int k = 0; k < count; ++k) {
+    if (balls[k].w > kWidest * field.band()) return {};
+    f = std::min(f, distances[k] - balls[k].w);
+    inBand |= distances[k] < field.band();
+  }
+  if (f < at.allowed) return {};
+  at.f = f;
+  return inBand;
+}
+
 // Returns whether the tube is within the field's band somewhere.
 bool Bones::State::look(Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const {
   const Solid& solid = solids[at.part];
   const DistanceField& field = solid.field;
   Bezier shape = tubes.now[at.tube];  // from the part's own space
   for (vec4& b : shape.b) b = vec4(placed(solid.inverse, vec3(b)), b.w);
+  if (const std::optional<bool> isNear = lookIfThin(at, shape)) return *isNear;
   bool inBand = false;
   at.f = std::numeric_limits<float>::max();
   vec3 measured(0);  // where the field was read last

@@ -169,13 +169,27 @@ DistanceField::Cell DistanceField::cellAt(vec3 point) const {
   return {values_.get() + std::size_t(place) * kValues, 0, cell % kBrick, cells - vec3(cell)};
 }
 
-float DistanceField::distance(vec3 point) const {
-  const Cell cell = cellAt(point);
+float DistanceField::distanceIn(const Cell& cell) {
   if (!cell.values) return cell.beyond;
   const float* v = cell.values + (cell.corner.z * kCorners + cell.corner.y) * kCorners + cell.corner.x;
   const auto alongX = [&](int at) { return glm::mix(v[at], v[at + 1], cell.share.x); };
   const auto alongY = [&](int at) { return glm::mix(alongX(at), alongX(at + kCorners), cell.share.y); };
   return glm::mix(alongY(0), alongY(kCorners * kCorners), cell.share.z);
+}
+
+float DistanceField::distance(vec3 point) const {
+  return distanceIn(cellAt(point));
+}
+
+// Step by step for all, so that they wait for memory together.
+void DistanceField::distances(std::span<const vec4> balls, std::span<float> out) const {
+  constexpr std::size_t kAtOnce = 8;
+  std::array<Cell, kAtOnce> cells;
+  for (std::size_t first = 0; first < balls.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, balls.size() - first);
+    for (std::size_t k = 0; k < count; ++k) cells[k] = cellAt(vec3(balls[first + k]));
+    for (std::size_t k = 0; k < count; ++k) out[first + k] = distanceIn(cells[k]);
+  }
 }
 
 DistanceField::Sample DistanceField::at(vec3 point) const {

@@ -1,6 +1,7 @@
 #include "curve/bspline.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "math/quadrature.h"
@@ -20,7 +21,7 @@ struct Rows {
   vec4 b0, b1, b2, b3;
 };
 
-Rows bezierRows(int i, int n) {
+Rows computeRows(int i, int n) {
   const float before2 = knot(i - 2, n), before1 = knot(i - 1, n), start = float(i), end = float(i + 1);
   const float after1 = knot(i + 2, n), after2 = knot(i + 3, n);
   const vec4 d0(1, 0, 0, 0), d1(0, 1, 0, 0), d2(0, 0, 1, 0), d3(0, 0, 0, 1);
@@ -37,16 +38,29 @@ Rows bezierRows(int i, int n) {
   return rows;
 }
 
+// They depend on how near the ends are, no farther than two spans, and on nothing else; to the last bit.
+constexpr int kNear = 2;
+const auto kRows = [] {
+  std::array<std::array<Rows, kNear + 1>, kNear + 1> table{};
+  for (int before = 0; before <= kNear; ++before)
+    for (int behind = 0; behind <= kNear; ++behind) table[before][behind] = computeRows(before, before + 1 + behind);
+  return table;
+}();
+
+const Rows& bezierRows(int i, int n) {
+  return kRows[std::min(i, kNear)][std::min(n - 1 - i, kNear)];
+}
+
 }  // namespace
 
 mat4 spanToBezier(std::uint32_t span, std::uint32_t spans) {
-  const Rows rows = bezierRows(int(span), int(spans));
+  const Rows& rows = bezierRows(int(span), int(spans));
   return glm::transpose(mat4(rows.b0, rows.b1, rows.b2, rows.b3));
 }
 
 Bezier bezierOfSpan(std::span<const vec4> points, std::uint32_t span) {
   assert(points.size() >= kMinPoints && span < spanCount(points));
-  const Rows rows = bezierRows(int(span), int(spanCount(points)));
+  const Rows& rows = bezierRows(int(span), int(spanCount(points)));
   const vec4* d = &points[span];
   const auto combine = [d](const vec4& w) { return w.x * d[0] + w.y * d[1] + w.z * d[2] + w.w * d[3]; };
   return {{combine(rows.b0), combine(rows.b1), combine(rows.b2), combine(rows.b3)}};
@@ -69,7 +83,7 @@ vec4 evaluateDerivative(std::span<const vec4> points, float u) {
 }
 
 vec4 deBoorWeights(std::uint32_t span, std::uint32_t spans, float t) {
-  const Rows rows = bezierRows(int(span), int(spans));
+  const Rows& rows = bezierRows(int(span), int(spans));
   const vec4 w = bernstein(t);
   return w.x * rows.b0 + w.y * rows.b1 + w.z * rows.b2 + w.w * rows.b3;
 }

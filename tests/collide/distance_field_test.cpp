@@ -50,6 +50,11 @@ TEST_CASE("the field is the distance from a box, near it") {
       CHECK(glm::length(gradient) == doctest::Approx(1).epsilon(0.3));
   }
   CHECK(worst < 0.0011f);  // half a cell, at the edges
+  std::vector<vec4> balls;
+  for (int k = 0; k < 21; ++k) balls.emplace_back(any(random), any(random), any(random), 0.001f);
+  std::vector<float> distances(balls.size());
+  field.distances(balls, distances);
+  for (std::size_t k = 0; k < balls.size(); ++k) CHECK(distances[k] == field.distance(vec3(balls[k])));
   CHECK(field.distance(vec3(0, 0, 0.025f)) == doctest::Approx(-0.006f));
   CHECK(field.distance(vec3(1, 0, 0)) == doctest::Approx(0.006f));
 }
