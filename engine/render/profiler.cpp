@@ -53,23 +53,30 @@ std::string ProfileRow::name() const {
   return quads.pixelError > 0 ? "auto" : std::to_string(quads.shape.around) + "x" + std::to_string(quads.shape.along);
 }
 
-// Two makers take turns, so that one's frame can be drawn while the other makes the next.
+// One shape can be drawn while the other is made.
 struct Profiler::Pass {
   struct Shape {
-    std::unique_ptr<FrameMaker> maker;
+    std::vector<vec4> points;
+    std::vector<quat> knotFrames;
+    std::vector<mat4> jointMatrices;
+    Camera camera;
+    FrameReport report;
     Clock::time_point start;
     double ms = 0;
   };
   Pass(gpu::Device& device, const ProfileSetting& chosen, const RenderOptions& options)
-      : setting(chosen), renderer(device, chosen.scene->network, chosen.meshes, options) {
-    for (Shape& shape : shapes) shape.maker = std::make_unique<FrameMaker>(*chosen.scene, FrameOptions{.avoid = chosen.avoid});
-  }
+      : setting(chosen), renderer(device, chosen.scene->network, chosen.meshes, options), maker(*chosen.scene, {.avoid = chosen.avoid}) {}
 
   void make(std::uint32_t number) {
     Shape& shape = shapes[number % 2];
     shape.start = Clock::now();
     const std::uint32_t clipFrames = setting.clip ? setting.clip->frameCount() : 1;
-    shape.maker->make(setting.clip, setting.clip ? setting.clip->timeOfFrame(number % clipFrames) : 0);
+    maker.make(setting.clip, setting.clip ? setting.clip->timeOfFrame(number % clipFrames) : 0);
+    shape.points.assign(maker.points().begin(), maker.points().end());
+    shape.knotFrames.assign(maker.knotFrames().begin(), maker.knotFrames().end());
+    shape.jointMatrices.assign(maker.jointMatrices().begin(), maker.jointMatrices().end());
+    shape.camera = setting.camera(maker);
+    shape.report = maker.report();
     shape.ms = msSince(shape.start);
   }
   // @return what the frame is drawn from, good until the next but one
@@ -79,12 +86,12 @@ struct Profiler::Pass {
     if (ahead) next = std::async(std::launch::async, [this, number = frame + 1] { make(number); });
     return shapes[frame % 2];
   }
-  double draw(const FrameMaker& maker) {
+  double draw(const Shape& shape) {
     const auto start = Clock::now();
-    input = {.points = maker.points(),
-             .knotFrames = maker.knotFrames(),
-             .jointMatrices = setting.meshes.empty() ? std::span<const mat4>() : maker.jointMatrices(),
-             .camera = setting.camera(maker),
+    input = {.points = shape.points,
+             .knotFrames = shape.knotFrames,
+             .jointMatrices = setting.meshes.empty() ? std::span<const mat4>() : shape.jointMatrices,
+             .camera = shape.camera,
              .look = setting.look};
     renderer.draw(input);
     return msSince(start);
@@ -94,6 +101,7 @@ struct Profiler::Pass {
   Renderer renderer;
   RenderInput input;
   std::uint32_t frame = 0;
+  FrameMaker maker;
   std::array<Shape, 2> shapes;
   std::future<void> next;  // waits for its thread when it goes, before what that writes to
 };
@@ -117,17 +125,17 @@ bool Profiler::step() {
   Pass& pass = *pass_;
   const auto start = Clock::now();
   const Pass::Shape& shape = pass.take(!pass.renderer.options().timed);
-  const double solveMs = shape.ms, pictureMs = pass.draw(*shape.maker);
+  const double solveMs = shape.ms, pictureMs = pass.draw(shape);
   // What an app did since the last step may have hidden some of the shape's time.
   const FrameTime time{.frame = std::max(msSince(start), solveMs), .latency = msSince(shape.start), .solve = solveMs, .picture = pictureMs};
-  if (pass.frame++ >= kWarmUpFrames) note(time, *shape.maker);
+  if (pass.frame++ >= kWarmUpFrames) note(time, shape.report);
   if (pass.frame < kWarmUpFrames + setting_.frames) return true;
   if (!pass.renderer.options().timed) startPass(true);
   else finishRow();
   return rows_.size() < wanted_.size();
 }
 
-void Profiler::note(const FrameTime& time, const FrameMaker& maker) {
+void Profiler::note(const FrameTime& time, const FrameReport& shape) {
   const auto add = [&](const char* name, double ms) {
     auto found = std::ranges::find(samples_, name, &std::pair<std::string, std::vector<double>>::first);
     if (found == samples_.end()) found = samples_.insert(found, {name, {}});
@@ -139,7 +147,7 @@ void Profiler::note(const FrameTime& time, const FrameMaker& maker) {
     add("latency_ms", time.latency);
     return;
   }
-  for (const auto& [stage, ms] : shapeStages(maker.report(), setting_.avoid)) add(stage, ms);
+  for (const auto& [stage, ms] : shapeStages(shape, setting_.avoid)) add(stage, ms);
   add("solve_ms", time.solve);
   for (const auto& [stage, ms] : pictureStages(pass.renderer.times(), setting_.render.growth != nullptr)) add(stage, ms);
   add("picture_ms", time.picture);

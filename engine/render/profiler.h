@@ -70,7 +70,7 @@ class Profiler {
     double frame = 0, latency = 0, solve = 0, picture = 0;  // [ms]
   };
   void startPass(bool timed);
-  void note(const FrameTime& time, const FrameMaker& maker);
+  void note(const FrameTime& time, const FrameReport& shape);
   void finishRow();
 
   gpu::Device& device_;
