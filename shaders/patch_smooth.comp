@@ -14,6 +14,7 @@ layout(push_constant, scalar) uniform Push { PatchSmoothPush push; };
 const float kSpared = 0.6;  // of its size at rest: a larger triangle moves no corner
 const float kStep = 0.6;    // of the way to the neighbours' middle
 
+const float kFreedSoon = 4;  // times the share that is pressed: vertices are free to move as far as they like
 const float kSameSide = 0.8;  // cosine: a normal that is so near to the surface's stays
 
 float ramp(float x) {
@@ -49,7 +50,13 @@ uvec2 cornersOf(uint64_t triangle, uint firstVertex) {
   return firstVertex + uvec2(corners & 0xffffu, corners >> 16);
 }
 
-vec3 moved(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex, float share) {
+// How much a vertex is pressed, and the middle of its neighbours.
+struct Pressed {
+  float share;
+  vec3 middle;
+};
+
+Pressed pressedAt(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex) {
   precise vec3 sum = vec3(0);
   float least = 3e38;
   for (uint k = fan.x; k < fan.y; ++k) {
@@ -62,8 +69,8 @@ vec3 moved(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex, float
     sum += a + b;
   }
   precise float pressed = 1.0 - ramp(least / kSpared);
-  precise vec3 place = own.position + (share * kStep * pressed) * (sum / float(2 * (fan.y - fan.x)) - own.position);
-  return place;
+  precise vec3 middle = sum / float(2 * (fan.y - fan.x));
+  return Pressed(pressed, middle);
 }
 
 vec3 turned(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex, float share) {
@@ -79,28 +86,83 @@ vec3 turned(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex, floa
   return unitOr(normal, own.normal);
 }
 
+uvec2 fanAt(uint v) { return uvec2(push.firstFan.value[v], push.firstFan.value[v + 1]); }
+
+shared bool anyPressed;
+float free[kMostSmoothed / kSmoothThreads];  // of this thread's vertices: how much they may move
+
+// Before any step: shares that are pressed, in the buffer between steps.
+void findPressed(PatchWall wall) {
+  uint end = wall.firstVertex + wall.vertexCount;
+  for (uint v = wall.firstVertex + gl_LocalInvocationID.x; v < end; v += kSmoothThreads) {
+    uvec2 fan = fanAt(v);
+    float share = fan.x < fan.y ? pressedAt(push.vertices, vertexAt(push.vertices, v), fan, wall.firstVertex).share : 0.0;
+    if (share > 0) anyPressed = true;
+    push.between.vertex[v] = u64vec2(floatBitsToUint(share), 0);
+  }
+}
+
+float pressedBefore(uint v) { return uintBitsToFloat(unpack32(push.between.vertex[v].x).x); }
+
+// Pressed vertices and their neighbours.
+void findFree(PatchWall wall) {
+  uint end = wall.firstVertex + wall.vertexCount, i = 0;
+  for (uint v = wall.firstVertex + gl_LocalInvocationID.x; v < end; v += kSmoothThreads, ++i) {
+    uvec2 fan = fanAt(v);
+    float share = pressedBefore(v);
+    for (uint k = fan.x; k < fan.y; ++k) {
+      uvec2 corners = cornersOf(push.fans.triangle[k], wall.firstVertex);
+      share = max(share, max(pressedBefore(corners.x), pressedBefore(corners.y)));
+    }
+    free[i] = fan.x < fan.y ? min(kFreedSoon * share, 1.0) : 0.0;
+  }
+}
+
+void takeStep(PatchWall wall, float share, uint step) {
+  uint end = wall.firstVertex + wall.vertexCount, i = 0;
+  bool back = step % 2 == 1;
+  SmoothedVertices from = back ? push.between : push.vertices, to = back ? push.vertices : push.between;
+  for (uint v = wall.firstVertex + gl_LocalInvocationID.x; v < end; v += kSmoothThreads, ++i) {
+    if (free[i] == 0) {
+      if (step == 0) to.vertex[v] = from.vertex[v];
+      continue;
+    }
+    Vertex own = vertexAt(from, v);
+    Pressed pressed = pressedAt(from, own, fanAt(v), wall.firstVertex);
+    precise float part = share * kStep * pressed.share * free[i];
+    precise vec3 place = own.position + part * (pressed.middle - own.position);
+    to.vertex[v] = packed(place, own.packedNormal);
+  }
+}
+
+void turnNormals(PatchWall wall, float share) {
+  uint end = wall.firstVertex + wall.vertexCount, i = 0;
+  for (uint v = wall.firstVertex + gl_LocalInvocationID.x; v < end; v += kSmoothThreads, ++i) {
+    if (free[i] == 0) continue;
+    Vertex own = vertexAt(push.between, v);
+    vec3 normal = turned(push.between, own, fanAt(v), wall.firstVertex, share * free[i]);
+    push.vertices.vertex[v] = packed(own.position, packOctahedral(normal));
+  }
+}
+
+void meet() {
+  memoryBarrierBuffer();
+  barrier();
+}
+
 void main() {
   StrainedPatch strained = push.strained.patches[gl_WorkGroupID.x];
   PatchWall wall = push.walls.wall[strained.wall];
-  uint first = wall.firstVertex + gl_LocalInvocationID.x, end = wall.firstVertex + wall.vertexCount;
-  SmoothedVertices from = push.vertices, to = push.between;
+  if (gl_LocalInvocationID.x == 0) anyPressed = false;
+  barrier();
+  findPressed(wall);
+  meet();
+  if (!anyPressed) return;
+  findFree(wall);
+  meet();
   for (uint step = 0; step < kPatchSteps; ++step) {
-    for (uint v = first; v < end; v += kSmoothThreads) {
-      Vertex own = vertexAt(from, v);
-      uvec2 fan = uvec2(push.firstFan.value[v], push.firstFan.value[v + 1]);
-      if (fan.x < fan.y) own.position = moved(from, own, fan, wall.firstVertex, strained.share);
-      to.vertex[v] = packed(own.position, own.packedNormal);
-    }
-    memoryBarrierBuffer();
-    barrier();
-    SmoothedVertices next = from;
-    from = to;
-    to = next;
+    takeStep(wall, strained.share, step);
+    meet();
   }
-  for (uint v = first; v < end; v += kSmoothThreads) {
-    uvec2 fan = uvec2(push.firstFan.value[v], push.firstFan.value[v + 1]);
-    if (fan.x == fan.y) continue;
-    Vertex own = vertexAt(from, v);
-    to.vertex[v] = packed(own.position, packOctahedral(turned(from, own, fan, wall.firstVertex, strained.share)));
-  }
+  turnNormals(wall, strained.share);
 }

@@ -12,7 +12,7 @@
 layout(local_size_x = kStrainThreads) in;
 layout(push_constant, scalar) uniform Push { PatchStrainPush push; };
 
-const float kLeastStrain = 0.75, kFullStrain = 1.5;  // of the rings' radii
+const float kLeastStrain = 1.0, kFullStrain = 2.0;  // of the rings' radii
 
 shared uint strained;
 

@@ -10,9 +10,10 @@
 namespace vasa {
 namespace {
 
-constexpr float kLeastStrain = 0.75f, kFullStrain = 1.5f;  // of the rings' radii
+constexpr float kLeastStrain = 1.0f, kFullStrain = 2.0f;  // of the rings' radii
 constexpr float kSpared = 0.6f;   // of its size at rest: a larger triangle moves no corner
 constexpr float kStep = 0.6f;     // of the way to the neighbours' middle
+constexpr float kFreedSoon = 4;   // times the share that is pressed: vertices are free to move as far as they like
 constexpr float kSameSide = 0.8f; // cosine: a normal that is so near to the surface's stays
 constexpr float kLeastArea = 1e-12f;  // [m2]
 
@@ -39,7 +40,13 @@ std::span<const shared::FanTriangle> fanOf(const PatchTable& table, std::uint32_
   return std::span(table.fans).subspan(table.firstFan[vertex], table.firstFan[vertex + 1] - table.firstFan[vertex]);
 }
 
-SurfacePoint moved(std::span<const shared::FanTriangle> fan, float share, std::span<const SurfacePoint> points, SurfacePoint own) {
+// How much a vertex is pressed, and the middle of its neighbours.
+struct Pressed {
+  float share;
+  vec3 middle;
+};
+
+Pressed pressedAt(std::span<const shared::FanTriangle> fan, std::span<const SurfacePoint> points, const SurfacePoint& own) {
   vec3 sum(0);
   float least = 3e38f;
   for (const shared::FanTriangle& triangle : fan) {
@@ -47,9 +54,22 @@ SurfacePoint moved(std::span<const shared::FanTriangle> fan, float share, std::s
     least = std::min(least, dotOf(glm::cross(a - own.position, b - own.position), own.normal) * triangle.perArea);
     sum += a + b;
   }
-  const float pressed = 1.0f - ramp(least / kSpared);
-  own.position = own.position + (share * kStep * pressed) * (sum / float(2 * fan.size()) - own.position);
-  return own;
+  return {1.0f - ramp(least / kSpared), sum / float(2 * fan.size())};
+}
+
+// Which vertices may move, and how much: those that are pressed before any step, and their neighbours.
+std::vector<float> freed(const PatchTable& table, const PatchTable::Patch& patch, std::span<const SurfacePoint> points) {
+  std::vector<float> pressed(patch.vertexCount), most(patch.vertexCount);
+  for (std::uint32_t v = 0; v < patch.vertexCount; ++v)
+    if (const auto fan = fanOf(table, patch.firstVertex + v); !fan.empty()) pressed[v] = pressedAt(fan, points, points[v]).share;
+  for (std::uint32_t v = 0; v < patch.vertexCount; ++v) {
+    float share = pressed[v];
+    const auto fan = fanOf(table, patch.firstVertex + v);
+    for (const shared::FanTriangle& triangle : fan)
+      share = std::max(share, std::max(pressed[triangle.corners & 0xffffu], pressed[triangle.corners >> 16]));
+    if (!fan.empty()) most[v] = std::min(kFreedSoon * share, 1.0f);
+  }
+  return most;
 }
 
 vec3 turned(std::span<const shared::FanTriangle> fan, float share, std::span<const SurfacePoint> points, const SurfacePoint& own) {
@@ -111,17 +131,19 @@ float patchSmoothing(const PatchTable& table, const PatchTable::Patch& patch, st
 void smoothPatch(const PatchTable& table, const PatchTable::Patch& patch, float share, std::span<SurfacePoint> vertices) {
   std::vector<SurfacePoint> from(vertices.begin(), vertices.end()), to = from;
   for (SurfacePoint& point : from) point.normal = unpackOctahedral(packOctahedral(point.normal));  // as it is stored between
+  const std::vector<float> free = freed(table, patch, from);
+  to = from;
   for (std::uint32_t step = 0; step < shared::kPatchSteps; ++step) {
     for (std::uint32_t v = 0; v < patch.vertexCount; ++v) {
-      const auto fan = fanOf(table, patch.firstVertex + v);
-      to[v] = fan.empty() ? from[v] : moved(fan, share, from, from[v]);
+      if (free[v] == 0) continue;
+      const Pressed pressed = pressedAt(fanOf(table, patch.firstVertex + v), from, from[v]);
+      const float part = share * kStep * pressed.share * free[v];
+      to[v].position = from[v].position + part * (pressed.middle - from[v].position);
     }
     from.swap(to);
   }
-  for (std::uint32_t v = 0; v < patch.vertexCount; ++v) {
-    const auto fan = fanOf(table, patch.firstVertex + v);
-    if (!fan.empty()) vertices[v] = {from[v].position, turned(fan, share, from, from[v])};
-  }
+  for (std::uint32_t v = 0; v < patch.vertexCount; ++v)
+    if (free[v] > 0) vertices[v] = {from[v].position, turned(fanOf(table, patch.firstVertex + v), share * free[v], from, from[v])};
 }
 
 std::vector<SurfacePoint> posePatch(const PatchTable& table, const PatchTable::Patch& patch,

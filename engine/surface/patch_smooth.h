@@ -11,7 +11,7 @@ namespace vasa {
 /// The triangles around each vertex that may be smoothed. Every other member of the table has to be there. O(vertices).
 void addFans(PatchTable& table);
 
-/// How much of the smoothing a patch gets, in [0, 1]: none up to where its rings disagree by three quarters of their radii
+/// How much of the smoothing a patch gets, in [0, 1]: none up to where its rings disagree by a radius
 /// about each other's centres, all of it from twice that on. The CPU reference of shaders/patch_strain.comp.
 /// @param seams  of the whole table, posed (PosedSeam::joint)
 float patchSmoothing(const PatchTable& table, const PatchTable::Patch& patch, std::span<const shared::JointRows> seams);

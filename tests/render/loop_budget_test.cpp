@@ -39,8 +39,8 @@ std::map<std::string, unsigned> mostLoops() {
       {"patch_triangles.comp", 2 * kThreadTriangles + kPatchThreads},
       // patches, their pairs of rings
       {"patch_strain.comp", 65536 / 3 / kStrainThreads * (1 + 4 + 6)},
-      // steps and normals, vertices, their triangles
-      {"patch_smooth.comp", (kPatchSteps + 1) * (1 + kMostSmoothed / kSmoothThreads * (1 + kMostFan))},
+      // what is pressed and free, steps and normals; vertices, their triangles
+      {"patch_smooth.comp", (kPatchSteps + 3) * (1 + kMostSmoothed / kSmoothThreads * (1 + kMostFan))},
       // directions, the ring's vertices, where it begins, the strip's triangles and those without area
       {"patches.comp", 3 * m + kMostOnLoop + 2 * m},
       {"occlusion.comp", kOcclusionTaps},
