@@ -340,13 +340,13 @@ float Bones::allowed(std::uint32_t tube, std::uint32_t part) const {
   return state_->solids[part].allowed(tube);
 }
 
-float Bones::room(vec3 place, std::span<const float> allowed) const {
-  float room = std::numeric_limits<float>::max();
-  for (std::uint32_t part = 0; part < allowed.size(); ++part) {
-    const State::Solid& solid = state_->solids[part];
-    if (state_->boxes[part].overlaps({place, place})) room = std::min(room, solid.field.distance(placed(solid.inverse, place)) - allowed[part]);
-  }
-  return room;
+const Aabb& Bones::box(std::uint32_t part) const {
+  return state_->boxes[part];
+}
+
+float Bones::distance(std::uint32_t part, vec3 place) const {
+  const State::Solid& solid = state_->solids[part];
+  return solid.field.distance(placed(solid.inverse, place));
 }
 
 std::uint32_t Bones::partCount() const {

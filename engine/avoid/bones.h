@@ -56,9 +56,10 @@ class Bones {
   enum class Which { all, nearAtLast };
   std::span<const BoneContact> contacts(std::span<const Bezier> tubes, const PosedTubes& posed, Which which = Which::all);
 
-  /// No more than the distance of a place in the pose from the parts, each less what is allowed there, or than a field's band.
-  /// @param allowed  [m] <= 0, one a part
-  float room(vec3 place, std::span<const float> allowed) const;
+  /// Where a part is in the pose, its field's band around it included.
+  const Aabb& box(std::uint32_t part) const;
+  /// Signed distance of a place in the pose from a part [m]; the band, or more, beyond the band.
+  float distance(std::uint32_t part, vec3 place) const;
   /// How deep a tube may be in a part [m], <= 0.
   float allowed(std::uint32_t tube, std::uint32_t part) const;
 

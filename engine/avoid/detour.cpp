@@ -96,7 +96,7 @@ Detour findDetour(const Network& network, const Interference& interference, cons
     widest = std::max(widest, atRest[span + 1].w);
   }
   const float need = factor * widest + kSpareRoom;
-  const Room room(bones, interference, line, kWayAside + need);
+  const Room room(bones, interference, line, kWayAside, 2 * need + kWayRoom);
   const std::vector<vec3> way = findWay(line, room, need);
   if (way.empty()) return {};
   const std::vector<float> places = placesAlong(way, line.places);

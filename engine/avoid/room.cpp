@@ -9,6 +9,7 @@ namespace {
 constexpr float kProbe = 1e-4f;      // [m]
 constexpr float kThinnest = 2e-4f;   // [m] between the balls of a thin tube
 constexpr int kMostBalls = 40;       // of a tube
+constexpr float kCell = 0.004f;      // [m] of the grid
 
 }  // namespace
 
@@ -17,18 +18,21 @@ std::uint32_t StretchLine::nearest(vec3 p) const {
   return std::uint32_t(std::ranges::min_element(places, nearer) - places.begin());
 }
 
-Room::Room(const Bones& bones, const Interference& interference, const StretchLine& line, float reach)
-    : bones_(&bones), firstTube_(line.tubes.front()) {
+Room::Room(const Bones& bones, const Interference& interference, const StretchLine& line, float aside, float widest)
+    : bones_(&bones), widest_(widest), firstTube_(line.tubes.front()) {
+  for (const vec3& place : line.places) box_.add(place, aside);
+  counts_ = ivec3(glm::ceil(box_.extent() / kCell)) + 1;
+  cells_.resize(std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z));
   const std::uint32_t lastTube = line.tubes.back();
-  for (std::uint32_t tube = firstTube_; tube <= lastTube; ++tube) {
-    std::vector<float>& allowed = allowed_.emplace_back();
-    for (std::uint32_t part = 0; part < bones.partCount(); ++part) allowed.push_back(bones.allowed(tube, part));
+  for (std::uint32_t part = 0; part < bones.partCount(); ++part) {
+    if (!bones.box(part).overlaps(box_)) continue;
+    std::vector<float>& allowed = parts_.emplace_back(part).allowed;
+    for (std::uint32_t tube = firstTube_; tube <= lastTube; ++tube) allowed.push_back(bones.allowed(tube, part));
   }
-  Aabb box;
-  for (const vec3& place : line.places) box.add(place, reach);
+  const Aabb reach{box_.low - widest, box_.high + widest};
   const std::span<const Bezier> tubes = interference.tubes();
   for (std::uint32_t tube = 0; tube < tubes.size(); ++tube) {
-    if (!tubes[tube].bounds().overlaps(box) || (tube >= firstTube_ && tube <= lastTube)) continue;
+    if (!tubes[tube].bounds().overlaps(reach) || (tube >= firstTube_ && tube <= lastTube)) continue;
     bool belongs = false;
     float allowed = 0;
     for (std::uint32_t own = firstTube_; own <= lastTube && !belongs; ++own) {
@@ -45,13 +49,32 @@ void Room::addTube(const Bezier& tube, float allowed) {
   const int pieces = std::clamp(int(std::ceil(length / apart)), 1, kMostBalls);
   for (int k = 0; k <= pieces; ++k) {
     const vec4 ball = tube.at(float(k) / float(pieces));
-    balls_.push_back({vec3(ball), ball.w + allowed});
+    addBall({vec3(ball), ball.w + allowed});
   }
 }
 
+void Room::addBall(const Ball& ball) {
+  const float reach = std::max(ball.radius, 0.0f) + widest_;
+  const ivec3 low = glm::max(ivec3(glm::floor((ball.centre - reach - box_.low) / kCell)), ivec3(0));
+  const ivec3 high = glm::min(ivec3(glm::floor((ball.centre + reach - box_.low) / kCell)), counts_ - 1);
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) cells_[std::size_t((z * counts_.y + y) * counts_.x + x)].push_back(std::uint32_t(balls_.size()));
+  balls_.push_back(ball);
+}
+
+std::span<const std::uint32_t> Room::ballsNear(vec3 place) const {
+  const ivec3 cell = ivec3(glm::floor((place - box_.low) / kCell));
+  if (glm::any(glm::lessThan(cell, ivec3(0))) || glm::any(glm::greaterThanEqual(cell, counts_))) return {};
+  return cells_[std::size_t((cell.z * counts_.y + cell.y) * counts_.x + cell.x)];
+}
+
 float Room::at(vec3 place, float wanted, std::uint32_t tube) const {
-  float room = std::min(wanted, bones_->room(place, allowed_[tube - firstTube_]));
-  for (const Ball& ball : balls_) {
+  float room = wanted;
+  for (const Part& part : parts_)
+    if (bones_->box(part.number).overlaps({place, place})) room = std::min(room, bones_->distance(part.number, place) - part.allowed[tube - firstTube_]);
+  for (const std::uint32_t number : ballsNear(place)) {
+    const Ball& ball = balls_[number];
     const vec3 gap = place - ball.centre;
     const float reach = std::max(ball.radius + room, 0.0f);
     if (glm::dot(gap, gap) < reach * reach) room = glm::length(gap) - ball.radius;

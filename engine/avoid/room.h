@@ -18,8 +18,9 @@ struct StretchLine {
 class Room {
  public:
   /// The vessels are interference.tubes(); those of the stretch and their neighbours along it are not in the way.
-  /// @param reach  [m] from the line within which room is asked for
-  Room(const Bones& bones, const Interference& interference, const StretchLine& line, float reach);
+  /// @param aside   [m] from the line, within which room is asked for
+  /// @param widest  [m] the most that is asked for
+  Room(const Bones& bones, const Interference& interference, const StretchLine& line, float aside, float widest);
 
   /// The radius of the largest ball with room there [m], up to `wanted`; below 0 inside of something.
   /// @param tube  of the stretch that is to go there
@@ -32,12 +33,23 @@ class Room {
     vec3 centre;
     float radius;
   };
+  struct Part {
+    std::uint32_t number;
+    std::vector<float> allowed;  // of each tube of the stretch
+  };
   void addTube(const Bezier& tube, float allowed);
+  void addBall(const Ball& ball);
+  std::span<const std::uint32_t> ballsNear(vec3 place) const;
 
   const Bones* bones_;
+  float widest_;
   std::uint32_t firstTube_ = 0;
-  std::vector<std::vector<float>> allowed_;  // of each tube of the stretch, one a part
-  std::vector<Ball> balls_;                  // of other vessels
+  std::vector<Part> parts_;
+  std::vector<Ball> balls_;  // of other vessels
+  // A grid; a cell has the balls that any place in it may be near.
+  Aabb box_;
+  ivec3 counts_{0};
+  std::vector<std::vector<std::uint32_t>> cells_;
 };
 
 }  // namespace vasa

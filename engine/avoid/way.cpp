@@ -15,7 +15,6 @@ constexpr std::size_t kMostLooked = 150'000;
 constexpr float kStraightOn = 1.5f;     // times the way ahead counts: not the very shortest, much sooner
 constexpr float kNearRather = 0.01f;    // [m] from the stretch, at which a way costs twice as much
 constexpr float kAtEnds = 5;            // what a way costs that lacks room near the ends
-constexpr float kMoreRoom = 5e-4f;      // [m] that a way takes where it may
 constexpr int kPulls = 200;
 constexpr std::size_t kSmooth = 12;      // places on both sides
 constexpr float kNever = std::numeric_limits<float>::infinity();
@@ -132,7 +131,7 @@ std::vector<vec3> findWay(const StretchLine& line, const Room& room, float need)
   std::vector<vec3> way = Search(line, room, need).run();
   if (way.empty()) return way;
   way = evenly(way, line.places.size());
-  pullStraight(line, room, need + kMoreRoom, way);
+  pullStraight(line, room, need + kWayRoom, way);
   return evenly(way, line.places.size());
 }
 

@@ -5,8 +5,8 @@
 
 namespace vasa {
 
-/// How far from a stretch its way may lead [m].
-constexpr float kWayAside = 0.015f;
+/// How far from a stretch its way may lead, and how much more room than it needs it takes where it may [m].
+constexpr float kWayAside = 0.015f, kWayRoom = 5e-4f;
 
 /// The shortest way between a stretch's ends on which a ball has room, near where the stretch is rather than far: A*
 /// (Hart, Nilsson, Raphael 1968) over a grid, then pulled straight where there is room. Near the ends, which are where
