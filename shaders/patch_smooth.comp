@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/ring.glsl"
 #include "lib/fork.glsl"
+#include "lib/ramp.glsl"
 #include "shared/patch.h"
 
 layout(local_size_x = kSmoothThreads) in;
@@ -17,12 +18,6 @@ const float kStep = 0.6;    // of the way to the neighbours' middle
 const float kFreedSoon = 4;  // times the share that is pressed: vertices are free to move as far as they like
 const float kSameSide = 0.8;  // cosine: a normal that is so near to the surface's stays
 
-float ramp(float x) {
-  precise float t = clamp(x, 0.0, 1.0);
-  precise float share = t * t * (3.0 - 2.0 * t);
-  return share;
-}
-
 struct Vertex {
   vec3 position, normal;
   uint packedNormal;
@@ -30,19 +25,11 @@ struct Vertex {
 
 Vertex vertexAt(SmoothedVertices vertices, uint v) {
   u64vec2 words = vertices.vertex[v];
-  uvec2 xy = unpack32(words.x), zNormal = unpack32(words.y);
-  return Vertex(vec3(uintBitsToFloat(xy), uintBitsToFloat(zNormal.x)), unpackOctahedral(unpackSnorm(zNormal.y)), zNormal.y);
+  uint normal = normalIn(words);
+  return Vertex(placeIn(words), unpackOctahedral(unpackSnorm(normal)), normal);
 }
 
-vec3 positionAt(SmoothedVertices vertices, uint v) {
-  u64vec2 words = vertices.vertex[v];
-  return vec3(uintBitsToFloat(unpack32(words.x)), uintBitsToFloat(unpack32(words.y).x));
-}
-
-u64vec2 packed(vec3 position, uint normal) {
-  uvec3 place = floatBitsToUint(position);
-  return u64vec2(pack64(place.xy), pack64(uvec2(place.z, normal)));
-}
+vec3 positionAt(SmoothedVertices vertices, uint v) { return placeIn(vertices.vertex[v]); }
 
 // The two other corners of a triangle at a vertex.
 uvec2 cornersOf(uint64_t triangle, uint firstVertex) {
@@ -131,7 +118,7 @@ void takeStep(PatchWall wall, float share, uint step) {
     Pressed pressed = pressedAt(from, own, fanAt(v), wall.firstVertex);
     precise float part = share * kStep * pressed.share * free[i];
     precise vec3 place = own.position + part * (pressed.middle - own.position);
-    to.vertex[v] = packed(place, own.packedNormal);
+    to.vertex[v] = vertexWords(place, own.packedNormal);
   }
 }
 
@@ -141,7 +128,7 @@ void turnNormals(PatchWall wall, float share) {
     if (free[i] == 0) continue;
     Vertex own = vertexAt(push.between, v);
     vec3 normal = turned(push.between, own, fanAt(v), wall.firstVertex, share * free[i]);
-    push.vertices.vertex[v] = packed(own.position, packOctahedral(normal));
+    push.vertices.vertex[v] = packVertex(SurfacePoint(own.position, normal));
   }
 }
 

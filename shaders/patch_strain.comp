@@ -5,6 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/ramp.glsl"
 #include "lib/section.glsl"
 #include "lib/words.glsl"
 #include "shared/patch.h"
@@ -38,9 +39,8 @@ float smoothingOf(PatchWall wall) {
   float most = 0;
   for (uint i = wall.firstSeam; i < wall.firstSeam + wall.seamCount; ++i)
     for (uint j = i + 1; j < wall.firstSeam + wall.seamCount; ++j) most = max(most, disagreement(i, j));
-  precise float t = clamp((most - kLeastStrain) / (kFullStrain - kLeastStrain), 0.0, 1.0);
-  precise float share = t * t * (3.0 - 2.0 * t);
-  return share;
+  precise float strain = (most - kLeastStrain) / (kFullStrain - kLeastStrain);
+  return ramp(strain);
 }
 
 void main() {

@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/picture_place.glsl"
 #include "lib/records.glsl"
+#include "lib/words.glsl"
 #include "shared/patch.h"
 
 const uint kGroupThreads = kPatchThreads;
@@ -15,11 +16,7 @@ const uint kGroupThreads = kPatchThreads;
 layout(local_size_x = kPatchThreads) in;
 layout(push_constant, scalar) uniform Push { PatchTrianglesPush push; };
 
-vec3 positionOf(uint vertex) {
-  u64vec2 words = push.vertices.vertex[vertex];
-  uvec2 xy = unpack32(words.x), zNormal = unpack32(words.y);
-  return vec3(uintBitsToFloat(xy), uintBitsToFloat(zNormal.x));
-}
+vec2 placeAt(uint vertex) { return placeOf(placeIn(push.vertices.vertex[vertex])); }
 
 uvec3 triangleAt(uint triangle) {
   uint first = 3 * triangle;
@@ -29,7 +26,7 @@ uvec3 triangleAt(uint triangle) {
 bool isSeen(uvec3 t) {
   if (push.keepAll != 0) return true;
   if (t.x == t.y) return false;  // a strip's room that is not used
-  return seenOfTriangle(placeOf(positionOf(t.x)), placeOf(positionOf(t.y)), placeOf(positionOf(t.z)), vec2(view.columns, view.rows), view.snap);
+  return seenOfTriangle(placeAt(t.x), placeAt(t.y), placeAt(t.z), vec2(view.columns, view.rows), view.snap);
 }
 
 void main() {

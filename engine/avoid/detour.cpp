@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "avoid/way.h"
+#include "curve/fit.h"
 
 namespace vasa {
 namespace {
@@ -35,16 +36,12 @@ class MovingVessel {
   float parameter(std::uint32_t sample) const { return glm::mix(first_, last_, float(sample) / float(kSamples - 1)); }
   std::uint32_t spanOf(float u) const { return std::clamp(std::uint32_t(u), firstSpan(), lastSpan()); }
   vec3 at(float u) const { return vec3(bezierOfSpan(points_, spanOf(u)).at(u - float(spanOf(u)))); }
-  // The nearest to a place that a point has.
-  float greville(std::uint32_t point) const {
-    const auto knot = [&](std::uint32_t k) { return std::clamp(float(k) - 3, 0.0f, spans_); };
-    return (knot(point + 1) + knot(point + 2) + knot(point + 3)) / 3;
-  }
+  float placeOf(std::uint32_t point) const { return float(greville(point, vessel_.spanCount())); }
   // @param wanted  the place of a parameter
   void fit(const auto& wanted) {
     std::vector<vec3> steps(end_ - begin_);
     for (int round = 0; round < kFits; ++round) {
-      for (std::uint32_t l = begin_; l < end_; ++l) steps[l - begin_] = wanted(greville(l)) - at(greville(l));
+      for (std::uint32_t l = begin_; l < end_; ++l) steps[l - begin_] = wanted(placeOf(l)) - at(placeOf(l));
       for (std::uint32_t l = begin_; l < end_; ++l) points_[l] += vec4(steps[l - begin_], 0);
     }
   }
@@ -57,7 +54,7 @@ class MovingVessel {
         const vec3 step = wanted(k, at(u));
         if (step == vec3(0)) continue;
         const std::uint32_t span = spanOf(u);
-        const vec4 shares = glm::transpose(spanToBezier(span, vessel_.spanCount())) * bernstein(u - float(span));
+        const vec4 shares = deBoorWeights(span, vessel_.spanCount(), u - float(span));
         for (std::uint32_t i = 0; i < 4; ++i)
           if (span + i >= begin_ && span + i < end_) steps[span + i - begin_] += shares[int(i)] * vec4(step, 1);
       }

@@ -166,7 +166,7 @@ void Avoider::State::goAroundBones(const PosedVessels& posed, const VolumeKeeper
     const Outcome before = present(points);
     for (const float width : kWidths) {
       const Detour detour = [&] {
-        Timer timer(report.solveMs);
+        StageClock clock(report.solveMs);
         return findDetour(network, interference, *bones, stretch, points, width);
       }();
       if (detour.motions.empty()) continue;

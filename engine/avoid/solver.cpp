@@ -109,7 +109,7 @@ void Avoider::State::place(const PosedVessels& posed, const VolumeKeeper* volume
 void Avoider::State::look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report) {
   report.certifyMs = 0;
   {
-    Timer timer(report.certifyMs);
+    StageClock clock(report.certifyMs);
     places = interference.find(points);
     sides.findChanged(interference.tubes(), posed.rotations, changed);
   }
@@ -119,7 +119,7 @@ void Avoider::State::look(const PosedVessels& posed, std::span<const vec4> point
 
 void Avoider::State::lookAtBones(Bones::Which which, AvoidReport& report) {
   if (!bones) return;
-  Timer timer(report.boneMs);
+  StageClock clock(report.boneMs);
   boneContacts = bones->contacts(interference.tubes(), {posedTubes, posedTurns}, which);
   if (!wall) return;
   skinContacts.clear();
@@ -132,7 +132,7 @@ void Avoider::State::separate(unsigned rounds, const PosedVessels& posed, const 
                               AvoidReport& report) {
   for (unsigned round = 0; round < rounds; ++round) {
     {
-      Timer timer(report.solveMs);
+      StageClock clock(report.solveMs);
       const std::span<const Bezier> tubes = interference.tubes();
       const bool grew = pool.refresh(tubes);
       const std::size_t added = pool.add(places, changed, tubes, posed);
@@ -181,7 +181,7 @@ void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volu
     const bool apart = certificateOf(places, &remaining).holds(), lastResort = 2 * round >= options.lumenRounds;
     if (apart && (lastResort || boneContacts.empty())) break;
     {
-      Timer timer(report.solveMs);
+      StageClock clock(report.solveMs);
       if (!gave) {
         gave = gaveWay = true;
         most.assign(points.size(), std::numeric_limits<float>::infinity());
@@ -209,7 +209,7 @@ std::vector<vec4> Avoider::State::widePoints(const VolumeKeeper* volume, std::sp
 void Avoider::State::tryAgain(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points,
                               AvoidReport& report) {
   {
-    Timer timer(report.solveMs);
+    StageClock clock(report.solveMs);
     sumUp();
     place(posed, volume, points);
   }

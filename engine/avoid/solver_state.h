@@ -1,27 +1,12 @@
 #pragma once
-#include <chrono>
-
 #include "avoid/bone_constraints.h"
 #include "avoid/constraints.h"
 #include "avoid/detour.h"
 #include "avoid/skin_wall.h"
 #include "avoid/solver.h"
+#include "core/clock.h"
 
 namespace vasa {
-
-/// Adds the time until it goes to a sum [ms].
-class Timer {
- public:
-  explicit Timer(double& sum) : sum_(sum) {}
-  ~Timer() { sum_ += std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
-  Timer(const Timer&) = delete;
-  Timer& operator=(const Timer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& sum_;
-  Clock::time_point start_ = Clock::now();
-};
 
 /// Tubes of contacts that lie tube by tube.
 std::uint32_t tubesOf(std::span<const BoneContact> contacts);

@@ -45,13 +45,6 @@ Problem prepare(std::span<const vec4> samples, const FitOptions& options) {
   return problem;
 }
 
-// Place of each de Boor point along the parameter: mean of its three knots.
-double greville(std::uint32_t j, std::uint32_t spans) {
-  double sum = 0;
-  for (int k = -2; k <= 0; ++k) sum += std::clamp(int(j) + k, 0, int(spans));
-  return sum / 3;
-}
-
 using Points = std::vector<vec4>;
 
 class NormalEquations {
@@ -194,6 +187,12 @@ Fit straight(const vec4& from, const vec4& to) {
 }
 
 }  // namespace
+
+double greville(std::uint32_t j, std::uint32_t spans) {
+  double sum = 0;
+  for (int k = -2; k <= 0; ++k) sum += std::clamp(int(j) + k, 0, int(spans));
+  return sum / 3;
+}
 
 Fit fitSplineMeasured(std::span<const vec4> samples, const FitOptions& options) {
   assert(samples.size() >= 2);

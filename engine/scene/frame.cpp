@@ -1,27 +1,9 @@
 #include "scene/frame.h"
 
-#include <chrono>
-
+#include "core/clock.h"
 #include "surface/sweep_table.h"
 
 namespace vasa {
-namespace {
-
-// Adds the time since it was made to a place, in milliseconds.
-class StageClock {
- public:
-  explicit StageClock(double& out) : out_(out) {}
-  ~StageClock() { out_ = std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
-  StageClock(const StageClock&) = delete;
-  StageClock& operator=(const StageClock&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& out_;
-  Clock::time_point start_ = Clock::now();
-};
-
-}  // namespace
 
 FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
     : scene_(&scene),

@@ -52,8 +52,7 @@ Section ringSection(SweepCurve curve, uint ring, uint along) {
 
 // A TubeVertex in as few words as can be: storing them is most of what tessellation costs a CPU device.
 u64vec2 packVertex(SurfacePoint point) {
-  uvec3 place = floatBitsToUint(point.position);
-  return u64vec2(pack64(place.xy), pack64(uvec2(place.z, packOctahedral(point.normal))));
+  return vertexWords(point.position, packOctahedral(point.normal));
 }
 
 #endif
