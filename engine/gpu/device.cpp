@@ -1,5 +1,6 @@
 #include "gpu/device.h"
 
+#include "gpu/driver_threads.h"
 #include "gpu/error.h"
 
 namespace vasa::gpu {
@@ -99,7 +100,9 @@ void Device::create(const DeviceOptions& options) {
   info.pQueueCreateInfos = &queueInfo;
   info.enabledExtensionCount = std::uint32_t(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
+  const DriverThreads threads;
   check(vkCreateDevice(physical_, &info, nullptr, &owner_.device), "vkCreateDevice");
+  threads.spread();
 }
 
 void Device::loadLabels() {

@@ -1,0 +1,20 @@
+#pragma once
+#include <vector>
+
+namespace vasa::gpu {
+
+/// The worker threads that a CPU device's driver (Mesa's lavapipe) makes when its Vulkan device is made, kept on one
+/// processor each. Left alone, Linux often wakes all of them where the thread ran that gave them work, and they take turns
+/// there while other processors idle: a tenth of a frame on two. Does nothing for other drivers, elsewhere than on Linux,
+/// or with one processor.
+class DriverThreads {
+ public:
+  DriverThreads();  ///< notes the threads that are there already
+  /// Those made since. Call after the device was made.
+  void spread() const;
+
+ private:
+  std::vector<int> before_;  // sorted
+};
+
+}  // namespace vasa::gpu
