@@ -34,7 +34,7 @@ struct Options {
   std::uint32_t frames = 40;
   unsigned samples = 1;
   CapillaryOptions capillaries;
-  bool body = false, avoid = true;
+  bool body = false, avoid = true, cull = true;
 };
 
 struct Setting {
@@ -69,6 +69,7 @@ ProfileSetting profileSetting(const Setting& setting, const Options& options) {
           .render = {.width = setting.size.width,
                      .height = setting.size.height,
                      .samples = options.samples,
+                     .cull = options.cull,
                      .growth = setting.growth.get(),
                      .capillaries = wishOf(setting.capillaries)},
           .look = setting.look,
@@ -157,6 +158,7 @@ Result<void> run(const Globals& globals, const Options& options) {
                {"size", options.size},
                {"clip", setting->clip ? setting->clip->name : "rest"},
                {"frames", options.frames},
+               {"cull", options.cull},
                {"measured", kMeasured},
                {"rows", Report::array()}};
     std::vector<ProfileQuads> quads;
@@ -187,6 +189,7 @@ void addProfile(CLI::App& app, Command& command) {
   sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
   sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart, too (the default)");
+  sub->add_flag("--cull,!--no-cull", options->cull, "Leave out triangles that cannot be seen (the default); the paper draws them all");
   sub->add_flag("--with-body", options->body, "Draw the body's meshes too");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
