@@ -25,6 +25,7 @@ constexpr float kStride = 0.8f;  // ... and of the distance
 constexpr float kNearAtRest = 0.02f;  // [m] what lay so near a part belongs on that side of it
 const float kAlong = std::cos(0.5f * 50 * kPi / 180);  // ... unless it has turned about it by more than this
 constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
+constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
 constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
 
 // One part: what of a mesh one joint carries.
@@ -117,6 +118,12 @@ struct Bones::State {
     float allowed;
     float f = 0;  // no more than it was anywhere on the tube when all were looked at
   };
+  struct Seen {  // a pair when it was looked at last, maybe some frames ago
+    std::uint32_t part, tube;
+    float f;
+    Bezier shape;  // in the part's own space
+    bool before(std::uint32_t otherPart, std::uint32_t otherTube) const { return part != otherPart ? part < otherPart : tube < otherTube; }
+  };
   struct Tubes {
     std::span<const Bezier> now;
     const PosedTubes& posed;
@@ -128,14 +135,17 @@ struct Bones::State {
   std::vector<Aabb> boxes;    // of the parts in the pose
   std::vector<std::vector<BoneContact>> found;  // a task each
   std::vector<std::vector<Near>> near;          // of the last look at all tubes, a task each
+  std::vector<std::vector<Seen>> seen, seenBefore;  // likewise; by part, then tube
   std::vector<BoneContact> contacts;
   std::size_t restContacts = 0;
 
-  void findNear(std::size_t task, std::span<const Bezier> tubes);
+  void lookAtAll(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out);
+  void lookAtNear(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out);
   void findNewlyNear(std::size_t task, const Tubes& tubes);
   bool mayTouch(const Aabb& box, std::uint32_t part) const;
   std::optional<bool> lookIfThin(Near& at, const Bezier& shape) const;
-  bool look(Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const;
+  Bezier inPart(std::uint32_t part, Bezier shape) const;
+  bool look(Near& at, const Bezier& shape, const Tubes& tubes, std::vector<BoneContact>& out) const;
   vec3 home(const Near& at, float s, const Tubes& tubes) const;
   bool isFree(const vec4& ball, std::uint32_t part) const;
   void leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const;
@@ -218,12 +228,15 @@ std::optional<bool> Bones::State::lookIfThin(Near& at, const Bezier& shape) cons
   return inBand;
 }
 
-// Returns whether the tube is within the field's band somewhere.
-bool Bones::State::look(Near& at, const Tubes& tubes, std::vector<BoneContact>& out) const {
+Bezier Bones::State::inPart(std::uint32_t part, Bezier shape) const {
+  for (vec4& b : shape.b) b = vec4(placed(solids[part].inverse, vec3(b)), b.w);
+  return shape;
+}
+
+// Returns whether the tube is within the field's band somewhere. @param shape  in the part's own space
+bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes, std::vector<BoneContact>& out) const {
   const Solid& solid = solids[at.part];
   const DistanceField& field = solid.field;
-  Bezier shape = tubes.now[at.tube];  // from the part's own space
-  for (vec4& b : shape.b) b = vec4(placed(solid.inverse, vec3(b)), b.w);
   if (const std::optional<bool> isNear = lookIfThin(at, shape)) return *isNear;
   bool inBand = false;
   at.f = std::numeric_limits<float>::max();
@@ -235,7 +248,7 @@ bool Bones::State::look(Near& at, const Tubes& tubes, std::vector<BoneContact>& 
     const vec3 centre(ball);
     // A tube wider than the field's band is a ring of balls that are not.
     const float small = std::min(ball.w, kWidest * field.band()), off = ball.w - small;
-    if (off > 0) at.f = -field.band();  // its ring turns with the tube
+    if (off > 0) at.f = std::numeric_limits<float>::lowest();  // its ring turns with the tube
     if (off > 0 && field.clearance(centre) > ball.w + field.band()) continue;
     const vec3 along = off > 0 ? unitOr(vec3(shape.derivative(s)), {0, 0, 1}) : vec3(0);
     const vec3 u = off > 0 ? anyPerpendicular(along) : vec3(0), v = glm::cross(along, u);
@@ -295,20 +308,48 @@ bool Bones::State::mayTouch(const Aabb& box, std::uint32_t part) const {
   return solids[part].field.clearance(middle) <= 0.5f * glm::length(box.extent()) + kMovedFar;
 }
 
-// Pairs of tubes and parts that may be near one another.
-void Bones::State::findNear(std::size_t task, std::span<const Bezier> tubes) {
+// Pairs of tubes and parts that may be near one another. One that has moved less against the part, since it was looked at,
+// than it was from entering has not entered: most vessels go along with the bones beside them.
+void Bones::State::lookAtAll(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out) {
+  const std::span<const Bezier> now = tubes.now;
+  std::swap(seen[task], seenBefore[task]);
+  seen[task].clear();
   near[task].clear();
-  const std::size_t begin = task * kTubesPerTask, end = std::min(tubes.size(), begin + kTubesPerTask);
+  auto last = seenBefore[task].begin();
+  const auto lastEnd = seenBefore[task].end();
+  const std::size_t begin = task * kTubesPerTask, end = std::min(now.size(), begin + kTubesPerTask);
   std::array<Aabb, kTubesPerTask> boxesOf;
   Aabb all;
-  for (std::size_t i = begin; i < end; ++i) boxesOf[i - begin] = tubes[i].bounds(), all.add(boxesOf[i - begin]);
+  for (std::size_t i = begin; i < end; ++i) boxesOf[i - begin] = now[i].bounds(), all.add(boxesOf[i - begin]);
   for (std::uint32_t part = 0; part < solids.size(); ++part) {
     if (!boxes[part].overlaps(all)) continue;
     for (std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
       const Aabb& box = boxesOf[i - begin];
-      if (boxes[part].overlaps(box) && mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i)});
+      if (!boxes[part].overlaps(box)) continue;
+      while (last != lastEnd && last->before(part, i)) ++last;
+      const bool known = last != lastEnd && last->part == part && last->tube == i;
+      Near at{i, part, solids[part].allowed(i)};
+      const Bezier shape = inPart(part, now[i]);
+      if (known) at.f = last->f - kSteepest * distanceMoved(last->shape, shape) - kRounding;
+      if (known && at.f > at.allowed) {
+        seen[task].push_back(*last);
+        near[task].push_back(at);
+        continue;
+      }
+      if (!mayTouch(box, part)) continue;
+      const bool inBand = look(at, shape, tubes, out);
+      seen[task].push_back({part, i, at.f, shape});
+      if (inBand) near[task].push_back(at);
     }
   }
+}
+
+// What was not moved as far as it was from entering has not entered.
+void Bones::State::lookAtNear(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out) {
+  findNewlyNear(task, tubes);
+  for (Near at : near[task])
+    if (at.f - at.allowed <= kSteepest * distanceMoved(tubes.now[at.tube], tubes.posed.tubes[at.tube]))
+      look(at, inPart(at.part, tubes.now[at.tube]), tubes, out);
 }
 
 Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::make_unique<State>()) {
@@ -379,22 +420,12 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, cons
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
   state.found.resize(tasks);
   state.near.resize(tasks);
+  state.seen.resize(tasks);
+  state.seenBefore.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
     state.found[task].clear();
-    if (which == Which::all) state.findNear(task, tubes);
-    else state.findNewlyNear(task, {tubes, posed});
-    auto& out = state.found[task];
-    std::erase_if(state.near[task], [&](State::Near& at) {
-      if (which == Which::nearAtLast) {
-        // What was not moved as far as it was from entering has not entered.
-        if (at.f - at.allowed <= kSteepest * distanceMoved(tubes[at.tube], posed.tubes[at.tube])) {
-          State::Near now = at;
-          state.look(now, {tubes, posed}, out);
-        }
-        return false;
-      }
-      return !state.look(at, {tubes, posed}, out);
-    });
+    if (which == Which::all) state.lookAtAll(task, {tubes, posed}, state.found[task]);
+    else state.lookAtNear(task, {tubes, posed}, state.found[task]);
   });
   state.contacts.clear();
   for (std::size_t task = 0; task < tasks; ++task)
