@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "avoid/solver.h"
+#include "collide/network_tubes.h"
 #include "network/builder.h"
 #include "support/meshes.h"
 #include "support/networks.h"
@@ -171,4 +172,39 @@ TEST_CASE("a vessel between two bones that leave it too little room gives way") 
   CHECK(report.narrowSpans > 0);
   CHECK(report.leastLumen > 0.4f);
   CHECK(report.leastLumen < 0.85f);
+}
+
+TEST_CASE("what was seen in earlier poses changes nothing of what is found in a bone now") {
+  // Steps small and large: near the bone, away from it, in it, and back; a thin vessel, one thicker than the field is wide,
+  // and one that lies deeper in the bone at rest than that.
+  for (const vec2 radiusAndHeight : {vec2(0.002f, 0.014f), vec2(0.012f, 0.025f), vec2(0.012f, 0.012f)}) {
+    const Setting setting = settingAt(radiusAndHeight.y);
+    const NetworkTubes layout(setting.network);
+    std::vector<vec4> thick(setting.network.points().begin(), setting.network.points().end());
+    for (vec4& p : thick) p.w = radiusAndHeight.x;
+    std::vector<Bezier> rest(layout.count()), now(layout.count());
+    layout.shape(thick, rest);
+    Bones kept(setting.body, rest);
+    std::size_t found = 0;
+    for (int step = 0; step < 60; ++step) {
+      const float down = 0.011f * (1 - std::cos(0.21f * float(step))) + (step % 7 == 0 ? 0.004f : 0.0f);
+      const std::vector<mat4> joints{glm::rotate(mat4(1), 0.02f * float(step % 11), vec3(0, 0, 1))};
+      std::vector<vec4> points = thick;
+      for (vec4& p : points) p.y -= down;
+      layout.shape(points, now);
+      Bones fresh(setting.body, rest);
+      for (Bones* bones : {&kept, &fresh}) bones->pose(joints);
+      const auto a = kept.contacts(now, {now, {}}), b = fresh.contacts(now, {now, {}});
+      CAPTURE(step);
+      REQUIRE(a.size() == b.size());
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        CHECK(a[k].tube == b[k].tube);
+        CHECK(a[k].s == b[k].s);
+        CHECK(a[k].f == b[k].f);
+        CHECK(a[k].normal == b[k].normal);
+      }
+      found += a.size();
+    }
+    CHECK(found > 20);
+  }
 }
