@@ -26,6 +26,7 @@ constexpr float kNearAtRest = 0.02f;  // [m] what lay so near a part belongs on 
 const float kAlong = std::cos(0.5f * 50 * kPi / 180);  // ... unless it has turned about it by more than this
 constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
+constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
 constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
 
 // One part: what of a mesh one joint carries.
@@ -248,7 +249,7 @@ bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes, std::
     const vec3 centre(ball);
     // A tube wider than the field's band is a ring of balls that are not.
     const float small = std::min(ball.w, kWidest * field.band()), off = ball.w - small;
-    if (off > 0) at.f = std::numeric_limits<float>::lowest();  // its ring turns with the tube
+    if (off > 0) at.f = kUnknown;  // its ring turns with the tube
     if (off > 0 && field.clearance(centre) > ball.w + field.band()) continue;
     const vec3 along = off > 0 ? unitOr(vec3(shape.derivative(s)), {0, 0, 1}) : vec3(0);
     const vec3 u = off > 0 ? anyPerpendicular(along) : vec3(0), v = glm::cross(along, u);
@@ -297,7 +298,7 @@ void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
     for (std::uint32_t part = 0; part < solids.size(); ++part) {
       if (!boxes[part].overlaps(box)) continue;
       if (std::ranges::any_of(near[task], [&](const Near& at) { return at.tube == i && at.part == part; })) continue;
-      if (mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i), -solids[part].field.band()});
+      if (mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i), kUnknown});
     }
   }
 }
@@ -328,15 +329,15 @@ void Bones::State::lookAtAll(std::size_t task, const Tubes& tubes, std::vector<B
       if (!boxes[part].overlaps(box)) continue;
       while (last != lastEnd && last->before(part, i)) ++last;
       const bool known = last != lastEnd && last->part == part && last->tube == i;
-      Near at{i, part, solids[part].allowed(i)};
+      if (!known && !mayTouch(box, part)) continue;
       const Bezier shape = inPart(part, now[i]);
+      Near at{i, part, solids[part].allowed(i)};
       if (known) at.f = last->f - kSteepest * distanceMoved(last->shape, shape) - kRounding;
       if (known && at.f > at.allowed) {
         seen[task].push_back(*last);
         near[task].push_back(at);
         continue;
       }
-      if (!mayTouch(box, part)) continue;
       const bool inBand = look(at, shape, tubes, out);
       seen[task].push_back({part, i, at.f, shape});
       if (inBand) near[task].push_back(at);

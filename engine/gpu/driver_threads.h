@@ -5,7 +5,7 @@ namespace vasa::gpu {
 
 /// The worker threads that a CPU device's driver (Mesa's lavapipe) makes when its Vulkan device is made, kept on one
 /// processor each. Left alone, Linux often wakes all of them where the thread ran that gave them work, and they take turns
-/// there while other processors idle: a tenth of a frame on two. Does nothing for other drivers, elsewhere than on Linux,
+/// there while other processors idle: a sixth of a frame on two. Does nothing for other drivers, elsewhere than on Linux,
 /// or with one processor.
 class DriverThreads {
  public:

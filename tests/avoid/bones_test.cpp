@@ -182,7 +182,7 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
     const NetworkTubes layout(setting.network);
     std::vector<vec4> thick(setting.network.points().begin(), setting.network.points().end());
     for (vec4& p : thick) p.w = radiusAndHeight.x;
-    std::vector<Bezier> rest(layout.count()), now(layout.count());
+    std::vector<Bezier> rest(layout.count()), now(rest), later(rest);
     layout.shape(thick, rest);
     Bones kept(setting.body, rest);
     std::size_t found = 0;
@@ -204,6 +204,11 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
         CHECK(a[k].normal == b[k].normal);
       }
       found += a.size();
+      for (vec4& p : points) p.y -= 0.001f;
+      layout.shape(points, later);
+      const auto c = kept.contacts(later, {now, {}}, Bones::Which::nearAtLast), d = fresh.contacts(later, {now, {}});
+      REQUIRE(c.size() == d.size());
+      for (std::size_t k = 0; k < c.size(); ++k) CHECK(c[k].f == d[k].f);
     }
     CHECK(found > 20);
   }
