@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/clock.h"
+#include "core/parallel.h"
 
 namespace vasa::viewer {
 namespace {
@@ -76,7 +77,11 @@ struct PoseWorker::Maker {
   std::optional<VesselMeter> meter;
 };
 
-PoseWorker::PoseWorker(std::function<void()> done) : done_(std::move(done)), thread_([this] { work(); }) {}
+PoseWorker::PoseWorker(std::function<void()> done, bool besidePicture)
+    : done_(std::move(done)), thread_([this, besidePicture] {
+        if (besidePicture) giveWay();
+        work();
+      }) {}
 
 PoseWorker::~PoseWorker() {
   {

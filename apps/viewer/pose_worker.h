@@ -44,8 +44,9 @@ struct PosedBody {
 /// only the latest is; one for another document cancels what is being done, and so does the end.
 class PoseWorker {
  public:
-  /// @param done  called from the worker's thread after each shape
-  explicit PoseWorker(std::function<void()> done);
+  /// @param done           called from the worker's thread after each shape
+  /// @param besidePicture  the processors that make shapes draw them, too: drawing comes first
+  explicit PoseWorker(std::function<void()> done, bool besidePicture = false);
   ~PoseWorker();
   PoseWorker(const PoseWorker&) = delete;
   PoseWorker& operator=(const PoseWorker&) = delete;

@@ -21,7 +21,7 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       state_(settings.state),
       pointer_(ui_.scale()),
       poseTool_(ui_.scale()),
-      worker_([] { Window::wake(); }),
+      worker_([] { Window::wake(); }, device_.isCpu()),
       width_(window.width()),
       height_(window.height()) {
   ui_.useClipboard(window);

@@ -3,6 +3,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_scheduler_observer.h>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 #include <memory>
 #include <thread>
@@ -13,6 +18,22 @@ namespace vasa {
 namespace {
 
 std::unique_ptr<tbb::global_control> limit;
+
+void lowerPriority() {
+#ifdef __linux__
+  constexpr int kNice = 10;
+  if (getpriority(PRIO_PROCESS, 0) < kNice) setpriority(PRIO_PROCESS, 0, kNice);  // of this thread alone
+#endif
+}
+
+class WorkersGiveWay final : public tbb::task_scheduler_observer {
+ public:
+  WorkersGiveWay() { observe(true); }  // those of the calling thread's loops
+  ~WorkersGiveWay() override { observe(false); }
+  void on_scheduler_entry(bool worker) override {
+    if (worker) lowerPriority();
+  }
+};
 
 }  // namespace
 
@@ -35,6 +56,11 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
       body(i);
     }
   });
+}
+
+void giveWay() {
+  lowerPriority();
+  thread_local const WorkersGiveWay workers;
 }
 
 }  // namespace vasa

@@ -14,4 +14,10 @@ unsigned threadCount();
 /// @param grain  iterations that are worth handing to another thread
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
 
+/// From now on the calling thread, and the workers that take part in its parallel loops, let threads of the usual priority
+/// go first, yet never stand still for them (nice 10: a tenth of their share). For what is made beside a picture that the
+/// same processors draw: a driver's thread that waits for a turn keeps all others of its stage waiting. Lasts as long as the
+/// threads do. Does nothing elsewhere than on Linux.
+void giveWay();
+
 }  // namespace vasa

@@ -56,6 +56,8 @@ class Device {
   VkDevice handle() const { return owner_.device; }
   VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
   const Adapter& adapter() const { return adapter_; }
+  /// Draws with the processors that this program runs on.
+  bool isCpu() const { return adapter_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
   /// What is enabled: the required features, and the welcome ones on offer (wideLines, shaderInt64, ...).

@@ -5,6 +5,8 @@
 #include <future>
 
 #include "core/clock.h"
+#include "core/parallel.h"
+#include "gpu/device.h"
 
 namespace vasa {
 namespace {
@@ -65,7 +67,7 @@ struct Profiler::Pass {
     double ms = 0;
   };
   Pass(gpu::Device& device, const ProfileSetting& chosen, const RenderOptions& options)
-      : setting(chosen), renderer(device, chosen.scene->network, chosen.meshes, options), maker(*chosen.scene, {.avoid = chosen.avoid}) {}
+      : setting(chosen), besidePicture(device.isCpu()), renderer(device, chosen.scene->network, chosen.meshes, options), maker(*chosen.scene, {.avoid = chosen.avoid}) {}
 
   void make(std::uint32_t number) {
     Shape& shape = shapes[number % 2];
@@ -83,7 +85,11 @@ struct Profiler::Pass {
   Shape& take(bool ahead) {
     if (next.valid()) next.get();
     else make(frame);
-    if (ahead) next = std::async(std::launch::async, [this, number = frame + 1] { make(number); });
+    if (ahead)
+      next = std::async(std::launch::async, [this, number = frame + 1] {
+        if (besidePicture) giveWay();
+        make(number);
+      });
     return shapes[frame % 2];
   }
   double draw(const Shape& shape) {
@@ -98,6 +104,7 @@ struct Profiler::Pass {
   }
 
   const ProfileSetting& setting;
+  const bool besidePicture;  // shapes are made by the processors that draw
   Renderer renderer;
   RenderInput input;
   std::uint32_t frame = 0;
