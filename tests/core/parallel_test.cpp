@@ -38,15 +38,21 @@ TEST_CASE("a thread that gives way and its loops' workers have a lower priority,
   const int before = priority();
   setThreadCount(4);
   std::mutex mutex;
-  std::set<int> seen;
-  std::thread([&] {
-    giveWay();
-    giveWay();
+  const auto prioritiesInLoop = [&] {
+    std::set<int> seen;
     parallelFor(64, 1, [&](std::size_t) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));  // workers have time to come
       const std::lock_guard lock(mutex);
       seen.insert(priority());
     });
+    return seen;
+  };
+  CHECK(prioritiesInLoop() == std::set<int>{before});  // makes workers that have the usual one
+  std::set<int> seen;
+  std::thread([&] {
+    giveWay();
+    giveWay();
+    seen = prioritiesInLoop();
   }).join();
   CHECK(seen == std::set<int>{std::max(before, 10)});
   CHECK(priority() == before);
