@@ -1,7 +1,7 @@
 #!/bin/sh
-# Draws the README's rows of forks, stills, capillaries and the app from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
-# A row is drawn in several pictures, set side by side and reduced to 256 colours by ffmpeg. The app's windows are those of
-# the tests' session, on a display without a screen (xvfb-run).
+# Draws the README's pictures from the built-in human: scripts/pictures.sh [VASA [FOLDER]]
+# A row is drawn in several pictures, set side by side and reduced to 256 colours by ffmpeg. The app's windows are drawn on a
+# display without a screen (xvfb-run); those of the row are the tests' session's.
 set -eu
 vasa=${1:-build/release/bin/vasa}
 folder=${2:-docs/pictures}
@@ -32,6 +32,23 @@ row() {
   ffmpeg -loglevel error -y $inputs -filter_complex \
     "hstack=$count,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=sierra2_4a" "$folder/$name.png"
 }
+
+# large NAME SIZE OPTIONS...
+large() {
+  name=$1 size=$2
+  shift 2
+  "$vasa" --quiet render --size "$size" --supersample 2 "$@" -o "$folder/$name.png"
+}
+
+# view SIZE SCRIPT
+view() {
+  (cd "$parts" && XDG_CONFIG_HOME=$parts xvfb-run -a -s '-screen 0 1280x1024x24' "$vasa_path" --quiet view --clip walk --size "$1" --script "$2")
+}
+
+large front 640x960 --frames 0
+large walk 480x640 --clip walk --frames 9 --camera 1.8,1.1,2.8/0,0.87,0/33
+large squat 480x640 --clip squat --frames 45 --camera 1.7,0.9,2.6/0,0.62,0.05/27
+large fist 480x640 --clip fist --frames 30 --focus RightHand --distance 0.75
 
 only='--clip stand --hide skin,bones,organs'
 # shellcheck disable=SC2086
@@ -67,10 +84,26 @@ only='--clip stand --hide skin,bones,organs'
 
 sed "s|OUT|$parts|" tests/view/session.txt > "$parts/session.txt"
 vasa_path=$(realpath "$vasa")
-(cd "$parts" && XDG_CONFIG_HOME=$parts xvfb-run -a -s '-screen 0 1280x1024x24' "$vasa_path" --quiet view --clip walk --size 960x640 --script session.txt)
+view 960x640 session.txt
 inputs=''
 for window in posed picked measured searched cut slid; do inputs="$inputs -i $parts/$window.png"; done
 # shellcheck disable=SC2086
 ffmpeg -loglevel error -y $inputs -filter_complex \
   "xstack=inputs=6:layout=0_0|w0_0|w0+w1_0|0_h0|w0_h0|w0+w1_h0,scale=1440:-1:flags=area,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=sierra2_4a" \
   "$folder/session.png"
+
+cat > "$parts/search.txt" <<END
+settle
+hold control
+key f
+let control
+frames 2
+type abdominal aorta
+key enter
+frames 2
+key i
+settle
+window view.png
+END
+view 1280x800 search.txt
+ffmpeg -loglevel error -y -i "$parts/view.png" -vf scale=800:-1:flags=area "$folder/view.png"
