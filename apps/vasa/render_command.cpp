@@ -354,7 +354,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("-o,--output", options->output, "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
-  sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.3 pixels")->capture_default_str();
+  sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.25 pixels")->capture_default_str();
   sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
   sub->add_option("--forks", options->forks, "on: vessels join smoothly; off: they end inside one another, to compare")
       ->check(CLI::IsMember({"on", "off"}))

@@ -3,7 +3,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_scheduler_observer.h>
 
 #ifdef __linux__
 #include <sys/resource.h>
@@ -19,21 +18,7 @@ namespace {
 
 std::unique_ptr<tbb::global_control> limit;
 
-void lowerPriority() {
-#ifdef __linux__
-  constexpr int kNice = 10;
-  if (getpriority(PRIO_PROCESS, 0) < kNice) setpriority(PRIO_PROCESS, 0, kNice);  // of this thread alone
-#endif
-}
-
-class WorkersGiveWay final : public tbb::task_scheduler_observer {
- public:
-  WorkersGiveWay() { observe(true); }  // those of the calling thread's loops
-  ~WorkersGiveWay() override { observe(false); }
-  void on_scheduler_entry(bool worker) override {
-    if (worker) lowerPriority();
-  }
-};
+thread_local bool wayGiven = false;  // by this thread
 
 }  // namespace
 
@@ -49,8 +34,10 @@ unsigned threadCount() {
 
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
   const std::atomic<bool>* const asked = CancellationScope::current();
+  const bool behindOthers = wayGiven;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain ? grain : 1), [&](const auto& range) {
     const CancellationScope scope(asked);
+    if (behindOthers) giveWay();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       checkpoint();
       body(i);
@@ -59,8 +46,12 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
 }
 
 void giveWay() {
-  lowerPriority();
-  thread_local const WorkersGiveWay workers;
+  if (wayGiven) return;
+  wayGiven = true;
+#ifdef __linux__
+  constexpr int kNice = 10;
+  if (getpriority(PRIO_PROCESS, 0) < kNice) setpriority(PRIO_PROCESS, 0, kNice);  // of this thread alone
+#endif
 }
 
 }  // namespace vasa
