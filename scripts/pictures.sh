@@ -40,7 +40,8 @@ large() {
   "$vasa" --quiet render --size "$size" --supersample 2 "$@" -o "$folder/$name.png"
 }
 
-# view SIZE SCRIPT
+vasa_path=$(realpath "$vasa")
+# view SIZE SCRIPT: windows go to $parts
 view() {
   (cd "$parts" && XDG_CONFIG_HOME=$parts xvfb-run -a -s '-screen 0 1280x1024x24' "$vasa_path" --quiet view --clip walk --size "$1" --script "$2")
 }
@@ -83,7 +84,6 @@ only='--clip stand --hide skin,bones,organs'
 }
 
 sed "s|OUT|$parts|" tests/view/session.txt > "$parts/session.txt"
-vasa_path=$(realpath "$vasa")
 view 960x640 session.txt
 inputs=''
 for window in posed picked measured searched cut slid; do inputs="$inputs -i $parts/$window.png"; done

@@ -46,7 +46,7 @@ class PoseWorker {
  public:
   /// @param done           called from the worker's thread after each shape
   /// @param besidePicture  the processors that make shapes draw them, too: drawing comes first
-  explicit PoseWorker(std::function<void()> done, bool besidePicture = false);
+  PoseWorker(std::function<void()> done, bool besidePicture);
   ~PoseWorker();
   PoseWorker(const PoseWorker&) = delete;
   PoseWorker& operator=(const PoseWorker&) = delete;

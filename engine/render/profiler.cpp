@@ -67,7 +67,10 @@ struct Profiler::Pass {
     double ms = 0;
   };
   Pass(gpu::Device& device, const ProfileSetting& chosen, const RenderOptions& options)
-      : setting(chosen), besidePicture(device.isCpu()), renderer(device, chosen.scene->network, chosen.meshes, options), maker(*chosen.scene, {.avoid = chosen.avoid}) {}
+      : setting(chosen),
+        besidePicture(device.isCpu()),
+        renderer(device, chosen.scene->network, chosen.meshes, options),
+        maker(*chosen.scene, {.avoid = chosen.avoid}) {}
 
   void make(std::uint32_t number) {
     Shape& shape = shapes[number % 2];

@@ -21,9 +21,9 @@ namespace vasa {
 
 /// [pixels] error of `--quads auto`: RenderOptions::pixelError.
 constexpr float kAutoPixelError = 0.25f;
-constexpr float kLeastMeshPixelError = 0.6f;
 /// [pixels] of bones, heart and skin beside it: none is so thin as a vessel, and normals stay those of the mesh.
 constexpr float meshPixelError(float pixelError) {
+  constexpr float kLeastMeshPixelError = 0.6f;
   return pixelError <= 0 ? 0 : std::max(kLeastMeshPixelError, 1.5f * pixelError);
 }
 
