@@ -2,8 +2,9 @@
 
 #include "shared/tubes.h"
 
-// A corner moved by s in each coordinate moves the area that it spans with an edge and a sample inside their box by at
-// most 3 s (width + height) + 2 s²; the margin is above that.
+// However its corners move by s at most in each coordinate, a triangle stays within itself widened by a square of 2 s, and
+// so behind its own edges moved outwards by s (|x| + |y|) of the edge, in units of twice an area. Its own area moves by less
+// than 4 s (width + height + s).
 namespace vasa {
 namespace {
 
@@ -17,8 +18,9 @@ vec4 beyond(vec2 p, vec2 edge, vec2 first, vec2 span) {
   return {at, at + alongX, at + alongY, at + alongX + alongY};
 }
 
-bool covers(vec4 outside, float margin) {
-  return std::min(std::min(outside.x, outside.y), std::min(outside.z, outside.w)) <= margin;
+// The same beyond the edge moved outwards as far as its ends may be.
+vec4 wellBeyond(vec2 p, vec2 edge, vec2 first, vec2 span, float snap) {
+  return beyond(p, edge, first, span) - snap * (std::abs(edge.x) + std::abs(edge.y));
 }
 
 bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 samples, float snap) {
@@ -27,12 +29,13 @@ bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 samples, float snap) {
   const vec2 first = glm::max(glm::ceil(low - snap), vec2(0)), last = glm::min(glm::floor(high + snap), samples - 1.0f);
   const vec2 span = last - first;
   if (span.x < 0 || span.y < 0) return false;
-  const vec2 size = high - low, ab = b - a, ac = c - a;
-  const float margin = 4 * snap * (size.x + size.y + snap);
-  if (cross2(ab, ac) > margin) return false;
+  const vec2 size = high - low, ab = b - a, bc = c - b, ca = a - c;
+  if (cross2(ab, bc) > 4 * snap * (size.x + size.y + snap)) return false;
   if (span.x > 1 || span.y > 1) return true;
   // small: each of its samples is looked at
-  return covers(glm::max(glm::max(beyond(a, ab, first, span), beyond(b, c - b, first, span)), beyond(c, -ac, first, span)), margin);
+  const vec4 outside = glm::max(glm::max(wellBeyond(a, ab, first, span, snap), wellBeyond(b, bc, first, span, snap)),
+                                wellBeyond(c, ca, first, span, snap));
+  return std::min(std::min(outside.x, outside.y), std::min(outside.z, outside.w)) <= 0;
 }
 
 }  // namespace

@@ -11,19 +11,19 @@ vec4 beyond(vec2 p, vec2 edge, vec2 first, vec2 span) {
   return vec4(at, at + alongX, at + alongY, at + alongX + alongY);
 }
 
-bool covers(vec4 outside, float margin) {
-  return min(min(outside.x, outside.y), min(outside.z, outside.w)) <= margin;
+// The same beyond the edge moved outwards as far as its ends may be.
+vec4 wellBeyond(vec2 p, vec2 edge, vec2 first, vec2 span, float snap) {
+  return beyond(p, edge, first, span) - snap * (abs(edge.x) + abs(edge.y));
 }
 
 bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 samples, float snap) {
   vec2 low = min(min(a, b), c), high = max(max(a, b), c);
   vec2 first = max(ceil(low - snap), 0.0), last = min(floor(high + snap), samples - 1.0), span = last - first;
-  vec2 size = high - low, ab = b - a, ac = c - a;
-  float margin = 4 * snap * (size.x + size.y + snap);
-  bool seen = span.x >= 0 && span.y >= 0 && cross2(ab, ac) <= margin;
+  vec2 size = high - low, ab = b - a, bc = c - b, ca = a - c;
+  bool seen = span.x >= 0 && span.y >= 0 && cross2(ab, bc) <= 4 * snap * (size.x + size.y + snap);
   bool small = span.x <= 1 && span.y <= 1;  // each of its samples is looked at
-  vec4 outside = max(max(beyond(a, ab, first, span), beyond(b, c - b, first, span)), beyond(c, -ac, first, span));
-  return high.x >= 0.5 * kBehind || (seen && (!small || covers(outside, margin)));
+  vec4 outside = max(max(wellBeyond(a, ab, first, span, snap), wellBeyond(b, bc, first, span, snap)), wellBeyond(c, ca, first, span, snap));
+  return high.x >= 0.5 * kBehind || (seen && (!small || min(min(outside.x, outside.y), min(outside.z, outside.w)) <= 0));
 }
 
 uint seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, vec2 samples, float snap) {
