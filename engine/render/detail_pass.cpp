@@ -23,8 +23,8 @@ void setPlanes(shared::DetailView& view, const mat4& rows) {
 
 }  // namespace
 
-shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, std::uint32_t samples,
-                              const TubeDetail& detail, float snap) {
+shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, const TubeDetail& detail,
+                              float snap) {
   shared::DetailView view{};
   const float width = float(size.width), height = float(size.height);
   const mat4 rows = glm::transpose(viewProjection(camera, width / height));
@@ -44,13 +44,12 @@ shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D
   view.around = detail.automatic() ? 0 : detail.shape.around;
   view.along = detail.automatic() ? 0 : detail.shape.along;
   view.hiddenKinds = hiddenKinds(look);
-  // Vulkan's standard places of four samples lie in four columns and rows of a pixel, evenly.
-  view.columns = width * float(samples);
-  view.rows = height * float(samples);
+  view.columns = width;
+  view.rows = height;
   view.picture[0] = 0.5f * view.columns * (rows[0] + rows[3]) - 0.5f * rows[3];
   view.picture[1] = 0.5f * view.rows * (rows[1] + rows[3]) - 0.5f * rows[3];
   view.picture[2] = rows[3];
-  view.snap = snap * float(samples);
+  view.snap = snap;
   return view;
 }
 

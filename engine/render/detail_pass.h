@@ -7,10 +7,9 @@
 namespace vasa {
 
 /// What a frame's picture asks of the network's tessellation.
-/// @param samples  a pixel: 1 or 4
-/// @param snap     [pixels] how far the device's rasteriser moves corners (detailSnap)
-shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, std::uint32_t samples,
-                              const TubeDetail& detail, float snap);
+/// @param snap  [pixels] how far the device's rasteriser moves corners (detailSnap)
+shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, const TubeDetail& detail,
+                              float snap);
 float detailSnap(const gpu::Device& device, VkExtent2D size);
 
 /// Chooses m of each vessel and n of each sweep by the rule of surface/detail.h, its CPU reference. Owns what it

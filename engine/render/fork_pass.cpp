@@ -4,7 +4,8 @@
 
 namespace vasa {
 
-ForkPass::ForkPass(gpu::Device& device) : pipeline_(device, {spirv::forks_comp, sizeof(shared::ForksPush)}) {}
+ForkPass::ForkPass(gpu::Device& device, std::uint32_t samples)
+    : pipeline_(device, {spirv::forks_comp, sizeof(shared::ForksPush), gpu::Specialization().set(0, samples)}) {}
 
 void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
   const ForkSet& forks = input.forks;

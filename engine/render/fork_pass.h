@@ -8,7 +8,8 @@ namespace vasa {
 /// CPU references: surface/fork.h, surface/fork_template.h, surface/visible.h.
 class ForkPass {
  public:
-  explicit ForkPass(gpu::Device& device);
+  /// @param samples  of the picture: 1 or 4 a pixel
+  ForkPass(gpu::Device& device, std::uint32_t samples);
 
   struct Input {
     const TubeSet& tubes;  ///< of the same network

@@ -38,7 +38,8 @@ class PatchSet {
 /// and leaves out triangles that cannot be seen. CPU references: surface/patch.h, surface/patch_smooth.h, surface/visible.h.
 class PatchPass {
  public:
-  explicit PatchPass(gpu::Device& device);
+  /// @param samples  of the picture: 1 or 4 a pixel
+  PatchPass(gpu::Device& device, std::uint32_t samples);
 
   struct Input {
     const TubeSet& tubes;  ///< of the same network

@@ -139,8 +139,8 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
-      tubePass(device),
-      forkPass(device),
+      tubePass(device, chosen.samples),
+      forkPass(device, chosen.samples),
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
@@ -151,7 +151,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
                      gpu::MemoryRole::readBack}),
       timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 7) : 0),
       staticTimer(device, 1) {
-  if (!patches.empty()) patchPass.emplace(device);
+  if (!patches.empty()) patchPass.emplace(device, chosen.samples);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
     capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites, options.capillaries);
@@ -239,7 +239,7 @@ void Renderer::State::recordCapillaries(VkCommandBuffer commands, shared::DrawPu
 }
 
 shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
-  return detailView(input.camera, input.look, target.spec().size, options.samples, tubes.detail(),
+  return detailView(input.camera, input.look, target.spec().size, tubes.detail(),
                     detailSnap(device, target.spec().size));
 }
 
@@ -247,7 +247,8 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
   partial = isPartial(input.camera, input.look);
-  cull = options.cull && !input.camera.cut;  // the backs of what is cut open are seen
+  // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss triangles.
+  cull = options.cull && !input.camera.cut && device.limits().standardSampleLocations;
   const std::vector<MeshSet::Level> levels =
       meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
                        meshPixelError(options.pixelError) / std::sqrt(float(options.samples)));

@@ -16,7 +16,8 @@ VkDeviceSize TubeDraws::bytes() const {
   return vertices.bytes() + colours.bytes() + indices.bytes() + draws.bytes();
 }
 
-TubePass::TubePass(gpu::Device& device) : pipeline_(device, {spirv::tubes_comp, sizeof(shared::TubesPush)}) {}
+TubePass::TubePass(gpu::Device& device, std::uint32_t samples)
+    : pipeline_(device, {spirv::tubes_comp, sizeof(shared::TubesPush), gpu::Specialization().set(0, samples)}) {}
 
 void TubePass::record(VkCommandBuffer commands, const Input& input) const {
   const TubeSet& tubes = input.tubes;

@@ -18,7 +18,8 @@ struct TubeDraws {
 /// CPU references: surface/tessellate.h, surface/visible.h.
 class TubePass {
  public:
-  explicit TubePass(gpu::Device& device);
+  /// @param samples  of the picture: 1 or 4 a pixel
+  TubePass(gpu::Device& device, std::uint32_t samples);
 
   struct Input {
     const TubeSet& tubes;

@@ -20,7 +20,7 @@ VASA_CONSTANT float kAlongShare = 0.07;
 
 /// A picture's view of the network. Fixed m and n, or those that keep an error in pixels.
 struct DetailView {
-  vec4 picture[3];   // (dot(picture[0], q), dot(picture[1], q)) / dot(picture[2], q), q = (p, 1): p's place [samples]
+  vec4 picture[3];   // (dot(picture[0], q), dot(picture[1], q)) / dot(picture[2], q), q = (p, 1): p's place [pixels]
   vec4 planes[5];    // left, right, bottom, top, near: dot(plane.xyz, p) + plane.w >= 0 in view; unit normals
   vec4 depth;        // dot(depth.xyz, p) + depth.w: how far p lies before the eye [m]; (0, 0, 0, 1) orthographic
   float nearest;     // [m] least depth that counts; 1 orthographic
@@ -29,8 +29,8 @@ struct DetailView {
   float tolerance;   // [pixels] between a sweep and its quads; used where around or along is 0
   uint around, along;  // m and n of all sweeps; 0: by tolerance
   uint hiddenKinds;    // bit k: sweeps of kind k (highest 8 bits of their colour) are not drawn
-  float columns, rows; // samples of the picture; with four a pixel, all columns and rows of any of them
-  float snap;          // [samples] how far a rasteriser may move a corner
+  float columns, rows; // pixels of the picture, whose middles lie at whole numbers
+  float snap;          // [pixels] how far a rasteriser may move a corner
 };
 
 #ifdef __cplusplus

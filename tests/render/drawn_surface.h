@@ -41,14 +41,14 @@ struct Forks {
         forks(rig.device(), tubes.table(), detail, 1u << 20),
         patches(rig.device(), tubes.table().patches),
         detailPass(rig.device(), tubes),
-        tubePass(rig.device()),
-        forkPass(rig.device()),
-        patchPass(rig.device()) {
+        tubePass(rig.device(), 1),
+        forkPass(rig.device(), 1),
+        patchPass(rig.device(), 1) {
     const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);
     Camera camera;
     camera.position = {0, 0.5f, 9};  // everything is in view, so that nothing is left out
     camera.target = {0, 0.5f, 0};
-    view = detailView(camera, {}, {640, 480}, 1, detail, detailSnap(rig.device(), {640, 480}));
+    view = detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
     forks.setSpanColours(rig.device(), kindColours(network));
     const TubeDraws tubeDraws(rig.device(), tubes.room(), tubes.groupCount());
     const TubeDraws forkDraws(rig.device(), forks.room(), forks.groupCount());

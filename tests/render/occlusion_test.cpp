@@ -73,13 +73,13 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
       const OcclusionPass pass(rig.device(), target);
       const TubeSet tubes(rig.device(), network, {}, 10000);
       const DetailPass detail(rig.device(), tubes);
-      const TubePass tubePass(rig.device());
+      const TubePass tubePass(rig.device(), samples);
       const TubeDraws draws(rig.device(), tubes.room(), tubes.groupsPerBatch());
       const gpu::Buffer points = rig.upload(std::vector<vec4>(network.points().begin(), network.points().end()));
       const gpu::Buffer knots = rig.upload(frames);
       Camera camera = cameraFrom(View::front, measure(network, network.points()).bounds, float(kWidth) / kHeight);
       camera.orthographicHeight = orthographic;
-      const shared::DetailView view = detailView(camera, {}, target.spec().size, samples, tubes.detail(), 0.01f);
+      const shared::DetailView view = detailView(camera, {}, target.spec().size, tubes.detail(), 0.01f);
       rig.run([&](VkCommandBuffer commands) {
         detail.record(commands, tubes, points.address(), view);
         tubePass.record(commands, {tubes, tubes.batches()[0], detail, points.address(), knots.address(), draws});

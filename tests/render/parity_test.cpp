@@ -65,23 +65,25 @@ Camera cameraAt(vec3 position, float orthographic = 0) {
 // A network in device memory and the passes that draw it.
 struct Tubes {
   Tubes(const test::GpuRig& used, const Network& network, std::vector<vec4> posed, const TubeDetail& detail,
-        std::uint32_t batchSweeps)
+        std::uint32_t batchSweeps, std::uint32_t samplesOfPixel = 1)
       : rig(used),
+        samples(samplesOfPixel),
         points(std::move(posed)),
         frames(framesOf(network, points)),
         set(rig.device(), network, detail, batchSweeps),
         detailPass(rig.device(), set),
-        pass(rig.device()),
+        pass(rig.device(), samples),
         pointBuffer(rig.upload(points)),
         knotBuffer(rig.upload(frames)) {}
 
-  shared::DetailView view(const Camera& camera, std::uint32_t samples = 1) const {
-    return detailView(camera, {}, {333, 222}, samples, set.detail(), detailSnap(rig.device(), {333, 222}));
+  shared::DetailView view(const Camera& camera) const {
+    return detailView(camera, {}, {333, 222}, set.detail(), detailSnap(rig.device(), {333, 222}));
   }
   NetworkDetail chosen(const shared::DetailView& wanted) const { return networkDetail(posed(), wanted); }
   PosedNetwork posed() const { return {set.table(), points, frames}; }
 
   const test::GpuRig& rig;
+  std::uint32_t samples;
   std::vector<vec4> points;
   std::vector<quat> frames;
   TubeSet set;
@@ -144,14 +146,14 @@ struct Triangles {
 // The triangles of one sweep whose vertices begin at `base`, in the pass's order.
 // @param near  of each ring
 Triangles trianglesOf(const Drawn& drawn, const shared::DetailView& view, std::uint32_t base,
-                      const std::vector<char>& near, std::uint32_t m) {
+                      const std::vector<char>& near, std::uint32_t m, std::uint32_t samples) {
   Triangles triangles;
   for (std::uint32_t strip = 0; strip + 1 < near.size(); ++strip)
     for (std::uint32_t k = 0; k < m; ++k) {
       const std::uint32_t a = base + strip * m + k, b = base + strip * m + (k + 1) % m, c = b + m, d = a + m;
       const auto at = [&](std::uint32_t i) { return placeOf(drawn.vertices[i], view); };
       const std::uint32_t seen = near[strip] || near[strip + 1]
-                                     ? 3 : seenOfQuad(at(a), at(b), at(c), at(d), {view.columns, view.rows}, view.snap);
+                                     ? 3 : seenOfQuad(at(a), at(b), at(c), at(d), {{view.columns, view.rows}, view.snap, samples});
       triangles.all.insert(triangles.all.end(), {{a, b, c}, {a, c, d}});
       if (seen & 1) triangles.seen.push_back({a, b, c});
       if (seen & 2) triangles.seen.push_back({a, c, d});
@@ -200,7 +202,7 @@ Outcome passAgainstReference(const Tubes& tubes, const shared::DetailView& view,
         const Rings rings = ringsOf(tubes.posed(), sweep, m, along, view);
         next += inBlocks(std::uint32_t(rings.points.size()));
         compare(outcome.vertices, std::span(whole.vertices).subspan(base, rings.points.size()), rings.points);
-        const Triangles triangles = trianglesOf(whole, view, base, rings.near, m);
+        const Triangles triangles = trianglesOf(whole, view, base, rings.near, m, tubes.samples);
         outcome.triangles += triangles.all.size();
         for (const uvec3& triangle : cull ? triangles.seen : triangles.all) wanted.push_back(cornersOf(whole, triangle));
       }
@@ -252,12 +254,12 @@ TEST_CASE("m, n and what is left out are what the CPU reference says, from near 
   VASA_REQUIRE_GPU(rig);
   const Network network = test::windingNetwork(60, 4);
   std::size_t drawn = 0, wrong = 0;
-  for (const float tolerance : {0.2f, 0.8f}) {
-    const Tubes tubes(rig, network, restPoints(network), {{}, tolerance}, 128);
-    for (const Camera& camera : {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
-                                 cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)})
-      for (const std::uint32_t samples : {1u, 4u}) {
-        const shared::DetailView view = tubes.view(camera, samples);
+  for (const float tolerance : {0.2f, 0.8f})
+    for (const std::uint32_t samples : {1u, 4u}) {
+      const Tubes tubes(rig, network, restPoints(network), {{}, tolerance}, 128, samples);
+      for (const Camera& camera : {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
+                                   cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)}) {
+        const shared::DetailView view = tubes.view(camera);
         const NetworkDetail wanted = tubes.chosen(view);
         rig.run([&](VkCommandBuffer commands) {
           tubes.detailPass.record(commands, tubes.set, tubes.pointBuffer.address(), view);

@@ -66,7 +66,7 @@ std::vector<Corners> seenOf(const test::Drawn& whole, const shared::DetailView& 
     for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
       const Corners t{whole.indices[i], whole.indices[i + 1], whole.indices[i + 2]};
       const vec2 a = placeOf(t[0]), b = placeOf(t[1]), c = placeOf(t[2]);
-      if (t[0] != t[1] && (seenOfQuad(a, b, c, c, {view.columns, view.rows}, view.snap) & 1)) seen.push_back(t);
+      if (t[0] != t[1] && (seenOfQuad(a, b, c, c, {{view.columns, view.rows}, view.snap}) & 1)) seen.push_back(t);
     }
   return seen;
 }
@@ -96,7 +96,7 @@ TEST_CASE("patches' triangles that cannot be seen are left out as the reference 
     Camera camera;
     camera.position = from;
     camera.target = {0, 0.1f, 0};
-    const shared::DetailView view = detailView(camera, {}, {640, 480}, 1, detail, detailSnap(rig.device(), {640, 480}));
+    const shared::DetailView view = detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
     rig.run([&](VkCommandBuffer commands) {
       passes.detailPass.record(commands, passes.tubes, pointBuffer.address(), view);
       passes.patchPass.record(commands, {passes.tubes, passes.patches, passes.detailPass, pointBuffer.address(),
