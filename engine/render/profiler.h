@@ -50,7 +50,8 @@ struct ProfileSetting {
 
 /// Measures one row after the other, a frame a step, so that an app can go on between two steps. Whole frames are timed in
 /// one pass, as an app draws them: the next frame's shape is made on a thread of its own while this one is drawn
-/// ("frame_ms" from one picture to the next, "latency_ms" from a pose to its picture). Stages are timed in another, one
+/// ("frame_ms" from one picture to the next, "latency_ms" from a pose to its picture), and every eighth picture is drawn
+/// once more from ready buffers ("static_draw_ms"). Stages are timed in another, one
 /// after the other: taking the device's times puts barriers between them ("solve_ms" all of a shape, "picture_ms" all of
 /// a picture).
 class Profiler {
@@ -78,6 +79,7 @@ class Profiler {
   std::vector<ProfileQuads> wanted_;
   std::vector<ProfileRow> rows_;
   std::vector<std::pair<std::string, std::vector<double>>> samples_;
+  std::vector<double> staticDraws_;
   std::unique_ptr<Pass> pass_;
 };
 

@@ -53,9 +53,19 @@ bool anyVessels(const Look& look) {
   return look.drawArteries || look.drawVeins || look.drawOtherVessels;
 }
 
+// One to be written while the other is drawn, where there are several batches.
 template <class Set>
-std::array<TubeDraws, 2> drawsFor(gpu::Device& device, const Set& set) {
-  return {TubeDraws(device, set.room(), set.groupsPerBatch()), TubeDraws(device, set.room(), set.groupsPerBatch())};
+std::vector<TubeDraws> templatesFor(gpu::Device& device, const Set& set) {
+  std::vector<TubeDraws> made;
+  for (std::size_t i = 0; i < std::min<std::size_t>(set.batches().size(), 2); ++i)
+    made.emplace_back(device, set.room(), set.groupsPerBatch());
+  return made;
+}
+
+VkDeviceSize bytesOf(std::span<const TubeDraws> templates) {
+  VkDeviceSize bytes = 0;
+  for (const TubeDraws& draws : templates) bytes += draws.bytes();
+  return bytes;
 }
 
 BodyLevels levelsOf(std::span<const SkinnedMesh> meshes, const RenderOptions& options) {
@@ -110,7 +120,7 @@ struct Renderer::State {
   gpu::Target target;
   SurfacePass surfacePass;
   std::optional<OcclusionPass> occlusionPass;
-  std::array<TubeDraws, 2> templates, forkTemplates;
+  std::vector<TubeDraws> templates, forkTemplates;
   std::optional<CapillaryPass> capillaries;
   gpu::Buffer readBack;
   gpu::Buffer drawn;  // every group's draw of the latest frame, where frames are timed
@@ -120,6 +130,7 @@ struct Renderer::State {
   bool partial = false, cull = true;  // of this frame
 
  private:
+  const TubeDraws& templateOf(std::size_t batch) const;
   void recordTessellation(VkCommandBuffer commands, std::size_t batch);
   void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, const Look& look);
   void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
@@ -144,8 +155,8 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
-      templates(drawsFor(device, tubes)),
-      forkTemplates(drawsFor(device, forks)),
+      templates(templatesFor(device, tubes)),
+      forkTemplates(templatesFor(device, forks)),
       readBack(device, readBackSpec(target)),
       drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
                      gpu::MemoryRole::readBack}),
@@ -166,15 +177,21 @@ void Renderer::State::setColours(std::span<const std::uint32_t> given) {
   if (capillaries) capillaries->setSpanColours(device, colours);
 }
 
+// Of a batch of tubes or, behind those, of forks.
+const TubeDraws& Renderer::State::templateOf(std::size_t batch) const {
+  const std::size_t tubeBatches = tubes.batches().size();
+  return batch < tubeBatches ? templates[batch % 2] : forkTemplates[(batch - tubeBatches) % 2];
+}
+
 void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
   const std::size_t tubeBatches = tubes.batches().size();
   const auto scope = timer.scope(commands, batch < tubeBatches ? kTessellate : kForks);
   if (batch < tubeBatches)
     tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
-                               templates[batch % 2], cull});
+                               templateOf(batch), cull});
   else
     forkPass.record(commands, {tubes, forks, forks.batches()[batch - tubeBatches], detailPass, upload.points(),
-                               upload.knots(), forkTemplates[batch % 2], cull});
+                               upload.knots(), templateOf(batch), cull});
 }
 
 void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch,
@@ -182,17 +199,17 @@ void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPu
   const auto scope = timer.scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
   const std::size_t tubeBatches = tubes.batches().size();
+  const TubeDraws& draws = templateOf(batch);
   if (batch < tubeBatches) {
     const TubeBatch& range = tubes.batches()[batch];
-    surfacePass.recordVessels(commands, push, templates[batch % 2], range.groups(), look, partial);
+    surfacePass.recordVessels(commands, push, draws, range.groups(), look, partial);
     target.pause(commands);
-    copyDraws(commands, templates[batch % 2], range.firstSweep / shared::kGroupSweeps, range.groups());
+    copyDraws(commands, draws, range.firstSweep / shared::kGroupSweeps, range.groups());
   } else {
     const ForkBatch& range = forks.batches()[batch - tubeBatches];
-    surfacePass.recordVessels(commands, push, forkTemplates[batch % 2], range.groups(), look, partial);
+    surfacePass.recordVessels(commands, push, draws, range.groups(), look, partial);
     target.pause(commands);
-    copyDraws(commands, forkTemplates[batch % 2], tubes.groupCount() + range.firstFork / shared::kGroupForks,
-              range.groups());
+    copyDraws(commands, draws, tubes.groupCount() + range.firstFork / shared::kGroupForks, range.groups());
   }
 }
 
@@ -416,8 +433,7 @@ std::uint32_t Renderer::sweepCount() const {
 }
 
 std::uint64_t Renderer::templateBytes() const {
-  return state_->templates[0].bytes() + state_->templates[1].bytes() + state_->forkTemplates[0].bytes() +
-         state_->forkTemplates[1].bytes() + state_->patches.bytes();
+  return bytesOf(state_->templates) + bytesOf(state_->forkTemplates) + state_->patches.bytes();
 }
 
 const RenderOptions& Renderer::options() const {

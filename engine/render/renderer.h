@@ -45,9 +45,9 @@ struct RenderOptions {
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
   bool bgra = false;       ///< Renderer::picture() has blue first, as windows do
   bool occlusion = false;  ///< Look::occlusion counts; takes 12 bytes a pixel
-  /// Sweeps tessellated and drawn at a time, rounded up to whole groups. Two batches are all the vertex memory that
-  /// tubes take, however many sweeps there are.
-  std::uint32_t sweepsPerBatch = 1024;
+  /// Sweeps tessellated and drawn at a time, rounded up to whole groups: a body's, as each batch costs barriers. Two
+  /// batches are all the vertex memory that tubes take, however many sweeps there are.
+  std::uint32_t sweepsPerBatch = 5120;
   const Growth* growth = nullptr;  ///< of the capillaries, must outlive the renderer; nullptr: none are drawn
   CapillaryWish capillaries;            ///< which of them
   std::uint32_t seed = 1;               ///< of their shapes

@@ -322,8 +322,8 @@ TEST_CASE("memory for vertices does not grow with the network") {
   VASA_REQUIRE_GPU(rig);
   RenderOptions options = small();
   options.sweepsPerBatch = 32;
-  const Renderer few(rig.device(), test::windingNetwork(20, 1), {}, options);
-  const Renderer many(rig.device(), test::windingNetwork(200, 1), {}, options);
+  const Renderer few(rig.device(), test::windingNetwork(500, 1), {}, options);  // two batches of tubes, and of forks
+  const Renderer many(rig.device(), test::windingNetwork(2600, 1), {}, options);
   CHECK(many.triangleCount() > 5 * few.triangleCount());
   CHECK(double(many.templateBytes()) < 1.05 * double(few.templateBytes()));  // by the caps in the fullest group
 }
