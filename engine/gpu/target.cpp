@@ -11,13 +11,15 @@ namespace {
 
 constexpr VkPipelineStageFlags2 kDepthStages =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkPipelineStageFlags2 kDepthReaders = kDepthStages | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+constexpr VkImageLayout kDepthWritten = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout kDepthRead = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 
 // The old content goes, but whoever still reads or writes it has to be finished.
 void makeAttachment(VkCommandBuffer commands, const Image& image) {
   const bool depth = image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
   changeLayout(commands, {image.handle(), image.aspect(), VK_IMAGE_LAYOUT_UNDEFINED,
-                          depth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
-                                : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                          depth ? kDepthWritten : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                           VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                           depth ? kDepthStages : VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT});
 }
@@ -34,25 +36,22 @@ Target::Target(Device& device, const TargetSpec& spec) : spec_(spec) {
         Image(device, {spec.name, spec.size, spec.colour, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, spec.samples});
   if (spec.depth == VK_FORMAT_UNDEFINED) return;
   constexpr VkImageUsageFlags attachment = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-  const VkImageUsageFlags copied = spec.readDepth ? attachment | VK_IMAGE_USAGE_TRANSFER_SRC_BIT : attachment;
-  depth_ = Image(device, {spec.name, spec.size, spec.depth, multisampled ? attachment : copied, spec.samples});
-  if (spec.readDepth && multisampled) readableDepth_ = Image(device, {spec.name, spec.size, spec.depth, copied});
+  const VkImageUsageFlags read =
+      spec.readDepth ? attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT : attachment;
+  depth_ = Image(device, {spec.name, spec.size, spec.depth, multisampled ? attachment : read, spec.samples});
+  if (spec.readDepth && multisampled) readableDepth_ = Image(device, {spec.name, spec.size, spec.depth, read});
 }
 
-void Target::copyDepth(VkCommandBuffer commands, const Buffer& to) const {
-  assert(spec_.readDepth && to.bytes() >= pictureBytes());
-  constexpr VkImageLayout attachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-  constexpr VkImageLayout source = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-  constexpr VkPipelineStageFlags2 transfer = VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+void Target::makeDepthReadable(VkCommandBuffer commands) const {
+  assert(spec_.readDepth);
   if (readableDepth_) resolveDepth(commands);
-  const Image& image = readableDepth_ ? readableDepth_ : depth_;
-  const VkPipelineStageFlags2 written = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages;
-  changeLayout(commands, {image.handle(), image.aspect(), attachment, source, written, transfer});
-  VkBufferImageCopy region{};
-  region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
-  region.imageExtent = {spec_.size.width, spec_.size.height, 1};
-  vkCmdCopyImageToBuffer(commands, image.handle(), source, to.handle(), 1, &region);
-  changeLayout(commands, {image.handle(), image.aspect(), source, attachment, transfer, written});
+  const Image& image = readableDepth();
+  changeLayout(commands, {image.handle(), image.aspect(), kDepthWritten, kDepthRead, kAttachmentStages, kDepthReaders});
+}
+
+void Target::makeDepthWritable(VkCommandBuffer commands) const {
+  const Image& image = readableDepth();
+  changeLayout(commands, {image.handle(), image.aspect(), kDepthRead, kDepthWritten, kDepthReaders, kDepthStages});
 }
 
 // An empty stretch that takes the first of each pixel's samples.
@@ -62,12 +61,12 @@ void Target::resolveDepth(VkCommandBuffer commands) const {
   VkRenderingAttachmentInfo depths{};
   depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
   depths.imageView = depth_.view();
-  depths.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  depths.imageLayout = kDepthWritten;
   depths.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
   depths.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   depths.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
   depths.resolveImageView = readableDepth_.view();
-  depths.resolveImageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  depths.resolveImageLayout = kDepthWritten;
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
   info.renderArea.extent = spec_.size;
@@ -104,7 +103,7 @@ void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float 
   VkRenderingAttachmentInfo depths{};
   depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
   depths.imageView = depth_.view();
-  depths.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  depths.imageLayout = kDepthWritten;
   depths.loadOp = load;
   depths.storeOp = keep;
   depths.clearValue.depthStencil.depth = depth;

@@ -14,7 +14,7 @@ struct TargetSpec {
   VkFormat colour = VK_FORMAT_R8G8B8A8_SRGB;  ///< four bytes a pixel, linear values encoded on writing
   VkFormat depth = VK_FORMAT_D32_SFLOAT;      ///< VK_FORMAT_UNDEFINED: none
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
-  bool readDepth = false;  ///< copyDepth() will be called
+  bool readDepth = false;  ///< readableDepth() will be read
 };
 
 constexpr VkPipelineStageFlags2 kAttachmentStages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
@@ -46,15 +46,20 @@ class Target {
   /// Ends the only or last stretch; whatever comes after sees the picture in layout `after`.
   void end(VkCommandBuffer commands, VkImageLayout after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) const;
 
-  /// Between two stretches: copies depth, of the first sample of each pixel, as 4 bytes a pixel, rows from the top.
-  void copyDepth(VkCommandBuffer commands, const Buffer& to) const;
+  /// Depth, of the first sample of each pixel. Between two stretches and from makeDepthReadable() to makeDepthWritable() it
+  /// is in VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, for fragment shaders and depth tests.
+  const Image& readableDepth() const { return readableDepth_ ? readableDepth_ : depth_; }
+  void makeDepthReadable(VkCommandBuffer commands) const;
+  void makeDepthWritable(VkCommandBuffer commands) const;
 
   /// After end(): copies the picture, rows from the top, without gaps, 4 bytes a pixel.
   void copyPicture(VkCommandBuffer commands, const Buffer& to) const;
   VkDeviceSize pictureBytes() const { return VkDeviceSize(spec_.size.width) * spec_.size.height * 4; }
 
- private:
+  /// Viewport and scissor of the whole images, as begin() sets them.
   void setViewport(VkCommandBuffer commands) const;
+
+ private:
   void resolveDepth(VkCommandBuffer commands) const;
 
   TargetSpec spec_;

@@ -112,7 +112,7 @@ std::vector<float> smoothed(std::span<const float> depth, std::span<const float>
         sum += weight * raw[at];
         weights += weight;
       }
-    light[i] = weights > 0 ? sum / weights : raw[i];
+    light[i] = sum / weights;  // its own weight is 1
   }
   return light;
 }

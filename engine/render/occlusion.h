@@ -7,14 +7,14 @@
 
 namespace vasa {
 
-/// How places follow from a picture's depth, and how far occlusion reaches. Addresses are left at 0.
+/// How places follow from a picture's depth, and how far occlusion reaches.
 /// @param reach     [m]
 /// @param strength  0 to 1
 shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height, float reach,
                                          float strength);
 
 /// Ambient occlusion of a picture from its depth: the share of ambient light that is left at each pixel.
-/// CPU references of shaders/occlusion.comp and smooth.comp.
+/// CPU references of shaders/occlusion.frag and smooth.frag.
 /// @param depth  reversed, 0: background; row after row
 std::vector<float> occlusionOf(std::span<const float> depth, const shared::OcclusionPush& constants);
 std::vector<float> smoothed(std::span<const float> depth, std::span<const float> raw,

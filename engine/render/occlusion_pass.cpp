@@ -1,75 +1,119 @@
 #include "render/occlusion_pass.h"
 
-#include <algorithm>
-
 #include "gpu/barrier.h"
 #include "spirv/occlude_frag.h"
-#include "spirv/occlusion_comp.h"
+#include "spirv/occlusion_frag.h"
 #include "spirv/screen_vert.h"
-#include "spirv/smooth_comp.h"
+#include "spirv/smooth_frag.h"
 
 namespace vasa {
 namespace {
 
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr std::uint32_t kGroup = 64;
-constexpr std::uint32_t kMostAcross = 32768;  // workgroups; devices take at least 65535 in a direction
+constexpr VkImageLayout kDepthRead = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 
-gpu::GraphicsPipeline applyPipeline(gpu::Device& device, const gpu::TargetSpec& target) {
+gpu::Image makeLight(gpu::Device& device, const char* name, const gpu::Target& target) {
   return {device,
-          {.name = "occlusion",
-           .vertex = spirv::screen_vert,
-           .fragment = spirv::occlude_frag,
-           .pushBytes = sizeof(shared::OcclusionPush),
-           .colour = target.colour,
-           .depth = target.depth,
-           .samples = target.samples,
-           .cull = VK_CULL_MODE_NONE,
-           .depthTest = VK_COMPARE_OP_ALWAYS,
-           .depthWrite = false,
-           .blend = gpu::Blend::multiply}};
+          {name, target.spec().size, VK_FORMAT_R32_SFLOAT,
+           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
 }
 
-gpu::Buffer pixels(gpu::Device& device, const char* name, const gpu::Target& target) {
-  return {device, {name, target.pictureBytes()}};
+// One triangle over the whole picture, at the background's depth: only what lies before that is shaded.
+gpu::GraphicsSpec overDepth(const gpu::ShaderCode& fragment, const gpu::ImageSet& images, const gpu::TargetSpec& target) {
+  return {.name = "occlusion",
+          .vertex = spirv::screen_vert,
+          .fragment = fragment,
+          .pushBytes = sizeof(shared::OcclusionPush),
+          .sets = {&images.layout(), 1},
+          .colour = target.colour,
+          .depth = target.depth,
+          .samples = target.samples,
+          .cull = VK_CULL_MODE_NONE,
+          .depthTest = VK_COMPARE_OP_LESS,
+          .depthWrite = false};
+}
+
+gpu::GraphicsSpec intoLight(const gpu::ShaderCode& fragment, const gpu::ImageSet& images, gpu::TargetSpec target,
+                            const gpu::Image& light) {
+  target.colour = light.format();
+  target.samples = VK_SAMPLE_COUNT_1_BIT;
+  return overDepth(fragment, images, target);
+}
+
+gpu::GraphicsSpec ontoPicture(const gpu::ImageSet& images, const gpu::TargetSpec& target) {
+  gpu::GraphicsSpec spec = overDepth(spirv::occlude_frag, images, target);
+  spec.blend = gpu::Blend::multiply;
+  return spec;
+}
+
+void draw(VkCommandBuffer commands, const gpu::GraphicsPipeline& pipeline, const gpu::ImageSet& images,
+          const shared::OcclusionPush& push) {
+  pipeline.bind(commands, push);
+  images.bind(commands, pipeline.layout());
+  vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+VkRenderingAttachmentInfo attachment(const gpu::Image& image, VkImageLayout layout, VkAttachmentLoadOp load,
+                                     VkAttachmentStoreOp store) {
+  VkRenderingAttachmentInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  info.imageView = image.view();
+  info.imageLayout = layout;
+  info.loadOp = load;
+  info.storeOp = store;
+  return info;
+}
+
+// Draws a float a pixel, 1 where the picture is empty.
+void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Target& target, const gpu::GraphicsPipeline& pipeline,
+              const gpu::ImageSet& images, const shared::OcclusionPush& push) {
+  constexpr VkImageLayout written = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  constexpr VkPipelineStageFlags2 writers = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+  gpu::changeLayout(commands, {.image = light.handle(), .after = written, .to = writers});
+  VkRenderingAttachmentInfo colour = attachment(light, written, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
+  colour.clearValue.color.float32[0] = 1;
+  const VkRenderingAttachmentInfo depth =
+      attachment(target.readableDepth(), kDepthRead, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
+  VkRenderingInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea.extent = light.size();
+  info.layerCount = 1;
+  info.colorAttachmentCount = 1;
+  info.pColorAttachments = &colour;
+  info.pDepthAttachment = &depth;
+  vkCmdBeginRendering(commands, &info);
+  target.setViewport(commands);
+  draw(commands, pipeline, images, push);
+  vkCmdEndRendering(commands);
+  gpu::changeLayout(commands, {.image = light.handle(),
+                               .before = written,
+                               .after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                               .from = writers,
+                               .to = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT});
 }
 
 }  // namespace
 
 OcclusionPass::OcclusionPass(gpu::Device& device, const gpu::Target& target)
-    : find_(device, {spirv::occlusion_comp, sizeof(shared::OcclusionPush)}),
-      smooth_(device, {spirv::smooth_comp, sizeof(shared::OcclusionPush)}),
-      apply_(applyPipeline(device, target.spec())),
-      depth_(pixels(device, "picture depth", target)),
-      raw_(pixels(device, "occlusion, raw", target)),
-      light_(pixels(device, "occlusion", target)) {}
+    : raw_(makeLight(device, "occlusion, raw", target)),
+      light_(makeLight(device, "occlusion", target)),
+      findSet_(device, "depth", {{target.readableDepth().view(), kDepthRead}}),
+      smoothSet_(device, "depth and raw occlusion", {{target.readableDepth().view(), kDepthRead}, {raw_.view()}}),
+      applySet_(device, "occlusion", {{light_.view()}}),
+      find_(device, intoLight(spirv::occlusion_frag, findSet_, target.spec(), raw_)),
+      smooth_(device, intoLight(spirv::smooth_frag, smoothSet_, target.spec(), light_)),
+      apply_(device, ontoPicture(applySet_, target.spec())) {}
 
 void OcclusionPass::record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera, float reach,
                            float strength) const {
-  gpu::stageBarrier(commands, kCompute | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_PIPELINE_STAGE_2_TRANSFER_BIT | kCompute);
-  target.copyDepth(commands, depth_);
-  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT, kCompute);
-  shared::OcclusionPush push = occlusionConstants(camera, target.spec().size.width, target.spec().size.height, reach, strength);
-  const std::uint32_t groups = gpu::groupsFor(push.width * push.height, kGroup);
-  const std::uint32_t across = std::min(groups, kMostAcross), down = gpu::groupsFor(groups, across);
-  push.depth = depth_.address();
-  push.raw = depth_.address();  // not read
-  push.light = raw_.address();
-  find_.dispatch(commands, push, across, down);
-  gpu::stageBarrier(commands, kCompute, kCompute);
-  push.raw = raw_.address();
-  push.light = light_.address();
-  smooth_.dispatch(commands, push, across, down);
-  gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
-}
-
-void OcclusionPass::recordApply(VkCommandBuffer commands, const gpu::Target& target) const {
-  shared::OcclusionPush push{};
-  push.raw = light_.address();
-  push.width = target.spec().size.width;
-  push.height = target.spec().size.height;
-  apply_.bind(commands, push);
-  vkCmdDraw(commands, 3, 1, 0, 0);
+  const VkExtent2D size = target.spec().size;
+  const shared::OcclusionPush push = occlusionConstants(camera, size.width, size.height, reach, strength);
+  target.makeDepthReadable(commands);
+  drawInto(commands, raw_, target, find_, findSet_, push);
+  drawInto(commands, light_, target, smooth_, smoothSet_, push);
+  target.makeDepthWritable(commands);
+  target.begin(commands, {}, 0, gpu::Stretch::middle);
+  draw(commands, apply_, applySet_, push);
+  target.pause(commands);
 }
 
 }  // namespace vasa

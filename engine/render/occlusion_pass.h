@@ -1,30 +1,30 @@
 #pragma once
-#include "gpu/compute_pipeline.h"
 #include "gpu/graphics_pipeline.h"
+#include "gpu/image_set.h"
 #include "gpu/target.h"
 #include "render/occlusion.h"
 
 namespace vasa {
 
 /// Ambient occlusion of what is drawn so far, from the target's depth. CPU reference: render/occlusion.h.
+/// Fragment shaders behind a depth test, not compute: a CPU device leaves out where nothing is drawn.
 class OcclusionPass {
  public:
-  /// @param target  with TargetSpec::readDepth
+  /// @param target  with TargetSpec::readDepth; must stay
   OcclusionPass(gpu::Device& device, const gpu::Target& target);
 
-  /// Between two stretches of the picture: finds the occlusion. Barriers included.
+  /// Between two stretches of the picture, a stretch of its own: finds the occlusion and takes it off the picture's colours.
+  /// A barrier from and to gpu::kAttachmentStages belongs behind it.
   void record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera, float reach, float strength) const;
-  /// Within the next stretch: takes it off the picture's colours.
-  void recordApply(VkCommandBuffer commands, const gpu::Target& target) const;
 
-  const gpu::Buffer& depth() const { return depth_; }
-  const gpu::Buffer& raw() const { return raw_; }
-  const gpu::Buffer& light() const { return light_; }
+  /// What was found, before and after it is smoothed: a float a pixel, in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
+  const gpu::Image& raw() const { return raw_; }
+  const gpu::Image& light() const { return light_; }
 
  private:
-  gpu::ComputePipeline find_, smooth_;
-  gpu::GraphicsPipeline apply_;
-  gpu::Buffer depth_, raw_, light_;  // a float a pixel each
+  gpu::Image raw_, light_;
+  gpu::ImageSet findSet_, smoothSet_, applySet_;
+  gpu::GraphicsPipeline find_, smooth_, apply_;
 };
 
 }  // namespace vasa

@@ -233,9 +233,6 @@ void Renderer::State::copyDraws(VkCommandBuffer commands, const TubeDraws& from,
 void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInput& input) {
   const auto scope = timer.scope(commands, kMeshes);
   occlusionPass->record(commands, target, input.camera, kOcclusionReach, input.look.occlusion);
-  target.begin(commands, {}, 0, gpu::Stretch::middle);
-  occlusionPass->recordApply(commands, target);
-  target.pause(commands);
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 

@@ -44,7 +44,7 @@ struct RenderOptions {
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
   bool bgra = false;       ///< Renderer::picture() has blue first, as windows do
-  bool occlusion = false;  ///< Look::occlusion counts; takes 12 bytes a pixel
+  bool occlusion = false;  ///< Look::occlusion counts; takes 8 bytes a pixel, 12 with 4 samples
   /// Sweeps tessellated and drawn at a time, rounded up to whole groups: a body's, as each batch costs barriers. Two
   /// batches are all the vertex memory that tubes take, however many sweeps there are.
   std::uint32_t sweepsPerBatch = 5120;

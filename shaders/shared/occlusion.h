@@ -8,16 +8,12 @@
 namespace vasa::shared {
 using uint = std::uint32_t;
 #define VASA_CONSTANT constexpr
-#define VASA_ADDRESS(Block) std::uint64_t
 #else
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Floats { float value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FloatsOut { float value[]; };
 #define VASA_CONSTANT const
-#define VASA_ADDRESS(Block) Block
 #endif
 
 /// Points that are looked at around a pixel: a golden-angle spiral in the unit disc, turned from pixel to pixel in a
-/// pattern of kOcclusionTile x kOcclusionTile, which smooth.comp takes the mean of.
+/// pattern of kOcclusionTile x kOcclusionTile, which smooth.frag takes the mean of.
 VASA_CONSTANT uint kOcclusionTaps = 12, kOcclusionTile = 4;
 #ifdef __cplusplus
 constexpr vec2 kOcclusionSpiral[kOcclusionTaps] = {
@@ -31,13 +27,10 @@ const vec2 kOcclusionSpiral[kOcclusionTaps] = vec2[kOcclusionTaps](
     vec2(0.725258, 0.264862), vec2(-0.775784, 0.320234), vec2(0.383453, -0.819421), vec2(0.289884, 0.924188));
 #endif
 
-/// Of occlusion.comp and smooth.comp. A pixel's place in the camera's axes: its distance before the eye
+/// Of occlusion.frag and smooth.frag. A pixel's place in the camera's axes: its distance before the eye
 /// (fromDepth.x + fromDepth.y d) / (fromDepth.z + fromDepth.w d), and (corner + pixel * step) times that distance in
 /// perspective, times 1 orthographically.
 struct OcclusionPush {
-  VASA_ADDRESS(Floats) depth;      // of the picture, 0: background
-  VASA_ADDRESS(Floats) raw;        // what smooth.comp reads
-  VASA_ADDRESS(FloatsOut) light;   // share of the ambient light that is left, 0 to 1
   uint width, height;
   vec2 corner, step;
   vec4 fromDepth;
@@ -48,9 +41,8 @@ struct OcclusionPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(OcclusionPush) == 80);
+static_assert(sizeof(OcclusionPush) == 56);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT
-#undef VASA_ADDRESS
 #endif

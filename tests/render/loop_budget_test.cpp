@@ -7,7 +7,6 @@
 #include "network/fork_patch.h"
 #include "shared/fork.h"
 #include "shared/growth.h"
-#include "shared/occlusion.h"
 #include "shared/patch.h"
 #include "shared/tubes.h"
 
@@ -43,8 +42,6 @@ std::map<std::string, unsigned> mostLoops() {
       {"patch_smooth.comp", (kPatchSteps + 3) * (1 + kMostSmoothed / kSmoothThreads * (1 + kMostFan))},
       // directions, the ring's vertices, where it begins, the strip's triangles and those without area
       {"patches.comp", 3 * m + kMostOnLoop + 2 * m},
-      {"occlusion.comp", kOcclusionTaps},
-      {"smooth.comp", kOcclusionTile * (kOcclusionTile + 1)},
       {"skin.comp", 0},
       {"access_read.comp", 0},
       {"access_write.comp", 0},

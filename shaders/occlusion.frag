@@ -1,19 +1,20 @@
 #version 460
-// A thread a pixel: how much of the sky the surfaces around it take away, from depth alone (McGuire, Osman, Bukowski,
-// Hennessy 2011). CPU reference: engine/render/occlusion.h.
+// How much of the sky the surfaces around a pixel take away, from depth alone (McGuire, Osman, Bukowski, Hennessy 2011).
+// CPU reference: engine/render/occlusion.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/occlusion.h"
 
-layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { OcclusionPush push; };
+layout(set = 0, binding = 0) uniform texture2D depths;  // of the picture, 0: background
+layout(location = 0) out float light;  // share of the ambient light that is left, 0 to 1
 
 const float kLeast = 3, kMost = 48;  // [pixels] radius of the spiral
 
 float depthAt(ivec2 pixel) {
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(push.width, push.height)))) return 0.0;
-  return push.depth.value[pixel.y * push.width + pixel.x];
+  return texelFetch(depths, pixel, 0).x;
 }
 
 vec3 placeOf(ivec2 pixel, float depth) {
@@ -56,8 +57,7 @@ float lightAt(ivec2 pixel, float depth) {
 }
 
 void main() {
-  uint i = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
-  if (i >= push.width * push.height) return;
-  float depth = push.depth.value[i];
-  push.light.value[i] = depth > 0 ? lightAt(ivec2(i % push.width, i / push.width), depth) : 1.0;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = depthAt(pixel);
+  light = depth > 0 ? lightAt(pixel, depth) : 1.0;
 }
