@@ -41,4 +41,7 @@ class Image {
   Unique<VkImageView> view_;
 };
 
+/// An image of dynamic rendering; clear value and resolving are the caller's.
+VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load, VkAttachmentStoreOp store);
+
 }  // namespace vasa::gpu

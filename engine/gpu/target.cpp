@@ -58,12 +58,7 @@ void Target::makeDepthWritable(VkCommandBuffer commands) const {
 void Target::resolveDepth(VkCommandBuffer commands) const {
   makeAttachment(commands, readableDepth_);
   stageBarrier(commands, kAttachmentStages, kAttachmentStages);
-  VkRenderingAttachmentInfo depths{};
-  depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  depths.imageView = depth_.view();
-  depths.imageLayout = kDepthWritten;
-  depths.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
-  depths.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingAttachmentInfo depths = attachment(depth_, kDepthWritten, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
   depths.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
   depths.resolveImageView = readableDepth_.view();
   depths.resolveImageLayout = kDepthWritten;
@@ -88,24 +83,16 @@ void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float 
   const VkAttachmentLoadOp load = starts ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
   const VkAttachmentStoreOp keep = ends ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
 
-  VkRenderingAttachmentInfo colours{};
-  colours.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  colours.imageView = samples_ ? samples_.view() : picture_.view();
-  colours.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  colours.loadOp = load;
-  colours.storeOp = samples_ ? keep : VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingAttachmentInfo colours =
+      samples_ ? attachment(samples_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, load, keep)
+               : attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, load, VK_ATTACHMENT_STORE_OP_STORE);
   std::copy(colour.begin(), colour.end(), colours.clearValue.color.float32);
   if (samples_ && ends) {
     colours.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
     colours.resolveImageView = picture_.view();
     colours.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   }
-  VkRenderingAttachmentInfo depths{};
-  depths.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  depths.imageView = depth_.view();
-  depths.imageLayout = kDepthWritten;
-  depths.loadOp = load;
-  depths.storeOp = keep;
+  VkRenderingAttachmentInfo depths = attachment(depth_, kDepthWritten, load, keep);
   depths.clearValue.depthStencil.depth = depth;
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;

@@ -52,27 +52,16 @@ void draw(VkCommandBuffer commands, const gpu::GraphicsPipeline& pipeline, const
   vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-VkRenderingAttachmentInfo attachment(const gpu::Image& image, VkImageLayout layout, VkAttachmentLoadOp load,
-                                     VkAttachmentStoreOp store) {
-  VkRenderingAttachmentInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  info.imageView = image.view();
-  info.imageLayout = layout;
-  info.loadOp = load;
-  info.storeOp = store;
-  return info;
-}
-
 // Draws a float a pixel, 1 where the picture is empty.
 void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Target& target, const gpu::GraphicsPipeline& pipeline,
               const gpu::ImageSet& images, const shared::OcclusionPush& push) {
   constexpr VkImageLayout written = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   constexpr VkPipelineStageFlags2 writers = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
   gpu::changeLayout(commands, {.image = light.handle(), .after = written, .to = writers});
-  VkRenderingAttachmentInfo colour = attachment(light, written, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
+  VkRenderingAttachmentInfo colour = gpu::attachment(light, written, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
   colour.clearValue.color.float32[0] = 1;
   const VkRenderingAttachmentInfo depth =
-      attachment(target.readableDepth(), kDepthRead, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
+      gpu::attachment(target.readableDepth(), kDepthRead, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
   info.renderArea.extent = light.size();
