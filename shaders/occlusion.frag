@@ -58,6 +58,5 @@ float lightAt(ivec2 pixel, float depth) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float depth = depthAt(pixel);
-  light = depth > 0 ? lightAt(pixel, depth) : 1.0;
+  light = lightAt(pixel, depthAt(pixel));
 }

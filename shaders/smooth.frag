@@ -21,5 +21,5 @@ void main() {
       sum += weight * texelFetch(raw, other, 0).x;
       weights += weight;
     }
-  light = depth > 0 ? sum / weights : 1.0;  // its own weight is 1
+  light = sum / weights;  // its own weight is 1
 }

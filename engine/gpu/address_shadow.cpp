@@ -14,20 +14,7 @@ namespace vasa::gpu {
 namespace {
 
 constexpr VkDeviceSize kTouched = 16;
-
-Unique<VkDescriptorSetLayout> makeSetLayout(Device& device) {
-  const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
-                                             VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
-  info.bindingCount = 1;
-  info.pBindings = &binding;
-  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
-  device.setName(layout, "access by address");
-  return {device.handle(), layout};
-}
+constexpr VkDescriptorSetLayoutBinding kBinding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
 
 }  // namespace
 
@@ -37,9 +24,8 @@ AddressShadow::AddressShadow(Device& device, const ShaderCode& shader) {
   if (addresses_.empty()) return;
   device_ = &device;
   const std::string name(shader.name);
-  set_ = makeSetLayout(device);
-  const VkDescriptorSetLayout set = set_.get();
-  layout_ = makePipelineLayout(device, name, VK_SHADER_STAGE_COMPUTE_BIT, 0, {&set, 1});
+  set_ = makeSetLayout(device, "access by address", {&kBinding, 1}, VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR);
+  layout_ = makePipelineLayout(device, name, VK_SHADER_STAGE_COMPUTE_BIT, 0, {&set_.get(), 1});
   read_ = makePipeline(spirv::access_read_comp, name + " reads by address");
   write_ = makePipeline(spirv::access_write_comp, name + " writes by address");
 }

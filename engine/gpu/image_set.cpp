@@ -2,6 +2,8 @@
 
 #include "gpu/device.h"
 #include "gpu/error.h"
+#include "gpu/pipeline.h"
+#include "gpu/target.h"
 
 namespace vasa::gpu {
 namespace {
@@ -10,14 +12,7 @@ Unique<VkDescriptorSetLayout> makeLayout(Device& device, const char* name, std::
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (std::uint32_t k = 0; k < count; ++k)
     bindings.push_back({k, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr});
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = count;
-  info.pBindings = bindings.data();
-  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
-  device.setName(layout, name);
-  return {device.handle(), layout};
+  return makeSetLayout(device, name, bindings);
 }
 
 Unique<VkDescriptorPool> makePool(Device& device, const char* name, std::uint32_t count) {
@@ -35,18 +30,19 @@ Unique<VkDescriptorPool> makePool(Device& device, const char* name, std::uint32_
 
 }  // namespace
 
-ImageSet::ImageSet(Device& device, const char* name, const std::vector<Entry>& images)
+ImageSet::ImageSet(Device& device, const char* name, const std::vector<const Image*>& images)
     : layout_(makeLayout(device, name, std::uint32_t(images.size()))),
-      handle_(layout_.get()),
       pool_(makePool(device, name, std::uint32_t(images.size()))) {
   VkDescriptorSetAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
   info.descriptorPool = pool_.get();
   info.descriptorSetCount = 1;
-  info.pSetLayouts = &handle_;
+  info.pSetLayouts = &layout_.get();
   check(vkAllocateDescriptorSets(device.handle(), &info, &set_), "vkAllocateDescriptorSets");
   for (std::uint32_t k = 0; k < images.size(); ++k) {
-    const VkDescriptorImageInfo image{VK_NULL_HANDLE, images[k].view, images[k].layout};
+    const bool depth = images[k]->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
+    const VkDescriptorImageInfo image{VK_NULL_HANDLE, images[k]->view(),
+                                      depth ? kReadDepthLayout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set_;

@@ -41,6 +41,19 @@ VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShade
   return info;
 }
 
+Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name, std::span<const VkDescriptorSetLayoutBinding> bindings,
+                                            VkDescriptorSetLayoutCreateFlags flags) {
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.flags = flags;
+  info.bindingCount = std::uint32_t(bindings.size());
+  info.pBindings = bindings.data();
+  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+  check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
+  device.setName(layout, name);
+  return {device.handle(), layout};
+}
+
 Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view name, VkShaderStageFlags stages,
                                             std::uint32_t pushBytes,
                                             std::span<const VkDescriptorSetLayout> sets) {

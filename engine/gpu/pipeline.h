@@ -42,6 +42,9 @@ Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code);
 VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,
                                             const VkSpecializationInfo* constants);
 
+Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name, std::span<const VkDescriptorSetLayoutBinding> bindings,
+                                            VkDescriptorSetLayoutCreateFlags flags = 0);
+
 /// Throws Error if pushBytes is over the device's limit.
 Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view name, VkShaderStageFlags stages,
                                             std::uint32_t pushBytes,

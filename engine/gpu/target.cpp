@@ -13,7 +13,6 @@ constexpr VkPipelineStageFlags2 kDepthStages =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 constexpr VkPipelineStageFlags2 kDepthReaders = kDepthStages | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 constexpr VkImageLayout kDepthWritten = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-constexpr VkImageLayout kDepthRead = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 
 // The old content goes, but whoever still reads or writes it has to be finished.
 void makeAttachment(VkCommandBuffer commands, const Image& image) {
@@ -46,12 +45,12 @@ void Target::makeDepthReadable(VkCommandBuffer commands) const {
   assert(spec_.readDepth);
   if (readableDepth_) resolveDepth(commands);
   const Image& image = readableDepth();
-  changeLayout(commands, {image.handle(), image.aspect(), kDepthWritten, kDepthRead, kAttachmentStages, kDepthReaders});
+  changeLayout(commands, {image.handle(), image.aspect(), kDepthWritten, kReadDepthLayout, kAttachmentStages, kDepthReaders});
 }
 
 void Target::makeDepthWritable(VkCommandBuffer commands) const {
   const Image& image = readableDepth();
-  changeLayout(commands, {image.handle(), image.aspect(), kDepthRead, kDepthWritten, kDepthReaders, kDepthStages});
+  changeLayout(commands, {image.handle(), image.aspect(), kReadDepthLayout, kDepthWritten, kDepthReaders, kDepthStages});
 }
 
 // An empty stretch that takes the first of each pixel's samples.

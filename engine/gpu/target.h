@@ -21,6 +21,9 @@ constexpr VkPipelineStageFlags2 kAttachmentStages = VK_PIPELINE_STAGE_2_COLOR_AT
                                                     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
                                                     VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 
+/// Of depth that shaders read while it is tested.
+constexpr VkImageLayout kReadDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+
 /// A picture may be drawn in several stretches with other work (compute passes) between them.
 enum class Stretch { only, first, middle, last };
 
@@ -47,7 +50,7 @@ class Target {
   void end(VkCommandBuffer commands, VkImageLayout after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) const;
 
   /// Depth, of the first sample of each pixel. Between two stretches and from makeDepthReadable() to makeDepthWritable() it
-  /// is in VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, for fragment shaders and depth tests.
+  /// is in kReadDepthLayout, for fragment shaders and depth tests.
   const Image& readableDepth() const { return readableDepth_ ? readableDepth_ : depth_; }
   void makeDepthReadable(VkCommandBuffer commands) const;
   void makeDepthWritable(VkCommandBuffer commands) const;

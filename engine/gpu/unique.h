@@ -52,7 +52,7 @@ class Unique {
     if (handle_) destroyHandle(device_, handle_);
   }
 
-  Handle get() const { return handle_; }
+  const Handle& get() const { return handle_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
  private:

@@ -9,8 +9,6 @@
 namespace vasa {
 namespace {
 
-constexpr VkImageLayout kDepthRead = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-
 gpu::Image makeLight(gpu::Device& device, const char* name, const gpu::Target& target) {
   return {device,
           {name, target.spec().size, VK_FORMAT_R32_SFLOAT,
@@ -61,7 +59,7 @@ void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Targ
   VkRenderingAttachmentInfo colour = gpu::attachment(light, written, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
   colour.clearValue.color.float32[0] = 1;
   const VkRenderingAttachmentInfo depth =
-      gpu::attachment(target.readableDepth(), kDepthRead, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
+      gpu::attachment(target.readableDepth(), gpu::kReadDepthLayout, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
   info.renderArea.extent = light.size();
@@ -85,9 +83,9 @@ void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Targ
 OcclusionPass::OcclusionPass(gpu::Device& device, const gpu::Target& target)
     : raw_(makeLight(device, "occlusion, raw", target)),
       light_(makeLight(device, "occlusion", target)),
-      findSet_(device, "depth", {{target.readableDepth().view(), kDepthRead}}),
-      smoothSet_(device, "depth and raw occlusion", {{target.readableDepth().view(), kDepthRead}, {raw_.view()}}),
-      applySet_(device, "occlusion", {{light_.view()}}),
+      findSet_(device, "depth", {&target.readableDepth()}),
+      smoothSet_(device, "depth and raw occlusion", {&target.readableDepth(), &raw_}),
+      applySet_(device, "occlusion", {&light_}),
       find_(device, intoLight(spirv::occlusion_frag, findSet_, target.spec(), raw_)),
       smooth_(device, intoLight(spirv::smooth_frag, smoothSet_, target.spec(), light_)),
       apply_(device, ontoPicture(applySet_, target.spec())) {}

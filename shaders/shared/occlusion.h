@@ -37,11 +37,10 @@ struct OcclusionPush {
   float perspective;               // 1, or 0 orthographic
   float reach;                     // [m] how far away a surface takes light
   float strength;
-  uint unused;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(OcclusionPush) == 56);
+static_assert(sizeof(OcclusionPush) == 52);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

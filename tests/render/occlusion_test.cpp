@@ -100,10 +100,11 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
         target.begin(commands, {1, 1, 1, 1}, 0, gpu::Stretch::first);
         surface.recordVessels(commands, drawConstants(camera, {}, target.spec().size), draws, tubes.groupsPerBatch());
         target.pause(commands);
+        gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
         pass.record(commands, target, camera, 0.05f, 1);
         gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
         target.makeDepthReadable(commands);
-        copyFloats(commands, target.readableDepth(), VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, depths);
+        copyFloats(commands, target.readableDepth(), gpu::kReadDepthLayout, depths);
         copyFloats(commands, pass.raw(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, raws);
         copyFloats(commands, pass.light(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, lights);
         target.makeDepthWritable(commands);
