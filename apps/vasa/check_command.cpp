@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "avoid/sides.h"
 #include "commands.h"
 #include "core/log.h"
 #include "frame_output.h"
@@ -99,9 +100,27 @@ class CorrectionChange {
   std::vector<vec3> last_;
 };
 
+// Vessels that have changed sides since rest, by a look of its own.
+class SideCheck {
+ public:
+  explicit SideCheck(const Network& network) : interference_(network), sides_(network, interference_), tubes_(interference_.layout().count()) {}
+  std::span<const Contact> find(const FrameMaker& maker) {
+    interference_.layout().shape(maker.points(), tubes_);
+    sides_.findChanged(tubes_, maker.rotations(), changed_);
+    return changed_;
+  }
+  std::span<const Contact> changed() const { return changed_; }
+
+ private:
+  Interference interference_;
+  RestSides sides_;
+  std::vector<Bezier> tubes_;
+  std::vector<Contact> changed_;
+};
+
 // The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two are, and
 // tubes in bones by the joint that carries the bone.
-void addPlaces(const Scene& scene, const Avoider& avoider, Report& row) {
+void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Contact> changedSides, Report& row) {
   const Network& network = scene.network;
   const auto describe = [&](const Contact& contact, float depth) {
     const auto nameOf = [&](std::uint32_t tube) { return network.vessel(avoider.layout().address(tube).vessel).name; };
@@ -110,7 +129,7 @@ void addPlaces(const Scene& scene, const Avoider& avoider, Report& row) {
   };
   row["remaining"] = row["changed_sides"] = Report::array();
   for (const Interference::Place& place : avoider.remaining()) row["remaining"].push_back(describe(place.contact, place.excess()));
-  for (const Contact& contact : avoider.changedSides()) row["changed_sides"].push_back(describe(contact, -contact.f));
+  for (const Contact& contact : changedSides) row["changed_sides"].push_back(describe(contact, -contact.f));
   row["in_bones"] = Report::array();
   for (const BoneContact& contact : avoider.inBones()) {
     const auto [vessel, span] = avoider.layout().address(contact.tube);
@@ -122,7 +141,7 @@ void addPlaces(const Scene& scene, const Avoider& avoider, Report& row) {
   }
 }
 
-Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange& correction, std::uint32_t frame,
+Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange& correction, SideCheck& sides, std::uint32_t frame,
                    const Options& options) {
   const AvoidReport& avoid = maker.report().avoid;
   const VolumeErrors volume = volumeErrors(scene.network, maker.points(), *maker.avoider());
@@ -142,8 +161,8 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"moved_rms_m", avoid.movedRms},
              {"kinks_before", maker.report().kinks},
              {"kinks", kinkCount(scene.network, maker.points())},
-             {"sides_changed_before", avoid.sidesChanged},
-             {"sides_changed", avoid.sidesChangedAfter},
+             {"sides_changed", sides.find(maker).size()},
+             {"steps", maker.report().steps},
              {"obstacle_contacts_before", avoid.bones.contacts},
              {"obstacle_contacts_after", avoid.bonesAfter.contacts},
              {"obstacle_deeper_before", avoid.bones.deeper},
@@ -161,7 +180,7 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"detect_ms", avoid.detectMs},
              {"solve_ms", avoid.solveMs},
              {"certify_ms", avoid.certifyMs}};
-  if (options.places) addPlaces(scene, *maker.avoider(), row);
+  if (options.places) addPlaces(scene, *maker.avoider(), sides.changed(), row);
   return row;
 }
 
@@ -203,15 +222,16 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}});
+  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall, .lookBefore = true}});
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;
   CorrectionChange correction;
+  SideCheck sides(setting->scene.network);
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     if (stopRequested()) return stopError();
     maker.make(setting->clip, setting->clip ? setting->clip->timeOfFrame(frame) : 0);
-    report["frames"].push_back(frameReport(setting->scene, maker, correction, frame, options));
+    report["frames"].push_back(frameReport(setting->scene, maker, correction, sides, frame, options));
     progress.update(frame - first + 1, last - first + 1);
   }
   report["summary"] = summaryOf(report["frames"]);

@@ -22,8 +22,6 @@ constexpr float kWidest = 0.6f;  // of the field's band: radius of a ball that i
 constexpr int kRing = 8;
 constexpr float kStep = 0.001f;  // [m] of the search for the way out, at least
 constexpr float kStride = 0.8f;  // ... and of the distance
-constexpr float kNearAtRest = 0.02f;  // [m] what lay so near a part belongs on that side of it
-const float kAlong = std::cos(0.5f * 50 * kPi / 180);  // ... unless it has turned about it by more than this
 constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
@@ -105,7 +103,7 @@ struct Bones::State {
     std::uint32_t joint;
     DistanceField field;
     mat4 matrix{1}, inverse{1};                            // as bound -> posed, and back
-    quat turn{1, 0, 0, 0};                                 // since rest
+    mat4 inverseBefore{1};                                 // back from the pose before
     std::vector<std::pair<std::uint32_t, float>> atRest = {};  // tube, f < 0; sorted
 
     float allowed(std::uint32_t tube) const {
@@ -126,12 +124,10 @@ struct Bones::State {
     bool before(std::uint32_t otherPart, std::uint32_t otherTube) const { return part != otherPart ? part < otherPart : tube < otherTube; }
   };
   struct Tubes {
-    std::span<const Bezier> now;
-    const PosedTubes& posed;
+    std::span<const Bezier> now, last;
   };
   std::vector<Solid> solids;
-  std::vector<mat4> toBound;  // a joint's way from the rest pose to where meshes are bound
-  std::vector<Bezier> rest;
+  std::vector<Bezier> base;   // the shape when all were looked at last
   std::vector<int> pieces;    // a tube each
   std::vector<Aabb> boxes;    // of the parts in the pose
   std::vector<std::vector<BoneContact>> found;  // a task each
@@ -184,17 +180,9 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
   contact.normal = glm::normalize(mat3(solid.matrix) * normal);
 }
 
-// Where the place was at rest, if that was near the part and went along with it; or else before it was pushed, if that
-// is outside.
+// Where the place was before, as the part sees it: the side of the part to which it belongs.
 vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
-  const Solid& solid = solids[at.part];
-  vec3 atRest = placed(toBound[solid.joint], vec3(rest[at.tube].at(s)));
-  const DistanceField::Sample sample = solid.field.at(atRest);
-  if (sample.distance <= 0) atRest += (kStep - sample.distance) * unitOr(sample.gradient, vec3(0));
-  const bool along = tubes.posed.turns.empty() || std::abs(glm::dot(tubes.posed.turns[at.tube], solid.turn)) > kAlong;
-  if (along && solid.field.clearance(atRest) < kNearAtRest) return atRest;
-  const vec3 before = placed(solid.inverse, vec3(tubes.posed.tubes[at.tube].at(s)));
-  return solid.field.distance(before) > 0 ? before : atRest;
+  return placed(solids[at.part].inverseBefore, vec3(tubes.last[at.tube].at(s)));
 }
 
 // Whether a ball in the pose touches no part but its own.
@@ -293,7 +281,7 @@ bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes, std::
 void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
   const std::size_t begin = task * kTubesPerTask, end = std::min(tubes.now.size(), begin + kTubesPerTask);
   for (std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
-    if (distanceMoved(tubes.now[i], tubes.posed.tubes[i]) < kMovedFar) continue;
+    if (distanceMoved(tubes.now[i], base[i]) < kMovedFar) continue;
     const Aabb box = tubes.now[i].bounds();
     for (std::uint32_t part = 0; part < solids.size(); ++part) {
       if (!boxes[part].overlaps(box)) continue;
@@ -349,7 +337,7 @@ void Bones::State::lookAtAll(std::size_t task, const Tubes& tubes, std::vector<B
 void Bones::State::lookAtNear(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out) {
   findNewlyNear(task, tubes);
   for (Near at : near[task])
-    if (at.f - at.allowed <= kSteepest * distanceMoved(tubes.now[at.tube], tubes.posed.tubes[at.tube]))
+    if (at.f - at.allowed <= kSteepest * distanceMoved(tubes.now[at.tube], base[at.tube]))
       look(at, inPart(at.part, tubes.now[at.tube]), tubes, out);
 }
 
@@ -359,16 +347,13 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     for (const Part& part : partsOf(mesh))
       state_->solids.push_back({part.joint, DistanceField(part.positions, part.triangles, {})});
   }
-  state_->rest.assign(restTubes.begin(), restTubes.end());
   for (const Bezier& tube : restTubes) state_->pieces.push_back(piecesOf(tube));
   std::vector<mat4> matrices;
   const Pose rest = restPose(body.skeleton);
-  for (std::size_t j = 0; j < body.skeleton.joints.size(); ++j) {
+  for (std::size_t j = 0; j < body.skeleton.joints.size(); ++j)
     matrices.push_back(rest.world[j] * body.skeleton.joints[j].inverseBind);
-    state_->toBound.push_back(glm::inverse(matrices.back()));
-  }
   pose(matrices);
-  contacts(restTubes, {restTubes, {}});
+  contacts(restTubes, restTubes);
   for (const BoneContact& contact : state_->contacts) {
     auto& atRest = state_->solids[contact.part].atRest;
     if (atRest.empty() || atRest.back().first != contact.tube) atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
@@ -377,19 +362,6 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
 }
 Bones::~Bones() = default;
 Bones::Bones(Bones&&) noexcept = default;
-
-float Bones::allowed(std::uint32_t tube, std::uint32_t part) const {
-  return state_->solids[part].allowed(tube);
-}
-
-const Aabb& Bones::box(std::uint32_t part) const {
-  return state_->boxes[part];
-}
-
-float Bones::distance(std::uint32_t part, vec3 place) const {
-  const State::Solid& solid = state_->solids[part];
-  return solid.field.distance(placed(solid.inverse, place));
-}
 
 std::uint32_t Bones::partCount() const {
   return std::uint32_t(state_->solids.size());
@@ -409,15 +381,16 @@ std::size_t Bones::bytes() const {
 void Bones::pose(std::span<const mat4> jointMatrices) {
   state_->boxes.clear();
   for (State::Solid& solid : state_->solids) {
+    solid.inverseBefore = solid.inverse;
     solid.matrix = jointMatrices[solid.joint];
     solid.inverse = glm::inverse(solid.matrix);
-    solid.turn = glm::normalize(glm::quat_cast(mat3(solid.matrix * state_->toBound[solid.joint])));
     state_->boxes.push_back(placed(solid.matrix, solid.field.box()));
   }
 }
 
-std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, const PosedTubes& posed, Which which) {
+std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which) {
   State& state = *state_;
+  if (which == Which::all) state.base.assign(tubes.begin(), tubes.end());
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
   state.found.resize(tasks);
   state.near.resize(tasks);
@@ -425,8 +398,8 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, cons
   state.seenBefore.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
     state.found[task].clear();
-    if (which == Which::all) state.lookAtAll(task, {tubes, posed}, state.found[task]);
-    else state.lookAtNear(task, {tubes, posed}, state.found[task]);
+    if (which == Which::all) state.lookAtAll(task, {tubes, last}, state.found[task]);
+    else state.lookAtNear(task, {tubes, last}, state.found[task]);
   });
   state.contacts.clear();
   for (std::size_t task = 0; task < tasks; ++task)

@@ -22,22 +22,14 @@ struct BoneContact {
   bool enters() const { return allowed - f > (allowed < 0 ? kRestTolerance : 0); }
 };
 
-/// The tubes before any correction.
-struct PosedTubes {
-  std::span<const Bezier> tubes;
-  std::span<const quat> turns;  ///< how each tube's surroundings turned since rest; empty: not at all
-};
-
 /// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint that
 /// carries them. A part is rigid, so its distance field is made once, and tubes are looked at from the joint; the
 /// field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the joint with the
 /// largest weight at its first corner.
 ///
-/// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way leaves the
-/// part to where the tube belongs, so that a vessel is not pushed through a bone: the place at rest, if that was near
-/// the part and has not turned about it since, as the vessels of the forearm do about the radius, or else the one that
-/// the pose alone gives, if that is outside. Where that way leads into another part and the nearest surface's does not,
-/// the nearest surface's is taken.
+/// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way to where
+/// the tube was in the pose before, as the part sees it, leaves the part, so that a vessel is not pushed through a
+/// bone. Where that way leads into another part and the nearest surface's does not, the nearest surface's is taken.
 class Bones {
  public:
   /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
@@ -45,23 +37,16 @@ class Bones {
   ~Bones();
   Bones(Bones&&) noexcept;
 
-  /// @param jointMatrices  a joint's world · inverseBind
+  /// From one pose to the next. @param jointMatrices  a joint's world · inverseBind
   void pose(std::span<const mat4> jointMatrices);
 
   /// Places where tubes enter a part; sorted by tube, part and parameter. Tubes are
   /// looked at in four to seven places. Parallel.
-  /// @param posed  the tubes before any correction
+  /// @param last   the tubes in the pose before
   /// @param which  all tubes, or only those that were within a field's band when all were looked at last, and those that
-  ///               were moved far: what a round of corrections can bring into a bone, much faster
+  ///               were moved far since: what a round of corrections can bring into a bone, much faster
   enum class Which { all, nearAtLast };
-  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, const PosedTubes& posed, Which which = Which::all);
-
-  /// Where a part is in the pose, its field's band around it included.
-  const Aabb& box(std::uint32_t part) const;
-  /// Signed distance of a place in the pose from a part [m]; the band, or more, beyond the band.
-  float distance(std::uint32_t part, vec3 place) const;
-  /// How deep a tube may be in a part [m], <= 0.
-  float allowed(std::uint32_t tube, std::uint32_t part) const;
+  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which = Which::all);
 
   std::uint32_t partCount() const;
   JointId jointOf(std::uint32_t part) const;  ///< that carries a part

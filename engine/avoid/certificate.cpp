@@ -14,7 +14,7 @@ Certificate certificateOf(std::span<const Interference::Place> places, std::vect
   if (interfering) interfering->clear();
   for (const Interference::Place& place : places) {
     if (!place.interferes()) {
-      ++certificate.restContacts;
+      certificate.restContacts += place.contact.f < 0;
       continue;
     }
     ++certificate.contacts;

@@ -1,4 +1,4 @@
-#include "avoid/solver_state.h"
+#include "avoid/solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,43 +8,25 @@
 #include <tuple>
 #include <utility>
 
-// Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
-//   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
-// so that z is always the minimiser for the present multipliers. α is a little compliance: where there is no room the
-// multipliers stay finite.
+#include "avoid/contact_pool.h"
+#include "avoid/skin_wall.h"
+#include "core/clock.h"
+
 namespace vasa {
 namespace {
 
-constexpr float kCompliance = 1e-3f;  // α as a share of a·g
-constexpr float kSettled = 1e-6f;     // [m]
-
-// What is tried, one after the other, where there is no room for all that is asked for: the vessels that are still in
-// one another's way are parted the way they lie, and let through bones with what is joined to them within some nodes.
-constexpr unsigned kResorts[] = {0, 0, 2, 6, 1000, 0, 0, 0};
-
-void noteMovement(std::span<const vec4> from, std::span<const vec4> to, AvoidReport& report) {
-  double sum = 0;
-  for (std::size_t p = 0; p < from.size(); ++p) {
-    const float moved = glm::distance(vec3(from[p]), vec3(to[p]));
-    report.movedMax = std::max(report.movedMax, moved);
-    sum += double(moved) * moved;
-  }
-  if (!from.empty()) report.movedRms = float(std::sqrt(sum / double(from.size())));
-}
-
-// What contacts are sorted by.
-std::tuple<std::uint32_t, std::uint32_t, float> placeOf(const BoneContact& contact) {
-  return {contact.tube, contact.part, contact.s};
-}
+constexpr float kFading = 0.1f;         // [s] in which a correction that nothing asks for falls to a third ...
+constexpr float kFastestFading = 0.02f; // [m/s] ... but no faster than this
+constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way doubles where there is room again
+constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
+constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
-  std::uint32_t count = 0, last = kNoTube;
+  std::uint32_t count = 0, last = ~0u;
   for (const BoneContact& contact : contacts)
     if (counts(contact) && std::exchange(last, contact.tube) != contact.tube) ++count;
   return count;
 }
-
-}  // namespace
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
   return tubesOf(contacts, [](const BoneContact&) { return true; });
@@ -57,214 +39,195 @@ BoneReport reportOf(std::span<const BoneContact> contacts) {
   return report;
 }
 
-void Avoider::State::push(const Constraint& constraint, const MotionSpace::Rows& rows, float amount) {
-  const vec3 force = amount * constraint.normal;
-  const float* response = rows.responses.data() + constraint.row.firstResponse;
-  for (const auto& [first, count] : rows.runsOf(constraint.row))
-    for (std::uint32_t k = 0; k < count; ++k) z[first + k] += *response++ * force;
+}  // namespace
+
+struct Avoider::State {
+  State(const Network& own, const Body* body, AvoidOptions chosen)
+      : network(own),
+        options(chosen),
+        interference(own),
+        space(own, chosen.bending),
+        pool(space, interference),
+        z(space.variableCount()),
+        lastTubes(interference.restTubes().begin(), interference.restTubes().end()),
+        lastRotations(own.points().size(), quat(1, 0, 0, 0)),
+        turns(interference.layout().count()) {
+    if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
+    if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
+    correction.motions.assign(z.size(), vec3(0));
+    correction.widest.assign(own.points().size(), kNoLimit);
+  }
+
+  struct Input {
+    const PosedVessels& posed;
+    const VolumeKeeper* volume;
+    std::span<vec4> points;
+    AvoidReport& report;
+  };
+  void pose(const PosedVessels& posed);
+  void fade(float seconds);
+  quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
+  void place(const Input& in);
+  void look(const Input& in, std::span<const vec4> points, Bones::Which which, float margin);
+  bool settled() const;
+  void separate(const Input& in);
+  void giveWay(const Input& in);
+  void accept(const PosedVessels& posed);
+  void sumUp(const Input& in);
+
+  const Network& network;
+  AvoidOptions options;
+  Interference interference;
+  MotionSpace space;
+  std::unique_ptr<Bones> bones;
+  std::unique_ptr<SkinWall> wall;
+  ContactPool pool;
+  Correction correction;
+  std::vector<vec3> z;            // the correction in the pose
+  std::vector<Bezier> lastTubes;  // of the last admissible shape
+  std::vector<quat> lastRotations, turns;
+  std::vector<Interference::Place> found, remaining;
+  std::span<const Interference::Place> places;  // of the last look, as the next
+  std::span<const BoneContact> boneContacts;
+  std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
+  std::vector<NarrowPlace> narrowed;
+  VolumeKeeper::Outcome volumeOutcome;
+};
+
+quat Avoider::State::turnOf(std::size_t variable, std::span<const quat> rotations) const {
+  if (variable < rotations.size()) return rotations[variable];
+  const Node& node = network.nodes()[variable - rotations.size()];
+  if (node.host || node.endCount == 0) return quat(1, 0, 0, 0);
+  const VesselEnd end = network.ends(node)[0];
+  const Vessel& vessel = network.vessel(end.vessel);
+  return rotations[vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0)];
 }
 
-// What all multipliers move together.
-void Avoider::State::sumUp() {
-  std::fill(z.begin(), z.end(), vec3(0));
-  for (const Constraint& constraint : boneConstraints.constraints())
-    if (constraint.multiplier > 0) push(constraint, boneConstraints.rows(), constraint.multiplier);
-  for (const Constraint& constraint : pool.constraints())
-    if (constraint.multiplier > 0) push(constraint, pool.rows(), constraint.multiplier);
-}
-
-// Returns how far that moved the place.
-float Avoider::State::ascend(Constraint& constraint, const MotionSpace::Rows& rows) {
-  vec3 motion(0);
-  for (const auto& [variable, weight] : rows.termsOf(constraint.row)) motion += weight * z[variable];
-  const float diagonal = constraint.row.diagonal, present = constraint.start + glm::dot(constraint.normal, motion);
-  const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
-  const float step = std::clamp(lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
-                                std::max(constraint.limit - constraint.multiplier, 0.0f));
-  if (step == 0) return 0;
-  constraint.multiplier += step;
-  push(constraint, rows, step);
-  return std::abs(step) * diagonal;
-}
-
-void Avoider::State::ascend() {
-  for (unsigned sweep = 0; sweep < options.sweeps; ++sweep) {
-    float largest = 0;
-    for (Constraint& constraint : boneConstraints.constraints())
-      largest = std::max(largest, ascend(constraint, boneConstraints.rows()));
-    for (Constraint& constraint : pool.constraints())
-      largest = std::max(largest, ascend(constraint, pool.rows()));
-    if (largest < kSettled) return;
+void Avoider::State::pose(const PosedVessels& posed) {
+  if (bones) bones->pose(posed.jointMatrices);
+  if (wall) wall->pose(posed.jointMatrices);
+  for (std::uint32_t tube = 0; tube < turns.size(); ++tube) {
+    const auto [vessel, span] = interference.layout().address(tube);
+    const std::uint32_t point = network.vessel(vessel).firstPoint + span + 1;
+    turns[tube] = posed.rotations[point] * glm::conjugate(lastRotations[point]);
   }
 }
 
-void Avoider::State::place(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+// What nothing asks for any more goes back, and lumina widen again.
+void Avoider::State::fade(float seconds) {
+  for (vec3& motion : correction.motions) {
+    const float size = glm::length(motion);
+    if (size > 0) motion *= std::max(1 - std::min(seconds / kFading, kFastestFading * seconds / size), 0.0f);
+  }
   const std::span<const vec4> rest = network.points();
-  for (std::size_t p = 0; p < points.size(); ++p)
-    points[p] = vec4(vec3(posed.points[p]), volume ? rest[p].w : points[p].w);
-  space.apply(z, points);
-  if (volume) volumeOutcome = volume->run(points);
-}
-
-void Avoider::State::look(const PosedVessels& posed, std::span<const vec4> points, Bones::Which which, AvoidReport& report) {
-  report.certifyMs = 0;
-  {
-    StageClock clock(report.certifyMs);
-    places = interference.find(points);
-    sides.findChanged(interference.tubes(), posed.rotations, changed);
+  for (std::size_t p = 0; p < rest.size(); ++p) {
+    float& widest = correction.widest[p];
+    widest *= 1 + seconds / kWidening;
+    if (widest > VolumeKeeper::kHighestFactor * rest[p].w) widest = kNoLimit;
   }
-  report.detectMs += report.certifyMs;
-  lookAtBones(which, report);
 }
 
-void Avoider::State::lookAtBones(Bones::Which which, AvoidReport& report) {
+// The shape that belongs to a correction.
+void Avoider::State::place(const Input& in) {
+  const std::span<const vec4> rest = network.points();
+  for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p] = vec4(vec3(in.posed.points[p]), rest[p].w);
+  space.apply(z, in.points);
+  if (in.volume) volumeOutcome = in.volume->run(in.points, correction.widest);
+  for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p].w = std::min(in.points[p].w, correction.widest[p]);
+}
+
+void Avoider::State::look(const Input& in, std::span<const vec4> points, Bones::Which which, float margin) {
+  in.report.certifyMs = 0;
+  {
+    StageClock clock(in.report.certifyMs);
+    places = interference.find(points, margin);
+    certificateOf(places, &remaining);
+  }
+  in.report.detectMs += in.report.certifyMs;
   if (!bones) return;
-  StageClock clock(report.boneMs);
-  boneContacts = bones->contacts(interference.tubes(), {posedTubes, posedTurns}, which);
+  StageClock clock(in.report.boneMs);
+  boneContacts = bones->contacts(interference.tubes(), lastTubes, which);
   if (!wall) return;
   skinContacts.clear();
   wall->addContacts(interference.tubes(), bones->partCount(), skinContacts);
-  allContacts.clear();
-  std::ranges::merge(boneContacts, skinContacts, std::back_inserter(allContacts), {}, &placeOf, &placeOf);
 }
 
-void Avoider::State::separate(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points,
-                              AvoidReport& report) {
-  for (unsigned round = 0; round < rounds; ++round) {
+bool Avoider::State::settled() const {
+  return remaining.empty() && boneContacts.empty() && skinContacts.empty();
+}
+
+void Avoider::State::separate(const Input& in) {
+  for (unsigned round = 0; round < options.rounds; ++round) {
     {
-      StageClock clock(report.solveMs);
-      const std::span<const Bezier> tubes = interference.tubes();
-      const bool grew = pool.refresh(tubes);
-      const std::size_t added = pool.add(places, changed, tubes, posed);
-      const std::size_t asking = boneConstraints.update(wall ? std::span<const BoneContact>(allContacts) : boneContacts, tubes, posedTubes);
-      if (added + asking == 0 && !grew) return;
-      ++report.rounds;
-      sumUp();
-      ascend();
-      place(posed, volume, points);
+      StageClock clock(in.report.solveMs);
+      solids.assign(boneContacts.begin(), boneContacts.end());
+      solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
+      pool.refresh(interference.tubes(), z);
+      pool.add(places, solids, interference.tubes(), {lastTubes, turns}, z);
+      if (pool.size() == 0) return;
+      ++in.report.rounds;
+      pool.ascend(options.sweeps, z);
+      place(in);
     }
-    look(posed, points, Bones::Which::nearAtLast, report);
+    look(in, in.points, Bones::Which::nearAtLast, kMargin);
+    if (settled()) return;
   }
-}
-
-// Vessels that bones hold against one another, and what hangs together with them within some nodes, are let through the
-// bones.
-void Avoider::State::letThroughBones(unsigned nodes) {
-  std::vector<VesselId> vessels;
-  std::vector<char> taken(network.vessels().size(), 0);
-  const auto take = [&](VesselId vessel) {
-    if (!std::exchange(taken[vessel.value], char(1))) vessels.push_back(vessel);
-  };
-  for (const Interference::Place& place : remaining)
-    for (const std::uint32_t tube : {place.contact.i, place.contact.j}) take(interference.layout().address(tube).vessel);
-  for (std::size_t first = 0; nodes-- > 0;) {
-    const std::size_t last = vessels.size();
-    for (; first < last; ++first) {
-      const Vessel& vessel = network.vessel(vessels[first]);
-      for (const NodeId id : {vessel.start, vessel.end}) {
-        if (!id.valid()) continue;
-        if (const auto& host = network.node(id).host) take(host->vessel);
-        for (const VesselEnd& end : network.ends(network.node(id))) take(end.vessel);
-      }
-    }
-  }
-  for (const VesselId vessel : vessels) boneConstraints.letThrough(vessel);
-  boneConstraints.restart();
-  pool.restart();
 }
 
 // Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the end, where
 // that only moves the trouble about, volume is given up for the certificate.
-void Avoider::State::giveWay(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points, AvoidReport& report) {
-  bool gave = false;
+void Avoider::State::giveWay(const Input& in) {
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
-    const bool apart = certificateOf(places, &remaining).holds(), lastResort = 2 * round >= options.lumenRounds;
-    if (apart && (lastResort || boneContacts.empty())) break;
+    const bool lastResort = 2 * round >= options.lumenRounds;
+    if (remaining.empty() && boneContacts.empty()) return;
     {
-      StageClock clock(report.solveMs);
-      if (!gave) {
-        gave = gaveWay = true;
-        most.assign(points.size(), std::numeric_limits<float>::infinity());
-      }
-      const bool keepVolume = volume && !lastResort;
-      if (!lastResort) narrow(network, interference.layout(), boneContacts, interference.tubes(), points, false, most);
-      narrow(network, interference.layout(), remaining, interference.tubes(), points, lastResort, most);
-      for (std::size_t p = 0; p < points.size(); ++p)
-        points[p].w = keepVolume ? network.points()[p].w : std::min(points[p].w, most[p]);
-      if (keepVolume) volumeOutcome = volume->run(points, most);
+      StageClock clock(in.report.solveMs);
+      std::vector<BoneContact> entered;
+      std::ranges::copy_if(boneContacts, std::back_inserter(entered), [](const BoneContact& contact) { return contact.allowed == 0; });
+      if (lastResort)
+        for (const Interference::Place& place : remaining)
+          for (const std::uint32_t tube : {place.contact.i, place.contact.j}) {
+            const Vessel& vessel = network.vessel(interference.layout().address(tube).vessel);
+            for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p)
+              correction.widest[p] = std::min(correction.widest[p], in.points[p].w);
+          }
+      narrow(network, interference.layout(), entered, interference.tubes(), in.points, lastResort, correction.widest);
+      narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort, correction.widest);
+      place(in);
     }
-    look(posed, points, Bones::Which::nearAtLast, report);
+    look(in, in.points, Bones::Which::nearAtLast, 0);
   }
 }
 
-// The points with the radii that they would have if nothing gave way.
-std::vector<vec4> Avoider::State::widePoints(const VolumeKeeper* volume, std::span<const vec4> points) const {
-  std::vector<vec4> wide(points.begin(), points.end());
-  for (std::size_t p = 0; p < wide.size(); ++p) wide[p].w = network.points()[p].w;
-  if (volume) volume->run(wide);
-  return wide;
+void Avoider::State::accept(const PosedVessels& posed) {
+  std::ranges::copy(interference.tubes(), lastTubes.begin());
+  std::ranges::copy(posed.rotations, lastRotations.begin());
+  for (std::size_t v = 0; v < z.size(); ++v) correction.motions[v] = glm::conjugate(turnOf(v, posed.rotations)) * z[v];
 }
 
-// From the multipliers as they are, after some were given up.
-void Avoider::State::tryAgain(unsigned rounds, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points,
-                              AvoidReport& report) {
-  {
-    StageClock clock(report.solveMs);
-    sumUp();
-    place(posed, volume, points);
-  }
-  look(posed, points, Bones::Which::nearAtLast, report);
-  separate(rounds, posed, volume, points, report);
-  giveWay(posed, volume, points, report);
-}
-
-AvoidReport Avoider::State::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
-  AvoidReport report;
-  pool.clear();
-  boneConstraints.clear();
+void Avoider::State::sumUp(const Input& in) {
+  AvoidReport& report = in.report;
   narrowed.clear();
-  gaveWay = false;
-  std::fill(z.begin(), z.end(), vec3(0));
-  if (bones) {
-    bones->pose(posed.jointMatrices);
-    if (wall) wall->pose(posed.jointMatrices);
-    interference.layout().shape(posed.points, posedTubes);
-    for (std::uint32_t tube = 0; tube < posedTurns.size(); ++tube) {
-      const auto [vessel, span] = interference.layout().address(tube);
-      posedTurns[tube] = posed.rotations[network.vessel(vessel).firstPoint + span + 1];
-    }
+  if (std::ranges::any_of(correction.widest, [](float widest) { return widest < kNoLimit; })) {
+    std::vector<vec4> wide(in.points.begin(), in.points.end());
+    for (std::size_t p = 0; p < wide.size(); ++p) wide[p].w = network.points()[p].w;
+    if (in.volume) in.volume->run(wide);
+    narrowed = narrowPlaces(network, wide, in.points);
   }
-  look(posed, points, Bones::Which::all, report);
-  report.before = certificateOf(places, &found);
-  report.sidesChanged = std::uint32_t(changed.size());
-  report.bones = reportOf(boneContacts);
-  report.skinContacts = tubesOf(skinContacts);
-  if (!report.before.holds() || !changed.empty() || report.bones.contacts + report.bones.deeper + report.skinContacts > 0) {
-    separate(options.rounds, posed, volume, points, report);
-    giveWay(posed, volume, points, report);
-    for (const unsigned nodes : kResorts) {
-      if (options.rounds == 0 || certificateOf(places, &remaining).holds()) break;
-      if (nodes > 0 && bones) letThroughBones(nodes);
-      pool.partAsTheyLie(remaining);
-      tryAgain(options.rounds, posed, volume, points, report);
-    }
-  }
-  if (report.rounds > 0 && certificateOf(places, &remaining).holds()) {
-    bringBack(posed, volume, points, report);
-    leaveBones(posed, volume, points, report);
-    goAroundBones(posed, volume, points, report);
-  }
-  if (gaveWay) narrowed = narrowPlaces(network, widePoints(volume, points), points);
-  report.after = certificateOf(places, &remaining);
-  report.sidesChangedAfter = std::uint32_t(changed.size());
+  report.after = certificateOf(places);
   report.bonesAfter = reportOf(boneContacts);
   report.skinContactsAfter = tubesOf(skinContacts);
   report.volume = volumeOutcome;
   report.narrowSpans = std::uint32_t(narrowed.size());
   for (const NarrowPlace& narrow : narrowed) report.leastLumen = std::min(report.leastLumen, narrow.factor);
-  report.constraints = std::uint32_t(pool.constraints().size() + boneConstraints.constraints().size());
-  noteMovement(posed.points, points, report);
-  return report;
+  report.constraints = std::uint32_t(pool.size());
+  double sum = 0;
+  for (std::size_t p = 0; p < in.points.size(); ++p) {
+    const float moved = glm::distance(vec3(in.posed.points[p]), vec3(in.points[p]));
+    report.movedMax = std::max(report.movedMax, moved);
+    sum += double(moved) * moved;
+  }
+  if (!in.points.empty()) report.movedRms = float(std::sqrt(sum / double(in.points.size())));
 }
 
 Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
@@ -272,17 +235,64 @@ Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
 Avoider::~Avoider() = default;
 Avoider::Avoider(Avoider&&) noexcept = default;
 
-AvoidReport Avoider::run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
-  return state_->run(posed, volume, points);
+void Avoider::start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+  State& state = *state_;
+  if (correction.motions.empty()) {
+    std::ranges::fill(state.correction.motions, vec3(0));
+    std::ranges::fill(state.correction.widest, kNoLimit);
+  } else {
+    state.correction = correction;
+  }
+  AvoidReport report;
+  state.pose(posed);
+  for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
+  state.place({posed, volume, points, report});
+  state.interference.layout().shape(points, state.lastTubes);
+  std::ranges::copy(posed.rotations, state.lastRotations.begin());
+}
+
+AvoidReport Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, std::span<vec4> points) {
+  State& state = *state_;
+  AvoidReport report;
+  const State::Input in{posed, volume, points, report};
+  state.pool.clear();
+  state.pose(posed);
+  if (state.options.lookBefore || state.options.rounds == 0) {
+    std::ranges::fill(state.z, vec3(0));
+    Correction kept;
+    kept.widest.assign(points.size(), kNoLimit);
+    std::swap(kept.widest, state.correction.widest);
+    state.place(in);
+    std::swap(kept.widest, state.correction.widest);
+    state.look(in, points, Bones::Which::all, 0);
+    report.before = certificateOf(state.places, &state.found);
+    report.bones = reportOf(state.boneContacts);
+    report.skinContacts = tubesOf(state.skinContacts);
+  }
+  if (state.options.rounds > 0) {
+    {
+      StageClock clock(report.solveMs);
+      state.fade(seconds);
+      for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
+      state.place(in);
+    }
+    state.look(in, points, Bones::Which::all, kMargin);
+    state.separate(in);
+    state.giveWay(in);
+  }
+  state.accept(posed);
+  state.sumUp(in);
+  return report;
+}
+
+const Correction& Avoider::correction() const {
+  return state_->correction;
 }
 std::span<const Interference::Place> Avoider::remaining() const {
   return state_->remaining;
 }
 std::span<const NarrowPlace> Avoider::narrowed() const {
   return state_->narrowed;
-}
-std::span<const Contact> Avoider::changedSides() const {
-  return state_->changed;
 }
 std::span<const BoneContact> Avoider::inBones() const {
   return state_->boneContacts;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "avoid/bones.h"
 #include "avoid/certificate.h"
@@ -10,15 +11,14 @@
 
 namespace vasa {
 
-/// Fixed budgets: no frame takes more than these, once, again at each of eight resorts where there is no room, and up to
-/// three times more for vessels on the wrong side of one another, and half of them up to five times for those in bones,
-/// of which each may then have some detours looked for.
+/// Fixed budgets: no step takes more than these.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
-  unsigned rounds = 10;      ///< detections, each followed by sweeps
-  unsigned sweeps = 40;      ///< of dual ascent over all constraints, a round
+  unsigned rounds = 8;       ///< detections, each followed by sweeps; 0: only look
+  unsigned sweeps = 30;      ///< of dual ascent over all constraints, a round
   unsigned lumenRounds = 8;  ///< of making vessels thinner where there is no room
   bool skinWall = false;     ///< hold vessels below the skin, too
+  bool lookBefore = false;   ///< tell how the pose was before any correction, too: a detection more
 };
 
 /// Tubes in bones or the heart.
@@ -30,30 +30,34 @@ struct BoneReport {
 
 /// What was done for a frame.
 struct AvoidReport {
-  Certificate before, after;
+  Certificate before, after;  ///< before: with AvoidOptions::lookBefore
   BoneReport bones, bonesAfter;
   std::uint32_t skinContacts = 0, skinContactsAfter = 0;  ///< tubes nearer to the skin than they may be, with skinWall
   std::uint32_t constraints = 0;  ///< in the pool at the end
   std::uint32_t rounds = 0;       ///< detections that asked for a correction
   float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
-  std::uint32_t sidesChanged = 0;      ///< pairs of tubes on the wrong side of one another, before
-  std::uint32_t sidesChangedAfter = 0; ///< ... and after
-  VolumeKeeper::Outcome volume;        ///< after the last change of radii
+  VolumeKeeper::Outcome volume;      ///< after the last change of radii
   std::uint32_t narrowSpans = 0;     ///< spans whose lumen gave way
   float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
   double detectMs = 0, boneMs = 0, solveMs = 0;  ///< over all rounds; bones are looked at apart
   double certifyMs = 0;                          ///< the last look, which is the certificate
 };
 
-/// Moves vessels apart that run through one another in a pose: the nearest admissible shape,
-///   least ½ zᵀ W z  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
-/// with z and W as in avoid/motion_space.h, so that branches stay joined. Method: dual coordinate ascent (Hildreth 1957)
-/// over a pool of contacts that is detected anew each round and only grows, 0 <= multipliers <= a limit, so that what
-/// cannot be met does not fling vessels about; then, where there is no room, thinner vessels. Where vessels are in one
-/// another's way even so, what was asked for between them is forgotten, on which sides they belong too, and in the end
-/// bones let them through; what is in a bone after all is led around it (avoid/detour.h). The certificate by an exact
-/// query, which comes last, goes before all else. Budgets are fixed and the order is that of the pairs: the result depends
-/// on the scene and the pose alone.
+/// How far vessels are from where the pose alone would have them: all that one step hands to the next. It is told as the
+/// vessels' surroundings see it, so that a limb that turns takes its vessels' corrections along.
+struct Correction {
+  std::vector<vec3> motions;   ///< [m] one a variable (avoid/motion_space.h); empty: none
+  std::vector<float> widest;   ///< [m] one a point: what a lumen that gave way may be; infinity elsewhere
+};
+
+/// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each step starts
+/// from the last one's correction, which fades where nothing asks for it, and finds the nearest admissible shape,
+///   least ½ (z - z0)ᵀ W (z - z0)  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
+/// with z0 the faded correction and W as in avoid/motion_space.h, so that branches stay joined. Contacts lie on the side on
+/// which the last admissible shape had them, so that no vessel passes through another. Method: dual coordinate ascent
+/// (Hildreth 1957) over a pool of contacts that is detected anew each round and only grows; then, where there is no room,
+/// thinner vessels. The certificate by an exact query comes last. Budgets are fixed and the order is that of the pairs:
+/// a step depends on the correction before and the two poses alone.
 class Avoider {
  public:
   /// @param network  must outlive this
@@ -62,20 +66,27 @@ class Avoider {
   ~Avoider();
   Avoider(Avoider&&) noexcept;
 
-  /// @param posed   the posed network, before any correction
-  /// @param volume  keeps the vessels' volume while they are moved, or null
-  /// @param points  caller-owned; on entry posed.points with the radii they are to have, on return the result
-  AvoidReport run(const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
+  /// Takes a pose with a correction that it was given before, as the place to go on from; or without any, which is right at
+  /// rest. @param points  caller-owned, the network with the correction on return
+  void start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
 
-  /// Of the last run: where vessels interfere in spite of all, and where they gave way.
+  /// On to the next pose.
+  /// @param posed    the posed network, before any correction
+  /// @param volume   keeps the vessels' volume while they are moved, or null
+  /// @param seconds  since the last step
+  /// @param points   caller-owned; the result on return
+  AvoidReport step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, std::span<vec4> points);
+
+  /// Of the last step.
+  const Correction& correction() const;
+
+  /// Of the last step: where vessels interfere in spite of all, and where they gave way.
   std::span<const Interference::Place> remaining() const;
   std::span<const NarrowPlace> narrowed() const;
-  /// Of the last run: tubes that are on the wrong side of one another in spite of all (RestSides::findChanged).
-  std::span<const Contact> changedSides() const;
-  /// Of the last run: places of tubes that are in a bone or the heart in spite of all, deeper than at rest.
+  /// Of the last step: places of tubes that are in a bone or the heart in spite of all, deeper than at rest.
   std::span<const BoneContact> inBones() const;
   JointId jointOfBone(std::uint32_t part) const;
-  /// Of the last run: where vessels interfered before.
+  /// Of the last step: where vessels interfered before, with AvoidOptions::lookBefore.
   std::span<const Interference::Place> found() const;
 
   const NetworkTubes& layout() const;

@@ -1,11 +1,13 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "avoid/solver.h"
 #include "body/deform.h"
 #include "body/volume.h"
 #include "network/kinks.h"
 #include "scene/beat.h"
+#include "scene/motion_track.h"
 #include "scene/scene.h"
 
 namespace vasa {
@@ -18,6 +20,7 @@ struct FrameReport {
   double volumeMs = 0;  ///< radii
   double framesMs = 0;  ///< knot frames
   std::uint32_t kinks = 0;  ///< spans that the pose bent to a kink, before they were straightened
+  std::uint32_t steps = 0;  ///< of the motion that led here from the frame before
   VolumeKeeper::Outcome volume;
   AvoidReport avoid;             ///< with the times of its own stages
 };
@@ -29,8 +32,13 @@ struct FrameOptions {
   AvoidOptions avoidance;    ///< budgets; no rounds and lumen rounds: only look
 };
 
-/// Turns poses into everything a picture needs: control points, knot frames, joint matrices. A frame depends on the
-/// scene and the pose alone. The scene must outlive it.
+/// Turns poses into everything a picture needs: control points, knot frames, joint matrices. The scene must outlive it.
+///
+/// A motion is solved, not a frame. A frame is a function of scene, clip and time alone: from the rest pose the body goes
+/// along a fixed way (body/pose_path.h) to the clip's first pose, and then through the clip frame by frame, in steps whose
+/// length follows from the motion alone; each starts from the correction of the one before. A time between two frames
+/// is one step on from the earlier one. A pose without a clip is reached from the rest pose in the same way. Frames
+/// that were made once are kept (scene/motion_track.h), so that only what is ahead has to be solved.
 class FrameMaker {
  public:
   explicit FrameMaker(const Scene& scene, FrameOptions options = {});
@@ -39,6 +47,8 @@ class FrameMaker {
   void make(const Clip* clip, float time);
   /// @param time  of the heart's beat
   void make(const Pose& pose, float time = 0);
+  /// On to a pose from where the body is now, whatever led there: for live posing. @param seconds  since then
+  void moveTo(const Pose& pose, float time, float seconds);
 
   const Pose& pose() const { return pose_; }
   std::span<const vec4> points() const { return points_; }
@@ -54,6 +64,15 @@ class FrameMaker {
   const Avoider* avoider() const { return avoider_.get(); }
 
  private:
+  void deform(const Pose& pose, float time);
+  void step(float seconds);
+  void walk(const Pose& target, float fromTime, float time, float seconds);
+  void startAtRest();
+  void goTo(const Clip& clip, std::uint32_t frame);
+  void resume(const Clip& clip, std::uint32_t frame);
+  void begin(const Clip& clip);
+  void finish();
+
   const Scene* scene_;
   FrameOptions options_;
   Deformer deformer_;
@@ -62,6 +81,8 @@ class FrameMaker {
   HeartBeat beat_;
   float heartScale_ = 1;
   std::unique_ptr<Avoider> avoider_;
+  MotionTrack track_;
+  std::optional<std::uint32_t> at_;  // frame of the track where the avoider stands
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;
   Pose pose_;

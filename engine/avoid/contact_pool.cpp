@@ -1,0 +1,211 @@
+#include "avoid/contact_pool.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/parallel.h"
+
+// Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
+//   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
+// so that z is always the minimiser for the present multipliers. α is a little compliance: where there is no room the
+// multipliers stay finite.
+namespace vasa {
+namespace {
+
+constexpr float kCompliance = 1e-3f;      // α as a share of a·g
+constexpr float kSettled = 1e-6f;         // [m]
+constexpr float kClearanceShare = 0.02f;  // of the sum of the radii
+constexpr float kLeastClearance = 1e-5f;  // [m]
+constexpr float kBoneClearance = 1e-4f;   // [m]
+constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
+constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
+constexpr float kNegligible = 2e-6f;      // [m] of violation
+constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
+constexpr float kReach = 3;               // how far a multiplier may push on its own: times what is lacking and the radii
+constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
+
+vec3 unitOr(vec3 v, vec3 otherwise) {
+  const float length = glm::length(v);
+  return length > 1e-9f ? v / length : otherwise;
+}
+
+// The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared distance.
+float nearestParameter(const Bezier& tube, vec3 p) {
+  float best = 0, least = std::numeric_limits<float>::infinity();
+  for (int k = 0; k <= 8; ++k) {
+    const vec3 gap = vec3(tube.at(float(k) / 8)) - p;
+    if (glm::dot(gap, gap) < least) least = glm::dot(gap, gap), best = float(k) / 8;
+  }
+  for (int step = 0; step < 3; ++step) {
+    const vec3 gap = vec3(tube.at(best)) - p, first(tube.derivative(best)), second(tube.secondDerivative(best));
+    const float speed = glm::dot(first, first), curvature = std::max(speed + glm::dot(gap, second), 0.2f * speed);
+    if (!(curvature > 0)) break;
+    best = std::clamp(best - glm::dot(gap, first) / curvature, 0.0f, 1.0f);
+  }
+  return best;
+}
+
+// What of c is at right angles to both tubes; to their mean alone where they run about the same way.
+vec3 sideways(vec3 c, vec3 u, vec3 v) {
+  if (glm::dot(u, v) < 0) v = -v;
+  const vec3 mean = unitOr(u + v, vec3(0)), difference = u - v;
+  c -= mean * glm::dot(c, mean);
+  const float size = glm::length(difference);
+  if (size < 1e-4f) return c;
+  const float share = std::min(1.0f, size / 0.7f);
+  return c - share * share * glm::dot(c, difference / size) * (difference / size);
+}
+
+// Which way to part two tubes: along their gap, unless they have come nearer than half of what is asked for or passed
+// through one another since they were last apart; then towards the side on which they were.
+vec3 partingDirection(vec3 gap, vec3 before, float distance, vec3 otherwise) {
+  const float sure = std::min(glm::length(before) / (0.5f * distance), 1.0f);
+  const vec3 side = unitOr(before, vec3(0));
+  const float beyond = glm::dot(gap, side);
+  const float turn = std::clamp(1 - 2 * beyond / distance, 0.0f, 1.0f);
+  return unitOr(gap + sure * (turn * distance - std::min(beyond, 0.0f)) * side, unitOr(before, otherwise));
+}
+
+auto keyOf(const Constraint& constraint) { return std::pair{constraint.i, constraint.other}; }
+
+}  // namespace
+
+ContactPool::ContactPool(const MotionSpace& space, const Interference& interference) : space_(&space), interference_(&interference) {}
+
+void ContactPool::clear() {
+  constraints_.clear();
+  rows_.clear();
+  sorted_ = 0;
+}
+
+vec3 ContactPool::motionOf(const Constraint& constraint, std::span<const vec3> z) const {
+  vec3 motion(0);
+  for (const auto& [variable, weight] : rows_.termsOf(constraint.row)) motion += weight * z[variable];
+  return motion;
+}
+
+void ContactPool::begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const {
+  const vec4 a = shape[constraint.i].at(constraint.s);
+  const vec4 b = constraint.isBone() ? vec4(constraint.point, 0) : shape[constraint.other].at(constraint.t);
+  constraint.distance = a.w + b.w + constraint.clearance;
+  constraint.start = glm::dot(constraint.normal, vec3(a) - vec3(b) - motionOf(constraint, z));
+}
+
+void ContactPool::refresh(std::span<const Bezier> shape, std::span<const vec3> z) {
+  for (Constraint& constraint : constraints_) begin(constraint, shape, z);
+}
+
+float ContactPool::clearanceFor(const Constraint& at, float radii) const {
+  const vec4 restA = interference_->restTubes()[at.i].at(at.s), restB = interference_->restTubes()[at.other].at(at.t);
+  const float atRest = glm::distance(vec3(restA), vec3(restB)) - restA.w - restB.w;
+  const float wanted = std::max(kClearanceShare * radii, kLeastClearance);
+  return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
+}
+
+void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) const {
+  const auto [i, j, contactS, contactT, f, contactNormal] = contact;
+  std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
+  for (std::size_t k = 0; k < kSamples.size(); ++k)
+    where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};
+  for (const auto& [s, t] : where) {
+    const vec4 a = shape[i].at(s), b = shape[j].at(t);
+    const vec3 gap = vec3(a) - vec3(b);
+    Constraint constraint{.i = i, .other = j, .s = s, .t = t};
+    constraint.clearance = clearanceFor(constraint, a.w + b.w);
+    const float distance = a.w + b.w + constraint.clearance;
+    const vec3 apart = vec3(last.tubes[i].at(s)) - vec3(last.tubes[j].at(t));
+    const vec3 before = sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart), unitOr(vec3(shape[i].derivative(s)), vec3(0)),
+                                 unitOr(vec3(shape[j].derivative(t)), vec3(0)));
+    constraint.normal = partingDirection(gap, before, distance, contactNormal);
+    const float lack = distance - glm::dot(constraint.normal, gap);
+    if (lack <= kNegligible) continue;
+    constraint.limit = kReach * (lack + a.w + b.w);
+    const auto own = std::span(found.constraints).first(found.count);
+    if (std::ranges::any_of(own, [&](const Constraint& other) { return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter; }) ||
+        known(constraint))
+      continue;
+    found.constraints[found.count++] = constraint;
+  }
+}
+
+bool ContactPool::known(const Constraint& wanted) const {
+  const auto sorted = std::span(constraints_).first(sorted_);
+  auto own = std::ranges::lower_bound(sorted, keyOf(wanted), {}, keyOf);
+  for (; own != sorted.end() && keyOf(*own) == keyOf(wanted); ++own)
+    if (std::abs(own->s - wanted.s) < kSameParameter && std::abs(own->t - wanted.t) < kSameParameter &&
+        glm::dot(own->normal, wanted.normal) > kSameDirection)
+      return true;
+  return false;
+}
+
+// Gives a row to a constraint and takes it in.
+void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) {
+  terms_.clear();
+  const auto [vessel, span] = interference_->layout().address(constraint.i);
+  space_->addPlace(vessel, span, constraint.s, 1, terms_);
+  if (!constraint.isBone()) {
+    const auto [otherVessel, otherSpan] = interference_->layout().address(constraint.other);
+    space_->addPlace(otherVessel, otherSpan, constraint.t, -1, terms_);
+  }
+  constraint.row = space_->finish(terms_, rows_);
+  if (constraint.row.diagonal <= kLeastDiagonal) return;
+  constraint.limit /= constraint.row.diagonal;
+  begin(constraint, shape, z);
+  constraints_.push_back(constraint);
+}
+
+void ContactPool::sortIn(std::size_t before) {
+  const auto middle = constraints_.begin() + std::ptrdiff_t(before);
+  const auto earlier = [](const Constraint& a, const Constraint& b) { return keyOf(a) < keyOf(b); };
+  std::stable_sort(middle, constraints_.end(), earlier);
+  std::inplace_merge(constraints_.begin(), middle, constraints_.end(), earlier);
+  sorted_ = constraints_.size();
+}
+
+std::size_t ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
+                             std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
+  proposals_.resize(std::max(proposals_.size(), places.size()));
+  parallelFor(places.size(), 16, [&](std::size_t k) {
+    proposals_[k].count = 0;
+    propose(places[k].contact, shape, last, proposals_[k]);
+  });
+  const std::size_t before = constraints_.size();
+  for (const BoneContact& place : bones) {
+    const float radius = shape[place.tube].at(place.s).w;
+    Constraint constraint{.i = place.tube, .other = Constraint::kBone | place.part, .s = place.s, .normal = place.normal, .point = place.point};
+    constraint.clearance = place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
+    constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
+    if (!known(constraint)) take(constraint, shape, z);
+  }
+  for (Proposals& proposals : std::span(proposals_).first(places.size()))
+    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, shape, z);
+  const std::size_t added = constraints_.size() - before;
+  sortIn(before);
+  return added;
+}
+
+// Returns how far that moved the place.
+float ContactPool::ascend(Constraint& constraint, std::span<vec3> z) {
+  const float diagonal = constraint.row.diagonal, present = constraint.start + glm::dot(constraint.normal, motionOf(constraint, z));
+  const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
+  const float step = std::clamp(lack / ((1 + kCompliance) * diagonal), -constraint.multiplier, std::max(constraint.limit - constraint.multiplier, 0.0f));
+  if (step == 0) return 0;
+  constraint.multiplier += step;
+  const vec3 force = step * constraint.normal;
+  const float* response = rows_.responses.data() + constraint.row.firstResponse;
+  for (const auto& [first, count] : rows_.runsOf(constraint.row))
+    for (std::uint32_t k = 0; k < count; ++k) z[first + k] += *response++ * force;
+  return std::abs(step) * diagonal;
+}
+
+void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
+  for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
+    float largest = 0;
+    for (Constraint& constraint : constraints_) largest = std::max(largest, ascend(constraint, z));
+    if (largest < kSettled) return;
+  }
+}
+
+}  // namespace vasa
