@@ -141,15 +141,16 @@ void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Conta
   }
 }
 
-Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange& correction, SideCheck& sides, std::uint32_t frame,
+Report frameReport(const Scene& scene, FrameMaker& maker, CorrectionChange& correction, SideCheck& sides, std::uint32_t frame,
                    const Options& options) {
   const AvoidReport& avoid = maker.report().avoid;
+  const PosedLook before = maker.lookAtPosed();
   const VolumeErrors volume = volumeErrors(scene.network, maker.points(), *maker.avoider());
   const CorrectionChange::Change change = correction.next(scene.network, maker);
   Report row{{"frame", frame},
-             {"contacts_before", avoid.before.contacts},
+             {"contacts_before", before.vessels.contacts},
              {"contacts_after", avoid.after.contacts},
-             {"depth_before_m", avoid.before.depth},
+             {"depth_before_m", before.vessels.depth},
              {"depth_after_m", avoid.after.depth},
              {"certified", avoid.after.holds()},
              {"volume_error", volume.kept},
@@ -163,13 +164,13 @@ Report frameReport(const Scene& scene, const FrameMaker& maker, CorrectionChange
              {"kinks", kinkCount(scene.network, maker.points())},
              {"sides_changed", sides.find(maker).size()},
              {"steps", maker.report().steps},
-             {"obstacle_contacts_before", avoid.bones.contacts},
+             {"obstacle_contacts_before", before.bones.contacts},
              {"obstacle_contacts_after", avoid.bonesAfter.contacts},
-             {"obstacle_deeper_before", avoid.bones.deeper},
+             {"obstacle_deeper_before", before.bones.deeper},
              {"obstacle_deeper_after", avoid.bonesAfter.deeper},
-             {"obstacle_depth_before_m", avoid.bones.depth},
+             {"obstacle_depth_before_m", before.bones.depth},
              {"obstacle_depth_after_m", avoid.bonesAfter.depth},
-             {"skin_contacts_before", avoid.skinContacts},
+             {"skin_contacts_before", before.skinContacts},
              {"skin_contacts_after", avoid.skinContactsAfter},
              {"bone_ms", avoid.boneMs},
              {"rest_contacts", avoid.after.restContacts},
@@ -222,7 +223,7 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall, .lookBefore = true}});
+  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}});
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;

@@ -353,6 +353,7 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
   for (std::size_t j = 0; j < body.skeleton.joints.size(); ++j)
     matrices.push_back(rest.world[j] * body.skeleton.joints[j].inverseBind);
   pose(matrices);
+  keepPose();
   contacts(restTubes, restTubes);
   for (const BoneContact& contact : state_->contacts) {
     auto& atRest = state_->solids[contact.part].atRest;
@@ -378,10 +379,13 @@ std::size_t Bones::bytes() const {
   return sum;
 }
 
+void Bones::keepPose() {
+  for (State::Solid& solid : state_->solids) solid.inverseBefore = solid.inverse;
+}
+
 void Bones::pose(std::span<const mat4> jointMatrices) {
   state_->boxes.clear();
   for (State::Solid& solid : state_->solids) {
-    solid.inverseBefore = solid.inverse;
     solid.matrix = jointMatrices[solid.joint];
     solid.inverse = glm::inverse(solid.matrix);
     state_->boxes.push_back(placed(solid.matrix, solid.field.box()));

@@ -37,8 +37,10 @@ class Bones {
   ~Bones();
   Bones(Bones&&) noexcept;
 
-  /// From one pose to the next. @param jointMatrices  a joint's world · inverseBind
+  /// The parts go to a pose. @param jointMatrices  a joint's world · inverseBind
   void pose(std::span<const mat4> jointMatrices);
+  /// The present pose is from now on the one before.
+  void keepPose();
 
   /// Places where tubes enter a part; sorted by tube, part and parameter. Tubes are
   /// looked at in four to seven places. Parallel.

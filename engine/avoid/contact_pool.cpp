@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -21,9 +22,12 @@ constexpr float kLeastClearance = 1e-5f;  // [m]
 constexpr float kBoneClearance = 1e-4f;   // [m]
 constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
 constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
+constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
 constexpr float kNegligible = 2e-6f;      // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
-constexpr float kReach = 3;               // how far a multiplier may push on its own: times what is lacking and the radii
+static const float kLever = getenv("LEVER") ? atof(getenv("LEVER")) : 3;
+static const float kFastest = getenv("FASTEST") ? atof(getenv("FASTEST")) : 0.045f;
+constexpr float kReach = 10;               // how far a multiplier may push on its own: times what is lacking and the radii
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
@@ -74,7 +78,8 @@ auto keyOf(const Constraint& constraint) { return std::pair{constraint.i, constr
 
 ContactPool::ContactPool(const MotionSpace& space, const Interference& interference) : space_(&space), interference_(&interference) {}
 
-void ContactPool::clear() {
+void ContactPool::clear(float seconds) {
+  seconds_ = seconds;
   constraints_.clear();
   rows_.clear();
   sorted_ = 0;
@@ -104,7 +109,7 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
   return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
 }
 
-void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) const {
+void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
   std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
   for (std::size_t k = 0; k < kSamples.size(); ++k)
@@ -124,20 +129,21 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     if (std::ranges::any_of(own, [&](const Constraint& other) { return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter; }) ||
-        known(constraint))
+        known(constraint, kSameDirection))
       continue;
     found.constraints[found.count++] = constraint;
   }
 }
 
-bool ContactPool::known(const Constraint& wanted) const {
+// The constraint that already asks for the same, or null.
+Constraint* ContactPool::known(const Constraint& wanted, float cosine) {
   const auto sorted = std::span(constraints_).first(sorted_);
   auto own = std::ranges::lower_bound(sorted, keyOf(wanted), {}, keyOf);
   for (; own != sorted.end() && keyOf(*own) == keyOf(wanted); ++own)
     if (std::abs(own->s - wanted.s) < kSameParameter && std::abs(own->t - wanted.t) < kSameParameter &&
-        glm::dot(own->normal, wanted.normal) > kSameDirection)
-      return true;
-  return false;
+        glm::dot(own->normal, wanted.normal) > cosine)
+      return &*own;
+  return nullptr;
 }
 
 // Gives a row to a constraint and takes it in.
@@ -151,6 +157,9 @@ void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, st
   }
   constraint.row = space_->finish(terms_, rows_);
   if (constraint.row.diagonal <= kLeastDiagonal) return;
+  float most = 0;
+  for (std::uint32_t k = 0, at = constraint.row.firstResponse; at < rows_.responses.size(); ++k, ++at) most = std::max(most, std::abs(rows_.responses[at]));
+  if (most > kLever * constraint.row.diagonal) constraint.limit = std::min(constraint.limit, kFastest * seconds_ * constraint.row.diagonal / most);
   constraint.limit /= constraint.row.diagonal;
   begin(constraint, shape, z);
   constraints_.push_back(constraint);
@@ -165,7 +174,7 @@ void ContactPool::sortIn(std::size_t before) {
 }
 
 std::size_t ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-                             std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
+                             std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z) {
   proposals_.resize(std::max(proposals_.size(), places.size()));
   parallelFor(places.size(), 16, [&](std::size_t k) {
     proposals_[k].count = 0;
@@ -177,13 +186,27 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
     Constraint constraint{.i = place.tube, .other = Constraint::kBone | place.part, .s = place.s, .normal = place.normal, .point = place.point};
     constraint.clearance = place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
     constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
-    if (!known(constraint)) take(constraint, shape, z);
+    // A bone's surface is not flat: the plane goes along with the place, and takes its push along.
+    if (Constraint* own = known(constraint, kSameWay)) {
+      push(*own, own->multiplier * (constraint.normal - own->normal), z);
+      own->normal = constraint.normal;
+      own->point = constraint.point;
+      begin(*own, shape, z);
+    } else {
+      take(constraint, shape, z);
+    }
   }
   for (Proposals& proposals : std::span(proposals_).first(places.size()))
     for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, shape, z);
   const std::size_t added = constraints_.size() - before;
   sortIn(before);
   return added;
+}
+
+void ContactPool::push(const Constraint& constraint, vec3 force, std::span<vec3> z) const {
+  const float* response = rows_.responses.data() + constraint.row.firstResponse;
+  for (const auto& [first, count] : rows_.runsOf(constraint.row))
+    for (std::uint32_t k = 0; k < count; ++k) z[first + k] += *response++ * force;
 }
 
 // Returns how far that moved the place.
@@ -193,10 +216,7 @@ float ContactPool::ascend(Constraint& constraint, std::span<vec3> z) {
   const float step = std::clamp(lack / ((1 + kCompliance) * diagonal), -constraint.multiplier, std::max(constraint.limit - constraint.multiplier, 0.0f));
   if (step == 0) return 0;
   constraint.multiplier += step;
-  const vec3 force = step * constraint.normal;
-  const float* response = rows_.responses.data() + constraint.row.firstResponse;
-  for (const auto& [first, count] : rows_.runsOf(constraint.row))
-    for (std::uint32_t k = 0; k < count; ++k) z[first + k] += *response++ * force;
+  push(constraint, step * constraint.normal, z);
   return std::abs(step) * diagonal;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdio>
 #include <span>
 #include <vector>
 
@@ -38,12 +39,12 @@ class ContactPool {
   /// All must outlive this.
   ContactPool(const MotionSpace& space, const Interference& interference);
 
-  void clear();
+  void clear(float seconds);
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
   /// side by side, at some more. @param shape  in which they were found @param z  its variables
   /// @return how many were added
   std::size_t add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-                  std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z);
+                  std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z);
 
   /// To be called before add() in every round: distances for the radii of the given shape.
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
@@ -51,6 +52,12 @@ class ContactPool {
   /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves anything.
   void ascend(unsigned sweeps, std::span<vec3> z);
 
+  void print(std::uint32_t i, std::uint32_t other, std::span<const vec3> z) const {
+    for (const Constraint& c : constraints_)
+      if (c.i == i && c.other == other)
+        fprintf(stderr, "      s %.2f t %.2f n %.2f %.2f %.2f d %.3f now %.3f lambda*diag %.3f of %.3f mm\n", c.s, c.t, c.normal.x, c.normal.y, c.normal.z, c.distance * 1e3, (c.start + glm::dot(c.normal, motionOf(c, z))) * 1e3, c.multiplier * c.row.diagonal * 1e3, c.limit * c.row.diagonal * 1e3);
+  }
+  template <class F> void each(const F& f, std::span<const vec3> z) const { for (const Constraint& c : constraints_) f(c, c.start + glm::dot(c.normal, motionOf(c, z))); }
   std::size_t size() const { return constraints_.size(); }
 
  private:
@@ -60,8 +67,9 @@ class ContactPool {
     std::size_t count = 0;
   };
   float clearanceFor(const Constraint& at, float radii) const;
-  void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) const;
-  bool known(const Constraint& wanted) const;
+  void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found);
+  Constraint* known(const Constraint& wanted, float cosine);
+  void push(const Constraint& constraint, vec3 force, std::span<vec3> z) const;
   void take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z);
   void begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const;
   vec3 motionOf(const Constraint& constraint, std::span<const vec3> z) const;
@@ -71,6 +79,7 @@ class ContactPool {
   const MotionSpace* space_;
   const Interference* interference_;
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
+  float seconds_ = 0;
   std::size_t sorted_ = 0;               // of them; the others are of this round
   MotionSpace::Rows rows_;
   std::vector<Proposals> proposals_;

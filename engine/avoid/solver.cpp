@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -19,6 +20,7 @@ constexpr float kFading = 0.1f;         // [s] in which a correction that nothin
 constexpr float kFastestFading = 0.02f; // [m/s] ... but no faster than this
 constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way doubles where there is room again
 constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
+static const float kDeepest = getenv("DEEP") ? atof(getenv("DEEP")) : 0.5f;
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -54,8 +56,9 @@ struct Avoider::State {
         turns(interference.layout().count()) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
-    correction.motions.assign(z.size(), vec3(0));
-    correction.widest.assign(own.points().size(), kNoLimit);
+    accepted.motions.assign(z.size(), vec3(0));
+    accepted.widest.assign(own.points().size(), kNoLimit);
+    correction = accepted;
   }
 
   struct Input {
@@ -66,6 +69,7 @@ struct Avoider::State {
   };
   void pose(const PosedVessels& posed);
   void fade(float seconds);
+  bool isTooLong() const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
   void look(const Input& in, std::span<const vec4> points, Bones::Which which, float margin);
@@ -74,6 +78,7 @@ struct Avoider::State {
   void giveWay(const Input& in);
   void accept(const PosedVessels& posed);
   void sumUp(const Input& in);
+  void debug(const Input& in);
 
   const Network& network;
   AvoidOptions options;
@@ -82,7 +87,7 @@ struct Avoider::State {
   std::unique_ptr<Bones> bones;
   std::unique_ptr<SkinWall> wall;
   ContactPool pool;
-  Correction correction;
+  Correction accepted, correction;  // of the last step, and of this one
   std::vector<vec3> z;            // the correction in the pose
   std::vector<Bezier> lastTubes;  // of the last admissible shape
   std::vector<quat> lastRotations, turns;
@@ -90,6 +95,7 @@ struct Avoider::State {
   std::span<const Interference::Place> places;  // of the last look, as the next
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
+  std::vector<BoneContact> left;                  // in bones, after the last step
   std::vector<NarrowPlace> narrowed;
   VolumeKeeper::Outcome volumeOutcome;
 };
@@ -115,6 +121,7 @@ void Avoider::State::pose(const PosedVessels& posed) {
 
 // What nothing asks for any more goes back, and lumina widen again.
 void Avoider::State::fade(float seconds) {
+  correction = accepted;
   for (vec3& motion : correction.motions) {
     const float size = glm::length(motion);
     if (size > 0) motion *= std::max(1 - std::min(seconds / kFading, kFastestFading * seconds / size), 0.0f);
@@ -199,10 +206,39 @@ void Avoider::State::giveWay(const Input& in) {
   }
 }
 
+void Avoider::State::debug(const Input& in) {
+  const auto nm = [&](std::uint32_t tube) { const auto [v, sp] = interference.layout().address(tube); return network.vessel(v).name + ":" + std::to_string(sp) + "/" + std::to_string(network.vessel(v).spanCount()); };
+  for (const auto& place : remaining) {
+    const Contact& c = place.contact;
+    fprintf(stderr, "  pair %s x %s s %.2f t %.2f f %.3f mm r %.2f %.2f\n", nm(c.i).c_str(), nm(c.j).c_str(), c.s, c.t, c.f * 1e3, interference.tubes()[c.i].at(c.s).w * 1e3, interference.tubes()[c.j].at(c.t).w * 1e3);
+    pool.print(c.i, c.j, z);
+  }
+  for (const auto& b : boneContacts) { fprintf(stderr, "  bone %s part %u s %.2f f %.3f mm allowed %.3f r %.2f\n", nm(b.tube).c_str(), b.part, b.s, b.f * 1e3, b.allowed * 1e3, interference.tubes()[b.tube].at(b.s).w*1e3);
+    pool.print(b.tube, 0x80000000u | b.part, z); }
+  pool.each([&](const Constraint& c, float now) {
+    if (c.multiplier * c.row.diagonal < 1.5e-3f) return;
+    fprintf(stderr, "   big %s x %s s %.2f t %.2f n %.2f %.2f %.2f d %.3f now %.3f lambda*diag %.3f diag %.3g\n", nm(c.i).c_str(), c.isBone() ? std::to_string(c.other & 0xffff).c_str() : nm(c.other).c_str(), c.s, c.t, c.normal.x, c.normal.y, c.normal.z, c.distance * 1e3, now * 1e3, c.multiplier * c.row.diagonal * 1e3, c.row.diagonal);
+  }, z);
+  fprintf(stderr, "rounds %u pool %zu remaining %zu bones %zu\n", in.report.rounds, pool.size(), remaining.size(), boneContacts.size());
+}
+
+// Whether the motion has brought something so far into one another's way that the side it came from is a guess.
+bool Avoider::State::isTooLong() const {
+  return std::ranges::any_of(remaining, [&](const Interference::Place& place) {
+           const Contact& contact = place.contact;
+           const float radii = interference.tubes()[contact.i].at(contact.s).w + interference.tubes()[contact.j].at(contact.t).w;
+           return place.excess() > kDeepest * radii;
+         }) || std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
+           return contact.allowed - contact.f > kDeepest * 2 * std::max(interference.tubes()[contact.tube].at(contact.s).w, 1e-3f);
+         });
+}
+
 void Avoider::State::accept(const PosedVessels& posed) {
   std::ranges::copy(interference.tubes(), lastTubes.begin());
   std::ranges::copy(posed.rotations, lastRotations.begin());
   for (std::size_t v = 0; v < z.size(); ++v) correction.motions[v] = glm::conjugate(turnOf(v, posed.rotations)) * z[v];
+  accepted = correction;
+  if (bones) bones->keepPose();
 }
 
 void Avoider::State::sumUp(const Input& in) {
@@ -215,6 +251,7 @@ void Avoider::State::sumUp(const Input& in) {
     narrowed = narrowPlaces(network, wide, in.points);
   }
   report.after = certificateOf(places);
+  left.assign(boneContacts.begin(), boneContacts.end());
   report.bonesAfter = reportOf(boneContacts);
   report.skinContactsAfter = tubesOf(skinContacts);
   report.volume = volumeOutcome;
@@ -249,44 +286,45 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
   state.place({posed, volume, points, report});
   state.interference.layout().shape(points, state.lastTubes);
   std::ranges::copy(posed.rotations, state.lastRotations.begin());
+  state.accepted = state.correction;
+  if (state.bones) state.bones->keepPose();
 }
 
-AvoidReport Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, std::span<vec4> points) {
+std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, bool atAnyLength, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
   const State::Input in{posed, volume, points, report};
-  state.pool.clear();
+  state.pool.clear(seconds);
   state.pose(posed);
-  if (state.options.lookBefore || state.options.rounds == 0) {
-    std::ranges::fill(state.z, vec3(0));
-    Correction kept;
-    kept.widest.assign(points.size(), kNoLimit);
-    std::swap(kept.widest, state.correction.widest);
+  {
+    StageClock clock(report.solveMs);
+    state.fade(seconds);
+    for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
     state.place(in);
-    std::swap(kept.widest, state.correction.widest);
-    state.look(in, points, Bones::Which::all, 0);
-    report.before = certificateOf(state.places, &state.found);
-    report.bones = reportOf(state.boneContacts);
-    report.skinContacts = tubesOf(state.skinContacts);
   }
-  if (state.options.rounds > 0) {
-    {
-      StageClock clock(report.solveMs);
-      state.fade(seconds);
-      for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
-      state.place(in);
-    }
-    state.look(in, points, Bones::Which::all, kMargin);
-    state.separate(in);
-    state.giveWay(in);
-  }
+  state.look(in, points, Bones::Which::all, kMargin);
+  if (!atAnyLength && state.isTooLong()) return {};
+  state.separate(in);
+  if (getenv("VASA_DBG")) state.debug(in);
+  state.giveWay(in);
   state.accept(posed);
   state.sumUp(in);
   return report;
 }
 
+PosedLook Avoider::look(const PosedVessels& posed, std::span<const vec4> points) {
+  State& state = *state_;
+  if (state.bones) state.bones->pose(posed.jointMatrices);
+  AvoidReport report;
+  std::vector<vec4> own(points.begin(), points.end());
+  std::vector<Interference::Place> kept = state.remaining;
+  state.look({posed, nullptr, own, report}, points, Bones::Which::all, 0);
+  std::swap(kept, state.remaining);
+  return {certificateOf(state.places, &state.found), reportOf(state.boneContacts), tubesOf(state.skinContacts)};
+}
+
 const Correction& Avoider::correction() const {
-  return state_->correction;
+  return state_->accepted;
 }
 std::span<const Interference::Place> Avoider::remaining() const {
   return state_->remaining;
@@ -295,7 +333,7 @@ std::span<const NarrowPlace> Avoider::narrowed() const {
   return state_->narrowed;
 }
 std::span<const BoneContact> Avoider::inBones() const {
-  return state_->boneContacts;
+  return state_->left;
 }
 JointId Avoider::jointOfBone(std::uint32_t part) const {
   return state_->bones->jointOf(part);

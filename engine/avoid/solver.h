@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "avoid/bones.h"
@@ -14,11 +15,10 @@ namespace vasa {
 /// Fixed budgets: no step takes more than these.
 struct AvoidOptions {
   float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
-  unsigned rounds = 8;       ///< detections, each followed by sweeps; 0: only look
+  unsigned rounds = 8;       ///< detections, each followed by sweeps
   unsigned sweeps = 30;      ///< of dual ascent over all constraints, a round
   unsigned lumenRounds = 8;  ///< of making vessels thinner where there is no room
   bool skinWall = false;     ///< hold vessels below the skin, too
-  bool lookBefore = false;   ///< tell how the pose was before any correction, too: a detection more
 };
 
 /// Tubes in bones or the heart.
@@ -28,11 +28,18 @@ struct BoneReport {
   float depth = 0;             ///< [m] the deepest of both, from where they may be
 };
 
+/// What is in what's way in a shape.
+struct PosedLook {
+  Certificate vessels;
+  BoneReport bones;
+  std::uint32_t skinContacts = 0;  ///< tubes nearer to the skin than they may be, with skinWall
+};
+
 /// What was done for a frame.
 struct AvoidReport {
-  Certificate before, after;  ///< before: with AvoidOptions::lookBefore
-  BoneReport bones, bonesAfter;
-  std::uint32_t skinContacts = 0, skinContactsAfter = 0;  ///< tubes nearer to the skin than they may be, with skinWall
+  Certificate after;
+  BoneReport bonesAfter;
+  std::uint32_t skinContactsAfter = 0;
   std::uint32_t constraints = 0;  ///< in the pool at the end
   std::uint32_t rounds = 0;       ///< detections that asked for a correction
   float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
@@ -74,8 +81,13 @@ class Avoider {
   /// @param posed    the posed network, before any correction
   /// @param volume   keeps the vessels' volume while they are moved, or null
   /// @param seconds  since the last step
+  /// @param atAnyLength  false: a step that brings something far into something else's way is not made
   /// @param points   caller-owned; the result on return
-  AvoidReport step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, std::span<vec4> points);
+  /// @return nothing if the step was not made, which leaves everything as it was
+  std::optional<AvoidReport> step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, bool atAnyLength, std::span<vec4> points);
+
+  /// Looks at a shape, as a pose without any correction, and does nothing about it.
+  PosedLook look(const PosedVessels& posed, std::span<const vec4> points);
 
   /// Of the last step.
   const Correction& correction() const;
@@ -86,7 +98,7 @@ class Avoider {
   /// Of the last step: places of tubes that are in a bone or the heart in spite of all, deeper than at rest.
   std::span<const BoneContact> inBones() const;
   JointId jointOfBone(std::uint32_t part) const;
-  /// Of the last step: where vessels interfered before, with AvoidOptions::lookBefore.
+  /// Of the last look(): where vessels interfere.
   std::span<const Interference::Place> found() const;
 
   const NetworkTubes& layout() const;

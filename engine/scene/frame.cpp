@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "body/pose_path.h"
 #include "core/clock.h"
@@ -11,7 +12,8 @@ namespace vasa {
 namespace {
 
 // A joint that turns no farther in one step moves vessels beside one another, some 2 cm from its axis, by 1.4 mm.
-constexpr float kLongestTurn = 4 * kPi / 180;
+static const float kLongestTurn = (getenv("TURN") ? atof(getenv("TURN")) : 4) * kPi / 180;
+static const float kShortestStep = getenv("SHORT") ? atof(getenv("SHORT")) : 1 / 8.0f;    // of that
 constexpr float kStepSeconds = 1 / 30.0f;     // of the way from rest to a clip's beginning
 constexpr float kSamePlace = 1e-3f;           // [m] and of an axis: a clip whose last pose is its first closes
 constexpr std::uint32_t kRunUp = 15;          // frames before the seam with which a closed clip begins
@@ -77,7 +79,7 @@ void FrameMaker::make(const Pose& pose, float time) {
     walk(pose, time, time, kStepSeconds * std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f));
   } else {
     deform(pose, time);
-    step(0);
+    step(0, true);
   }
   finish();
 }
@@ -89,7 +91,7 @@ void FrameMaker::moveTo(const Pose& pose, float time, float seconds) {
     walk(pose, time, time, seconds);
   } else {
     deform(pose, time);
-    step(0);
+    step(0, true);
   }
   finish();
 }
@@ -111,33 +113,41 @@ void FrameMaker::deform(const Pose& pose, float time) {
   pinEnds(scene_->network, posedPoints_);  // what branches off a straightened vessel goes along
 }
 
-// Vessels in the pose of the last deform().
-void FrameMaker::step(float seconds) {
-  ++report_.steps;
+// Vessels in the pose of the last deform(). @return whether the step was made
+bool FrameMaker::step(float seconds, bool atAnyLength) {
   if (avoider_) {
-    report_.avoid = avoider_->step({posedPoints_, rotations_, jointMatrices_}, options_.keepVolume ? &volume_ : nullptr, seconds, points_);
-    report_.volume = report_.avoid.volume;
-    return;
+    const auto report = avoider_->step({posedPoints_, rotations_, jointMatrices_}, keeper(), seconds, atAnyLength, points_);
+    if (!report) return false;
+    report_.avoid = *report;
+    report_.volume = report->volume;
+  } else {
+    points_ = posedPoints_;
+    StageClock clock(report_.volumeMs);
+    if (options_.keepVolume) report_.volume = volume_.run(points_);
   }
-  points_ = posedPoints_;
-  if (!options_.keepVolume) return;
-  StageClock clock(report_.volumeMs);
-  report_.volume = volume_.run(points_);
+  ++report_.steps;
+  return true;
 }
 
+// A step that is too long is cut in halves, and what is left of the way is tried anew.
 void FrameMaker::walk(const Pose& target, float fromTime, float time, float seconds) {
   const PosePath path(scene_->body.skeleton, pose_, target);
-  const float steps = std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f);
-  for (float k = 1; k <= steps; ++k) {
-    deform(path.at(k / steps), glm::mix(fromTime, time, k / steps));
-    step(seconds / steps);
+  const float longest = 1 / std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f);
+  for (float done = 0; done < 1;) {
+    for (float length = std::min(longest, 1 - done);; length /= 2) {
+      const float next = done + length > 1 - 0.5f * kShortestStep * longest ? 1 : done + length;
+      deform(path.at(next), glm::mix(fromTime, time, next));
+      if (!step((next - done) * seconds, length <= kShortestStep * longest)) continue;
+      done = next;
+      break;
+    }
   }
 }
 
 void FrameMaker::startAtRest() {
   at_.reset();
   deform(restPose(scene_->body.skeleton), 0);
-  avoider_->start({}, {posedPoints_, rotations_, jointMatrices_}, options_.keepVolume ? &volume_ : nullptr, points_);
+  avoider_->start({}, {posedPoints_, rotations_, jointMatrices_}, keeper(), points_);
 }
 
 // Stands at a clip's first frame. A clip that ends where it began is entered by its last frames, so that it can go round.
@@ -159,7 +169,7 @@ void FrameMaker::begin(const Clip& clip) {
 // Stands where a frame's correction was found before.
 void FrameMaker::resume(const Clip& clip, std::uint32_t frame) {
   deform(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
-  avoider_->start(track_.frames[frame], {posedPoints_, rotations_, jointMatrices_}, options_.keepVolume ? &volume_ : nullptr, points_);
+  avoider_->start(track_.frames[frame], {posedPoints_, rotations_, jointMatrices_}, keeper(), points_);
   at_ = frame;
 }
 
@@ -173,6 +183,12 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
     track_.frames.push_back(avoider_->correction());
     at_ = next;
   }
+}
+
+PosedLook FrameMaker::lookAtPosed() {
+  std::vector<vec4> points(posedPoints_);
+  if (options_.keepVolume) volume_.run(points);
+  return avoider_->look({posedPoints_, rotations_, jointMatrices_}, points);
 }
 
 // What a picture needs besides.

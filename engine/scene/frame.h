@@ -60,12 +60,15 @@ class FrameMaker {
   std::span<const vec4> posedPoints() const { return posedPoints_; }
   /// How the surroundings of each point turned since rest.
   std::span<const quat> rotations() const { return rotations_; }
-  /// Where vessels interfered in the latest frame; null without FrameOptions::avoid.
+  /// How the latest frame's pose would be without any correction: a detection more.
+  PosedLook lookAtPosed();
+  /// Where vessels interfere in the latest frame; null without FrameOptions::avoid.
   const Avoider* avoider() const { return avoider_.get(); }
 
  private:
   void deform(const Pose& pose, float time);
-  void step(float seconds);
+  bool step(float seconds, bool atAnyLength);
+  const VolumeKeeper* keeper() const { return options_.keepVolume ? &volume_ : nullptr; }
   void walk(const Pose& target, float fromTime, float time, float seconds);
   void startAtRest();
   void goTo(const Clip& clip, std::uint32_t frame);
