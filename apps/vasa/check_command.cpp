@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "avoid/sides.h"
 #include "commands.h"
@@ -9,6 +10,7 @@
 #include "network/kinks.h"
 #include "network/measure.h"
 #include "report.h"
+#include "scene/correction_step.h"
 #include "scene/frame.h"
 #include "scene_options.h"
 
@@ -19,13 +21,17 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string frames;
+  double fps = 0;
   bool noVolume = false, places = false, skinWall = false;
 };
 
 struct Setting {
   Scene scene;
   const Clip* clip = nullptr;
+  Clip timing;  // the clip's times at the rate that was asked for, and nothing else
   FrameRange range;
+
+  float timeOf(std::uint32_t frame) const { return clip ? timing.timeOfFrame(frame) : 0; }
 };
 
 Result<Setting> prepare(const Options& options) {
@@ -38,8 +44,10 @@ Result<Setting> prepare(const Options& options) {
     const auto clip = findClip(setting.scene.body, choice->clip);
     if (!clip) return clip.error();
     setting.clip = *clip;
+    const float rate = options.fps > 0 ? float(options.fps) : setting.clip->framesPerSecond;
+    setting.timing = {.start = setting.clip->start, .end = setting.clip->end, .framesPerSecond = rate};
   }
-  const auto range = parseFrameRange(options.frames, setting.clip ? setting.clip->frameCount() : 1);
+  const auto range = parseFrameRange(options.frames, setting.timing.frameCount());
   if (!range) return range.error();
   setting.range = *range;
   return setting;
@@ -118,6 +126,26 @@ class SideCheck {
   std::vector<Contact> changed_;
 };
 
+// What is looked at beside the maker's own report; some of it remembers the frame before.
+struct Looks {
+  explicit Looks(const Network& network) : steps(network), sides(network) {}
+  CorrectionChange change;
+  CorrectionSteps steps;
+  SideCheck sides;
+};
+
+// Nothing for the first frame, which follows on none.
+void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps>& steps, Report& row) {
+  if (!steps) return;
+  row["correction_step_max_m"] = steps->largest;
+  row["correction_step_excess"] = steps->excess;
+  if (steps->worst)
+    row["correction_step_worst"] = {{"vessel", network.vessel(steps->worst->vessel).name},
+                                    {"span", steps->worst->parameter},
+                                    {"step_m", steps->worst->step},
+                                    {"bound_m", steps->worst->bound}};
+}
+
 // The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two are, and
 // tubes in bones by the joint that carries the bone.
 void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Contact> changedSides, Report& row) {
@@ -141,12 +169,12 @@ void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Conta
   }
 }
 
-Report frameReport(const Scene& scene, FrameMaker& maker, CorrectionChange& correction, SideCheck& sides, std::uint32_t frame,
+Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uint32_t frame,
                    const Options& options) {
   const AvoidReport& avoid = maker.report().avoid;
   const PosedLook before = maker.lookAtPosed();
   const VolumeErrors volume = volumeErrors(scene.network, maker.points(), *maker.avoider());
-  const CorrectionChange::Change change = correction.next(scene.network, maker);
+  const CorrectionChange::Change change = looks.change.next(scene.network, maker);
   Report row{{"frame", frame},
              {"contacts_before", before.vessels.contacts},
              {"contacts_after", avoid.after.contacts},
@@ -162,7 +190,7 @@ Report frameReport(const Scene& scene, FrameMaker& maker, CorrectionChange& corr
              {"moved_rms_m", avoid.movedRms},
              {"kinks_before", maker.report().kinks},
              {"kinks", kinkCount(scene.network, maker.points())},
-             {"sides_changed", sides.find(maker).size()},
+             {"sides_changed", looks.sides.find(maker).size()},
              {"steps", maker.report().steps},
              {"obstacle_contacts_before", before.bones.contacts},
              {"obstacle_contacts_after", avoid.bonesAfter.contacts},
@@ -181,8 +209,30 @@ Report frameReport(const Scene& scene, FrameMaker& maker, CorrectionChange& corr
              {"detect_ms", avoid.detectMs},
              {"solve_ms", avoid.solveMs},
              {"certify_ms", avoid.certifyMs}};
-  if (options.places) addPlaces(scene, *maker.avoider(), sides.changed(), row);
+  addSteps(scene.network, looks.steps.next(maker.posedPoints(), maker.points()), row);
+  if (options.places) addPlaces(scene, *maker.avoider(), looks.sides.changed(), row);
   return row;
+}
+
+// Of steps in excess all are counted, and the place that is told is the farthest beyond its bound.
+void addStepsOfAll(const Report& frames, Report& summary) {
+  if (!summary.contains("correction_step_excess")) return;
+  std::uint32_t samples = 0, inFrames = 0;
+  double farthest = 0;
+  Report worst;
+  for (const Report& frame : frames) {
+    if (!frame.contains("correction_step_worst")) continue;
+    samples += frame["correction_step_excess"].get<std::uint32_t>(), ++inFrames;
+    const Report& place = frame["correction_step_worst"];
+    const double beyond = place["step_m"].get<double>() - place["bound_m"].get<double>();
+    if (beyond <= farthest) continue;
+    farthest = beyond;
+    worst = {{"frame", frame["frame"]}};
+    worst.update(place);
+  }
+  summary["correction_step_excess"] = samples;
+  summary["correction_step_excess_frames"] = inFrames;
+  if (inFrames > 0) summary["correction_step_worst"] = worst;
 }
 
 // The worst of each number over the frames.
@@ -198,11 +248,22 @@ Report summaryOf(const Report& frames) {
       if (worse) summary[key] = value;
     }
   }
+  addStepsOfAll(frames, summary);
   summary["certified"] = bad == 0;
   summary["frames"] = frames.size();
   summary["frames_certified"] = certified;
   summary["frames_with_penetration_after"] = bad;
   return summary;
+}
+
+// What `certified` says something of, and what it does not: bones and the skin have counts of their own.
+Report certificateReport(const Avoider& avoider) {
+  return {{"tubes", true},
+          {"rest_pairs_exempt", avoider.restPairCount()},
+          {"forks_walls", false},
+          {"bones", false},
+          {"capillaries", false},
+          {"skin", false}};
 }
 
 std::string asText(const Report& report) {
@@ -227,12 +288,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;
-  CorrectionChange correction;
-  SideCheck sides(setting->scene.network);
+  Looks looks(setting->scene.network);
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     if (stopRequested()) return stopError();
-    maker.make(setting->clip, setting->clip ? setting->clip->timeOfFrame(frame) : 0);
-    report["frames"].push_back(frameReport(setting->scene, maker, correction, sides, frame, options));
+    maker.make(setting->clip, setting->timeOf(frame));
+    report["frames"].push_back(frameReport(setting->scene, maker, looks, frame, options));
     progress.update(frame - first + 1, last - first + 1);
   }
   report["summary"] = summaryOf(report["frames"]);
@@ -240,6 +300,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
   report["summary"]["obstacle_rest_contacts"] = maker.avoider()->restBoneContactCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
+  report["summary"]["certificate"] = certificateReport(*maker.avoider());
   return globals.json ? printJson(report) : printText(asText(report));
 }
 
@@ -247,16 +308,28 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addCheck(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("check", "Interference before and after, certificate, volume and kinks of each frame");
+  CLI::App* sub =
+      app.add_subcommand("check", "Interference before and after, certificate, volume, kinks and jumps of each frame");
   sub->footer(
       "Examples:\n"
       "  vasa check --clip walk --json\n"
       "  vasa check --body b.glb --network b.vasa --clip fist --frames 20:40\n"
+      "  vasa check --clip walk --fps 120 --json\n"
       "A pair of tubes that overlaps at rest may stay as deep as it is there: rest_pairs counts these.\n"
       "obstacle_contacts: tubes in a bone or the heart that were not in it at rest; obstacle_deeper: those that were, and\n"
-      "lie deeper now; obstacle_rest_contacts counts the latter at rest.");
+      "lie deeper now; obstacle_rest_contacts counts the latter at rest.\n"
+      "certified: no two tubes run through one another deeper than they do at rest, by an exact query; certificate\n"
+      "lists what the word covers. It says nothing of tubes that are near one another along a vessel or across a\n"
+      "fork (excluded_pairs), of the walls drawn around forks, of bones (obstacle_contacts), of capillaries, nor of\n"
+      "the skin (skin_contacts).\n"
+      "correction_step: how far the correction of a place of a vessel (two a span) is from what it was in the frame\n"
+      "before. More than 1.5 mm, and more than the body alone moves any vessel near by (50 mm along each axis), looks\n"
+      "like a jump: correction_step_excess counts such places, in the summary over all frames, and\n"
+      "correction_step_worst is the one farthest beyond its bound.");
   addSceneOptions(*sub, options->scene);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
+  sub->add_option("--fps", options->fps, "Frames a second to check and to number (default: the clip's own)")
+      ->check(CLI::Range(0.1, 1000.0));
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too; without it skin_contacts are 0");
   sub->add_flag("--places", options->places, "Name the vessels that still interfere, have changed sides or are in bones in each frame");

@@ -60,6 +60,7 @@ struct PoseWorker::Maker {
     done->heartScale = maker.heartScale();
     done->report = maker.report();
     if (maker.avoider() && wanted.contacts) {
+      done->contactsBefore = maker.lookAtPosed().vessels.contacts;
       done->touched = spansOf(maker.avoider()->found());
       done->touching = spansOf(maker.avoider()->remaining());
     }

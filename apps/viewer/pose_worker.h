@@ -36,6 +36,7 @@ struct PosedBody {
   float heartScale = 1;
   FrameReport report;
   std::vector<std::uint32_t> touched, touching;  ///< spans that ran through others, and that still do
+  std::uint32_t contactsBefore = 0;              ///< pairs of tubes that ran through one another; only with contacts
   std::vector<VesselMeasures> measures;          ///< one a vessel; empty unless ordered
   double ms = 0;                                 ///< all of it but the measures
 };

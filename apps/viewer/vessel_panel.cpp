@@ -41,7 +41,7 @@ void showVesselSection(const PanelInput& in) {
   }
   if (in.state.contacts && in.body) {
     const FrameReport& report = in.body->report;
-    ImGui::TextDisabled("%u contacts, %u left", report.avoid.before.contacts, report.avoid.after.contacts);
+    ImGui::TextDisabled("%u contacts, %u left", in.body->contactsBefore, report.avoid.after.contacts);
   }
 }
 

@@ -19,11 +19,37 @@ TEST_CASE("check has a row a frame and the worst of each in its summary") {
     CHECK(frame["contacts_after"] <= frame["contacts_before"]);
     CHECK(report["summary"]["contacts_before"] >= frame["contacts_before"]);
   }
-  for (const char* key : {"frames_with_penetration_after", "excluded_pairs", "depth_after_m"})
+  for (const char* key : {"frames_with_penetration_after", "excluded_pairs", "depth_after_m", "certificate"})
     CHECK_MESSAGE(report["summary"].contains(key), key);
+}
+
+TEST_CASE("check tells how far corrections step from frame to frame, at the rate that is asked for") {
+  const auto outcome = runProgram({"check", "--clip", "elbow", "--fps", "15", "--frames", "20:22", "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto report = outcome.json();
+  REQUIRE(report["frames"].size() == 3);
+  CHECK(!report["frames"][0].contains("correction_step_max_m"));
+  std::uint32_t excess = 0, frames = 0;
+  for (const std::size_t at : {1, 2}) {
+    const auto& frame = report["frames"][at];
+    CHECK(frame["correction_step_max_m"] <= report["summary"]["correction_step_max_m"]);
+    CHECK(frame.contains("correction_step_worst") == (frame["correction_step_excess"] > 0));
+    excess += frame["correction_step_excess"].get<std::uint32_t>();
+    frames += frame["correction_step_excess"] > 0;
+  }
+  CHECK(report["summary"]["correction_step_excess"] == excess);
+  CHECK(report["summary"]["correction_step_excess_frames"] == frames);
+  CHECK(report["summary"].contains("correction_step_worst") == (frames > 0));
+  // The same poses by the clip's own numbers, of which there are twice as many.
+  const auto own = runProgram({"check", "--clip", "elbow", "--frames", "40", "--json"}).json();
+  CHECK(own["frames"][0]["contacts_before"] == report["frames"][0]["contacts_before"]);
+  CHECK(own["frames"][0]["moved_max_m"] == report["frames"][0]["moved_max_m"]);
+  CHECK(!own["summary"].contains("correction_step_excess"));
 }
 
 TEST_CASE("check refuses a clip and frames that do not exist") {
   CHECK(runProgram({"check", "--clip", "no such clip"}).exit == 3);
   CHECK(runProgram({"check", "--clip", "walk", "--frames", "9000"}).exit == 2);
+  CHECK(runProgram({"check", "--clip", "walk", "--fps", "1", "--frames", "30"}).exit == 2);
+  CHECK(runProgram({"check", "--clip", "walk", "--fps", "0"}).exit == 2);
 }
