@@ -23,9 +23,11 @@ constexpr float kBoneClearance = 1e-4f;   // [m]
 constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
 constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
 constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
+constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::carried)
 constexpr float kNegligible = 2e-6f;      // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
 static const float kLever = getenv("LEVER") ? atof(getenv("LEVER")) : 3;
+static const float kShare = getenv("SHARE") ? atof(getenv("SHARE")) : 0.5f;
 static const float kFastest = getenv("FASTEST") ? atof(getenv("FASTEST")) : 0.045f;
 constexpr float kReach = 10;               // how far a multiplier may push on its own: times what is lacking and the radii
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
@@ -64,7 +66,7 @@ vec3 sideways(vec3 c, vec3 u, vec3 v) {
 
 // Which way to part two tubes: along their gap, unless they have come nearer than half of what is asked for or passed
 // through one another since they were last apart; then towards the side on which they were.
-vec3 partingDirection(vec3 gap, vec3 before, float distance, vec3 otherwise) {
+vec3 wayApart(vec3 gap, vec3 before, float distance, vec3 otherwise) {
   const float sure = std::min(glm::length(before) / (0.5f * distance), 1.0f);
   const vec3 side = unitOr(before, vec3(0));
   const float beyond = glm::dot(gap, side);
@@ -76,7 +78,8 @@ auto keyOf(const Constraint& constraint) { return std::pair{constraint.i, constr
 
 }  // namespace
 
-ContactPool::ContactPool(const MotionSpace& space, const Interference& interference) : space_(&space), interference_(&interference) {}
+ContactPool::ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides)
+    : space_(&space), interference_(&interference), sides_(&sides) {}
 
 void ContactPool::clear(float seconds) {
   seconds_ = seconds;
@@ -109,9 +112,25 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
   return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
 }
 
+// Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at rest: by how much
+// more, is the less sure, the farther they were apart then.
+bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Constraint& constraint) const {
+  const auto [i, j, s, t, f, contactNormal] = contact;
+  const vec3 side = sides_->carried({i, j, s, t}, shape, last.rotations);
+  const float sure = glm::length(side);
+  if (sure <= kUnsure) return false;
+  const vec4 a = shape[i].at(s), b = shape[j].at(t);
+  const vec3 gap = vec3(a) - vec3(b);
+  const float share = std::clamp((sure - kUnsure) / (kSure - kUnsure), 0.0f, 1.0f);
+  constraint = {.i = i, .other = j, .s = s, .t = t, .normal = side / sure};
+  constraint.limit = kReach * glm::length(gap);
+  constraint.clearance = -(1 - share) * glm::length(gap) - a.w - b.w;
+  return a.w + b.w + constraint.clearance - glm::dot(constraint.normal, gap) > kNegligible;
+}
+
 void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
-  std::array<std::pair<float, float>, kPlaces> where{{{contactS, contactT}}};
+  std::array<std::pair<float, float>, kSamples.size() + 1> where{{{contactS, contactT}}};
   for (std::size_t k = 0; k < kSamples.size(); ++k)
     where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};
   for (const auto& [s, t] : where) {
@@ -123,7 +142,7 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     const vec3 apart = vec3(last.tubes[i].at(s)) - vec3(last.tubes[j].at(t));
     const vec3 before = sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart), unitOr(vec3(shape[i].derivative(s)), vec3(0)),
                                  unitOr(vec3(shape[j].derivative(t)), vec3(0)));
-    constraint.normal = partingDirection(gap, before, distance, contactNormal);
+    constraint.normal = wayApart(gap, before, distance, contactNormal);
     const float lack = distance - glm::dot(constraint.normal, gap);
     if (lack <= kNegligible) continue;
     constraint.limit = kReach * (lack + a.w + b.w);
@@ -147,7 +166,7 @@ Constraint* ContactPool::known(const Constraint& wanted, float cosine) {
 }
 
 // Gives a row to a constraint and takes it in.
-void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) {
+void ContactPool::take(Constraint& constraint, bool slowly, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
   terms_.clear();
   const auto [vessel, span] = interference_->layout().address(constraint.i);
   space_->addPlace(vessel, span, constraint.s, 1, terms_);
@@ -159,10 +178,17 @@ void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, st
   if (constraint.row.diagonal <= kLeastDiagonal) return;
   float most = 0;
   for (std::uint32_t k = 0, at = constraint.row.firstResponse; at < rows_.responses.size(); ++k, ++at) most = std::max(most, std::abs(rows_.responses[at]));
-  if (most > kLever * constraint.row.diagonal) constraint.limit = std::min(constraint.limit, kFastest * seconds_ * constraint.row.diagonal / most);
+  if (slowly || most > kLever * constraint.row.diagonal) constraint.limit = std::min(constraint.limit, std::max(kFastest * seconds_, kShare * last.moved[constraint.i]) * constraint.row.diagonal / most);
   constraint.limit /= constraint.row.diagonal;
   begin(constraint, shape, z);
   constraints_.push_back(constraint);
+}
+
+void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
+  const std::size_t before = constraints_.size();
+  for (const Contact& contact : changed)
+    if (Constraint constraint; wouldRoll(contact, shape, last, constraint)) take(constraint, true, shape, last, z);
+  sortIn(before);
 }
 
 void ContactPool::sortIn(std::size_t before) {
@@ -193,11 +219,11 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
       own->point = constraint.point;
       begin(*own, shape, z);
     } else {
-      take(constraint, shape, z);
+      take(constraint, false, shape, last, z);
     }
   }
   for (Proposals& proposals : std::span(proposals_).first(places.size()))
-    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, shape, z);
+    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, false, shape, last, z);
   const std::size_t added = constraints_.size() - before;
   sortIn(before);
   return added;

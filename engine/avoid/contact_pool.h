@@ -7,6 +7,7 @@
 #include "avoid/bones.h"
 #include "avoid/interference.h"
 #include "avoid/motion_space.h"
+#include "avoid/sides.h"
 
 namespace vasa {
 
@@ -14,6 +15,8 @@ namespace vasa {
 struct LastShape {
   std::span<const Bezier> tubes;  ///< as they were accepted
   std::span<const quat> turns;    ///< how each tube's surroundings turned since then
+  std::span<const float> moved;     ///< [m] by how much the pose moved each tube since then
+  std::span<const quat> rotations;  ///< how each point's surroundings turned since rest
 };
 
 /// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes; or a fixed point of a bone in place of C_j.
@@ -37,7 +40,7 @@ struct Constraint {
 class ContactPool {
  public:
   /// All must outlive this.
-  ContactPool(const MotionSpace& space, const Interference& interference);
+  ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
   void clear(float seconds);
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
@@ -45,6 +48,9 @@ class ContactPool {
   /// @return how many were added
   std::size_t add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
                   std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z);
+
+  /// Turns vessels back that have rolled around one another. @param changed  RestSides::findChanged
+  void addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z);
 
   /// To be called before add() in every round: distances for the radii of the given shape.
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
@@ -67,10 +73,11 @@ class ContactPool {
     std::size_t count = 0;
   };
   float clearanceFor(const Constraint& at, float radii) const;
+  bool wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Constraint& constraint) const;
   void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found);
   Constraint* known(const Constraint& wanted, float cosine);
   void push(const Constraint& constraint, vec3 force, std::span<vec3> z) const;
-  void take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z);
+  void take(Constraint& constraint, bool slowly, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z);
   void begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const;
   vec3 motionOf(const Constraint& constraint, std::span<const vec3> z) const;
   void sortIn(std::size_t before);
@@ -78,6 +85,7 @@ class ContactPool {
 
   const MotionSpace* space_;
   const Interference* interference_;
+  const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
   float seconds_ = 0;
   std::size_t sorted_ = 0;               // of them; the others are of this round

@@ -14,7 +14,6 @@ constexpr float kTooClose = 0.25f;              // sums of radii apart, below wh
 constexpr float kCrossing = 0.7f;               // |u - v| from which two tubes cross (40 degrees)
 constexpr float kTurned = 0.5f;                 // share of the asked distance by which the rest pose turns the way
 constexpr float kSure = 0.5f;                   // how sure the rest pose must be for a change of sides
-constexpr float kWrong = 0.5f;                  // cosine between the gap and the wrong side
 constexpr float kAhead = 0.34f;                 // cosine of the way to what lies ahead of an end (70 degrees)
 constexpr int kMostSteps = 4;                   // from tube to tube
 constexpr float kInto = 0.01f;                  // of a tube, where the search goes on in the next
@@ -123,7 +122,7 @@ bool RestSides::beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<cons
 }
 
 void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
-                            std::vector<Contact>& changed) {
+                            std::vector<Contact>& changed, float cosine) {
   const std::span<const Contact> near = nearAtRest_;
   const std::size_t tasks = (near.size() + kGrain - 1) / kGrain;
   found_.resize(tasks);
@@ -140,7 +139,7 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
       const float sure = glm::length(side);
       if (sure < kSure) continue;
       const float depth = glm::dot(nearest, side) / sure;
-      if (depth > -kWrong * glm::length(nearest) || depth > -1e-6f) continue;
+      if (depth > cosine * glm::length(nearest) || depth > -1e-6f) continue;
       if (beyondEnd(now.i, now.s, -nearest, shape) || beyondEnd(now.j, now.t, nearest, shape)) continue;
       now.f = depth;
       found_[task].push_back(now);

@@ -33,7 +33,9 @@ class RestSides {
   /// Vessels that were near one another at rest and have changed sides, whether they overlap or have passed through: the
   /// pairs of tubes in which they are nearest now (which may lie some tubes on), with the places; sorted. What lies ahead of a vessel's end, and not beside it, is on no side of it. f of the
   /// result is the distance of the centre lines by which they are on the wrong side, negative.
-  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed);
+  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed, float cosine = kChanged);
+  /// Of the angle between the side at rest and that now, from which on it counts as changed: 120 degrees.
+  static constexpr float kChanged = -0.5f;
 
  private:
   Contact nearestAlong(const Contact& rest, std::span<const Bezier> shape) const;

@@ -20,6 +20,7 @@ constexpr float kFading = 0.1f;         // [s] in which a correction that nothin
 constexpr float kFastestFading = 0.02f; // [m/s] ... but no faster than this
 constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way doubles where there is room again
 constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
+static const float kRolled = getenv("ROLL") ? atof(getenv("ROLL")) : 0;
 static const float kDeepest = getenv("DEEP") ? atof(getenv("DEEP")) : 0.5f;
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
@@ -49,11 +50,14 @@ struct Avoider::State {
         options(chosen),
         interference(own),
         space(own, chosen.bending),
-        pool(space, interference),
+        sides(own, interference),
+        pool(space, interference, sides),
         z(space.variableCount()),
         lastTubes(interference.restTubes().begin(), interference.restTubes().end()),
         lastRotations(own.points().size(), quat(1, 0, 0, 0)),
-        turns(interference.layout().count()) {
+        turns(interference.layout().count()),
+        lastPosed(own.points().begin(), own.points().end()),
+        moved(turns.size()) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
     accepted.motions.assign(z.size(), vec3(0));
@@ -86,16 +90,20 @@ struct Avoider::State {
   MotionSpace space;
   std::unique_ptr<Bones> bones;
   std::unique_ptr<SkinWall> wall;
+  RestSides sides;
   ContactPool pool;
   Correction accepted, correction;  // of the last step, and of this one
   std::vector<vec3> z;            // the correction in the pose
   std::vector<Bezier> lastTubes;  // of the last admissible shape
   std::vector<quat> lastRotations, turns;
+  std::vector<vec4> lastPosed;
+  std::vector<float> moved;
   std::vector<Interference::Place> found, remaining;
   std::span<const Interference::Place> places;  // of the last look, as the next
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
   std::vector<BoneContact> left;                  // in bones, after the last step
+  std::vector<Contact> changed;
   std::vector<NarrowPlace> narrowed;
   VolumeKeeper::Outcome volumeOutcome;
 };
@@ -115,6 +123,7 @@ void Avoider::State::pose(const PosedVessels& posed) {
   for (std::uint32_t tube = 0; tube < turns.size(); ++tube) {
     const auto [vessel, span] = interference.layout().address(tube);
     const std::uint32_t point = network.vessel(vessel).firstPoint + span + 1;
+    moved[tube] = glm::distance(vec3(posed.points[point]), vec3(lastPosed[point]));
     turns[tube] = posed.rotations[point] * glm::conjugate(lastRotations[point]);
   }
 }
@@ -164,13 +173,18 @@ bool Avoider::State::settled() const {
 }
 
 void Avoider::State::separate(const Input& in) {
+  {
+    StageClock clock(in.report.solveMs);
+    sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
+    pool.addSides(changed, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, z);
+  }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
       StageClock clock(in.report.solveMs);
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), z);
-      pool.add(places, solids, interference.tubes(), {lastTubes, turns}, z);
+      pool.add(places, solids, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, z);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       pool.ascend(options.sweeps, z);
@@ -217,7 +231,7 @@ void Avoider::State::debug(const Input& in) {
     pool.print(b.tube, 0x80000000u | b.part, z); }
   pool.each([&](const Constraint& c, float now) {
     if (c.multiplier * c.row.diagonal < 1.5e-3f) return;
-    fprintf(stderr, "   big %s x %s s %.2f t %.2f n %.2f %.2f %.2f d %.3f now %.3f lambda*diag %.3f diag %.3g\n", nm(c.i).c_str(), c.isBone() ? std::to_string(c.other & 0xffff).c_str() : nm(c.other).c_str(), c.s, c.t, c.normal.x, c.normal.y, c.normal.z, c.distance * 1e3, now * 1e3, c.multiplier * c.row.diagonal * 1e3, c.row.diagonal);
+    fprintf(stderr, "   big %s x %s s %.2f t %.2f n %.2f %.2f %.2f d %.3f now %.3f lambda*diag %.3f diag %.3g moved %.2f\n", nm(c.i).c_str(), c.isBone() ? std::to_string(c.other & 0xffff).c_str() : nm(c.other).c_str(), c.s, c.t, c.normal.x, c.normal.y, c.normal.z, c.distance * 1e3, now * 1e3, c.multiplier * c.row.diagonal * 1e3, c.row.diagonal, moved[c.i]*1e3);
   }, z);
   fprintf(stderr, "rounds %u pool %zu remaining %zu bones %zu\n", in.report.rounds, pool.size(), remaining.size(), boneContacts.size());
 }
@@ -236,6 +250,7 @@ bool Avoider::State::isTooLong() const {
 void Avoider::State::accept(const PosedVessels& posed) {
   std::ranges::copy(interference.tubes(), lastTubes.begin());
   std::ranges::copy(posed.rotations, lastRotations.begin());
+  std::ranges::copy(posed.points, lastPosed.begin());
   for (std::size_t v = 0; v < z.size(); ++v) correction.motions[v] = glm::conjugate(turnOf(v, posed.rotations)) * z[v];
   accepted = correction;
   if (bones) bones->keepPose();
@@ -260,11 +275,18 @@ void Avoider::State::sumUp(const Input& in) {
   report.constraints = std::uint32_t(pool.size());
   double sum = 0;
   for (std::size_t p = 0; p < in.points.size(); ++p) {
-    const float moved = glm::distance(vec3(in.posed.points[p]), vec3(in.points[p]));
-    report.movedMax = std::max(report.movedMax, moved);
-    sum += double(moved) * moved;
+    const float by = glm::distance(vec3(in.posed.points[p]), vec3(in.points[p]));
+    report.movedMax = std::max(report.movedMax, by);
+    sum += double(by) * by;
   }
   if (!in.points.empty()) report.movedRms = float(std::sqrt(sum / double(in.points.size())));
+}
+
+void AvoidReport::addTimes(const AvoidReport& earlier) {
+  detectMs += earlier.detectMs;
+  boneMs += earlier.boneMs;
+  solveMs += earlier.solveMs;
+  rounds += earlier.rounds;
 }
 
 Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
@@ -286,6 +308,7 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
   state.place({posed, volume, points, report});
   state.interference.layout().shape(points, state.lastTubes);
   std::ranges::copy(posed.rotations, state.lastRotations.begin());
+  std::ranges::copy(posed.points, state.lastPosed.begin());
   state.accepted = state.correction;
   if (state.bones) state.bones->keepPose();
 }

@@ -48,6 +48,8 @@ struct AvoidReport {
   float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
   double detectMs = 0, boneMs = 0, solveMs = 0;  ///< over all rounds; bones are looked at apart
   double certifyMs = 0;                          ///< the last look, which is the certificate
+  /// Of a frame that took several steps.
+  void addTimes(const AvoidReport& earlier);
 };
 
 /// How far vessels are from where the pose alone would have them: all that one step hands to the next. It is told as the

@@ -9,9 +9,10 @@ namespace {
 constexpr int kSamples = 8;
 constexpr int kPasses = 8;
 constexpr float kShare = 0.5f;  // of the way to the neighbours' middle, a pass
+constexpr float kBends = 0.6f;  // r κ from which a span is drawn straight, wholly where it kinks: continuous in the pose
 
 // |C''| <= 6 max|Δ²b|, and |C'| is at least three times the control polygon's least advance along the chord.
-bool surelyStraight(const Bezier& tube) {
+bool surelyBelow(const Bezier& tube, float limit) {
   const vec3 chord = vec3(tube.b[3] - tube.b[0]);
   const float length = glm::length(chord);
   if (!(length > 0)) return false;
@@ -21,24 +22,30 @@ bool surelyStraight(const Bezier& tube) {
     radius = std::max(radius, tube.b[k + 1].w);
   }
   for (std::size_t k = 0; k < 2; ++k) bend = std::max(bend, glm::length(vec3(tube.b[k] - 2.0f * tube.b[k + 1] + tube.b[k + 2])));
-  return advance > 0 && radius * 6 * bend < 9 * advance * advance;
+  return advance > 0 && radius * 6 * bend < limit * 9 * advance * advance;
 }
 
 bool fixedEnd(const Vessel& vessel, std::uint32_t l) {
   return (l == 0 && vessel.start.valid()) || (l + 1 == vessel.pointCount && vessel.end.valid());
 }
 
-}  // namespace
-
-bool kinks(const Bezier& tube) {
-  if (surelyStraight(tube)) return false;
+// The largest r κ in nine places, 0 where it is surely below a limit.
+float bendOf(const Bezier& tube, float limit) {
+  if (surelyBelow(tube, limit)) return 0;
+  float most = 0;
   for (int k = 0; k <= kSamples; ++k) {
     const float t = float(k) / kSamples;
     const vec3 first(tube.derivative(t)), second(tube.secondDerivative(t));
-    const float speed = glm::length(first);
-    if (tube.at(t).w * glm::length(glm::cross(first, second)) >= speed * speed * speed) return true;
+    const float speed = glm::length(first), turn = tube.at(t).w * glm::length(glm::cross(first, second));
+    if (turn > 0) most = std::max(most, turn / (speed * speed * speed));
   }
-  return false;
+  return most;
+}
+
+}  // namespace
+
+bool kinks(const Bezier& tube) {
+  return bendOf(tube, 1) >= 1;
 }
 
 std::uint32_t kinkCount(const Network& network, std::span<const vec4> points) {
@@ -53,7 +60,7 @@ std::uint32_t kinkCount(const Network& network, std::span<const vec4> points) {
 KinkRelaxer::KinkRelaxer(const Network& network) : network_(&network) {
   for (const Vessel& vessel : network.vessels())
     for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
-      atRest_.push_back(kinks(bezierOfSpan(network.pointsOf(vessel), span)));
+      atRest_.push_back(bendOf(bezierOfSpan(network.pointsOf(vessel), span), kBends));
 }
 
 std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
@@ -61,17 +68,22 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   std::size_t first = 0;  // span of the vessel
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
-    const auto bent = [&](std::uint32_t span) { return !atRest_[first + span] && kinks(bezierOfSpan(std::span<const vec4>(own), span)); };
+    // What share of the way a span is drawn straight: more than at rest, none yet at kBends and all at a kink.
+    const auto shareOf = [&](std::uint32_t span, float bend) {
+      const float from = std::max(kBends, atRest_[first + span]), to = std::max(1.0f, from + 1 - kBends);
+      return kShare * std::clamp((bend - from) / (to - from), 0.0f, 1.0f);
+    };
     for (int pass = 0; pass < kPasses; ++pass) {
       bool any = false;
       for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
-        if (!bent(span)) continue;
+        const float bend = bendOf(bezierOfSpan(std::span<const vec4>(own), span), kBends), share = shareOf(span, bend);
+        if (share <= 0) continue;
         any = true;
-        found += pass == 0;
+        found += pass == 0 && bend >= 1 && atRest_[first + span] < 1;
         for (std::uint32_t l = std::max(span, 1u); l < std::min(span + 4, vessel.pointCount - 1); ++l) {
           if (fixedEnd(vessel, l)) continue;
           const vec3 middle = 0.5f * (vec3(own[l - 1]) + vec3(own[l + 1]));
-          own[l] = vec4(glm::mix(vec3(own[l]), middle, kShare), own[l].w);
+          own[l] = vec4(glm::mix(vec3(own[l]), middle, share), own[l].w);
         }
       }
       if (!any) break;

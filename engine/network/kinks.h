@@ -23,7 +23,7 @@ class KinkRelaxer {
 
  private:
   const Network* network_;
-  std::vector<char> atRest_;  // one a span
+  std::vector<float> atRest_;  // r κ, one a span
 };
 
 }  // namespace vasa

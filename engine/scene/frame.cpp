@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "body/pose_path.h"
 #include "core/clock.h"
@@ -118,7 +119,8 @@ bool FrameMaker::step(float seconds, bool atAnyLength) {
   if (avoider_) {
     const auto report = avoider_->step({posedPoints_, rotations_, jointMatrices_}, keeper(), seconds, atAnyLength, points_);
     if (!report) return false;
-    report_.avoid = *report;
+    const AvoidReport before = std::exchange(report_.avoid, *report);
+    report_.avoid.addTimes(before);
     report_.volume = report->volume;
   } else {
     points_ = posedPoints_;
