@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "avoid/rest_repair.h"
 #include "commands.h"
 #include "convert/centreline_report.h"
 #include "convert/convert.h"
@@ -12,6 +13,7 @@
 #include "convert_report.h"
 #include "core/log.h"
 #include "network/file.h"
+#include "network/reshape.h"
 #include "scene/vessel_files.h"
 
 // vasa convert: surfaces of vessels -> one network of sweeps.
@@ -120,6 +122,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
   const auto sources = lines ? Result(std::vector<SourceElement>()) : readSources(options);
   if (!sources) return sources.error();
+  RestRepair repair;
+  settings.mend = [&](const Network& network) {
+    repair = separateAtRest(network);
+    return reshapeNetwork(network, repair.points, network.bodyHeight());
+  };
   auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
   if (stopRequested()) return stopError();
   if (!conversion) return conversion.error();
@@ -135,6 +142,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (globals.json) {
     Report report = convertJson(conversion->report, *output);
+    report["summary"]["rest_pairs_before"] = repair.pairsBefore;
+    report["summary"]["rest_pairs_after"] = repair.pairsAfter;
+    report["summary"]["rest_moved_max_mm"] = 1e3 * repair.movedMax;
+    report["summary"]["rest_thinned_max"] = repair.thinnedMax;
     if (patches) report["patches"] = patchesJson(*patches, conversion->network);
     return printJson(report);
   }

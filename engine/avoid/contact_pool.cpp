@@ -106,6 +106,7 @@ void ContactPool::refresh(std::span<const Bezier> shape, std::span<const vec3> z
 }
 
 float ContactPool::clearanceFor(const Constraint& at, float radii) const {
+  if (clearance_ > 0) return clearance_;
   const vec4 restA = interference_->restTubes()[at.i].at(at.s), restB = interference_->restTubes()[at.other].at(at.t);
   const float atRest = glm::distance(vec3(restA), vec3(restB)) - restA.w - restB.w;
   const float wanted = std::max(kClearanceShare * radii, kLeastClearance);
@@ -145,7 +146,7 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     constraint.normal = wayApart(gap, before, distance, contactNormal);
     const float lack = distance - glm::dot(constraint.normal, gap);
     if (lack <= kNegligible) continue;
-    constraint.limit = kReach * (lack + a.w + b.w);
+    constraint.limit = reach_ > 0 ? reach_ * lack : kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     if (std::ranges::any_of(own, [&](const Constraint& other) { return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter; }) ||
         known(constraint, kSameDirection))

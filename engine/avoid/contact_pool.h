@@ -43,6 +43,8 @@ class ContactPool {
   ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
   void clear(float seconds);
+  /// From now on the clearance that is asked for, whatever there was at rest.
+  void keepApart(float clearance, float reach) { clearance_ = clearance, reach_ = reach; }
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
   /// side by side, at some more. @param shape  in which they were found @param z  its variables
   /// @return how many were added
@@ -87,7 +89,7 @@ class ContactPool {
   const Interference* interference_;
   const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
-  float seconds_ = 0;
+  float seconds_ = 0, clearance_ = 0, reach_ = 0;
   std::size_t sorted_ = 0;               // of them; the others are of this round
   MotionSpace::Rows rows_;
   std::vector<Proposals> proposals_;

@@ -9,6 +9,7 @@ namespace {
 constexpr std::uint32_t kCarriedPoints = 8;  // over so many points φ falls to 0
 constexpr float kSmallestWeight = 1e-3f;     // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
+constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
 float carriedShare(std::uint32_t steps, std::uint32_t points) {
   const float reach = float(std::min(kCarriedPoints, points - 1));
@@ -16,9 +17,28 @@ float carriedShare(std::uint32_t steps, std::uint32_t points) {
   return 1 - x * x * (3 - 2 * x);
 }
 
+// Volume by point of each vessel, by the median vessel's.
+std::vector<float> relativeMasses(const Network& network) {
+  std::vector<float> masses;
+  for (const Vessel& vessel : network.vessels()) {
+    const std::span<const vec4> points = network.pointsOf(vessel);
+    float mass = 0;
+    for (std::size_t l = 1; l < points.size(); ++l) {
+      const float radius = 0.5f * (points[l - 1].w + points[l].w);
+      mass += radius * radius * glm::distance(vec3(points[l - 1]), vec3(points[l]));
+    }
+    masses.push_back(mass / float(points.size()));
+  }
+  std::vector<float> sorted = masses;
+  std::ranges::nth_element(sorted, sorted.begin() + std::ptrdiff_t(sorted.size() / 2));
+  const float median = sorted[sorted.size() / 2];
+  for (float& mass : masses) mass = median > 0 ? std::clamp(mass / median, kLightest, kHeaviest) : 1;
+  return masses;
+}
+
 }  // namespace
 
-MotionSpace::MotionSpace(const Network& network, float beta)
+MotionSpace::MotionSpace(const Network& network, float beta, bool byMass)
     : network_(&network),
       pointCount_(network.points().size()),
       vesselOf_(pointCount_),
@@ -29,11 +49,12 @@ MotionSpace::MotionSpace(const Network& network, float beta)
   std::size_t longest = 0;
   for (const Vessel& vessel : network.vessels()) longest = std::max<std::size_t>(longest, vessel.pointCount);
   work_.assign(longest, 0);
+  const std::vector<float> masses = byMass ? relativeMasses(network) : std::vector<float>(network.vessels().size(), 1.0f);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];
     const bool start = vessel.start.valid(), end = vessel.end.valid();
     blocks_.push_back({vessel.firstPoint + (start ? 1u : 0u),
-                       BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta)});
+                       BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta), 1 / masses[v]});
     const auto startShare = std::span(startShare_).subspan(vessel.firstPoint, vessel.pointCount);
     const auto endShare = std::span(endShare_).subspan(vessel.firstPoint, vessel.pointCount);
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
@@ -41,8 +62,8 @@ MotionSpace::MotionSpace(const Network& network, float beta)
       if (start) startShare[l] = carriedShare(l, vessel.pointCount);
       if (end) endShare[l] = carriedShare(vessel.pointCount - 1 - l, vessel.pointCount);
     }
-    if (start) nodeWeight_[vessel.start.value] += BendingMetric::energy(startShare, beta);
-    if (end) nodeWeight_[vessel.end.value] += BendingMetric::energy(endShare, beta);
+    if (start) nodeWeight_[vessel.start.value] += masses[v] * BendingMetric::energy(startShare, beta);
+    if (end) nodeWeight_[vessel.end.value] += masses[v] * BendingMetric::energy(endShare, beta);
   }
 }
 
@@ -96,6 +117,7 @@ MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const
       x[own[k].variable - block.first] = own[k].weight;
     const auto [first, last] = block.metric.solveNear(
         x, {own[begin].variable - block.first, own[k - 1].variable - block.first + 1}, kSmallestResponse);
+    for (std::uint32_t l = first; l < last; ++l) x[l] *= block.lightness;
     for (std::size_t l = begin; l < k; ++l) row.diagonal += own[l].weight * x[own[l].variable - block.first];
     rows.runs.push_back({block.first + first, last - first});
     rows.responses.insert(rows.responses.end(), x.begin() + first, x.begin() + last);

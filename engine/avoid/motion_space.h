@@ -15,7 +15,8 @@ namespace vasa {
 /// into one banded matrix a vessel and one number a node. The network must outlive it; one object serves one caller.
 class MotionSpace {
  public:
-  explicit MotionSpace(const Network& network, float beta);
+  /// @param byMass  what a motion costs grows with what it moves: the volume that belongs to a point, by the median
+  explicit MotionSpace(const Network& network, float beta, bool byMass = false);
 
   /// One number a point, then one a node; those of fixed ends and hosted nodes stay 0.
   std::uint32_t variableCount() const { return std::uint32_t(pointCount_ + nodeWeight_.size()); }
@@ -55,6 +56,7 @@ class MotionSpace {
   struct Block {
     std::uint32_t first;  // first free point
     BendingMetric metric;
+    float lightness;  // W is the metric by this
   };
   void addPoint(const Vessel& vessel, std::uint32_t local, float weight, std::vector<Term>& terms) const;
   void addNode(NodeId node, float weight, std::vector<Term>& terms) const;

@@ -80,6 +80,11 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
 
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
   if (!assembly) return assembly.error();
+  if (options.mend) {
+    auto mended = options.mend(assembly->network);
+    if (!mended) return mended.error();
+    assembly->network = std::move(*mended);
+  }
   std::vector<std::vector<std::uint32_t>> standIns;
   for (const ElementOutcome& outcome : outcomes) standIns.push_back(outcome.standIn);
   const auto errors = measureSurfaceErrors(*assembly, elements, standIns, options.error);

@@ -19,6 +19,7 @@ struct ConvertOptions {
   StrandFitOptions fit;
   SurfaceErrorOptions error;
   float bodyHeight = 0;  ///< [m]; 0: the vertical extent of the input
+  std::function<Result<Network>(const Network&)> mend;  ///< what is done to the network before it is measured; may be empty
   std::function<bool()> stopRequested;  ///< asked between elements, from any thread
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< elements, from any thread
 };

@@ -76,7 +76,11 @@ struct Profiler::Pass {
     Shape& shape = shapes[number % 2];
     shape.start = Clock::now();
     const std::uint32_t clipFrames = setting.clip ? setting.clip->frameCount() : 1;
-    maker.make(setting.clip, setting.clip ? setting.clip->timeOfFrame(number % clipFrames) : 0);
+    // On and on: what was made once would be read from the track.
+    const float time = setting.clip ? setting.clip->timeOfFrame(number % clipFrames) : 0;
+    const Skeleton& skeleton = setting.scene->body.skeleton;
+    const Pose pose = setting.clip ? samplePose(skeleton, *setting.clip, time) : restPose(skeleton);
+    maker.moveTo(pose, time, setting.clip ? 1 / setting.clip->framesPerSecond : 0);
     shape.points.assign(maker.points().begin(), maker.points().end());
     shape.knotFrames.assign(maker.knotFrames().begin(), maker.knotFrames().end());
     shape.jointMatrices.assign(maker.jointMatrices().begin(), maker.jointMatrices().end());

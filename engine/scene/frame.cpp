@@ -13,7 +13,7 @@ namespace vasa {
 namespace {
 
 // A joint that turns no farther in one step moves vessels beside one another, some 2 cm from its axis, by 1.4 mm.
-static const float kLongestTurn = (getenv("TURN") ? atof(getenv("TURN")) : 4) * kPi / 180;
+static const float kLongestTurn = (getenv("TURN") ? atof(getenv("TURN")) : 8) * kPi / 180;
 static const float kShortestStep = getenv("SHORT") ? atof(getenv("SHORT")) : 1 / 8.0f;    // of that
 constexpr float kStepSeconds = 1 / 30.0f;     // of the way from rest to a clip's beginning
 constexpr float kSamePlace = 1e-3f;           // [m] and of an axis: a clip whose last pose is its first closes
