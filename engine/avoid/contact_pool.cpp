@@ -131,6 +131,9 @@ bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shap
 
 void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
+  const float widest = std::max({shape[i].b[0].w, shape[i].b[1].w, shape[i].b[2].w, shape[i].b[3].w}) +
+                       std::max({shape[j].b[0].w, shape[j].b[1].w, shape[j].b[2].w, shape[j].b[3].w});
+  if (f > std::max({kClearanceShare * widest, kLeastClearance, clearance_})) return;  // no place of theirs is too near
   std::array<std::pair<float, float>, kSamples.size() + 1> where{{{contactS, contactT}}};
   for (std::size_t k = 0; k < kSamples.size(); ++k)
     where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};

@@ -76,7 +76,9 @@ struct Avoider::State {
   bool isTooLong() const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
-  void look(const Input& in, std::span<const vec4> points, Bones::Which which, float margin);
+  enum class Look { first, again, certain };
+  void look(const Input& in, std::span<const vec4> points, Look how);
+  void lookAtSolids(const Input& in, Bones::Which which);
   bool settled() const;
   void separate(const Input& in);
   void giveWay(const Input& in);
@@ -152,14 +154,21 @@ void Avoider::State::place(const Input& in) {
   for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p].w = std::min(in.points[p].w, correction.widest[p]);
 }
 
-void Avoider::State::look(const Input& in, std::span<const vec4> points, Bones::Which which, float margin) {
+// At first everything; then, from round to round, at what moved; in the end exactly, for the certificate.
+void Avoider::State::look(const Input& in, std::span<const vec4> points, Look how) {
   in.report.certifyMs = 0;
   {
     StageClock clock(in.report.certifyMs);
-    places = interference.find(points, margin);
+    places = how == Look::again     ? interference.follow(points, kMargin)
+             : how == Look::certain ? interference.find(points)
+                                    : interference.find(points, kMargin, true);
     certificateOf(places, &remaining);
   }
   in.report.detectMs += in.report.certifyMs;
+  lookAtSolids(in, how == Look::first ? Bones::Which::all : Bones::Which::nearAtLast);
+}
+
+void Avoider::State::lookAtSolids(const Input& in, Bones::Which which) {
   if (!bones) return;
   StageClock clock(in.report.boneMs);
   boneContacts = bones->contacts(interference.tubes(), lastTubes, which);
@@ -190,7 +199,7 @@ void Avoider::State::separate(const Input& in) {
       pool.ascend(options.sweeps, z);
       place(in);
     }
-    look(in, in.points, Bones::Which::nearAtLast, kMargin);
+    look(in, in.points, Look::again);
     if (settled()) return;
   }
 }
@@ -216,7 +225,7 @@ void Avoider::State::giveWay(const Input& in) {
       narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort, correction.widest);
       place(in);
     }
-    look(in, in.points, Bones::Which::nearAtLast, 0);
+    look(in, in.points, Look::certain);
   }
 }
 
@@ -325,9 +334,14 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
     for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
     state.place(in);
   }
-  state.look(in, points, Bones::Which::all, kMargin);
+  state.look(in, points, State::Look::first);
   if (!atAnyLength && state.isTooLong()) return {};
   state.separate(in);
+  state.look(in, points, State::Look::certain);
+  if (!state.remaining.empty()) {
+    state.separate(in);
+    state.look(in, points, State::Look::certain);
+  }
   if (getenv("VASA_DBG")) state.debug(in);
   state.giveWay(in);
   state.accept(posed);
@@ -341,7 +355,7 @@ PosedLook Avoider::look(const PosedVessels& posed, std::span<const vec4> points)
   AvoidReport report;
   std::vector<vec4> own(points.begin(), points.end());
   std::vector<Interference::Place> kept = state.remaining;
-  state.look({posed, nullptr, own, report}, points, Bones::Which::all, 0);
+  state.look({posed, nullptr, own, report}, points, State::Look::first);
   std::swap(kept, state.remaining);
   return {certificateOf(state.places, &state.found), reportOf(state.boneContacts), tubesOf(state.skinContacts)};
 }
