@@ -12,7 +12,6 @@ namespace {
 constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
 constexpr float kTooClose = 0.25f;              // sums of radii apart, below which the side at rest is the less sure
 constexpr float kCrossing = 0.7f;               // |u - v| from which two tubes cross (40 degrees)
-constexpr float kTurned = 0.5f;                 // share of the asked distance by which the rest pose turns the way
 constexpr float kSure = 0.5f;                   // how sure the rest pose must be for a change of sides
 constexpr float kAhead = 0.34f;                 // cosine of the way to what lies ahead of an end (70 degrees)
 constexpr int kMostSteps = 4;                   // from tube to tube
@@ -57,11 +56,6 @@ quat RestSides::rotationAt(std::uint32_t tube, float t, std::span<const quat> ro
   return glm::normalize((1 - t) * a + (glm::dot(a, b) < 0 ? -t : t) * b);
 }
 
-vec3 RestSides::posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const {
-  const auto [vessel, span] = interference_->layout().address(tube);
-  return vec3(bezierOfSpan(Network::pointsOf(network_->vessel(vessel), posed.points), span).at(t));
-}
-
 vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const {
   const vec4 a = interference_->restTubes()[at.i].at(at.s), b = interference_->restTubes()[at.j].at(at.t);
   const vec3 gap = vec3(a) - vec3(b);
@@ -72,14 +66,6 @@ vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::spa
   const float apart = glm::length(side), together = glm::length(turned) / distance;
   if (!(apart > 1e-9f)) return vec3(0);
   return side / apart * together * fadeOut(distance / radii, kSureTo, kNothingFrom) * std::min(1.0f, apart / (kTooClose * radii));
-}
-
-vec3 RestSides::belongs(const Place& at, std::span<const Bezier> shape, const PosedVessels& posed,
-                        const vec3* settled) const {
-  const vec3 rest = carried(at, shape, posed.rotations);
-  const vec3 gap = settled ? *settled : posedPlace(at.i, at.s, posed) - posedPlace(at.j, at.t, posed);
-  const vec3 side = sideways(gap, directionOf(shape[at.i], at.s), directionOf(shape[at.j], at.t));
-  return rest + (1 - glm::length(rest)) * unitOr(side, vec3(0));
 }
 
 // Where the two vessels are nearest now, near the place where they were at rest: over the ends of tubes into the next.
@@ -150,15 +136,6 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
   const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
   std::ranges::stable_sort(changed, {}, pairOf);
   changed.erase(std::ranges::unique(changed, {}, pairOf).begin(), changed.end());
-}
-
-vec3 partingDirection(vec3 gap, vec3 carried, float distance, vec3 otherwise) {
-  const float sure = glm::length(carried);
-  if (sure < 1e-6f) return unitOr(gap, otherwise);
-  const vec3 side = carried / sure;
-  const float beyond = glm::dot(gap, side);
-  const float turn = kTurned * std::clamp(1 - beyond / distance, 0.0f, 1.0f);
-  return unitOr(gap - std::min(sure, 1.0f) * std::min(beyond, 0.0f) * side + turn * distance * carried, otherwise);
 }
 
 }  // namespace vasa

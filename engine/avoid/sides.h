@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "avoid/interference.h"
-#include "avoid/posed_vessels.h"
 
 namespace vasa {
 
@@ -24,12 +23,6 @@ class RestSides {
   /// @param shape  the tubes now
   vec3 carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
 
-  /// The same, and where the rest pose says little, the side that was settled on already, or else that in the pose
-  /// before any correction. So one pair of vessels is told the same side again and again, wherever it was pushed in
-  /// between.
-  /// @param settled  a direction, or null
-  vec3 belongs(const Place& at, std::span<const Bezier> shape, const PosedVessels& posed, const vec3* settled) const;
-
   /// Vessels that were near one another at rest and have changed sides, whether they overlap or have passed through: the
   /// pairs of tubes in which they are nearest now (which may lie some tubes on), with the places; sorted. What lies ahead of a vessel's end, and not beside it, is on no side of it. f of the
   /// result is the distance of the centre lines by which they are on the wrong side, negative.
@@ -41,7 +34,6 @@ class RestSides {
   Contact nearestAlong(const Contact& rest, std::span<const Bezier> shape) const;
   bool endsAt(std::uint32_t tube, float at) const;
   bool beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<const Bezier> shape) const;
-  vec3 posedPlace(std::uint32_t tube, float t, const PosedVessels& posed) const;
   quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
 
   const Network* network_;
@@ -49,12 +41,5 @@ class RestSides {
   std::vector<Contact> nearAtRest_;
   std::vector<std::vector<Contact>> found_;  // a task each
 };
-
-/// Which way to part two tubes: as they are, but turned to the side where they belong the more, the nearer they are to
-/// one another's centre line or beyond it. Unit. Continuous where one of the two says something.
-/// @param gap       C_i(s) - C_j(t)
-/// @param carried   RestSides::carried
-/// @param distance  [m] that is asked for
-vec3 partingDirection(vec3 gap, vec3 carried, float distance, vec3 otherwise);
 
 }  // namespace vasa

@@ -71,17 +71,3 @@ TEST_CASE("a turn of the whole changes nothing") {
   CHECK(changedAfter(crossing(1.2f, 0.006f), 0, turn) == 0);
   CHECK(changedAfter(crossing(1.2f, 0.006f), 0.013f, turn) > 0);
 }
-
-TEST_CASE("the way to part two tubes turns to their side without a jump") {
-  const vec3 side(0, 1, 0);
-  vec3 before = partingDirection({0.003f, 0.006f, 0}, side, 0.004f, side);
-  for (float y = 0.006f; y > -0.006f; y -= 0.00002f) {
-    const vec3 now = partingDirection({0.003f, y, 0}, side, 0.004f, side);
-    CHECK(glm::length(now) == doctest::Approx(1));
-    CHECK(glm::distance(now, before) < 0.02f);
-    CHECK(now.y > 0);
-    before = now;
-  }
-  CHECK(partingDirection({0, -0.001f, 0}, side, 0.004f, side).y == doctest::Approx(1));
-  CHECK(partingDirection({0.001f, 0, 0}, vec3(0), 0.004f, side).x == doctest::Approx(1));
-}
