@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "avoid/solver.h"
+#include "avoid/walk.h"
 #include "collide/network_tubes.h"
 #include "network/builder.h"
 #include "support/meshes.h"
@@ -25,13 +25,11 @@ Setting settingAt(float y) {
   return setting;
 }
 
-AvoidReport solve(Avoider& avoider, const Setting& setting, float lowered, const mat4& joint, std::vector<vec4>& points) {
-  std::vector<vec4> posed(setting.network.points().begin(), setting.network.points().end());
-  for (vec4& p : posed) p.y -= lowered;
-  points = posed;
-  const std::vector<quat> rotations(posed.size(), quat(1, 0, 0, 0));
-  const std::vector<mat4> joints{joint};
-  return avoider.run({posed, rotations, joints}, nullptr, points);
+test::Posed lowered(const Setting& setting, float by, const mat4& joint = mat4(1)) {
+  test::Posed posed = test::atRest(setting.network);
+  for (vec4& p : posed.points) p.y -= by;
+  posed.joints = {joint};
+  return posed;
 }
 
 float lowestAbove(const Network& network, std::span<const vec4> points) {
@@ -48,56 +46,105 @@ float lowestAbove(const Network& network, std::span<const vec4> points) {
 TEST_CASE("a vessel pressed into a bone comes out on the side where it was") {
   const Setting setting = settingAt(0.014f);
   Avoider avoider(setting.network, &setting.body);
-  std::vector<vec4> points;
-  CHECK(solve(avoider, setting, 0.001f, mat4(1), points).bones.contacts == 0);
-  for (const float lowered : {0.003f, 0.006f, 0.012f, 0.016f}) {
-    CAPTURE(lowered);
-    const AvoidReport report = solve(avoider, setting, lowered, mat4(1), points);
-    CHECK(report.bones.contacts > 0);
-    CHECK(report.bones.depth == doctest::Approx(std::min(lowered - 0.002f, 0.008f)).epsilon(0.15));
+  test::Walker walker(avoider, lowered(setting, 0));
+  CHECK(walker.to(lowered(setting, 0.001f)).movedMax == 0);
+  walker.seen = [&](const AvoidReport& report) {
     CHECK(report.bonesAfter.contacts == 0);
-    CHECK(lowestAbove(setting.network, points) > 0.0095f);
+    CHECK(lowestAbove(setting.network, walker.points()) > 0.0095f);
+  };
+  for (const float by : {0.003f, 0.006f, 0.012f, 0.016f, 0.03f, 0.05f}) {  // in the end all the way through
+    CAPTURE(by);
+    const test::Posed posed = lowered(setting, by);
+    walker.to(posed);
+    const BoneReport before = avoider.look(posed, posed.points).bones;
+    CHECK((before.contacts > 0) == (by < 0.026f));
+    if (by < 0.012f) CHECK(std::abs(before.depth - (by - 0.002f)) < 0.0005f);
   }
 }
 
 TEST_CASE("a bone that moves takes its field along") {
   const Setting setting = settingAt(0.02f);
   Avoider avoider(setting.network, &setting.body);
-  std::vector<vec4> points;
-  const mat4 up = glm::translate(mat4(1), vec3(0, 0.012f, 0));
-  CHECK(solve(avoider, setting, 0, mat4(1), points).bones.contacts == 0);
-  const AvoidReport report = solve(avoider, setting, 0, up, points);
-  CHECK(report.bones.contacts > 0);
+  const test::Posed up = lowered(setting, 0, glm::translate(mat4(1), vec3(0, 0.012f, 0)));
+  test::Walker walker(avoider, lowered(setting, 0));
+  CHECK(walker.stay(1).movedMax == 0);
+  const AvoidReport report = walker.to(up);
+  CHECK(avoider.look(up, up.points).bones.contacts > 0);
   CHECK(report.bonesAfter.contacts == 0);
-  CHECK(lowestAbove(setting.network, points) > 0.0215f);
+  CHECK(lowestAbove(setting.network, walker.points()) > 0.0215f);
 }
 
 TEST_CASE("a vessel that lies in a bone at rest may stay there") {
   const Setting setting = settingAt(0.009f);
   Avoider avoider(setting.network, &setting.body);
-  std::vector<vec4> points;
-  CHECK(solve(avoider, setting, 0, mat4(1), points).bones.contacts == 0);
-  const AvoidReport deeper = solve(avoider, setting, 0.002f, mat4(1), points);
-  CHECK(deeper.bones.contacts == 0);
-  CHECK(deeper.bones.deeper > 0);
-  CHECK(deeper.bonesAfter.deeper == 0);
+  test::Walker walker(avoider, lowered(setting, 0));
+  CHECK(walker.stay(1).movedMax == 0);
+  const test::Posed posed = lowered(setting, 0.002f);
+  const AvoidReport report = walker.to(posed);
+  const BoneReport before = avoider.look(posed, posed.points).bones;
+  CHECK(before.contacts == 0);
+  CHECK(before.deeper > 0);
+  CHECK(report.bonesAfter.deeper == 0);
 }
 
-TEST_CASE("a vessel that a bone's turning has passed belongs where the pose has it, not where it was at rest") {
+TEST_CASE("a bone that turns over under a vessel lifts it and lets it down again") {
   // Half a turn about z takes what was above the bone below it; the vessel stays above, a little in the bone.
   const Setting setting = settingAt(0.014f);
   Avoider avoider(setting.network, &setting.body);
-  std::vector<vec4> points;
-  const mat4 turned = glm::rotate(mat4(1), kPi, vec3(0, 0, 1));
-  const AvoidReport report = solve(avoider, setting, 0.003f, turned, points);
-  CHECK(report.bones.contacts > 0);
-  CHECK(report.bonesAfter.contacts == 0);
-  CHECK(lowestAbove(setting.network, points) > 0.0095f);
+  const test::Posed rest = lowered(setting, 0);
+  test::Walker walker(avoider, rest);
+  float highest = 0;
+  walker.seen = [&](const AvoidReport& report) {
+    CHECK(report.bonesAfter.contacts == 0);
+    highest = std::max(highest, report.movedMax);
+  };
+  walker.along(
+      [&](float share) {
+        return lowered(setting, 0.003f * share, glm::rotate(mat4(1), kPi * share, vec3(0, 0, 1)));
+      },
+      60, 2);
+  CHECK(highest > 0.008f);
+  const AvoidReport report = walker.stay(60);
+  CHECK(lowestAbove(setting.network, walker.points()) > 0.0095f);
   CHECK(report.movedMax < 0.004f);
 }
 
-TEST_CASE("a vessel that is pushed into a bone from farther than its field reaches is held off it") {
-  // A second vessel above comes down on the first, far enough to bury it.
+TEST_CASE("shorter steps of a bone change corrections the less, and lead to about the same place") {
+  const Setting setting = settingAt(0.014f);
+  struct Way {
+    std::vector<vec4> end;
+    float largest = 0;
+  };
+  const auto go = [&](unsigned steps) {
+    Avoider avoider(setting.network, &setting.body);
+    test::Walker walker(avoider, lowered(setting, 0));
+    Way way;
+    walker.seen = [&](const AvoidReport& report) {
+      CHECK(report.bonesAfter.contacts == 0);
+      way.largest = std::max(way.largest, walker.correctionStep());
+    };
+    walker.along([&](float share) { return lowered(setting, 0, glm::rotate(mat4(1), share, vec3(0, 0, 1))); },
+                 steps, 1);
+    way.end = walker.points();
+    return way;
+  };
+  Way coarse = go(30);
+  for (const unsigned steps : {120u, 480u}) {
+    CAPTURE(steps);
+    const Way fine = go(steps);
+    float apart = 0;
+    for (std::size_t p = 0; p < fine.end.size(); ++p)
+      apart = std::max(apart, glm::distance(vec3(fine.end[p]), vec3(coarse.end[p])));
+    MESSAGE(steps << " steps: " << 1e3f * apart << " mm apart, largest " << 1e3f * fine.largest << " mm of "
+                  << 1e3f * coarse.largest << " mm");
+    CHECK(apart < 0.25f * 0.002f);
+    CHECK(fine.largest < 0.33f * coarse.largest);
+    coarse = fine;
+  }
+}
+
+TEST_CASE("a vessel that another one pushes towards a bone is held off it") {
+  // The second vessel comes down on the first, far enough to bury it.
   Setting setting = settingAt(0.024f);
   NetworkBuilder builder;
   std::vector<vec4> low, high;
@@ -111,20 +158,20 @@ TEST_CASE("a vessel that is pushed into a bone from farther than its field reach
   auto network = builder.build(1);
   REQUIRE(network.ok());
   setting.network = std::move(*network);
-  std::vector<vec4> posed(setting.network.points().begin(), setting.network.points().end());
-  for (std::size_t p = low.size(); p < posed.size(); ++p) posed[p].y = 0.021f;
-  std::vector<vec4> points = posed;
-  const std::vector<quat> rotations(posed.size(), quat(1, 0, 0, 0));
-  const std::vector<mat4> joints{mat4(1)};
+  test::Posed posed = lowered(setting, 0);
+  for (std::size_t p = low.size(); p < posed.points.size(); ++p) posed.points[p].y = 0.021f;
   Avoider avoider(setting.network, &setting.body);
-  const AvoidReport report = avoider.run({posed, rotations, joints}, nullptr, points);
-  CHECK(report.before.contacts > 0);
-  CHECK(report.after.holds());
-  CHECK(report.sidesChangedAfter == 0);
-  CHECK(report.bonesAfter.contacts == 0);
+  test::Walker walker(avoider, lowered(setting, 0));
+  walker.seen = [&](const AvoidReport& report) {
+    CHECK(report.after.holds());
+    CHECK(report.bonesAfter.contacts == 0);
+  };
+  walker.to(posed);
+  CHECK(avoider.look(posed, posed.points).vessels.contacts > 0);
+  CHECK(test::changedSides(setting.network, posed, walker.points()) == 0);
 }
 
-TEST_CASE("a vessel that the bone's faces push against one another in comes out even so") {
+TEST_CASE("a vessel that is turned through two bones stays between them") {
   // Turned and tilted about a place of its own, from one face of the lower bone through another and past the upper one.
   Setting setting = settingAt(0.011f);
   setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
@@ -132,27 +179,32 @@ TEST_CASE("a vessel that the bone's faces push against one another in comes out 
   for (SkinInfluence& influence : high.influences) influence.joints = {1, 0, 0, 0};
   setting.body.meshes = {test::boxMesh("bones", {-0.012f, -0.006f, -0.03f}, {0.012f, 0.006f, 0.03f}), high};
   Avoider avoider(setting.network, &setting.body);
+  const test::Posed rest = test::atRest(setting.network, 2);
   struct Through {
     float turn, tilt, lowered, aside;
   };
   for (const auto& [turn, tilt, lowered, aside] :
-       {Through{-0.97f, 0.5672f, 0.0095f, 0.0053f}, Through{-0.9184f, 0.5774f, 0.0136f, 0.0023f}, Through{0.9932f, -0.54f, 0.015f, -0.0098f}}) {
+       {Through{-0.97f, 0.5672f, 0.0095f, 0.0053f}, Through{-0.9184f, 0.5774f, 0.0136f, 0.0023f},
+        Through{0.9932f, -0.54f, 0.015f, -0.0098f}}) {
     CAPTURE(turn);
-    const mat4 turned = glm::rotate(glm::rotate(mat4(1), turn, vec3(0, 1, 0)), tilt, vec3(0, 0, 1));
-    const mat4 move = glm::translate(mat4(1), vec3(0, 0.011f - lowered, aside)) * turned * glm::translate(mat4(1), vec3(0, -0.011f, 0));
-    std::vector<vec4> posed;
-    for (const vec4& p : setting.network.points()) posed.emplace_back(vec3(move * vec4(vec3(p), 1)), p.w);
-    std::vector<vec4> points = posed;
-    const std::vector<quat> rotations(posed.size(), glm::quat_cast(mat3(move)));
-    const std::vector<mat4> joints{mat4(1), mat4(1)};
-    const AvoidReport report = avoider.run({posed, rotations, joints}, nullptr, points);
-    CHECK(report.bones.contacts > 0);
-    CHECK(report.bonesAfter.contacts == 0);
+    const auto posedAt = [&](float share) {
+      const mat4 turned = glm::rotate(glm::rotate(mat4(1), share * turn, vec3(0, 1, 0)), share * tilt, vec3(0, 0, 1));
+      const mat4 move = glm::translate(mat4(1), vec3(0, 0.011f - share * lowered, share * aside)) * turned *
+                        glm::translate(mat4(1), vec3(0, -0.011f, 0));
+      test::Posed posed = rest;
+      for (vec4& p : posed.points) p = vec4(vec3(move * vec4(vec3(p), 1)), p.w);
+      std::ranges::fill(posed.rotations, glm::quat_cast(mat3(move)));
+      return posed;
+    };
+    test::Walker walker(avoider, rest);
+    walker.seen = [](const AvoidReport& report) { CHECK(report.bonesAfter.contacts == 0); };
+    walker.along(posedAt, 60, 2);
+    CHECK(avoider.look(posedAt(1), posedAt(1).points).bones.contacts > 0);
   }
 }
 
-TEST_CASE("a vessel between two bones that leave it too little room gives way") {
-  // 3 mm between two slabs for a vessel of 4 mm.
+TEST_CASE("a vessel on which two bones close gives way, and widens again when they open") {
+  // 10 mm between two slabs go down to 3 mm for a vessel of 4 mm.
   Setting setting{{}, test::levelVessel(0.1f, 0.0022f)};
   setting.body.skeleton.joints.push_back({.name = "low"});
   setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
@@ -162,16 +214,52 @@ TEST_CASE("a vessel between two bones that leave it too little room gives way") 
   setting.body.meshes = {low, high};
   Avoider avoider(setting.network, &setting.body);
   const VolumeKeeper volume(setting.network);
-  const std::vector<vec4> posed(setting.network.points().begin(), setting.network.points().end());
-  std::vector<vec4> points = posed;
-  const std::vector<quat> rotations(posed.size(), quat(1, 0, 0, 0));
-  const std::vector<mat4> joints{mat4(1), glm::translate(mat4(1), vec3(0, -0.007f, 0))};
-  const AvoidReport report = avoider.run({posed, rotations, joints}, &volume, points);
-  CHECK(report.bones.contacts > 0);
-  CHECK(report.bonesAfter.contacts == 0);
-  CHECK(report.narrowSpans > 0);
-  CHECK(report.leastLumen > 0.4f);
-  CHECK(report.leastLumen < 0.85f);
+  const test::Posed open = test::atRest(setting.network, 2);
+  test::Posed closed = open;
+  closed.joints[1] = glm::translate(mat4(1), vec3(0, -0.007f, 0));
+  test::Walker walker(avoider, open, &volume);
+  float lumen = 1;
+  walker.seen = [&](const AvoidReport& report) {
+    CHECK(report.after.holds());
+    CHECK(report.bonesAfter.contacts == 0);
+    CHECK(std::abs(report.leastLumen - lumen) < 0.25f);  // no sudden change
+    lumen = report.leastLumen;
+    CHECK(walker.correctionStep() < 0.0015f);
+  };
+  const AvoidReport narrow = walker.to(closed);
+  CHECK(avoider.look(closed, closed.points).bones.contacts > 0);
+  CHECK(narrow.narrowSpans > 0);
+  CHECK(narrow.leastLumen > 0.4f);
+  CHECK(narrow.leastLumen < 0.85f);
+  const AvoidReport held = walker.stay(30);
+  CHECK(held.leastLumen > 0.4f);
+  CHECK(held.leastLumen < 0.85f);
+  walker.to(open);
+  const AvoidReport wide = walker.stay(60);
+  CHECK(wide.narrowSpans == 0);
+  CHECK(wide.leastLumen == 1);
+  CHECK(wide.movedMax < 1e-6f);
+}
+
+TEST_CASE("where bones leave a vessel no room at all, it keeps its least lumen and that is told") {
+  Setting setting{{}, test::levelVessel(0.1f, 0.005f)};
+  setting.body.skeleton.joints.push_back({.name = "low"});
+  setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
+  SkinnedMesh high = test::boxMesh("bones", {-0.02f, 0.01f, -0.02f}, {0.02f, 0.02f, 0.02f});
+  for (SkinInfluence& influence : high.influences) influence.joints = {1, 0, 0, 0};
+  setting.body.meshes = {test::boxMesh("bones", {-0.02f, -0.01f, -0.02f}, {0.02f, 0, 0.02f}), high};
+  Avoider avoider(setting.network, &setting.body);
+  const test::Posed open = test::atRest(setting.network, 2);
+  test::Posed closed = open;
+  closed.joints[1] = glm::translate(mat4(1), vec3(0, -0.0095f, 0));
+  test::Walker walker(avoider, open);
+  const AvoidReport report = walker.to(closed);
+  CHECK(report.bonesAfter.contacts > 0);
+  CHECK_FALSE(avoider.inBones().empty());
+  CHECK(report.leastLumen >= kLeastLumen - 1e-6f);
+  for (const vec4& p : walker.points()) CHECK((glm::length(vec3(p)) < 0.2f && p.w > 0));
+  walker.to(open);
+  CHECK(walker.stay(90).movedMax < 1e-6f);
 }
 
 TEST_CASE("what was seen in earlier poses changes nothing of what is found in a bone now") {
@@ -194,7 +282,7 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
       layout.shape(points, now);
       Bones fresh(setting.body, rest);
       for (Bones* bones : {&kept, &fresh}) bones->pose(joints);
-      const auto a = kept.contacts(now, {now, {}}), b = fresh.contacts(now, {now, {}});
+      const auto a = kept.contacts(now, now), b = fresh.contacts(now, now);
       CAPTURE(step);
       REQUIRE(a.size() == b.size());
       for (std::size_t k = 0; k < a.size(); ++k) {
@@ -206,7 +294,7 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
       found += a.size();
       for (vec4& p : points) p.y -= 0.001f;
       layout.shape(points, later);
-      const auto c = kept.contacts(later, {now, {}}, Bones::Which::nearAtLast), d = fresh.contacts(later, {now, {}});
+      const auto c = kept.contacts(later, now, Bones::Which::nearAtLast), d = fresh.contacts(later, now);
       REQUIRE(c.size() == d.size());
       for (std::size_t k = 0; k < c.size(); ++k) CHECK(c[k].f == d[k].f);
     }

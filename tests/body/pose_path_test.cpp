@@ -9,7 +9,8 @@ using namespace vasa;
 namespace {
 
 const Body& arm() {
-  static const Body body = test::chainBody({{0, 1, 0}, {0.1f, 1.2f, 0}, {0.4f, 1.2f, 0.05f}, {0.6f, 1.1f, 0}});
+  static const Body body =
+      test::chainBody({{0, 1, 0}, {0.1f, 1.2f, 0}, {0.4f, 1.2f, 0.05f}, {0.6f, 1.1f, 0}});
   return body;
 }
 
@@ -81,8 +82,8 @@ TEST_CASE("the largest turn is a joint's about its parent, and that of a root do
   const Pose rest = restPose(arm().skeleton);
   CHECK(turnOf(rest, rest) < 1e-3f);
   CHECK(turnOf(rest, test::turned(arm(), {{0, about({1, 1, 0}, 80)}})) < 1e-3f);
-  const Pose bent = test::turned(
-      arm(), {{0, about({1, 1, 0}, 80)}, {1, about({0, 0, 1}, 30)}, {2, about({0, 0, 1}, 40)}});
+  const Pose bent =
+      test::turned(arm(), {{0, about({1, 1, 0}, 80)}, {1, about({0, 0, 1}, 30)}, {2, about({0, 0, 1}, 40)}});
   CHECK(turnOf(rest, bent) == doctest::Approx(glm::radians(40.0)).epsilon(1e-4));
   CHECK(turnOf(bent, rest) == doctest::Approx(glm::radians(40.0)).epsilon(1e-4));
 }
