@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -26,15 +25,21 @@ constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
 constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::carried)
 constexpr float kNegligible = 2e-6f;      // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
-static const float kLever = getenv("LEVER") ? atof(getenv("LEVER")) : 3;
-static const float kShare = getenv("SHARE") ? atof(getenv("SHARE")) : 0.5f;
-static const float kFastest = getenv("FASTEST") ? atof(getenv("FASTEST")) : 0.045f;
-constexpr float kReach = 10;               // how far a multiplier may push on its own: times what is lacking and the radii
+constexpr float kReach = 10;              // how far a multiplier may push on its own: times what is lacking and the radii
+// What moves something else by so many times what it wins at its own place has to take its time: no faster than kFastest or
+// than this share of what the pose moves the tube by.
+constexpr float kLever = 3;
+constexpr float kFastest = 0.045f;        // [m/s] 1.5 mm in a thirtieth of a second
+constexpr float kShare = 0.5f;
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
   const float length = glm::length(v);
   return length > 1e-9f ? v / length : otherwise;
+}
+
+float widestOf(const Bezier& tube) {
+  return std::max({tube.b[0].w, tube.b[1].w, tube.b[2].w, tube.b[3].w});
 }
 
 // The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared distance.
@@ -106,7 +111,6 @@ void ContactPool::refresh(std::span<const Bezier> shape, std::span<const vec3> z
 }
 
 float ContactPool::clearanceFor(const Constraint& at, float radii) const {
-  if (clearance_ > 0) return clearance_;
   const vec4 restA = interference_->restTubes()[at.i].at(at.s), restB = interference_->restTubes()[at.other].at(at.t);
   const float atRest = glm::distance(vec3(restA), vec3(restB)) - restA.w - restB.w;
   const float wanted = std::max(kClearanceShare * radii, kLeastClearance);
@@ -131,9 +135,7 @@ bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shap
 
 void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
-  const float widest = std::max({shape[i].b[0].w, shape[i].b[1].w, shape[i].b[2].w, shape[i].b[3].w}) +
-                       std::max({shape[j].b[0].w, shape[j].b[1].w, shape[j].b[2].w, shape[j].b[3].w});
-  if (f > std::max({kClearanceShare * widest, kLeastClearance, clearance_})) return;  // no place of theirs is too near
+  if (f > std::max(kClearanceShare * (widestOf(shape[i]) + widestOf(shape[j])), kLeastClearance)) return;
   std::array<std::pair<float, float>, kSamples.size() + 1> where{{{contactS, contactT}}};
   for (std::size_t k = 0; k < kSamples.size(); ++k)
     where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};
@@ -149,7 +151,7 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     constraint.normal = wayApart(gap, before, distance, contactNormal);
     const float lack = distance - glm::dot(constraint.normal, gap);
     if (lack <= kNegligible) continue;
-    constraint.limit = reach_ > 0 ? reach_ * lack : kReach * (lack + a.w + b.w);
+    constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     if (std::ranges::any_of(own, [&](const Constraint& other) { return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter; }) ||
         known(constraint, kSameDirection))
@@ -181,8 +183,11 @@ void ContactPool::take(Constraint& constraint, bool slowly, std::span<const Bezi
   constraint.row = space_->finish(terms_, rows_);
   if (constraint.row.diagonal <= kLeastDiagonal) return;
   float most = 0;
-  for (std::uint32_t k = 0, at = constraint.row.firstResponse; at < rows_.responses.size(); ++k, ++at) most = std::max(most, std::abs(rows_.responses[at]));
-  if (slowly || most > kLever * constraint.row.diagonal) constraint.limit = std::min(constraint.limit, std::max(kFastest * seconds_, kShare * last.moved[constraint.i]) * constraint.row.diagonal / most);
+  for (const float response : std::span(rows_.responses).subspan(constraint.row.firstResponse)) most = std::max(most, std::abs(response));
+  if (slowly || most > kLever * constraint.row.diagonal) {
+    const float pace = std::max(kFastest * seconds_, kShare * last.moved[constraint.i]);
+    constraint.limit = std::min(constraint.limit, pace * constraint.row.diagonal / most);
+  }
   constraint.limit /= constraint.row.diagonal;
   begin(constraint, shape, z);
   constraints_.push_back(constraint);

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cstdio>
 #include <span>
 #include <vector>
 
@@ -42,9 +41,8 @@ class ContactPool {
   /// All must outlive this.
   ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
+  /// Begins a step. @param seconds  it takes
   void clear(float seconds);
-  /// From now on the clearance that is asked for, whatever there was at rest.
-  void keepApart(float clearance, float reach) { clearance_ = clearance, reach_ = reach; }
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
   /// side by side, at some more. @param shape  in which they were found @param z  its variables
   /// @return how many were added
@@ -60,12 +58,6 @@ class ContactPool {
   /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves anything.
   void ascend(unsigned sweeps, std::span<vec3> z);
 
-  void print(std::uint32_t i, std::uint32_t other, std::span<const vec3> z) const {
-    for (const Constraint& c : constraints_)
-      if (c.i == i && c.other == other)
-        fprintf(stderr, "      s %.2f t %.2f n %.2f %.2f %.2f d %.3f now %.3f lambda*diag %.3f of %.3f mm\n", c.s, c.t, c.normal.x, c.normal.y, c.normal.z, c.distance * 1e3, (c.start + glm::dot(c.normal, motionOf(c, z))) * 1e3, c.multiplier * c.row.diagonal * 1e3, c.limit * c.row.diagonal * 1e3);
-  }
-  template <class F> void each(const F& f, std::span<const vec3> z) const { for (const Constraint& c : constraints_) f(c, c.start + glm::dot(c.normal, motionOf(c, z))); }
   std::size_t size() const { return constraints_.size(); }
 
  private:
@@ -89,7 +81,7 @@ class ContactPool {
   const Interference* interference_;
   const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
-  float seconds_ = 0, clearance_ = 0, reach_ = 0;
+  float seconds_ = 0;
   std::size_t sorted_ = 0;               // of them; the others are of this round
   MotionSpace::Rows rows_;
   std::vector<Proposals> proposals_;

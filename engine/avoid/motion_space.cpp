@@ -6,13 +6,12 @@
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kCarriedPoints = 8;  // over so many points φ falls to 0
 constexpr float kSmallestWeight = 1e-3f;     // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
 constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
-float carriedShare(std::uint32_t steps, std::uint32_t points) {
-  const float reach = float(std::min(kCarriedPoints, points - 1));
+float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
+  const float reach = float(std::min(carried, points - 1));
   const float x = std::min(float(steps) / reach, 1.0f);
   return 1 - x * x * (3 - 2 * x);
 }
@@ -38,7 +37,7 @@ std::vector<float> relativeMasses(const Network& network) {
 
 }  // namespace
 
-MotionSpace::MotionSpace(const Network& network, float beta, bool byMass)
+MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::uint32_t carried)
     : network_(&network),
       pointCount_(network.points().size()),
       vesselOf_(pointCount_),
@@ -59,8 +58,8 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass)
     const auto endShare = std::span(endShare_).subspan(vessel.firstPoint, vessel.pointCount);
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
       vesselOf_[vessel.firstPoint + l] = v;
-      if (start) startShare[l] = carriedShare(l, vessel.pointCount);
-      if (end) endShare[l] = carriedShare(vessel.pointCount - 1 - l, vessel.pointCount);
+      if (start) startShare[l] = carriedShare(l, vessel.pointCount, carried);
+      if (end) endShare[l] = carriedShare(vessel.pointCount - 1 - l, vessel.pointCount, carried);
     }
     if (start) nodeWeight_[vessel.start.value] += masses[v] * BendingMetric::energy(startShare, beta);
     if (end) nodeWeight_[vessel.end.value] += masses[v] * BendingMetric::energy(endShare, beta);

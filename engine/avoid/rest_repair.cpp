@@ -2,79 +2,136 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
-#include "avoid/contact_pool.h"
+#include "avoid/rest_parting.h"
+#include "core/cancellation.h"
+#include "network/file.h"
+#include "network/reshape.h"
 
 namespace vasa {
 namespace {
 
-static const unsigned kRounds = getenv("RN") ? atoi(getenv("RN")) : 15, kSweeps = 40;
-constexpr unsigned kThinnings = 30;
-constexpr float kClearance = 6e-5f;  // [m] file formats round coordinates and radii by up to 15 µm: two of each
-constexpr float kPace = 1 / 60.0f;   // [s] that what has no leverage may move in one round (ContactPool)
-static const float kThinnest = getenv("RT") ? atof(getenv("RT")) : 0.4f;    // of a radius
-constexpr float kSpare = 0.998f;     // a little more than is asked for, so that it is settled in few rounds
+constexpr unsigned kPasses = 4, kSteps = 40;
+constexpr unsigned kStepsOfMotion = 20;  // the first, before anything is thinned
+constexpr float kLeastClearance = 1e-6f;  // [m] well above what detection is exact to
+constexpr float kRoundings = 4.5f;        // of coordinates that two vessels may come nearer by, √3 each, and of radii
 
-// Lowers the radii at a place by what is lacking there: the thinner tube first, which is the smaller change.
-void thin(const Network& network, const NetworkTubes& layout, const Contact& contact, std::span<const Bezier> shape, std::span<vec4> points) {
-  float lack = kClearance - contact.f;
-  std::array<std::pair<std::uint32_t, float>, 2> tubes{{{contact.i, contact.s}, {contact.j, contact.t}}};
-  if (shape[contact.j].at(contact.t).w < shape[contact.i].at(contact.s).w) std::swap(tubes[0], tubes[1]);
-  for (const auto& [tube, at] : tubes) {
-    const auto [vessel, span] = layout.address(tube);
-    const std::uint32_t first = network.vessel(vessel).firstPoint + span;
-    const float radius = shape[tube].at(at).w, rest = bezierOfSpan(network.pointsOf(network.vessel(vessel)), span).at(at).w;
-    const float wanted = std::max(radius - lack, std::min(radius, kThinnest * rest)), factor = radius > 0 ? kSpare * wanted / radius : 1;
-    lack -= radius - wanted;
-    for (std::uint32_t p = first; p < first + 4; ++p)
-      points[p].w = std::min(points[p].w, std::max(points[p].w * factor, kThinnest * network.points()[p].w));
-    if (lack <= 0) return;
+// Two vessels are one told twice where they are so alike along so much of both. (An artery and a vein that are merely drawn
+// over one another can go side by side.)
+constexpr float kSameAxis = 0.25f;      // of the smaller radius
+constexpr float kSameRadius = 1.25f;    // factor
+constexpr float kSameDirection = 0.8f;  // |cos|
+constexpr float kSameShare = 0.8f;      // of a vessel's spans
+
+using VesselPair = std::pair<std::uint32_t, std::uint32_t>;  // a <= b
+
+VesselPair vesselsOf(const Contact& contact, const NetworkTubes& layout) {
+  const std::uint32_t a = layout.address(contact.i).vessel.value, b = layout.address(contact.j).vessel.value;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool alongOneAxis(const Contact& contact, std::span<const Bezier> tubes) {
+  const vec4 a = tubes[contact.i].at(contact.s), b = tubes[contact.j].at(contact.t);
+  const vec3 alongA = tubes[contact.i].derivative(contact.s), alongB = tubes[contact.j].derivative(contact.t);
+  const auto [thin, wide] = std::minmax(a.w, b.w);
+  return glm::distance(vec3(a), vec3(b)) < kSameAxis * thin && wide < kSameRadius * thin &&
+         std::abs(glm::dot(alongA, alongB)) > kSameDirection * glm::length(alongA) * glm::length(alongB);
+}
+
+// Pairs of vessels that tell one course.
+std::set<VesselPair> toldTwice(const Network& network, Interference& interference) {
+  std::map<VesselPair, std::array<std::set<std::uint32_t>, 2>> spans;
+  const NetworkTubes& layout = interference.layout();
+  for (const Interference::Place& place : interference.find(network.points())) {
+    const VesselPair vessels = vesselsOf(place.contact, layout);
+    if (vessels.first == vessels.second || !alongOneAxis(place.contact, interference.tubes())) continue;
+    for (const std::uint32_t tube : {place.contact.i, place.contact.j}) {
+      const NetworkTubes::Address at = layout.address(tube);
+      spans[vessels][at.vessel.value == vessels.second].insert(at.span);
+    }
   }
+  std::set<VesselPair> twice;
+  for (const auto& [vessels, own] : spans)
+    if (float(own[0].size()) >= kSameShare * float(network.vessels()[vessels.first].spanCount()) &&
+        float(own[1].size()) >= kSameShare * float(network.vessels()[vessels.second].spanCount()))
+      twice.insert(vessels);
+  return twice;
+}
+
+// One pass, with the neighbours of the network that the last one left. @return whether nothing was left to do
+bool part(RestParting& parting, const Network& now, const std::set<VesselPair>& twice, float clearance, bool thins) {
+  Interference interference(now);
+  std::vector<Interference::Place> places;
+  for (unsigned step = 0; step < kSteps; ++step) {
+    checkpoint();
+    places.clear();
+    for (const Interference::Place& place : interference.find(parting.points(), parting.watched()))
+      if (!twice.contains(vesselsOf(place.contact, interference.layout()))) places.push_back(place);
+    // A little of the clearance may be lacking: steps come ever nearer to it.
+    if (std::ranges::none_of(places, [&](const auto& place) { return place.contact.f < 0.9f * clearance; })) return step == 0;
+    if (thins || step >= kStepsOfMotion) parting.thin(places, interference.layout(), interference.tubes());
+    parting.move(places, interference.layout());
+  }
+  return false;
+}
+
+std::vector<RestOverlap> overlapsOf(const Network& network, const std::set<VesselPair>& twice) {
+  Interference interference(network);
+  std::map<VesselPair, RestOverlap> found;
+  for (const Interference::Place& place : interference.find(network.points())) {
+    const Contact& contact = place.contact;
+    const VesselPair vessels = vesselsOf(contact, interference.layout());
+    RestOverlap& overlap = found.try_emplace(vessels, RestOverlap{{vessels.first}, {vessels.second}}).first->second;
+    ++overlap.pairs;
+    overlap.depth = std::max(overlap.depth, -contact.f);
+    const float thin = std::min(interference.tubes()[contact.i].at(contact.s).w, interference.tubes()[contact.j].at(contact.t).w);
+    if (-contact.f >= 2 * thin) overlap.reason = OverlapReason::inside;
+    if (twice.contains(vessels)) overlap.reason = OverlapReason::twice;
+  }
+  std::vector<RestOverlap> overlaps;
+  for (const auto& [vessels, overlap] : found) overlaps.push_back(overlap);
+  std::ranges::stable_sort(overlaps, std::greater<>(), &RestOverlap::depth);
+  return overlaps;
 }
 
 }  // namespace
 
+std::string_view reasonName(OverlapReason reason) {
+  constexpr std::array<std::string_view, 3> kNames{"no room", "inside", "twice"};
+  return kNames[std::size_t(reason)];
+}
+
 RestRepair separateAtRest(const Network& network) {
-  Interference interference(network);
-  const RestSides sides(network, interference);
-  const MotionSpace space(network, 30, !getenv("NOMASS"));
-  ContactPool pool(space, interference, sides);
-  const std::vector<quat> turns(interference.layout().count(), quat(1, 0, 0, 0)), rotations(network.points().size(), quat(1, 0, 0, 0));
-  const std::vector<float> moved(turns.size(), 0);
-  RestRepair repair{{network.points().begin(), network.points().end()}, interference.restPairCount()};
-  if (repair.pairsBefore == 0) return repair;
-  std::vector<vec3> z(space.variableCount(), vec3(0));
-  MotionSpace motion = space;
-  pool.clear(getenv("RP") ? atof(getenv("RP")) : 0.0055f);
-  pool.keepApart(kClearance, getenv("RR") ? atof(getenv("RR")) : 1);
-  const auto apply = [&] {
-    for (std::size_t p = 0; p < repair.points.size(); ++p) repair.points[p] = vec4(vec3(network.points()[p]), repair.points[p].w);
-    motion.apply(z, repair.points);
-  };
-  const auto overlaps = [](const Interference::Place& place) { return place.contact.f < 0; };
-  auto places = interference.find(repair.points, kClearance);
-  if (getenv("RDBG"))
-    for (const auto& pl : places) if (overlaps(pl)) {
-      const auto& c = pl.contact; const auto a = interference.layout().address(c.i), b = interference.layout().address(c.j);
-      fprintf(stderr, "PAIR\t%s\t%u/%u\t%s\t%u/%u\t%.2f\t%.2f\t%.2f\t%.2f\n", network.vessel(a.vessel).name.c_str(), a.span, network.vessel(a.vessel).spanCount(), network.vessel(b.vessel).name.c_str(), b.span, network.vessel(b.vessel).spanCount(), c.f*1e3, interference.tubes()[c.i].at(c.s).w*1e3, interference.tubes()[c.j].at(c.t).w*1e3, glm::distance(vec3(interference.tubes()[c.i].at(c.s)), vec3(interference.tubes()[c.j].at(c.t)))*1e3);
-    }
-  for (unsigned round = 0; round < kRounds + kThinnings && std::ranges::any_of(places, overlaps); ++round) {
-    if (round >= kRounds)
-      for (const Interference::Place& place : places)
-        if (overlaps(place)) thin(network, interference.layout(), place.contact, interference.tubes(), repair.points);
-    pool.refresh(interference.tubes(), z);
-    pool.add(places, {}, interference.tubes(), {interference.restTubes(), turns, moved, rotations}, z);
-    pool.ascend(kSweeps, z);
-    apply();
-    places = interference.find(repair.points, kClearance);
+  RestRepair repair{.points = {network.points().begin(), network.points().end()}};
+  std::set<VesselPair> twice;
+  {
+    Interference atRest(network);
+    repair.pairsBefore = repair.pairsAfter = atRest.restPairCount();
+    if (repair.pairsBefore == 0) return repair;
+    twice = toldTwice(network, atRest);
   }
-  repair.pairsAfter = std::size_t(std::ranges::count_if(places, overlaps));
+  const float clearance = std::max(kLeastClearance, kRoundings * quantisationError(network));
+  RestParting parting(network, clearance);
+  Network now = network;
+  for (unsigned pass = 0; pass < kPasses; ++pass) {
+    const bool done = part(parting, now, twice, clearance, pass > 0);
+    auto parted = reshapeNetwork(network, parting.points(), network.bodyHeight());
+    if (!parted) break;  // a vessel lost its length or its place: what was reached before stands
+    now = std::move(*parted);
+    if (done) break;
+  }
+  repair.points.assign(now.points().begin(), now.points().end());
+  repair.left = overlapsOf(now, twice);
+  repair.pairsAfter = 0;
+  for (const RestOverlap& overlap : repair.left) repair.pairsAfter += overlap.pairs;
   for (std::size_t p = 0; p < repair.points.size(); ++p) {
-    const vec4 &now = repair.points[p], &rest = network.points()[p];
-    repair.movedMax = std::max(repair.movedMax, glm::distance(vec3(now), vec3(rest)));
-    if (rest.w > 0) repair.thinnedMax = std::max(repair.thinnedMax, 1 - now.w / rest.w);
+    const vec4 &moved = repair.points[p], &rest = network.points()[p];
+    repair.movedMax = std::max(repair.movedMax, glm::distance(vec3(moved), vec3(rest)));
+    repair.thinnedMax = std::max(repair.thinnedMax, 1 - moved.w / rest.w);
   }
   return repair;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -20,8 +19,8 @@ constexpr float kFading = 0.1f;         // [s] in which a correction that nothin
 constexpr float kFastestFading = 0.02f; // [m/s] ... but no faster than this
 constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way doubles where there is room again
 constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
-static const float kRolled = getenv("ROLL") ? atof(getenv("ROLL")) : 0;
-static const float kDeepest = getenv("DEEP") ? atof(getenv("DEEP")) : 0.5f;
+constexpr float kRolled = 0;            // cosine of the angle from which on vessels that roll around one another are turned back
+constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -84,7 +83,6 @@ struct Avoider::State {
   void giveWay(const Input& in);
   void accept(const PosedVessels& posed);
   void sumUp(const Input& in);
-  void debug(const Input& in);
 
   const Network& network;
   AvoidOptions options;
@@ -229,22 +227,6 @@ void Avoider::State::giveWay(const Input& in) {
   }
 }
 
-void Avoider::State::debug(const Input& in) {
-  const auto nm = [&](std::uint32_t tube) { const auto [v, sp] = interference.layout().address(tube); return network.vessel(v).name + ":" + std::to_string(sp) + "/" + std::to_string(network.vessel(v).spanCount()); };
-  for (const auto& place : remaining) {
-    const Contact& c = place.contact;
-    fprintf(stderr, "  pair %s x %s s %.2f t %.2f f %.3f mm r %.2f %.2f\n", nm(c.i).c_str(), nm(c.j).c_str(), c.s, c.t, c.f * 1e3, interference.tubes()[c.i].at(c.s).w * 1e3, interference.tubes()[c.j].at(c.t).w * 1e3);
-    pool.print(c.i, c.j, z);
-  }
-  for (const auto& b : boneContacts) { fprintf(stderr, "  bone %s part %u s %.2f f %.3f mm allowed %.3f r %.2f\n", nm(b.tube).c_str(), b.part, b.s, b.f * 1e3, b.allowed * 1e3, interference.tubes()[b.tube].at(b.s).w*1e3);
-    pool.print(b.tube, 0x80000000u | b.part, z); }
-  pool.each([&](const Constraint& c, float now) {
-    if (c.multiplier * c.row.diagonal < 1.5e-3f) return;
-    fprintf(stderr, "   big %s x %s s %.2f t %.2f n %.2f %.2f %.2f d %.3f now %.3f lambda*diag %.3f diag %.3g moved %.2f\n", nm(c.i).c_str(), c.isBone() ? std::to_string(c.other & 0xffff).c_str() : nm(c.other).c_str(), c.s, c.t, c.normal.x, c.normal.y, c.normal.z, c.distance * 1e3, now * 1e3, c.multiplier * c.row.diagonal * 1e3, c.row.diagonal, moved[c.i]*1e3);
-  }, z);
-  fprintf(stderr, "rounds %u pool %zu remaining %zu bones %zu\n", in.report.rounds, pool.size(), remaining.size(), boneContacts.size());
-}
-
 // Whether the motion has brought something so far into one another's way that the side it came from is a guess.
 bool Avoider::State::isTooLong() const {
   return std::ranges::any_of(remaining, [&](const Interference::Place& place) {
@@ -342,7 +324,6 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
     state.separate(in);
     state.look(in, points, State::Look::certain);
   }
-  if (getenv("VASA_DBG")) state.debug(in);
   state.giveWay(in);
   state.accept(posed);
   state.sumUp(in);

@@ -1,0 +1,132 @@
+#include "avoid/rest_parting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "avoid/lumen.h"
+
+// Each step solves the whole problem anew about the present shape, for all motion from rest and not for one more bit of it:
+//   least ½ zᵀ W z   with   n · J z >= clearance - f + n · J z_now   at each place,
+// and goes most of the way there. J is the place's row: how far apart a motion brings the two centre lines.
+namespace vasa {
+namespace {
+
+constexpr float kBending = 0.3f;           // β: a bow of some two points to either side, so that little else is moved
+constexpr std::uint32_t kCarried = 2;      // points at a moved node that go along; each more takes a wide vessel's next 3 cm
+constexpr unsigned kSweeps = 20;           // a step; forces last, so that steps go on where the last one ended
+constexpr float kStep = 0.5f;              // of the way to the solution: normals turn as tubes pass one another
+constexpr float kFarthest = 0.006f;        // [m] the motion of a point: out of the side of a vessel as wide as a vena cava
+constexpr float kWatched = 0.0003f;        // [m] what lay against one another is still told when it swings back by so much
+constexpr float kLeastLeverage = 1e-4f;    // n · J W⁻¹ Jᵀ n: below, a place moves with what it should move from
+constexpr float kThinningStep = 0.2f;      // of what is lacking, so that motion can do the rest
+constexpr float kTaper = 0.3f;             // most that the share of a radius changes from one point to the next
+
+}  // namespace
+
+RestParting::RestParting(const Network& network, float clearance)
+    : network_(&network),
+      clearance_(clearance),
+      space_(network, kBending, true, kCarried),
+      z_(space_.variableCount(), vec3(0)),
+      shares_(network.points().size(), 1),
+      points_(network.points().begin(), network.points().end()) {}
+
+float RestParting::watched() const {
+  return clearance_ + kWatched;
+}
+
+float RestParting::forceOf(TubePair tubes) const {
+  const auto found = std::ranges::lower_bound(forces_, tubes, {}, &Force::tubes);
+  return found != forces_.end() && found->tubes == tubes ? found->size : 0;
+}
+
+RestParting::Push RestParting::pushAt(const Contact& contact, const NetworkTubes& layout) {
+  const NetworkTubes::Address a = layout.address(contact.i), b = layout.address(contact.j);
+  terms_.clear();
+  space_.addPlace(a.vessel, a.span, contact.s, 1, terms_);
+  space_.addPlace(b.vessel, b.span, contact.t, -1, terms_);
+  const MotionSpace::Row row = space_.finish(terms_, rows_);
+  vec3 moved(0);
+  for (const MotionSpace::Term& term : rows_.termsOf(row)) moved += term.weight * z_[term.variable];
+  const TubePair tubes{contact.i, contact.j};
+  return {row, tubes, contact.normal, clearance_ - contact.f + glm::dot(moved, contact.normal), forceOf(tubes)};
+}
+
+void RestParting::ascend(std::span<Push> pushes, std::span<vec3> z) const {
+  const auto push = [&](const Push& at, float force) {
+    const float* response = rows_.responses.data() + at.row.firstResponse;
+    for (const MotionSpace::Run& run : rows_.runsOf(at.row))
+      for (std::uint32_t l = 0; l < run.count; ++l) z[run.first + l] += *response++ * force * at.normal;
+  };
+  for (const Push& at : pushes)
+    if (at.force > 0) push(at, at.force);
+  for (unsigned sweep = 0; sweep < kSweeps; ++sweep)
+    for (Push& at : pushes) {
+      vec3 moved(0);
+      for (const MotionSpace::Term& term : rows_.termsOf(at.row)) moved += term.weight * z[term.variable];
+      const float more = std::max(-at.force, (at.distance - glm::dot(moved, at.normal)) / at.row.diagonal);
+      if (more == 0) continue;
+      at.force += more;
+      push(at, more);
+    }
+}
+
+void RestParting::move(std::span<const Interference::Place> places, const NetworkTubes& layout) {
+  rows_.clear();
+  std::vector<Push> pushes;
+  for (const Interference::Place& place : places)
+    if (const Push push = pushAt(place.contact, layout); push.row.diagonal > kLeastLeverage) pushes.push_back(push);
+  std::vector<vec3> wanted(z_.size(), vec3(0));
+  ascend(pushes, wanted);
+  forces_.clear();
+  for (const Push& push : pushes) forces_.push_back({push.tubes, push.force});
+  for (std::size_t k = 0; k < z_.size(); ++k) {
+    z_[k] += kStep * (wanted[k] - z_[k]);
+    if (const float far = glm::length(z_[k]); far > kFarthest) z_[k] *= kFarthest / far;
+  }
+  shape();
+}
+
+void RestParting::thin(std::span<const Interference::Place> places, const NetworkTubes& layout, std::span<const Bezier> tubes) {
+  for (const auto& [contact, allowed] : places) {
+    const float lack = clearance_ - contact.f, radii = tubes[contact.i].at(contact.s).w + tubes[contact.j].at(contact.t).w;
+    if (lack <= 0 || radii <= 0) continue;
+    const float factor = std::max(0.5f, 1 - kThinningStep * lack / radii);
+    for (const std::uint32_t tube : {contact.i, contact.j}) {
+      const NetworkTubes::Address at = layout.address(tube);
+      const std::uint32_t first = network_->vessel(at.vessel).firstPoint + at.span;
+      for (std::uint32_t p = first; p < first + 4; ++p) {
+        const float least = std::max(kLeastLumen, 1 - kMostThinning / network_->points()[p].w);
+        shares_[p] = std::min(shares_[p], std::max(least, shares_[p] * factor));
+      }
+    }
+  }
+  taper(shares_);
+  shape();
+}
+
+void RestParting::taper(std::span<float> shares) const {
+  for (const Node& node : network_->nodes()) {
+    if (node.host) continue;
+    const auto at = [&](const VesselEnd& end) -> float& {
+      const Vessel& vessel = network_->vessel(end.vessel);
+      return shares[vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0)];
+    };
+    float least = 1;
+    for (const VesselEnd& end : network_->ends(node)) least = std::min(least, at(end));
+    for (const VesselEnd& end : network_->ends(node)) at(end) = least;
+  }
+  for (const Vessel& vessel : network_->vessels()) {
+    const std::span<float> own = Network::pointsOf(vessel, shares);
+    for (std::size_t l = 1; l < own.size(); ++l) own[l] = std::min(own[l], own[l - 1] + kTaper);
+    for (std::size_t l = own.size() - 1; l-- > 0;) own[l] = std::min(own[l], own[l + 1] + kTaper);
+  }
+}
+
+void RestParting::shape() {
+  std::ranges::copy(network_->points(), points_.begin());
+  space_.apply(z_, points_);
+  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].w *= shares_[p];
+}
+
+}  // namespace vasa
