@@ -103,7 +103,7 @@ struct Bones::State {
     std::uint32_t joint;
     DistanceField field;
     mat4 matrix{1}, inverse{1};                            // as bound -> posed, and back
-    mat4 inverseBefore{1};                                 // back from the pose before
+    mat4 before{1}, inverseBefore{1};                      // of the pose before
     std::vector<std::pair<std::uint32_t, float>> atRest = {};  // tube, f < 0; sorted
 
     float allowed(std::uint32_t tube) const {
@@ -380,7 +380,12 @@ std::size_t Bones::bytes() const {
 }
 
 void Bones::keepPose() {
-  for (State::Solid& solid : state_->solids) solid.inverseBefore = solid.inverse;
+  for (State::Solid& solid : state_->solids) solid.before = solid.matrix, solid.inverseBefore = solid.inverse;
+}
+
+float Bones::stepAt(std::uint32_t part, vec3 place) const {
+  const State::Solid& solid = state_->solids[part];
+  return glm::distance(place, placed(solid.before, placed(solid.inverse, place)));
 }
 
 void Bones::pose(std::span<const mat4> jointMatrices) {

@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kSmallestWeight = 1e-3f;     // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
+constexpr float kSamePace = 1.0001f;         // of what is allowed: above rounding
 constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
 float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
@@ -126,21 +127,18 @@ MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const
   return row;
 }
 
-vec3 MotionSpace::motionOf(const Vessel& vessel, std::uint32_t local, std::span<const vec3> z,
-                           std::span<const vec3> nodes) const {
+vec3 MotionSpace::motionOf(const Vessel& vessel, std::uint32_t local, std::span<const vec3> z) const {
   const std::uint32_t point = vessel.firstPoint + local;
   vec3 motion = z[point];
-  if (startShare_[point] > 0) motion += startShare_[point] * nodes[vessel.start.value];
-  if (endShare_[point] > 0) motion += endShare_[point] * nodes[vessel.end.value];
+  if (startShare_[point] > 0) motion += startShare_[point] * nodeMotion_[vessel.start.value];
+  if (endShare_[point] > 0) motion += endShare_[point] * nodeMotion_[vessel.end.value];
   return motion;
 }
 
-void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
-  const std::span<vec3> nodes(nodeMotion_);
-  std::fill(nodes.begin(), nodes.end(), vec3(0));
+void MotionSpace::moveNodes(std::span<const vec3> z) {
   for (const NodeId id : network_->pinOrder()) {
     const auto& host = network_->node(id).host;
-    vec3& motion = nodes[id.value];
+    vec3& motion = nodeMotion_[id.value];
     if (!host) {
       motion = z[pointCount_ + id.value];
       continue;
@@ -148,12 +146,44 @@ void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
     const Vessel& vessel = network_->vessel(host->vessel);
     const SpanParameter at = locate(host->parameter, vessel.spanCount());
     const vec4 weights = deBoorWeights(at.span, vessel.spanCount(), at.t);
-    for (std::uint32_t l = 0; l < 4; ++l) motion += weights[int(l)] * motionOf(vessel, at.span + l, z, nodes);
+    motion = vec3(0);
+    for (std::uint32_t l = 0; l < 4; ++l) motion += weights[int(l)] * motionOf(vessel, at.span + l, z);
   }
+}
+
+void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
+  moveNodes(z);
   for (const Vessel& vessel : network_->vessels())
-    for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
-      points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z, nodes), 0);
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l) points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z), 0);
   pinEnds(*network_, points);
+}
+
+void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, const std::function<float(std::uint32_t, float)>& allowed) {
+  difference_.resize(z.size());
+  for (std::size_t v = 0; v < z.size(); ++v) difference_[v] = z[v] - other[v];
+  const auto shorten = [&](vec3& variable, std::uint32_t point, vec3 motion) {
+    const float length = glm::length(motion), most = allowed(point, length);
+    if (!(length > kSamePace * most)) return false;
+    variable += (most / length - 1) * motion;
+    return true;
+  };
+  for (std::size_t n = 0; n < nodeWeight_.size(); ++n) {
+    const Node& node = network_->nodes()[n];
+    if (node.host || node.endCount == 0) continue;
+    const VesselEnd end = network_->ends(node)[0];
+    const Vessel& vessel = network_->vessel(end.vessel);
+    vec3& motion = difference_[pointCount_ + n];
+    shorten(motion, vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0), motion);
+  }
+  // What hangs on a vessel's side goes along with it, so that is known only once its host has been drawn nearer.
+  for (bool again = true; again;) {
+    again = false;
+    moveNodes(difference_);
+    for (const Vessel& vessel : network_->vessels())
+      for (std::uint32_t l = vessel.start.valid(); l + vessel.end.valid() < vessel.pointCount; ++l)
+        again |= shorten(difference_[vessel.firstPoint + l], vessel.firstPoint + l, motionOf(vessel, l, difference_));
+  }
+  for (std::size_t v = 0; v < z.size(); ++v) z[v] = other[v] + difference_[v];
 }
 
 }  // namespace vasa

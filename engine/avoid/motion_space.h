@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,10 @@ class MotionSpace {
   /// points += Δq(z), ends exactly on their nodes; radii stay. @param z  variableCount()
   void apply(std::span<const vec3> z, std::span<vec4> points);
 
+  /// Draws z nearer to another motion where a point would be farther from it than it may.
+  /// @param allowed  (point, distance [m]) -> what it may be; for a node, that of an end there
+  void keepNear(std::span<const vec3> other, std::span<vec3> z, const std::function<float(std::uint32_t, float)>& allowed);
+
  private:
   struct Block {
     std::uint32_t first;  // first free point
@@ -61,7 +66,8 @@ class MotionSpace {
   };
   void addPoint(const Vessel& vessel, std::uint32_t local, float weight, std::vector<Term>& terms) const;
   void addNode(NodeId node, float weight, std::vector<Term>& terms) const;
-  vec3 motionOf(const Vessel& vessel, std::uint32_t local, std::span<const vec3> z, std::span<const vec3> nodes) const;
+  void moveNodes(std::span<const vec3> z);
+  vec3 motionOf(const Vessel& vessel, std::uint32_t local, std::span<const vec3> z) const;
 
   const Network* network_;
   std::size_t pointCount_;
@@ -70,7 +76,7 @@ class MotionSpace {
   std::vector<float> startShare_, endShare_;  // φ, one a point
   std::vector<float> nodeWeight_;          // W of a node's own variable
   mutable std::vector<float> work_;        // of the longest vessel, zero between calls
-  std::vector<vec3> nodeMotion_;
+  std::vector<vec3> nodeMotion_, difference_;
 };
 
 }  // namespace vasa

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "avoid/contact_pool.h"
+#include "avoid/nearby_steps.h"
 #include "avoid/skin_wall.h"
 #include "core/clock.h"
 
@@ -21,6 +23,9 @@ constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way do
 constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
 constexpr float kRolled = 0;            // cosine of the angle from which on vessels that roll around one another are turned back
 constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
+constexpr float kPace = 0.045f;                 // [m/s] at which a vessel may be moved aside among others that stand still
+constexpr float kShare = 1;                     // of the longest step that the pose makes near by, which is another pace it may keep
+constexpr float kNear = 0.045f;         // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -51,7 +56,6 @@ struct Avoider::State {
         space(own, chosen.bending),
         sides(own, interference),
         pool(space, interference, sides),
-        z(space.variableCount()),
         lastTubes(interference.restTubes().begin(), interference.restTubes().end()),
         lastRotations(own.points().size(), quat(1, 0, 0, 0)),
         turns(interference.layout().count()),
@@ -59,19 +63,23 @@ struct Avoider::State {
         moved(turns.size()) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
-    accepted.motions.assign(z.size(), vec3(0));
+    accepted.motions.assign(space.variableCount(), vec3(0));
     accepted.widest.assign(own.points().size(), kNoLimit);
     correction = accepted;
   }
 
+  // What a step is given, and where what it finds goes.
   struct Input {
     const PosedVessels& posed;
     const VolumeKeeper* volume;
     std::span<vec4> points;
     AvoidReport& report;
+    float seconds = 0;
   };
   void pose(const PosedVessels& posed);
   void fade(float seconds);
+  void carry(std::span<const quat> rotations);
+  void keepPace(const Input& in);
   bool isTooLong() const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
@@ -93,11 +101,11 @@ struct Avoider::State {
   RestSides sides;
   ContactPool pool;
   Correction accepted, correction;  // of the last step, and of this one
-  std::vector<vec3> z;            // the correction in the pose
   std::vector<Bezier> lastTubes;  // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
   std::vector<float> moved;
+  NearbySteps posedSteps{kNear};
   std::vector<Interference::Place> found, remaining;
   std::span<const Interference::Place> places;  // of the last look, as the next
   std::span<const BoneContact> boneContacts;
@@ -143,11 +151,38 @@ void Avoider::State::fade(float seconds) {
   }
 }
 
+// A limb that turns takes its vessels' corrections along.
+void Avoider::State::carry(std::span<const quat> rotations) {
+  for (std::size_t v = 0; v < correction.motions.size(); ++v) {
+    vec3& motion = correction.motions[v];
+    if (motion != vec3(0)) motion = turnOf(v, rotations) * (glm::conjugate(turnOf(v, lastRotations)) * motion);
+  }
+}
+
+// Nothing is moved aside faster than what is about it moves, or a slow pace: no jump, whatever asks for one.
+void Avoider::State::keepPace(const Input& in) {
+  bool stepsAreSet = false;
+  const float slow = kPace * in.seconds;
+  space.keepNear(accepted.motions, correction.motions, [&](std::uint32_t point, float distance) {
+    if (distance <= slow) return distance;
+    if (!std::exchange(stepsAreSet, true))
+      posedSteps.set(slow, lastPosed.size() + boneContacts.size(), [&](std::size_t k) {
+        if (k < lastPosed.size()) {
+          const vec3 place(in.posed.points[k]);
+          return std::pair(place, kShare * glm::distance(place, vec3(lastPosed[k])));
+        }
+        const BoneContact& contact = boneContacts[k - lastPosed.size()];
+        return std::pair(contact.point, kShare * bones->stepAt(contact.part, contact.point));
+      });
+    return posedSteps.longest(vec3(in.posed.points[point]), distance);
+  });
+}
+
 // The shape that belongs to a correction.
 void Avoider::State::place(const Input& in) {
   const std::span<const vec4> rest = network.points();
   for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p] = vec4(vec3(in.posed.points[p]), rest[p].w);
-  space.apply(z, in.points);
+  space.apply(correction.motions, in.points);
   if (in.volume) volumeOutcome = in.volume->run(in.points, correction.widest);
   for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p].w = std::min(in.points[p].w, correction.widest[p]);
 }
@@ -183,18 +218,19 @@ void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
     sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
-    pool.addSides(changed, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, z);
+    pool.addSides(changed, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
       StageClock clock(in.report.solveMs);
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
-      pool.refresh(interference.tubes(), z);
-      pool.add(places, solids, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, z);
+      pool.refresh(interference.tubes(), correction.motions);
+      pool.add(places, solids, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
-      pool.ascend(options.sweeps, z);
+      pool.ascend(options.sweeps, correction.motions);
+      keepPace(in);
       place(in);
     }
     look(in, in.points, Look::again);
@@ -242,7 +278,6 @@ void Avoider::State::accept(const PosedVessels& posed) {
   std::ranges::copy(interference.tubes(), lastTubes.begin());
   std::ranges::copy(posed.rotations, lastRotations.begin());
   std::ranges::copy(posed.points, lastPosed.begin());
-  for (std::size_t v = 0; v < z.size(); ++v) correction.motions[v] = glm::conjugate(turnOf(v, posed.rotations)) * z[v];
   accepted = correction;
   if (bones) bones->keepPose();
 }
@@ -295,7 +330,6 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
   }
   AvoidReport report;
   state.pose(posed);
-  for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
   state.place({posed, volume, points, report});
   state.interference.layout().shape(points, state.lastTubes);
   std::ranges::copy(posed.rotations, state.lastRotations.begin());
@@ -307,13 +341,13 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
 std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, bool atAnyLength, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
-  const State::Input in{posed, volume, points, report};
+  const State::Input in{posed, volume, points, report, seconds};
   state.pool.clear(seconds);
   state.pose(posed);
   {
     StageClock clock(report.solveMs);
     state.fade(seconds);
-    for (std::size_t v = 0; v < state.z.size(); ++v) state.z[v] = state.turnOf(v, posed.rotations) * state.correction.motions[v];
+    state.carry(posed.rotations);
     state.place(in);
   }
   state.look(in, points, State::Look::first);

@@ -52,8 +52,7 @@ struct AvoidReport {
   void addTimes(const AvoidReport& earlier);
 };
 
-/// How far vessels are from where the pose alone would have them: all that one step hands to the next. It is told as the
-/// vessels' surroundings see it, so that a limb that turns takes its vessels' corrections along.
+/// How far vessels are from where the pose alone would have them: all that one step hands to the next.
 struct Correction {
   std::vector<vec3> motions;   ///< [m] one a variable (avoid/motion_space.h); empty: none
   std::vector<float> widest;   ///< [m] one a point: what a lumen that gave way may be; infinity elsewhere

@@ -7,7 +7,7 @@ namespace vasa {
 namespace {
 
 constexpr int kSamples = 8;
-constexpr int kPasses = 8;
+constexpr int kPasses = 2;
 constexpr float kShare = 0.5f;  // of the way to the neighbours' middle, a pass
 constexpr float kBends = 0.6f;  // r κ from which a span is drawn straight, wholly where it kinks: continuous in the pose
 
@@ -66,28 +66,29 @@ KinkRelaxer::KinkRelaxer(const Network& network) : network_(&network) {
 std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   std::uint32_t found = 0;
   std::size_t first = 0;  // span of the vessel
+  std::vector<float> shares;
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
-    // What share of the way a span is drawn straight: more than at rest, none yet at kBends and all at a kink.
+    // What share of the way a span is drawn straight: more than at rest, none yet at kBends and all at a kink. It is asked
+    // once: a fold that is drawn in becomes sharper at first, and to ask again would let it run away.
     const auto shareOf = [&](std::uint32_t span, float bend) {
       const float from = std::max(kBends, atRest_[first + span]), to = std::max(1.0f, from + 1 - kBends);
       return kShare * std::clamp((bend - from) / (to - from), 0.0f, 1.0f);
     };
-    for (int pass = 0; pass < kPasses; ++pass) {
-      bool any = false;
-      for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
-        const float bend = bendOf(bezierOfSpan(std::span<const vec4>(own), span), kBends), share = shareOf(span, bend);
-        if (share <= 0) continue;
-        any = true;
-        found += pass == 0 && bend >= 1 && atRest_[first + span] < 1;
-        for (std::uint32_t l = std::max(span, 1u); l < std::min(span + 4, vessel.pointCount - 1); ++l) {
+    shares.clear();
+    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
+      const float bend = bendOf(bezierOfSpan(std::span<const vec4>(own), span), kBends);
+      shares.push_back(shareOf(span, bend));
+      found += bend >= 1 && atRest_[first + span] < 1;
+    }
+    const bool any = std::ranges::any_of(shares, [](float share) { return share > 0; });
+    for (int pass = 0; any && pass < kPasses; ++pass)
+      for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
+        for (std::uint32_t l = std::max(span, 1u); shares[span] > 0 && l < std::min(span + 4, vessel.pointCount - 1); ++l) {
           if (fixedEnd(vessel, l)) continue;
           const vec3 middle = 0.5f * (vec3(own[l - 1]) + vec3(own[l + 1]));
-          own[l] = vec4(glm::mix(vec3(own[l]), middle, share), own[l].w);
+          own[l] = vec4(glm::mix(vec3(own[l]), middle, shares[span]), own[l].w);
         }
-      }
-      if (!any) break;
-    }
     first += vessel.spanCount();
   }
   return found;

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "avoid/nearby_steps.h"
 #include "network/network.h"
 
 namespace vasa {
@@ -51,18 +52,11 @@ class CorrectionSteps {
     std::uint32_t firstPoint;  // of the four that shape it
     vec4 weights;
   };
-  struct Moved {  // a sample whose posed step is longer than kAllowed
-    std::uint64_t cell;
-    float step;
-    vec3 place;
-  };
   void addSamples(const Network& network, VesselId id, std::vector<float> parameters);
-  void sortMoved(std::span<const vec3> before);
-  float boundAt(vec3 place, float enough) const;
 
   std::vector<Sample> samples_;
   std::vector<vec3> lastPosed_, lastCorrection_;  // a sample each; empty before the first frame
-  std::vector<Moved> moved_;                      // by cell, the longest step of each first
+  NearbySteps posedSteps_{kNear};
 };
 
 }  // namespace vasa
