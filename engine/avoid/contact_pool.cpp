@@ -26,11 +26,6 @@ constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::
 constexpr float kNegligible = 2e-6f;      // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
 constexpr float kReach = 10;              // how far a multiplier may push on its own: times what is lacking and the radii
-// What moves something else by so many times what it wins at its own place has to take its time: no faster than kFastest or
-// than this share of what the pose moves the tube by.
-constexpr float kLever = 3;
-constexpr float kFastest = 0.045f;        // [m/s] 1.5 mm in a thirtieth of a second
-constexpr float kShare = 0.5f;
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
@@ -86,8 +81,7 @@ auto keyOf(const Constraint& constraint) { return std::pair{constraint.i, constr
 ContactPool::ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides)
     : space_(&space), interference_(&interference), sides_(&sides) {}
 
-void ContactPool::clear(float seconds) {
-  seconds_ = seconds;
+void ContactPool::clear() {
   constraints_.clear();
   rows_.clear();
   sorted_ = 0;
@@ -172,7 +166,7 @@ Constraint* ContactPool::known(const Constraint& wanted, float cosine) {
 }
 
 // Gives a row to a constraint and takes it in.
-void ContactPool::take(Constraint& constraint, bool slowly, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
+void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) {
   terms_.clear();
   const auto [vessel, span] = interference_->layout().address(constraint.i);
   space_->addPlace(vessel, span, constraint.s, 1, terms_);
@@ -182,12 +176,6 @@ void ContactPool::take(Constraint& constraint, bool slowly, std::span<const Bezi
   }
   constraint.row = space_->finish(terms_, rows_);
   if (constraint.row.diagonal <= kLeastDiagonal) return;
-  float most = 0;
-  for (const float response : std::span(rows_.responses).subspan(constraint.row.firstResponse)) most = std::max(most, std::abs(response));
-  if (slowly || most > kLever * constraint.row.diagonal) {
-    const float pace = std::max(kFastest * seconds_, kShare * last.moved[constraint.i]);
-    constraint.limit = std::min(constraint.limit, pace * constraint.row.diagonal / most);
-  }
   constraint.limit /= constraint.row.diagonal;
   begin(constraint, shape, z);
   constraints_.push_back(constraint);
@@ -196,7 +184,7 @@ void ContactPool::take(Constraint& constraint, bool slowly, std::span<const Bezi
 void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
   const std::size_t before = constraints_.size();
   for (const Contact& contact : changed)
-    if (Constraint constraint; wouldRoll(contact, shape, last, constraint)) take(constraint, true, shape, last, z);
+    if (Constraint constraint; wouldRoll(contact, shape, last, constraint)) take(constraint, shape, z);
   sortIn(before);
 }
 
@@ -228,11 +216,11 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
       own->point = constraint.point;
       begin(*own, shape, z);
     } else {
-      take(constraint, false, shape, last, z);
+      take(constraint, shape, z);
     }
   }
   for (Proposals& proposals : std::span(proposals_).first(places.size()))
-    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, false, shape, last, z);
+    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, shape, z);
   const std::size_t added = constraints_.size() - before;
   sortIn(before);
   return added;

@@ -14,7 +14,6 @@ namespace vasa {
 struct LastShape {
   std::span<const Bezier> tubes;  ///< as they were accepted
   std::span<const quat> turns;    ///< how each tube's surroundings turned since then
-  std::span<const float> moved;     ///< [m] by how much the pose moved each tube since then
   std::span<const quat> rotations;  ///< how each point's surroundings turned since rest
 };
 
@@ -41,8 +40,7 @@ class ContactPool {
   /// All must outlive this.
   ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
-  /// Begins a step. @param seconds  it takes
-  void clear(float seconds);
+  void clear();
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
   /// side by side, at some more. @param shape  in which they were found @param z  its variables
   /// @return how many were added
@@ -71,7 +69,7 @@ class ContactPool {
   void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found);
   Constraint* known(const Constraint& wanted, float cosine);
   void push(const Constraint& constraint, vec3 force, std::span<vec3> z) const;
-  void take(Constraint& constraint, bool slowly, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z);
+  void take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z);
   void begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const;
   vec3 motionOf(const Constraint& constraint, std::span<const vec3> z) const;
   void sortIn(std::size_t before);
@@ -81,7 +79,6 @@ class ContactPool {
   const Interference* interference_;
   const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
-  float seconds_ = 0;
   std::size_t sorted_ = 0;               // of them; the others are of this round
   MotionSpace::Rows rows_;
   std::vector<Proposals> proposals_;

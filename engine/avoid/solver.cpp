@@ -23,8 +23,7 @@ constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way do
 constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
 constexpr float kRolled = 0;            // cosine of the angle from which on vessels that roll around one another are turned back
 constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
-constexpr float kPace = 0.045f;                 // [m/s] at which a vessel may be moved aside among others that stand still
-constexpr float kShare = 1;                     // of the longest step that the pose makes near by, which is another pace it may keep
+constexpr float kPace = 0.04f;                 // [m/s] at which a vessel may be moved aside among others that stand still
 constexpr float kNear = 0.045f;         // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
@@ -60,7 +59,7 @@ struct Avoider::State {
         lastRotations(own.points().size(), quat(1, 0, 0, 0)),
         turns(interference.layout().count()),
         lastPosed(own.points().begin(), own.points().end()),
-        moved(turns.size()) {
+        shape(lastPosed) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
     accepted.motions.assign(space.variableCount(), vec3(0));
@@ -104,9 +103,9 @@ struct Avoider::State {
   std::vector<Bezier> lastTubes;  // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
-  std::vector<float> moved;
   NearbySteps posedSteps{kNear};
-  std::vector<Interference::Place> found, remaining;
+  std::vector<vec4> shape;  // being made
+  std::vector<Interference::Place> found, remaining, unsettled;  // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
@@ -131,7 +130,6 @@ void Avoider::State::pose(const PosedVessels& posed) {
   for (std::uint32_t tube = 0; tube < turns.size(); ++tube) {
     const auto [vessel, span] = interference.layout().address(tube);
     const std::uint32_t point = network.vessel(vessel).firstPoint + span + 1;
-    moved[tube] = glm::distance(vec3(posed.points[point]), vec3(lastPosed[point]));
     turns[tube] = posed.rotations[point] * glm::conjugate(lastRotations[point]);
   }
 }
@@ -169,10 +167,10 @@ void Avoider::State::keepPace(const Input& in) {
       posedSteps.set(slow, lastPosed.size() + boneContacts.size(), [&](std::size_t k) {
         if (k < lastPosed.size()) {
           const vec3 place(in.posed.points[k]);
-          return std::pair(place, kShare * glm::distance(place, vec3(lastPosed[k])));
+          return std::pair(place, glm::distance(place, vec3(lastPosed[k])));
         }
         const BoneContact& contact = boneContacts[k - lastPosed.size()];
-        return std::pair(contact.point, kShare * bones->stepAt(contact.part, contact.point));
+        return std::pair(contact.point, bones->stepAt(contact.part, contact.point));
       });
     return posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
@@ -218,7 +216,7 @@ void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
     sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
-    pool.addSides(changed, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, correction.motions);
+    pool.addSides(changed, interference.tubes(), {lastTubes, turns, in.posed.rotations}, correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
@@ -226,7 +224,7 @@ void Avoider::State::separate(const Input& in) {
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
-      pool.add(places, solids, interference.tubes(), {lastTubes, turns, moved, in.posed.rotations}, correction.motions);
+      pool.add(places, solids, interference.tubes(), {lastTubes, turns, in.posed.rotations}, correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       pool.ascend(options.sweeps, correction.motions);
@@ -292,6 +290,7 @@ void Avoider::State::sumUp(const Input& in) {
     narrowed = narrowPlaces(network, wide, in.points);
   }
   report.after = certificateOf(places);
+  unsettled = remaining;
   left.assign(boneContacts.begin(), boneContacts.end());
   report.bonesAfter = reportOf(boneContacts);
   report.skinContactsAfter = tubesOf(skinContacts);
@@ -341,8 +340,8 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
 std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, bool atAnyLength, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
-  const State::Input in{posed, volume, points, report, seconds};
-  state.pool.clear(seconds);
+  const State::Input in{posed, volume, state.shape, report, seconds};
+  state.pool.clear();
   state.pose(posed);
   {
     StageClock clock(report.solveMs);
@@ -350,17 +349,18 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
     state.carry(posed.rotations);
     state.place(in);
   }
-  state.look(in, points, State::Look::first);
+  state.look(in, state.shape, State::Look::first);
   if (!atAnyLength && state.isTooLong()) return {};
   state.separate(in);
-  state.look(in, points, State::Look::certain);
+  state.look(in, state.shape, State::Look::certain);
   if (!state.remaining.empty()) {
     state.separate(in);
-    state.look(in, points, State::Look::certain);
+    state.look(in, state.shape, State::Look::certain);
   }
   state.giveWay(in);
   state.accept(posed);
   state.sumUp(in);
+  std::ranges::copy(state.shape, points.begin());
   return report;
 }
 
@@ -369,9 +369,7 @@ PosedLook Avoider::look(const PosedVessels& posed, std::span<const vec4> points)
   if (state.bones) state.bones->pose(posed.jointMatrices);
   AvoidReport report;
   std::vector<vec4> own(points.begin(), points.end());
-  std::vector<Interference::Place> kept = state.remaining;
   state.look({posed, nullptr, own, report}, points, State::Look::first);
-  std::swap(kept, state.remaining);
   return {certificateOf(state.places, &state.found), reportOf(state.boneContacts), tubesOf(state.skinContacts)};
 }
 
@@ -379,7 +377,7 @@ const Correction& Avoider::correction() const {
   return state_->accepted;
 }
 std::span<const Interference::Place> Avoider::remaining() const {
-  return state_->remaining;
+  return state_->unsettled;
 }
 std::span<const NarrowPlace> Avoider::narrowed() const {
   return state_->narrowed;
