@@ -25,6 +25,7 @@ constexpr float kRolled = 0;            // cosine of the angle from which on ves
 constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
 constexpr float kPace = 0.04f;                 // [m/s] at which a vessel may be moved aside among others that stand still
 constexpr float kNear = 0.045f;         // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
+constexpr float kFarthest = 0.05f;       // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -59,6 +60,7 @@ struct Avoider::State {
         lastRotations(own.points().size(), quat(1, 0, 0, 0)),
         turns(interference.layout().count()),
         lastPosed(own.points().begin(), own.points().end()),
+        none(space.variableCount(), vec3(0)),
         shape(lastPosed) {
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
@@ -104,6 +106,7 @@ struct Avoider::State {
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
   NearbySteps posedSteps{kNear};
+  std::vector<vec3> none;   // no correction
   std::vector<vec4> shape;  // being made
   std::vector<Interference::Place> found, remaining, unsettled;  // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
@@ -174,6 +177,7 @@ void Avoider::State::keepPace(const Input& in) {
       });
     return posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
+  space.keepNear(none, correction.motions, [](std::uint32_t, float distance) { return std::min(distance, kFarthest); });
 }
 
 // The shape that belongs to a correction.
