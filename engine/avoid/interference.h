@@ -14,7 +14,7 @@ constexpr float kRestTolerance = 2e-5f;
 
 /// [m] How near tubes are to one another that are followed: more than what one round of a solver moves two by, less than
 /// what makes many pairs.
-constexpr float kFollowed = 1e-3f;
+constexpr float kFollowed = 5e-4f;
 
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///

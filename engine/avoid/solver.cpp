@@ -89,7 +89,7 @@ struct Avoider::State {
   void lookAtSolids(const Input& in, Bones::Which which);
   bool settled() const;
   void separate(const Input& in);
-  void giveWay(const Input& in);
+  void giveWay(const Input& in, Look how);
   void accept(const PosedVessels& posed);
   void sumUp(const Input& in);
 
@@ -242,7 +242,7 @@ void Avoider::State::separate(const Input& in) {
 
 // Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the end, where
 // that only moves the trouble about, volume is given up for the certificate.
-void Avoider::State::giveWay(const Input& in) {
+void Avoider::State::giveWay(const Input& in, Look how) {
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
     const bool lastResort = 2 * round >= options.lumenRounds;
     if (remaining.empty() && boneContacts.empty()) return;
@@ -261,7 +261,7 @@ void Avoider::State::giveWay(const Input& in) {
       narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort, correction.widest);
       place(in);
     }
-    look(in, in.points, Look::certain);
+    look(in, in.points, how);
   }
 }
 
@@ -341,27 +341,27 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
   if (state.bones) state.bones->keepPose();
 }
 
-std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, bool atAnyLength, std::span<vec4> points) {
+std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
-  const State::Input in{posed, volume, state.shape, report, seconds};
+  const State::Input in{posed, volume, state.shape, report, stride.seconds};
   state.pool.clear();
   state.pose(posed);
   {
     StageClock clock(report.solveMs);
-    state.fade(seconds);
+    state.fade(stride.seconds);
     state.carry(posed.rotations);
     state.place(in);
   }
   state.look(in, state.shape, State::Look::first);
-  if (!atAnyLength && state.isTooLong()) return {};
+  if (!stride.atAnyLength && state.isTooLong()) return {};
   state.separate(in);
-  state.look(in, state.shape, State::Look::certain);
-  if (!state.remaining.empty()) {
+  if (stride.isLast) state.look(in, state.shape, State::Look::certain);
+  if (stride.isLast && !state.remaining.empty()) {
     state.separate(in);
     state.look(in, state.shape, State::Look::certain);
   }
-  state.giveWay(in);
+  state.giveWay(in, stride.isLast ? State::Look::certain : State::Look::again);
   state.accept(posed);
   state.sumUp(in);
   std::ranges::copy(state.shape, points.begin());

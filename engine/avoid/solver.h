@@ -52,6 +52,13 @@ struct AvoidReport {
   void addTimes(const AvoidReport& earlier);
 };
 
+/// How a pose is reached from the one before.
+struct Stride {
+  float seconds = 0;         ///< since then
+  bool atAnyLength = false;  ///< false: where that brings something far into something else's way it is not made
+  bool isLast = false;       ///< the result is shown: it is certified by a query of its own
+};
+
 /// How far vessels are from where the pose alone would have them: all that one step hands to the next.
 struct Correction {
   std::vector<vec3> motions;   ///< [m] one a variable (avoid/motion_space.h); empty: none
@@ -81,11 +88,9 @@ class Avoider {
   /// On to the next pose.
   /// @param posed    the posed network, before any correction
   /// @param volume   keeps the vessels' volume while they are moved, or null
-  /// @param seconds  since the last step
-  /// @param atAnyLength  false: a step that brings something far into something else's way is not made
   /// @param points   caller-owned; the result on return
   /// @return nothing if the step was not made, which leaves everything as it was
-  std::optional<AvoidReport> step(const PosedVessels& posed, const VolumeKeeper* volume, float seconds, bool atAnyLength, std::span<vec4> points);
+  std::optional<AvoidReport> step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride, std::span<vec4> points);
 
   /// Looks at a shape, as a pose without any correction, and does nothing about it.
   PosedLook look(const PosedVessels& posed, std::span<const vec4> points);

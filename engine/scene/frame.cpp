@@ -79,7 +79,7 @@ void FrameMaker::make(const Pose& pose, float time) {
     walk(pose, time, time, kStepSeconds * std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f));
   } else {
     deform(pose, time);
-    step(0, true);
+    step({.atAnyLength = true, .isLast = true});
   }
   finish();
 }
@@ -91,7 +91,7 @@ void FrameMaker::moveTo(const Pose& pose, float time, float seconds) {
     walk(pose, time, time, seconds);
   } else {
     deform(pose, time);
-    step(0, true);
+    step({.atAnyLength = true, .isLast = true});
   }
   finish();
 }
@@ -114,9 +114,9 @@ void FrameMaker::deform(const Pose& pose, float time) {
 }
 
 // Vessels in the pose of the last deform(). @return whether the step was made
-bool FrameMaker::step(float seconds, bool atAnyLength) {
+bool FrameMaker::step(const Stride& stride) {
   if (avoider_) {
-    const auto report = avoider_->step({posedPoints_, rotations_, jointMatrices_}, keeper(), seconds, atAnyLength, points_);
+    const auto report = avoider_->step({posedPoints_, rotations_, jointMatrices_}, keeper(), stride, points_);
     if (!report) return false;
     const AvoidReport before = std::exchange(report_.avoid, *report);
     report_.avoid.addTimes(before);
@@ -138,7 +138,7 @@ void FrameMaker::walk(const Pose& target, float fromTime, float time, float seco
     for (float length = std::min(longest, 1 - done);; length /= 2) {
       const float next = done + length > 1 - 0.5f * kShortestStep * longest ? 1 : done + length;
       deform(path.at(next), glm::mix(fromTime, time, next));
-      if (!step((next - done) * seconds, length <= kShortestStep * longest)) continue;
+      if (!step({(next - done) * seconds, length <= kShortestStep * longest, next == 1})) continue;
       done = next;
       break;
     }

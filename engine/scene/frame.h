@@ -67,7 +67,7 @@ class FrameMaker {
 
  private:
   void deform(const Pose& pose, float time);
-  bool step(float seconds, bool atAnyLength);
+  bool step(const Stride& stride);
   const VolumeKeeper* keeper() const { return options_.keepVolume ? &volume_ : nullptr; }
   void walk(const Pose& target, float fromTime, float time, float seconds);
   void startAtRest();

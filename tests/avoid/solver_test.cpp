@@ -341,8 +341,8 @@ TEST_CASE("to start from a step's correction is to go on from that step, to the 
         const auto posed = [&](unsigned step) { return motion.at(1.3f * float(step) / float(steps)); };
         later.start(avoider.correction(), posed(k - 1), volume, again);
         CHECK(again == points);
-        REQUIRE(avoider.step(posed(k), volume, 1 / 30.0f, true, points));
-        REQUIRE(later.step(posed(k), volume, 1 / 30.0f, true, again));
+        REQUIRE(avoider.step(posed(k), volume, {1 / 30.0f, true, true}, points));
+        REQUIRE(later.step(posed(k), volume, {1 / 30.0f, true, true}, again));
         CHECK(again == points);
         CHECK(later.correction().motions == avoider.correction().motions);
         CHECK(later.correction().widest == avoider.correction().widest);
@@ -362,7 +362,7 @@ TEST_CASE("a step that is refused leaves everything as it was, and so does a loo
     const std::vector<vec4> before = again;
     const Correction correction = asked.correction();
     const std::size_t remaining = asked.remaining().size();
-    if (asked.step(motion.at(float(k) / 30 + 0.5f), nullptr, 0.5f, false, again)) {  // 8 mm deeper at once
+    if (asked.step(motion.at(float(k) / 30 + 0.5f), nullptr, {0.5f, false, true}, again)) {  // 8 mm deeper at once
       asked.start(correction, motion.at(float(k - 1) / 30), nullptr, again);
     } else {
       ++refused;
@@ -374,8 +374,8 @@ TEST_CASE("a step that is refused leaves everything as it was, and so does a loo
     const test::Posed other = motion.at(0.7f);
     CHECK(asked.look(other, other.points).vessels.contacts > 0);
     CHECK(asked.remaining().size() == left);
-    REQUIRE(avoider.step(motion.at(float(k) / 30), nullptr, 1 / 30.0f, true, points));
-    REQUIRE(asked.step(motion.at(float(k) / 30), nullptr, 1 / 30.0f, true, again));
+    REQUIRE(avoider.step(motion.at(float(k) / 30), nullptr, {1 / 30.0f, true, true}, points));
+    REQUIRE(asked.step(motion.at(float(k) / 30), nullptr, {1 / 30.0f, true, true}, again));
     CHECK(again == points);
   }
   CHECK(refused > 10);

@@ -59,7 +59,7 @@ AvoidReport Walker::along(const std::function<Posed(float)>& way, unsigned steps
       const float next = done + length > 1 - 0.5f * kShortest * longest ? 1 : done + length;
       const Posed posed = way(next);
       const bool shortest = length <= kShortest * longest;
-      const auto report = avoider_->step(posed, volume_, (next - done) * seconds, shortest, points_);
+      const auto report = avoider_->step(posed, volume_, {(next - done) * seconds, shortest, true}, points_);
       if (!report) continue;
       last = *report;
       arrive(posed, last);
@@ -88,7 +88,7 @@ AvoidReport Walker::stay(unsigned steps, float seconds) {
 }
 
 AvoidReport Walker::jump(const Posed& target, float seconds) {
-  const AvoidReport report = *avoider_->step(target, volume_, seconds, true, points_);
+  const AvoidReport report = *avoider_->step(target, volume_, {seconds, true, true}, points_);
   arrive(target, report);
   return report;
 }
