@@ -61,7 +61,9 @@ struct Avoider::State {
         turns(interference.layout().count()),
         lastPosed(own.points().begin(), own.points().end()),
         none(space.variableCount(), vec3(0)),
+        isEnd(lastPosed.size(), false),
         shape(lastPosed) {
+    for (const Vessel& vessel : network.vessels()) isEnd[vessel.firstPoint] = isEnd[vessel.firstPoint + vessel.pointCount - 1] = true;
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
     accepted.motions.assign(space.variableCount(), vec3(0));
@@ -81,6 +83,7 @@ struct Avoider::State {
   void fade(float seconds);
   void carry(std::span<const quat> rotations);
   void keepPace(const Input& in);
+  vec3 onCurve(std::span<const vec4> points, std::size_t point) const;
   bool isTooLong() const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
@@ -107,6 +110,7 @@ struct Avoider::State {
   std::vector<vec4> lastPosed;
   NearbySteps posedSteps{kNear};
   std::vector<vec3> none;   // no correction
+  std::vector<char> isEnd;  // of a vessel, a point each
   std::vector<vec4> shape;  // being made
   std::vector<Interference::Place> found, remaining, unsettled;  // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
@@ -160,6 +164,12 @@ void Avoider::State::carry(std::span<const quat> rotations) {
   }
 }
 
+// The curve's own place next to a de Boor point, which swings about more than that.
+vec3 Avoider::State::onCurve(std::span<const vec4> points, std::size_t point) const {
+  if (isEnd[point]) return vec3(points[point]);
+  return (vec3(points[point - 1]) + 4.0f * vec3(points[point]) + vec3(points[point + 1])) / 6.0f;
+}
+
 // Nothing is moved aside faster than what is about it moves, or a slow pace: no jump, whatever asks for one.
 void Avoider::State::keepPace(const Input& in) {
   bool stepsAreSet = false;
@@ -169,8 +179,8 @@ void Avoider::State::keepPace(const Input& in) {
     if (!std::exchange(stepsAreSet, true))
       posedSteps.set(slow, lastPosed.size() + boneContacts.size(), [&](std::size_t k) {
         if (k < lastPosed.size()) {
-          const vec3 place(in.posed.points[k]);
-          return std::pair(place, glm::distance(place, vec3(lastPosed[k])));
+          const vec3 place = onCurve(in.posed.points, k);
+          return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
         }
         const BoneContact& contact = boneContacts[k - lastPosed.size()];
         return std::pair(contact.point, bones->stepAt(contact.part, contact.point));

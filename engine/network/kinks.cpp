@@ -9,7 +9,7 @@ namespace {
 constexpr int kSamples = 8;
 constexpr int kPasses = 2;
 constexpr float kShare = 0.5f;  // of the way to the neighbours' middle, a pass
-constexpr float kBends = 0.6f;  // r κ from which a span is drawn straight, wholly where it kinks: continuous in the pose
+constexpr float kBends = 0.6f;  // r κ from which a span is drawn straight, the more the more it bends: continuous in the pose
 
 // |C''| <= 6 max|Δ²b|, and |C'| is at least three times the control polygon's least advance along the chord.
 bool surelyBelow(const Bezier& tube, float limit) {
@@ -69,11 +69,10 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   std::vector<float> shares;
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
-    // What share of the way a span is drawn straight: more than at rest, none yet at kBends and all at a kink. It is asked
-    // once: a fold that is drawn in becomes sharper at first, and to ask again would let it run away.
+    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. It is asked once: a fold
+    // that is drawn in becomes sharper at first, and to ask again would let it run away.
     const auto shareOf = [&](std::uint32_t span, float bend) {
-      const float from = std::max(kBends, atRest_[first + span]), to = std::max(1.0f, from + 1 - kBends);
-      return kShare * std::clamp((bend - from) / (to - from), 0.0f, 1.0f);
+      return kShare * std::clamp(bend - std::max(kBends, atRest_[first + span]), 0.0f, 1.0f);
     };
     shares.clear();
     for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
