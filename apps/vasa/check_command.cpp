@@ -11,6 +11,7 @@
 #include "network/measure.h"
 #include "report.h"
 #include "scene/correction_step.h"
+#include "track_option.h"
 #include "scene/frame.h"
 #include "scene_options.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 struct Options {
   SceneOptions scene;
-  std::string frames;
+  std::string frames, track;
   double fps = 0;
   bool noVolume = false, places = false, skinWall = false;
 };
@@ -284,7 +285,10 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameMaker maker(setting->scene, {.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}});
+  FrameOptions frameOptions{.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}};
+  const auto track = TrackFile::open(options.track, setting->scene, setting->clip, frameOptions);
+  if (!track) return track.error();
+  FrameMaker maker(setting->scene, frameOptions);
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;
@@ -295,6 +299,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     report["frames"].push_back(frameReport(setting->scene, maker, looks, frame, options));
     progress.update(frame - first + 1, last - first + 1);
   }
+  if (auto saved = track->save(); !saved) return saved;
   report["summary"] = summaryOf(report["frames"]);
   report["summary"]["kinks_at_rest"] = kinkCount(setting->scene.network, setting->scene.network.points());
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
@@ -327,6 +332,7 @@ void addCheck(CLI::App& app, Command& command) {
       "like a jump: correction_step_excess counts such places, in the summary over all frames, and\n"
       "correction_step_worst is the one farthest beyond its bound.");
   addSceneOptions(*sub, options->scene);
+  addTrackOption(*sub, options->track);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_option("--fps", options->fps, "Frames a second to check and to number (default: the clip's own)")
       ->check(CLI::Range(0.1, 1000.0));

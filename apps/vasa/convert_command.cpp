@@ -5,15 +5,14 @@
 #include <iterator>
 #include <map>
 
-#include "avoid/rest_repair.h"
 #include "commands.h"
 #include "convert/centreline_report.h"
 #include "convert/convert.h"
 #include "convert/keep_patches.h"
 #include "convert_report.h"
+#include "rest_report.h"
 #include "core/log.h"
 #include "network/file.h"
-#include "network/reshape.h"
 #include "scene/vessel_files.h"
 
 // vasa convert: surfaces of vessels -> one network of sweeps.
@@ -125,11 +124,12 @@ Result<void> run(const Globals& globals, const Options& options) {
   RestRepair repair;
   settings.mend = [&](const Network& network) {
     repair = separateAtRest(network);
-    return reshapeNetwork(network, repair.points, network.bodyHeight());
+    return repair.network;
   };
   auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
   if (stopRequested()) return stopError();
   if (!conversion) return conversion.error();
+  if (lines) repair = overlapsAtRest(conversion->network);  // told with their radii: nothing is done about it
   const bool quantised = isQuantised(options, settings, conversion->network);
   std::optional<PatchReport> patches;
   if (options.keepPatches) {
@@ -142,14 +142,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (globals.json) {
     Report report = convertJson(conversion->report, *output);
-    report["summary"]["rest_pairs_before"] = repair.pairsBefore;
-    report["summary"]["rest_pairs_after"] = repair.pairsAfter;
-    report["summary"]["rest_moved_max_mm"] = 1e3 * repair.movedMax;
-    report["summary"]["rest_thinned_max"] = repair.thinnedMax;
+    addRestRepair(report["summary"], repair);
     if (patches) report["patches"] = patchesJson(*patches, conversion->network);
     return printJson(report);
   }
-  return printText((patches ? patchesText(*patches) : std::string{}) + convertText(conversion->report, *output));
+  return printText((patches ? patchesText(*patches) : std::string{}) + restRepairText(repair) + convertText(conversion->report, *output));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "io/vtp.h"
 #include "render/look.h"
 #include "report.h"
+#include "track_option.h"
 #include "scene/bake.h"
 #include "scene/measurements.h"
 #include "scene_options.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct Options {
   SceneOptions scene;
-  std::string output, frames, quads, unit = "mm";
+  std::string output, frames, quads, track, unit = "mm";
   double fps = 0, budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1, clearanceMillimetres = 5;
   std::uint32_t samples = 2;
   bool noVolume = false, avoid = true, flat = false;
@@ -188,13 +189,16 @@ Result<Report> exportMeasurements(const Options& options, const Job& job) {
 }
 
 Result<Report> exportAs(const Options& options, const std::string& extension) {
-  const auto job = prepare(options);
+  auto job = prepare(options);
   if (!job) return job.error();
+  const auto track = TrackFile::open(options.track, job->scene, job->clip, job->frame);
+  if (!track) return track.error();
   auto report = extension == ".glb"   ? exportGlb(options, *job)
                 : extension == ".obj" ? exportObj(options, *job)
                 : extension == ".csv" ? exportMeasurements(options, *job)
                                       : exportLines(options, *job, extension == ".vtp");
   if (!report) return report;
+  if (auto saved = track->save(); !saved) return saved.error();
   Report full{{"file", options.output},
               {"clip", job->clip ? job->clip->name : "rest"},
               {"frames", job->range.last - job->range.first + 1},
@@ -233,6 +237,7 @@ void addExport(CLI::App& app, Command& command) {
       ".obj: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
       "Formats of one frame write the first where none is named.");
   addSceneOptions(*sub, options->scene);
+  addTrackOption(*sub, options->track);
   sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .vtp, .swc or .csv")->required();
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN");

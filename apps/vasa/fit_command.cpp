@@ -12,6 +12,7 @@
 #include "network/measure.h"
 #include "network/reshape.h"
 #include "report.h"
+#include "rest_report.h"
 
 // vasa fit: a network carried from one body to another with the same joints.
 namespace vasa::cli {
@@ -71,23 +72,27 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (stopRequested()) return stopError();
   const auto fitted = reshapeNetwork(*network, carried->points, carried->bodyHeight);
   if (!fitted) return badInput(options.network + ": " + fitted.error().message);
-  const auto bytes = writeNetwork(options.output, *fitted, {.quantise = !options.exact});
+  const RestRepair repair = separateAtRest(*fitted);
+  if (stopRequested()) return stopError();
+  const Network& parted = repair.network;
+  const auto bytes = writeNetwork(options.output, parted, {.quantise = !options.exact});
   if (!bytes) return bytes.error();
-  const Report report{{"file", options.output},
+  Report report{{"file", options.output},
                       {"file_bytes", *bytes},
-                      {"vessels", fitted->vessels().size()},
-                      {"length_m", measure(*fitted, fitted->points()).length},
+                      {"vessels", parted.vessels().size()},
+                      {"length_m", measure(parted, parted.points()).length},
                       {"length_before_m", measure(*network, network->points()).length},
                       {"body_height_m", carried->bodyHeight},
                       {"radius_factor", carried->radiusFactor},
                       {"joints_matched", carried->jointsMatched},
                       {"joints_free", carried->jointsFree},
                       {"points_pushed_in", carried->pushedIn},
-                      {"kinks", kinkCount(*fitted, fitted->points())},
+                      {"kinks", kinkCount(parted, parted.points())},
                       {"kinks_before", kinkCount(*network, network->points())},
-                      {"outside_skin", outsideJson(*fitted, measureOutside(*fitted, fitted->points(), *to))},
+                      {"outside_skin", outsideJson(parted, measureOutside(parted, parted.points(), *to))},
                       {"outside_skin_before", outsideJson(*network, measureOutside(*network, network->points(), *from))}};
-  return globals.json ? printJson(report) : printText(asText(report));
+  addRestRepair(report, repair);
+  return globals.json ? printJson(report) : printText(restRepairText(repair) + asText(report));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "render/renderer.h"
 #include "report.h"
 #include "scene_options.h"
+#include "track_option.h"
 
 // vasa render: frames of a clip to PNG files and a video.
 namespace vasa::cli {
@@ -26,7 +27,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   CameraOptions camera;
-  std::string frames, size = "1280x720", output, video, quads = "auto", shard, hide;
+  std::string frames, size = "1280x720", output, video, quads = "auto", shard, hide, track;
   CapillaryOptions capillaries;
   unsigned samples = 4;
   std::string look;  // empty: as the scene says
@@ -77,9 +78,17 @@ Look lookOf(const LookChoice& choice, bool transparent) {
   return look;
 }
 
+FrameOptions frameOptions(const Options& options) {
+  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts, .beat = options.beat};
+  frame.avoidance.skinWall = options.skinWall;
+  if (!options.avoid) frame.avoidance.rounds = frame.avoidance.lumenRounds = 0;
+  return frame;
+}
+
 // Everything that decides a picture but the frame's number.
-Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed) {
-  std::uint64_t hash = 0;
+Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed, const Scene& scene, const Clip* clip) {
+  // What a clip became: a motion of its own file and the map of its joints are in it.
+  std::uint64_t hash = clip ? trackKey(scene, *clip, frameOptions(options)) : 0;
   std::vector<std::filesystem::path> files = choice.networks;
   files.push_back(choice.body);
   if (!options.scene.scene.empty()) files.emplace_back(options.scene.scene);
@@ -137,7 +146,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   const float aspect = float(size->width) / float(size->height);
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
   if (!camera) return camera.error();
-  const auto hash = hashOfRun(job.choice, options, globals.seed);
+  const auto hash = hashOfRun(job.choice, options, globals.seed, job.scene, job.clip);
   if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
@@ -151,20 +160,13 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   return job;
 }
 
-FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts, .beat = options.beat};
-  frame.avoidance.skinWall = options.skinWall;
-  if (!options.avoid) frame.avoidance.rounds = frame.avoidance.lumenRounds = 0;
-  return frame;
-}
-
 // Draws frames and hands each picture on; encoding and writing go on beside the next frame's drawing.
 class Film {
  public:
-  Film(const Job& job, const Options& options, gpu::Device& device)
+  Film(const Job& job, const Options& options, const FrameOptions& frame, gpu::Device& device)
       : job_(job),
         options_(options),
-        maker_(job.scene, frameOptions(options)),
+        maker_(job.scene, frame),
         renderer_(device, job.scene.network, job.scene.body.meshes, job.render) {}
 
   Result<void> run() {
@@ -222,6 +224,7 @@ class Film {
 
   // Grey vessels; yellow where they ran through one another, red where they still do.
   void highlightContacts() {
+    maker_.lookAtPosed();
     const Avoider& avoider = *maker_.avoider();
     std::vector<std::uint32_t> colours(job_.scene.network.sweepCount(), packColour({0.5f, 0.5f, 0.55f, 1}));
     const auto paint = [&](std::span<const Interference::Place> places, vec4 colour) {
@@ -311,8 +314,12 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto film = gpu::attempt([&]() -> Result<Report> {
     gpu::Device device({.choice = globals.device});
     logDetail("device: " + device.adapter().name);
-    Film work(*job, options, device);
+    FrameOptions frame = frameOptions(options);
+    const auto track = TrackFile::open(options.track, job->scene, job->clip, frame);
+    if (!track) return track.error();
+    Film work(*job, options, frame, device);
     if (auto done = work.run(); !done) return done.error();
+    if (auto saved = track->save(); !saved) return saved.error();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return Report{{"frames", work.drawn},
                   {"frames_kept", work.kept},
@@ -348,6 +355,7 @@ void addRender(CLI::App& app, Command& command) {
       "  vasa render --body b.glb --network b.vasa --clip fist --focus LeftHand --camera left -o 'out/{frame:04}.png'\n"
       "  vasa render --clip squat --frames 30 --size 640x1280 -o - > picture.png");
   addSceneOptions(*sub, options->scene);
+  addTrackOption(*sub, options->track);
   addCameraOptions(*sub, options->camera);
   addCapillaryOptions(*sub, options->capillaries);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");

@@ -105,33 +105,36 @@ std::string_view reasonName(OverlapReason reason) {
   return kNames[std::size_t(reason)];
 }
 
+RestRepair overlapsAtRest(const Network& network) {
+  RestRepair repair{.network = network};
+  Interference atRest(network);
+  repair.pairsBefore = repair.pairsAfter = atRest.restPairCount();
+  if (repair.pairsBefore > 0) repair.left = overlapsOf(network, toldTwice(network, atRest));
+  return repair;
+}
+
 RestRepair separateAtRest(const Network& network) {
-  RestRepair repair{.points = {network.points().begin(), network.points().end()}};
+  RestRepair repair = overlapsAtRest(network);
+  if (repair.pairsBefore == 0) return repair;
   std::set<VesselPair> twice;
-  {
-    Interference atRest(network);
-    repair.pairsBefore = repair.pairsAfter = atRest.restPairCount();
-    if (repair.pairsBefore == 0) return repair;
-    twice = toldTwice(network, atRest);
-  }
+  for (const RestOverlap& overlap : repair.left)
+    if (overlap.reason == OverlapReason::twice) twice.emplace(overlap.first.value, overlap.second.value);
   const float clearance = std::max(kLeastClearance, kRoundings * quantisationError(network));
   RestParting parting(network, clearance);
-  Network now = network;
   for (unsigned pass = 0; pass < kPasses; ++pass) {
-    const bool done = part(parting, now, twice, clearance, pass > 0);
+    const bool done = part(parting, repair.network, twice, clearance, pass > 0);
     auto parted = reshapeNetwork(network, parting.points(), network.bodyHeight());
     if (!parted) break;  // a vessel lost its length or its place: what was reached before stands
-    now = std::move(*parted);
+    repair.network = std::move(*parted);
     if (done) break;
   }
-  repair.points.assign(now.points().begin(), now.points().end());
-  repair.left = overlapsOf(now, twice);
+  repair.left = overlapsOf(repair.network, twice);
   repair.pairsAfter = 0;
   for (const RestOverlap& overlap : repair.left) repair.pairsAfter += overlap.pairs;
-  for (std::size_t p = 0; p < repair.points.size(); ++p) {
-    const vec4 &moved = repair.points[p], &rest = network.points()[p];
+  for (std::size_t p = 0; p < network.points().size(); ++p) {
+    const vec4 &moved = repair.network.points()[p], &rest = network.points()[p];
     repair.movedMax = std::max(repair.movedMax, glm::distance(vec3(moved), vec3(rest)));
-    repair.thinnedMax = std::max(repair.thinnedMax, 1 - moved.w / rest.w);
+    if (rest.w > 0) repair.thinnedMax = std::max(repair.thinnedMax, 1 - moved.w / rest.w);
   }
   return repair;
 }

@@ -20,7 +20,7 @@ struct RestOverlap {
 
 /// A network at rest whose vessels have been moved apart.
 struct RestRepair {
-  std::vector<vec4> points;                     ///< as Network::points()
+  Network network;
   std::size_t pairsBefore = 0, pairsAfter = 0;  ///< of tubes that overlap; neighbours along the network do not count
   float movedMax = 0;                           ///< [m] the farthest that a de Boor point was moved
   float thinnedMax = 0;                         ///< the largest share that a radius gave up
@@ -35,5 +35,7 @@ struct RestRepair {
 /// up anew between passes.
 /// O(steps · (tubes + overlaps · points that one moves)), deterministic. Can be cancelled (core/cancellation.h).
 RestRepair separateAtRest(const Network& network);
+/// Nothing done: only what overlaps is told.
+RestRepair overlapsAtRest(const Network& network);
 
 }  // namespace vasa

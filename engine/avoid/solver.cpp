@@ -333,7 +333,7 @@ Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
 Avoider::~Avoider() = default;
 Avoider::Avoider(Avoider&&) noexcept = default;
 
-void Avoider::start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+AvoidReport Avoider::start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
   State& state = *state_;
   if (correction.motions.empty()) {
     std::ranges::fill(state.correction.motions, vec3(0));
@@ -342,13 +342,18 @@ void Avoider::start(const Correction& correction, const PosedVessels& posed, con
     state.correction = correction;
   }
   AvoidReport report;
+  const State::Input in{posed, volume, state.shape, report};
+  state.pool.clear();
   state.pose(posed);
-  state.place({posed, volume, points, report});
-  state.interference.layout().shape(points, state.lastTubes);
-  std::ranges::copy(posed.rotations, state.lastRotations.begin());
-  std::ranges::copy(posed.points, state.lastPosed.begin());
-  state.accepted = state.correction;
+  state.place(in);
+  state.interference.layout().shape(state.shape, state.lastTubes);
   if (state.bones) state.bones->keepPose();
+  state.look(in, state.shape, State::Look::certain);
+  state.lookAtSolids(in, Bones::Which::all);
+  state.accept(posed);
+  state.sumUp(in);
+  std::ranges::copy(state.shape, points.begin());
+  return report;
 }
 
 std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride, std::span<vec4> points) {

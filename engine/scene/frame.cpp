@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "body/pose_path.h"
+#include "core/cancellation.h"
 #include "core/clock.h"
 #include "surface/sweep_table.h"
 
@@ -36,6 +37,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       volume_(scene.network),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
       avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance) : nullptr),
+      track_(options.track ? options.track : std::make_shared<MotionTrack>()),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
       rotations_(scene.network.points().size()),
@@ -135,6 +137,7 @@ void FrameMaker::walk(const Pose& target, float fromTime, float time, float seco
   const PosePath path(scene_->body.skeleton, pose_, target);
   const float longest = 1 / std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f);
   for (float done = 0; done < 1;) {
+    checkpoint();
     for (float length = std::min(longest, 1 - done);; length /= 2) {
       const float next = done + length > 1 - 0.5f * kShortestStep * longest ? 1 : done + length;
       deform(path.at(next), glm::mix(fromTime, time, next));
@@ -148,7 +151,13 @@ void FrameMaker::walk(const Pose& target, float fromTime, float time, float seco
 void FrameMaker::startAtRest() {
   at_.reset();
   deform(restPose(scene_->body.skeleton), 0);
-  avoider_->start({}, {posedPoints_, rotations_, jointMatrices_}, keeper(), points_);
+  start({});
+}
+
+// Where the body stands now, with a correction that was found before.
+void FrameMaker::start(const Correction& correction) {
+  report_.avoid = avoider_->start(correction, {posedPoints_, rotations_, jointMatrices_}, keeper(), points_);
+  report_.volume = report_.avoid.volume;
 }
 
 // Stands at a clip's first frame. A clip that ends where it began is entered by its last frames, so that it can go round.
@@ -163,25 +172,26 @@ void FrameMaker::begin(const Clip& clip) {
     ++frame;
     walk(samplePose(skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame - 1), clip.timeOfFrame(frame), 1 / clip.framesPerSecond);
   }
-  track_ = {&clip, {avoider_->correction()}};
+  *track_ = {&clip, {avoider_->correction()}};
   at_ = 0;
 }
 
 // Stands where a frame's correction was found before.
 void FrameMaker::resume(const Clip& clip, std::uint32_t frame) {
   deform(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
-  avoider_->start(track_.frames[frame], {posedPoints_, rotations_, jointMatrices_}, keeper(), points_);
+  start(track_->frames[frame]);
   at_ = frame;
 }
 
 void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
-  if (track_.clip != &clip) begin(clip);
-  const auto known = std::uint32_t(track_.frames.size() - 1);
+  if (track_->clip != &clip || track_->frames.empty()) begin(clip);
+  const auto known = std::uint32_t(track_->frames.size() - 1);
   if (at_ != std::min(known, frame)) resume(clip, std::min(known, frame));
   for (std::uint32_t next = known + 1; next <= frame; ++next) {
     report_ = {};
+    at_.reset();
     walk(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(next)), clip.timeOfFrame(next - 1), clip.timeOfFrame(next), 1 / clip.framesPerSecond);
-    track_.frames.push_back(avoider_->correction());
+    track_->frames.push_back(avoider_->correction());
     at_ = next;
   }
 }

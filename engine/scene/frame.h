@@ -30,13 +30,14 @@ struct FrameOptions {
   bool avoid = false;        ///< move vessels apart that run through one another
   bool beat = false;         ///< the heart beats (scene/beat.h)
   AvoidOptions avoidance;    ///< budgets; no rounds and lumen rounds: only look
+  std::shared_ptr<MotionTrack> track = {};  ///< where frames are kept, and taken from if they are of the clip; none: the maker's own
 };
 
 /// Turns poses into everything a picture needs: control points, knot frames, joint matrices. The scene must outlive it.
 ///
 /// A motion is solved, not a frame. A frame is a function of scene, clip and time alone: from the rest pose the body goes
 /// along a fixed way (body/pose_path.h) to the clip's first pose, and then through the clip frame by frame, in steps whose
-/// length follows from the motion alone; each starts from the correction of the one before. A time between two frames
+/// length follows from the motion and what it brings into one another's way; each starts from the correction of the one before. A time between two frames
 /// is one step on from the earlier one. A pose without a clip is reached from the rest pose in the same way. Frames
 /// that were made once are kept (scene/motion_track.h), so that only what is ahead has to be solved.
 class FrameMaker {
@@ -71,6 +72,7 @@ class FrameMaker {
   const VolumeKeeper* keeper() const { return options_.keepVolume ? &volume_ : nullptr; }
   void walk(const Pose& target, float fromTime, float time, float seconds);
   void startAtRest();
+  void start(const Correction& correction);
   void goTo(const Clip& clip, std::uint32_t frame);
   void resume(const Clip& clip, std::uint32_t frame);
   void begin(const Clip& clip);
@@ -84,7 +86,7 @@ class FrameMaker {
   HeartBeat beat_;
   float heartScale_ = 1;
   std::unique_ptr<Avoider> avoider_;
-  MotionTrack track_;
+  std::shared_ptr<MotionTrack> track_;
   std::optional<std::uint32_t> at_;  // frame of the track where the avoider stands
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;

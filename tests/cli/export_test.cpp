@@ -134,3 +134,23 @@ TEST_CASE("export tells what is wrong") {
   expect({"--clip", "walk", "--frames", "0", "--quads", "3x2", "-o", path("no/folder/a.glb")}, 6, "folder");
   CHECK(listOf(folder.path()).empty());
 }
+
+TEST_CASE("export: a frame is the same bytes alone, from a track, in a run over all frames, and on any number of threads") {
+  const TemporaryFolder folder;
+  const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
+  exported({"--clip", "squat", "--frames", "0:12", "--track", at("squat.track"), "-o", at("all-{frame}.vtp")});
+  exported({"--clip", "squat", "--frames", "12", "-o", at("alone.vtp")});
+  exported({"--clip", "squat", "--frames", "12", "--track", at("squat.track"), "-o", at("kept.vtp")});
+  for (const char* threads : {"1", "8"}) {
+    exported({"--clip", "squat", "--frames", "12", "--threads", threads, "-o", at("threads.vtp")});
+    CHECK(textOf(at("threads.vtp")) == textOf(at("all-12.vtp")));
+  }
+  CHECK(textOf(at("alone.vtp")) == textOf(at("all-12.vtp")));
+  CHECK(textOf(at("kept.vtp")) == textOf(at("all-12.vtp")));
+  // A track of another motion is told, and nothing is written.
+  const auto other = runProgram({"export", "--clip", "run", "--frames", "2", "--track", at("squat.track"), "-o", at("other.vtp")});
+  CHECK(other.exit == 7);
+  CHECK(other.err.find("squat.track") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(at("other.vtp")));
+  CHECK(runProgram({"export", "--track", at("squat.track"), "-o", at("other.vtp")}).exit == 2);
+}

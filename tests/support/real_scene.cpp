@@ -1,5 +1,6 @@
 #include "support/real_scene.h"
 
+#include "avoid/rest_repair.h"
 #include "convert/convert.h"
 #include "io/gltf.h"
 #include "network/file.h"
@@ -13,7 +14,7 @@ Result<Scene> realScene(const std::filesystem::path& data, const std::filesystem
     if (!elements) return elements.error();
     for (SourceElement& source : describeElements(std::move(*elements), name)) sources.push_back(std::move(source));
   }
-  auto conversion = convertElements(sources);
+  auto conversion = convertElements(sources, {.mend = [](const Network& network) { return Result(separateAtRest(network).network); }});
   if (!conversion) return conversion.error();
   if (auto written = writeNetwork(folder / "real.vasa", conversion->network); !written) return written.error();
   SceneFile file;

@@ -1,0 +1,80 @@
+#include "avoid/rest_repair.h"
+
+#include <doctest/doctest.h>
+
+#include "avoid/interference.h"
+#include "network/builder.h"
+
+using namespace vasa;
+
+namespace {
+
+std::vector<vec4> line(vec3 from, vec3 to, float radius) {
+  std::vector<vec4> points;
+  for (int k = 0; k < 20; ++k) points.emplace_back(glm::mix(from, to, float(k) / 19), radius);
+  return points;
+}
+
+Network built(NetworkBuilder& builder) {
+  auto network = builder.build(1);
+  REQUIRE(network.ok());
+  return std::move(*network);
+}
+
+// A wide vessel, and a thin one across it that lies in its side.
+Network grazing(float height) {
+  NetworkBuilder builder;
+  builder.addVessel({"wide", "", VesselKind::vein}, line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.006f));
+  builder.addVessel({"thin", "", VesselKind::artery}, line({0, height, -0.1f}, {0.005f, height, 0.1f}, 0.001f));
+  return built(builder);
+}
+
+}  // namespace
+
+TEST_CASE("vessels that overlap at rest are parted, the thin one more than the wide one") {
+  const Network network = grazing(0.0062f);
+  const RestRepair repair = separateAtRest(network);
+  CHECK(repair.pairsBefore > 0);
+  CHECK(repair.pairsAfter == 0);
+  CHECK(repair.left.empty());
+  CHECK(Interference(repair.network).restPairCount() == 0);
+  CHECK(repair.movedMax > 0.0003f);
+  CHECK(repair.movedMax < 0.0012f);
+  float wide = 0, thin = 0;
+  for (std::size_t p = 0; p < network.points().size(); ++p) {
+    float& most = p < network.vessels()[1].firstPoint ? wide : thin;
+    most = std::max(most, glm::distance(vec3(network.points()[p]), vec3(repair.network.points()[p])));
+  }
+  CHECK(wide < 0.2f * thin);
+}
+
+TEST_CASE("a network without overlaps stays as it is, to the byte") {
+  const Network network = grazing(0.008f);
+  const RestRepair repair = separateAtRest(network);
+  CHECK(repair.pairsBefore == 0);
+  CHECK(repair.movedMax == 0);
+  CHECK(repair.thinnedMax == 0);
+  CHECK(std::ranges::equal(repair.network.points(), network.points()));
+}
+
+TEST_CASE("a vessel that is told twice is left and said to be") {
+  NetworkBuilder builder;
+  builder.addVessel({"once", "", VesselKind::artery}, line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.002f));
+  builder.addVessel({"again", "", VesselKind::artery}, line({-0.1f, 0.0001f, 0}, {0.1f, 0.0001f, 0}, 0.002f));
+  const Network network = built(builder);
+  const RestRepair repair = separateAtRest(network);
+  REQUIRE(repair.left.size() == 1);
+  CHECK(repair.left[0].reason == OverlapReason::twice);
+  CHECK(repair.pairsAfter == repair.left[0].pairs);
+  CHECK(reasonName(repair.left[0].reason) == "twice");
+}
+
+TEST_CASE("to tell what overlaps changes nothing") {
+  const Network network = grazing(0.0062f);
+  const RestRepair told = overlapsAtRest(network);
+  CHECK(told.pairsBefore == separateAtRest(network).pairsBefore);
+  CHECK(told.pairsAfter == told.pairsBefore);
+  REQUIRE(told.left.size() == 1);
+  CHECK(std::abs(told.left[0].depth - 0.0008f) < 1e-4f);
+  CHECK(std::ranges::equal(told.network.points(), network.points()));
+}

@@ -1,0 +1,99 @@
+#include "scene/motion_track.h"
+
+#include <doctest/doctest.h>
+
+#include "core/atomic_file.h"
+#include "scene/frame.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+
+namespace {
+
+const Scene& human() {
+  static const Result<Scene> scene = [] {
+    SceneFile file;
+    file.body = VASA_HUMAN_DATA "/human.glb";
+    file.networks = {VASA_HUMAN_DATA "/human.vasa"};
+    return loadScene(file);
+  }();
+  if (!scene.ok()) FAIL(scene.error().message);
+  return *scene;
+}
+
+const Clip& clipNamed(const char* name) {
+  const auto clip = findClip(human().body, name);
+  REQUIRE(clip.ok());
+  return **clip;
+}
+
+constexpr std::uint32_t kFrames = 6;
+
+struct Solved {
+  FrameOptions options{.avoid = true, .track = std::make_shared<MotionTrack>()};
+  std::vector<vec4> last;
+  AvoidReport report;
+};
+
+// The first frames of a clip, one after the other.
+Solved solve(const Clip& clip) {
+  Solved solved;
+  FrameMaker maker(human(), solved.options);
+  for (std::uint32_t frame = 0; frame < kFrames; ++frame) maker.make(&clip, clip.timeOfFrame(frame));
+  solved.last.assign(maker.points().begin(), maker.points().end());
+  solved.report = maker.report().avoid;
+  return solved;
+}
+
+}  // namespace
+
+TEST_CASE("a track that was written and read gives the same frames to the byte") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "walk.track";
+  const Clip& clip = clipNamed("walk");
+  const Solved solved = solve(clip);
+  CHECK(solved.report.movedMax > 0.001f);
+  const std::uint64_t key = trackKey(human(), clip, solved.options);
+  REQUIRE(writeTrack(file, *solved.options.track, key).ok());
+  auto read = readTrack(file, human(), clip, key);
+  REQUIRE(read.ok());
+  REQUIRE(read->frames.size() == kFrames);
+  for (std::uint32_t k = 0; k < kFrames; ++k) {
+    CHECK(read->frames[k].motions == solved.options.track->frames[k].motions);
+    CHECK(read->frames[k].widest == solved.options.track->frames[k].widest);
+  }
+  // A frame alone, which is not solved again, and the one after the track's last.
+  FrameMaker maker(human(), {.avoid = true, .track = std::make_shared<MotionTrack>(std::move(*read))}), other(human(), {.avoid = true});
+  maker.make(&clip, clip.timeOfFrame(kFrames - 1));
+  CHECK(std::ranges::equal(maker.points(), solved.last));
+  CHECK(maker.report().steps == 0);
+  CHECK(maker.report().avoid.after.contacts == solved.report.after.contacts);
+  CHECK(maker.report().avoid.movedMax == solved.report.movedMax);
+  CHECK(maker.report().avoid.bonesAfter.contacts == solved.report.bonesAfter.contacts);
+  maker.make(&clip, clip.timeOfFrame(kFrames));
+  other.make(&clip, clip.timeOfFrame(kFrames));
+  CHECK(std::ranges::equal(maker.points(), other.points()));
+}
+
+TEST_CASE("a track of another motion and a damaged one are refused") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "walk.track";
+  const Clip &clip = clipNamed("walk"), &run = clipNamed("run");
+  const Solved solved = solve(clip);
+  const std::uint64_t key = trackKey(human(), clip, solved.options);
+  REQUIRE(writeTrack(file, *solved.options.track, key).ok());
+  const auto faultOf = [&](std::uint64_t wanted) { return readTrack(file, human(), clip, wanted).error().fault; };
+  CHECK(faultOf(trackKey(human(), run, solved.options)) == Fault::resumeMismatch);
+  CHECK(faultOf(trackKey(human(), clip, {.keepVolume = false, .avoid = true})) == Fault::resumeMismatch);
+  const auto whole = readFile(file);
+  REQUIRE(whole.ok());
+  for (std::size_t at = 0; at < whole->size(); at += whole->size() / 40 + 1) {
+    CAPTURE(at);
+    std::vector<std::byte> bytes = *whole;
+    REQUIRE(writeFileAtomically(file, std::span(bytes).first(at)).ok());
+    CHECK(faultOf(key) == Fault::badInput);
+    bytes[at] ^= std::byte(0x40);
+    REQUIRE(writeFileAtomically(file, bytes).ok());
+    CHECK(faultOf(key) == Fault::badInput);
+  }
+}
