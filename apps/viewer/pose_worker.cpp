@@ -9,6 +9,7 @@ namespace vasa::viewer {
 namespace {
 
 constexpr float kClearanceReach = 0.01f;  // [m]
+constexpr float kLiveSeconds = 0.1f;      // that a pose by hand takes: vessels follow a pull about as fast as it comes
 
 std::vector<std::uint32_t> spansOf(std::span<const Interference::Place> places) {
   std::vector<std::uint32_t> spans;
@@ -48,9 +49,12 @@ struct PoseWorker::Maker {
     if (wanted.turns.empty()) {
       maker.make(clip, wanted.time);
     } else {
-      const Pose pose = clip ? samplePose(body.skeleton, *clip, wanted.time) : restPose(body.skeleton);
-      maker.make(turned(body.skeleton, pose, wanted.turns), wanted.time);
+      const Pose clipPose = clip ? samplePose(body.skeleton, *clip, wanted.time) : restPose(body.skeleton);
+      const Pose pose = turned(body.skeleton, clipPose, wanted.turns);
+      if (live) maker.moveTo(pose, wanted.time, kLiveSeconds);
+      else maker.make(pose, wanted.time);
     }
+    live = true;
     auto done = std::make_shared<PosedBody>();
     done->order = wanted;
     done->pose = maker.pose();
@@ -73,6 +77,7 @@ struct PoseWorker::Maker {
   }
 
   PoseOrder order;  // keeps the document alive
+  bool live = false;  // something is on the screen: what is posed by hand goes on from there
   std::shared_ptr<FrameMaker> frames;
   FrameMaker& maker;
   std::optional<VesselMeter> meter;

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/parallel.h"
 #include "math/quadrature.h"
 
 // With δ(u) the spline of the coefficients w_l r_l and g = |C'(u)|,
 //   V(λ) = π ∫ (r + λδ)² g = aλ² + bλ + V,   a = π ∫ δ² g,   b = 2π ∫ r δ g,
 // so V(λ) = V0 at λ = -2 (V - V0) / (b + √(b² - 4a (V - V0))), the root that is 0 when V = V0.
+
 namespace vasa {
 namespace {
 
@@ -52,9 +54,15 @@ VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
 }
 
 VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const float> most) const {
-  Outcome outcome;
-  for (std::uint32_t v = 0; v < restVolumes_.size(); ++v) keep({v}, points, most, outcome);
-  return outcome;
+  std::vector<Outcome> each(restVolumes_.size());
+  parallelFor(each.size(), 64, [&](std::size_t v) { keep({std::uint32_t(v)}, points, most, each[v]); });
+  Outcome all;
+  for (const Outcome& own : each) {
+    all.largestError = std::max(all.largestError, own.largestError);
+    all.clampedError = std::max(all.clampedError, own.clampedError);
+    all.clampedCount += own.clampedCount;
+  }
+  return all;
 }
 
 void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const float> most, Outcome& outcome) const {

@@ -20,7 +20,7 @@ class VolumeKeeper {
     std::uint32_t clampedCount = 0;  ///< vessels whose radii would have left the sane range, or were held
   };
 
-  /// @param points  a posed network's points; radii must be those at rest. O(spans), no allocation.
+  /// @param points  a posed network's points; radii must be those at rest. O(spans), parallel.
   /// @param most    if given, one a point: radii may not be larger; the rest of the vessel makes up for it
   Outcome run(std::span<vec4> points, std::span<const float> most = {}) const;
   /// The same for one vessel; its errors are added to an outcome.
