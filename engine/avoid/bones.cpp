@@ -125,7 +125,9 @@ struct Bones::State {
   };
   struct Tubes {
     std::span<const Bezier> now, last;
+    std::span<const char> anew;
   };
+  std::vector<Bezier> rest;
   std::vector<Solid> solids;
   std::vector<Bezier> base;   // the shape when all were looked at last
   std::vector<int> pieces;    // a tube each
@@ -182,6 +184,7 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
 
 // Where the place was before, as the part sees it: the side of the part to which it belongs.
 vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
+  if (!tubes.anew.empty() && tubes.anew[at.tube]) return vec3(rest[at.tube].at(s));
   return placed(solids[at.part].inverseBefore, vec3(tubes.last[at.tube].at(s)));
 }
 
@@ -347,6 +350,7 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     for (const Part& part : partsOf(mesh))
       state_->solids.push_back({part.joint, DistanceField(part.positions, part.triangles, {})});
   }
+  state_->rest.assign(restTubes.begin(), restTubes.end());
   for (const Bezier& tube : restTubes) state_->pieces.push_back(piecesOf(tube));
   std::vector<mat4> matrices;
   const Pose rest = restPose(body.skeleton);
@@ -397,7 +401,7 @@ void Bones::pose(std::span<const mat4> jointMatrices) {
   }
 }
 
-std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which) {
+std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which, std::span<const char> anew) {
   State& state = *state_;
   if (which == Which::all) state.base.assign(tubes.begin(), tubes.end());
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
@@ -407,8 +411,8 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std:
   state.seenBefore.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
     state.found[task].clear();
-    if (which == Which::all) state.lookAtAll(task, {tubes, last}, state.found[task]);
-    else state.lookAtNear(task, {tubes, last}, state.found[task]);
+    if (which == Which::all) state.lookAtAll(task, {tubes, last, anew}, state.found[task]);
+    else state.lookAtNear(task, {tubes, last, anew}, state.found[task]);
   });
   state.contacts.clear();
   for (std::size_t task = 0; task < tasks; ++task)

@@ -48,7 +48,8 @@ class Bones {
   /// @param which  all tubes, or only those that were within a field's band when all were looked at last, and those that
   ///               were moved far since: what a round of corrections can bring into a bone, much faster
   enum class Which { all, nearAtLast };
-  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which = Which::all);
+  /// @param anew   a tube each: 1 where the way out is to the side of a part on which it was at rest; or none
+  std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which = Which::all, std::span<const char> anew = {});
 
   /// How far the pose moved a place on a part since the one before [m].
   float stepAt(std::uint32_t part, vec3 place) const;

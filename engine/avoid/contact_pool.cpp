@@ -140,7 +140,7 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     constraint.clearance = clearanceFor(constraint, a.w + b.w);
     const float distance = a.w + b.w + constraint.clearance;
     const vec3 apart = vec3(last.tubes[i].at(s)) - vec3(last.tubes[j].at(t));
-    const vec3 before = sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart), unitOr(vec3(shape[i].derivative(s)), vec3(0)),
+    const vec3 before = last.anew[i] || last.anew[j] ? 0.5f * distance * sides_->carried({i, j, s, t}, shape, last.rotations) : sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart), unitOr(vec3(shape[i].derivative(s)), vec3(0)),
                                  unitOr(vec3(shape[j].derivative(t)), vec3(0)));
     constraint.normal = wayApart(gap, before, distance, contactNormal);
     const float lack = distance - glm::dot(constraint.normal, gap);

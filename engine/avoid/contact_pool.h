@@ -15,6 +15,7 @@ struct LastShape {
   std::span<const Bezier> tubes;  ///< as they were accepted
   std::span<const quat> turns;    ///< how each tube's surroundings turned since then
   std::span<const quat> rotations;  ///< how each point's surroundings turned since rest
+  std::span<const char> anew;       ///< a tube each: 1 where the shape at rest decides instead
 };
 
 /// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes; or a fixed point of a bone in place of C_j.

@@ -25,7 +25,7 @@ constexpr float kRolled = 0;            // cosine of the angle from which on ves
 constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
 constexpr float kPace = 0.04f;                 // [m/s] at which a vessel may be moved aside among others that stand still
 constexpr float kNear = 0.045f;         // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
-constexpr float kFarthest = 0.05f;       // [m] that anything is held aside: what is caught on another limb is let go there
+constexpr float kFarthest = 0.04f;       // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -60,6 +60,8 @@ struct Avoider::State {
         lastRotations(own.points().size(), quat(1, 0, 0, 0)),
         turns(interference.layout().count()),
         lastPosed(own.points().begin(), own.points().end()),
+        anewTubes(turns.size(), false),
+        anewPoints(lastPosed.size(), false),
         none(space.variableCount(), vec3(0)),
         isEnd(lastPosed.size(), false),
         shape(lastPosed) {
@@ -87,12 +89,17 @@ struct Avoider::State {
   bool isTooLong() const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
+  using Trouble = std::pair<std::size_t, std::size_t>;  // places where vessels interfere; and where they are in bones
   enum class Look { first, again, certain };
   void look(const Input& in, std::span<const vec4> points, Look how);
   void lookAtSolids(const Input& in, Bones::Which which);
   bool settled() const;
   void separate(const Input& in);
   void giveWay(const Input& in, Look how);
+  void solve(const Input& in, bool isLast);
+  void solveAnew(const Input& in, bool isLast, float reach);
+  void chooseAnew(std::span<const vec4> points, float reach);
+  Trouble trouble() const { return {remaining.size(), boneContacts.size()}; }
   void accept(const PosedVessels& posed);
   void sumUp(const Input& in);
 
@@ -109,6 +116,8 @@ struct Avoider::State {
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
   NearbySteps posedSteps{kNear};
+  std::vector<char> anewTubes, anewPoints;  // of vessels that start from the pose alone ...
+  bool mayJump = false;                     // ... and keep no pace
   std::vector<vec3> none;   // no correction
   std::vector<char> isEnd;  // of a vessel, a point each
   std::vector<vec4> shape;  // being made
@@ -175,7 +184,7 @@ void Avoider::State::keepPace(const Input& in) {
   bool stepsAreSet = false;
   const float slow = kPace * in.seconds;
   space.keepNear(accepted.motions, correction.motions, [&](std::uint32_t point, float distance) {
-    if (distance <= slow) return distance;
+    if (distance <= slow || (mayJump && anewPoints[point])) return distance;
     if (!std::exchange(stepsAreSet, true))
       posedSteps.set(slow, lastPosed.size() + boneContacts.size(), [&](std::size_t k) {
         if (k < lastPosed.size()) {
@@ -216,7 +225,7 @@ void Avoider::State::look(const Input& in, std::span<const vec4> points, Look ho
 void Avoider::State::lookAtSolids(const Input& in, Bones::Which which) {
   if (!bones) return;
   StageClock clock(in.report.boneMs);
-  boneContacts = bones->contacts(interference.tubes(), lastTubes, which);
+  boneContacts = bones->contacts(interference.tubes(), lastTubes, which, anewTubes);
   if (!wall) return;
   skinContacts.clear();
   wall->addContacts(interference.tubes(), bones->partCount(), skinContacts);
@@ -230,7 +239,7 @@ void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
     sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
-    pool.addSides(changed, interference.tubes(), {lastTubes, turns, in.posed.rotations}, correction.motions);
+    pool.addSides(changed, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes}, correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
@@ -238,7 +247,7 @@ void Avoider::State::separate(const Input& in) {
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
-      pool.add(places, solids, interference.tubes(), {lastTubes, turns, in.posed.rotations}, correction.motions);
+      pool.add(places, solids, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes}, correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       pool.ascend(options.sweeps, correction.motions);
@@ -273,6 +282,59 @@ void Avoider::State::giveWay(const Input& in, Look how) {
     }
     look(in, in.points, how);
   }
+}
+
+void Avoider::State::solve(const Input& in, bool isLast) {
+  separate(in);
+  if (isLast) look(in, in.points, Look::certain);
+  if (isLast && !remaining.empty()) {
+    separate(in);
+    look(in, in.points, Look::certain);
+  }
+  giveWay(in, isLast ? Look::certain : Look::again);
+}
+
+// The vessels within reach of the places that are in trouble.
+void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
+  const std::span<const Bezier> tubes = interference.tubes();
+  std::vector<vec3> centres;
+  for (const Interference::Place& place : remaining) centres.push_back(vec3(tubes[place.contact.i].at(place.contact.s)));
+  for (const BoneContact& contact : boneContacts) centres.push_back(vec3(tubes[contact.tube].at(contact.s)));
+  for (const Vessel& vessel : network.vessels()) {
+    const bool isNear = std::ranges::any_of(Network::pointsOf(vessel, points), [&](const vec4& point) {
+      return std::ranges::any_of(centres, [&](vec3 centre) { return glm::distance(centre, vec3(point)) < reach; });
+    });
+    std::fill_n(anewPoints.begin() + vessel.firstPoint, vessel.pointCount, isNear);
+  }
+  for (std::uint32_t tube = 0; tube < anewTubes.size(); ++tube)
+    anewTubes[tube] = anewPoints[network.vessel(interference.layout().address(tube).vessel).firstPoint];
+}
+
+// Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the sides of one
+// another and of bones on which they were at rest. That is kept where it leaves less trouble;
+// where vessels interfere it keeps no pace: better a jump than a wrong shape.
+void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
+  const Correction tried = correction;
+  const Trouble before = trouble();
+  chooseAnew(in.points, reach);
+  mayJump = !remaining.empty();
+  fade(in.seconds);
+  carry(in.posed.rotations);
+  for (std::size_t p = 0; p < anewPoints.size(); ++p) {
+    if (!anewPoints[p]) continue;
+    correction.motions[p] = vec3(0);
+    if (!isEnd[p]) correction.widest[p] = kNoLimit;  // an end's ring belongs to others, too
+  }
+  pool.clear();
+  place(in);
+  look(in, in.points, Look::first);
+  solve(in, isLast);
+  std::ranges::fill(anewTubes, false);
+  std::ranges::fill(anewPoints, false);
+  if (trouble() < before) return;
+  correction = tried;
+  place(in);
+  look(in, in.points, isLast ? Look::certain : Look::first);
 }
 
 // Whether the motion has brought something so far into one another's way that the side it came from is a guess.
@@ -370,13 +432,9 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   }
   state.look(in, state.shape, State::Look::first);
   if (!stride.atAnyLength && state.isTooLong()) return {};
-  state.separate(in);
-  if (stride.isLast) state.look(in, state.shape, State::Look::certain);
-  if (stride.isLast && !state.remaining.empty()) {
-    state.separate(in);
-    state.look(in, state.shape, State::Look::certain);
-  }
-  state.giveWay(in, stride.isLast ? State::Look::certain : State::Look::again);
+  state.solve(in, stride.isLast);
+  if (state.trouble() > State::Trouble{}) state.solveAnew(in, stride.isLast, kNear);
+  if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
   state.accept(posed);
   state.sumUp(in);
   std::ranges::copy(state.shape, points.begin());
