@@ -103,7 +103,7 @@ struct Bones::State {
     std::uint32_t joint;
     DistanceField field;
     mat4 matrix{1}, inverse{1};                            // as bound -> posed, and back
-    mat4 before{1}, inverseBefore{1};                      // of the pose before
+    mat4 inverseBefore{1};                                 // of the pose before
     std::vector<std::pair<std::uint32_t, float>> atRest = {};  // tube, f < 0; sorted
 
     float allowed(std::uint32_t tube) const {
@@ -127,7 +127,7 @@ struct Bones::State {
     std::span<const Bezier> now, last;
     std::span<const char> anew;
   };
-  std::vector<Bezier> rest;
+  std::vector<Bezier> rest;  // tubes
   std::vector<Solid> solids;
   std::vector<Bezier> base;   // the shape when all were looked at last
   std::vector<int> pieces;    // a tube each
@@ -182,7 +182,7 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
   contact.normal = glm::normalize(mat3(solid.matrix) * normal);
 }
 
-// Where the place was before, as the part sees it: the side of the part to which it belongs.
+// Where the place was before, or at rest, as the part sees it: the side of the part to which it belongs.
 vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
   if (!tubes.anew.empty() && tubes.anew[at.tube]) return vec3(rest[at.tube].at(s));
   return placed(solids[at.part].inverseBefore, vec3(tubes.last[at.tube].at(s)));
@@ -384,12 +384,7 @@ std::size_t Bones::bytes() const {
 }
 
 void Bones::keepPose() {
-  for (State::Solid& solid : state_->solids) solid.before = solid.matrix, solid.inverseBefore = solid.inverse;
-}
-
-float Bones::stepAt(std::uint32_t part, vec3 place) const {
-  const State::Solid& solid = state_->solids[part];
-  return glm::distance(place, placed(solid.before, placed(solid.inverse, place)));
+  for (State::Solid& solid : state_->solids) solid.inverseBefore = solid.inverse;
 }
 
 void Bones::pose(std::span<const mat4> jointMatrices) {

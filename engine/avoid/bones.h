@@ -51,9 +51,6 @@ class Bones {
   /// @param anew   a tube each: 1 where the way out is to the side of a part on which it was at rest; or none
   std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which = Which::all, std::span<const char> anew = {});
 
-  /// How far the pose moved a place on a part since the one before [m].
-  float stepAt(std::uint32_t part, vec3 place) const;
-
   std::uint32_t partCount() const;
   JointId jointOf(std::uint32_t part) const;  ///< that carries a part
   std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest

@@ -111,8 +111,8 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
   return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
 }
 
-// Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at rest: by how much
-// more, is the less sure, the farther they were apart then.
+// Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at rest; where that is
+// the less sure, the farther they were apart then, not quite to where it counts as another side.
 bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Constraint& constraint) const {
   const auto [i, j, s, t, f, contactNormal] = contact;
   const vec3 side = sides_->carried({i, j, s, t}, shape, last.rotations);
@@ -123,7 +123,7 @@ bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shap
   const float share = std::clamp((sure - kUnsure) / (kSure - kUnsure), 0.0f, 1.0f);
   constraint = {.i = i, .other = j, .s = s, .t = t, .normal = side / sure};
   constraint.limit = kReach * glm::length(gap);
-  constraint.clearance = -(1 - share) * glm::length(gap) - a.w - b.w;
+  constraint.clearance = 0.9f * RestSides::kChanged * (1 - share) * glm::length(gap) - a.w - b.w;
   return a.w + b.w + constraint.clearance - glm::dot(constraint.normal, gap) > kNegligible;
 }
 

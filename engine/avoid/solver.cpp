@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "avoid/contact_pool.h"
@@ -186,13 +184,9 @@ void Avoider::State::keepPace(const Input& in) {
   space.keepNear(accepted.motions, correction.motions, [&](std::uint32_t point, float distance) {
     if (distance <= slow || (mayJump && anewPoints[point])) return distance;
     if (!std::exchange(stepsAreSet, true))
-      posedSteps.set(slow, lastPosed.size() + boneContacts.size(), [&](std::size_t k) {
-        if (k < lastPosed.size()) {
-          const vec3 place = onCurve(in.posed.points, k);
-          return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
-        }
-        const BoneContact& contact = boneContacts[k - lastPosed.size()];
-        return std::pair(contact.point, bones->stepAt(contact.part, contact.point));
+      posedSteps.set(slow, lastPosed.size(), [&](std::size_t k) {
+        const vec3 place = onCurve(in.posed.points, k);
+        return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
       });
     return posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
