@@ -53,17 +53,6 @@ float nearestParameter(const Bezier& tube, vec3 p) {
   return best;
 }
 
-// What of c is at right angles to both tubes; to their mean alone where they run about the same way.
-vec3 sideways(vec3 c, vec3 u, vec3 v) {
-  if (glm::dot(u, v) < 0) v = -v;
-  const vec3 mean = unitOr(u + v, vec3(0)), difference = u - v;
-  c -= mean * glm::dot(c, mean);
-  const float size = glm::length(difference);
-  if (size < 1e-4f) return c;
-  const float share = std::min(1.0f, size / 0.7f);
-  return c - share * share * glm::dot(c, difference / size) * (difference / size);
-}
-
 // Which way to part two tubes: along their gap, unless they have come nearer than half of what is asked for or passed
 // through one another since they were last apart; then towards the side on which they were.
 vec3 wayApart(vec3 gap, vec3 before, float distance, vec3 otherwise) {

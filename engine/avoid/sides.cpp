@@ -29,7 +29,12 @@ float fadeOut(float x, float from, float to) {
   return 1 - t * t * (3 - 2 * t);
 }
 
-// What of c is at right angles to both directions; to their mean alone where they are about the same.
+vec3 directionOf(const Bezier& tube, float t) {
+  return unitOr(vec3(tube.derivative(t)), vec3(0));
+}
+
+}  // namespace
+
 vec3 sideways(vec3 c, vec3 u, vec3 v) {
   if (glm::dot(u, v) < 0) v = -v;
   const vec3 mean = unitOr(u + v, vec3(0)), difference = u - v;
@@ -39,12 +44,6 @@ vec3 sideways(vec3 c, vec3 u, vec3 v) {
   const float share = std::min(1.0f, size / kCrossing);
   return c - share * share * glm::dot(c, difference / size) * (difference / size);
 }
-
-vec3 directionOf(const Bezier& tube, float t) {
-  return unitOr(vec3(tube.derivative(t)), vec3(0));
-}
-
-}  // namespace
 
 RestSides::RestSides(const Network& network, Interference& interference)
     : network_(&network), interference_(&interference), nearAtRest_(interference.findNearAtRest()) {}

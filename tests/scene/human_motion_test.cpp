@@ -3,27 +3,11 @@
 #include "core/hash.h"
 #include "scene/correction_step.h"
 #include "scene/frame.h"
+#include "scene_human.h"
 
 using namespace vasa;
 
 namespace {
-
-const Scene& human() {
-  static const Result<Scene> scene = [] {
-    SceneFile file;
-    file.body = VASA_HUMAN_DATA "/human.glb";
-    file.networks = {VASA_HUMAN_DATA "/human.vasa"};
-    return loadScene(file);
-  }();
-  if (!scene.ok()) FAIL(scene.error().message);
-  return *scene;
-}
-
-const Clip& clipNamed(const char* name) {
-  const auto clip = findClip(human().body, name);
-  REQUIRE(clip.ok());
-  return **clip;
-}
 
 /// Ends that are not where their node is: on their host, or with the node's other ends.
 std::size_t looseEnds(std::span<const vec4> points) {

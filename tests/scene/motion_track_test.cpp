@@ -4,28 +4,12 @@
 
 #include "core/atomic_file.h"
 #include "scene/frame.h"
+#include "scene_human.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
 
 namespace {
-
-const Scene& human() {
-  static const Result<Scene> scene = [] {
-    SceneFile file;
-    file.body = VASA_HUMAN_DATA "/human.glb";
-    file.networks = {VASA_HUMAN_DATA "/human.vasa"};
-    return loadScene(file);
-  }();
-  if (!scene.ok()) FAIL(scene.error().message);
-  return *scene;
-}
-
-const Clip& clipNamed(const char* name) {
-  const auto clip = findClip(human().body, name);
-  REQUIRE(clip.ok());
-  return **clip;
-}
 
 constexpr std::uint32_t kFrames = 6;
 

@@ -1,0 +1,26 @@
+#pragma once
+#include <doctest/doctest.h>
+
+#include "scene/scene.h"
+
+namespace vasa {
+
+/// The built-in human, read once.
+inline const Scene& human() {
+  static const Result<Scene> scene = [] {
+    SceneFile file;
+    file.body = VASA_HUMAN_DATA "/human.glb";
+    file.networks = {VASA_HUMAN_DATA "/human.vasa"};
+    return loadScene(file);
+  }();
+  if (!scene.ok()) FAIL(scene.error().message);
+  return *scene;
+}
+
+inline const Clip& clipNamed(const char* name) {
+  const auto clip = findClip(human().body, name);
+  REQUIRE(clip.ok());
+  return **clip;
+}
+
+}  // namespace vasa
