@@ -11,9 +11,9 @@
 #include "network/measure.h"
 #include "report.h"
 #include "scene/correction_step.h"
-#include "track_option.h"
 #include "scene/frame.h"
 #include "scene_options.h"
+#include "track_option.h"
 
 // vasa check: what is wrong with each frame of a clip, before vessels are moved apart and after.
 namespace vasa::cli {
@@ -285,7 +285,8 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameOptions frameOptions{.keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}};
+  FrameOptions frameOptions{
+      .keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}};
   const auto track = TrackFile::open(options.track, setting->scene, setting->clip, frameOptions);
   if (!track) return track.error();
   FrameMaker maker(setting->scene, frameOptions);

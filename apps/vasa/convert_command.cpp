@@ -10,9 +10,9 @@
 #include "convert/convert.h"
 #include "convert/keep_patches.h"
 #include "convert_report.h"
-#include "rest_report.h"
 #include "core/log.h"
 #include "network/file.h"
+#include "rest_report.h"
 #include "scene/vessel_files.h"
 
 // vasa convert: surfaces of vessels -> one network of sweeps.
@@ -146,7 +146,8 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (patches) report["patches"] = patchesJson(*patches, conversion->network);
     return printJson(report);
   }
-  return printText((patches ? patchesText(*patches) : std::string{}) + restRepairText(repair) + convertText(conversion->report, *output));
+  return printText((patches ? patchesText(*patches) : std::string{}) + restRepairText(repair) +
+                   convertText(conversion->report, *output));
 }
 
 }  // namespace
@@ -161,9 +162,12 @@ void addConvert(CLI::App& app, Command& command) {
       "  vasa convert brain.swc --scale 0.001 --kind artery -o brain.vasa\n"
       "  vasa convert centerlines.vtp --scale 0.001 -o aorta.vasa\n"
       "  vasa convert arteries.glb -o arteries.vasa --keep-patches\n"
-      "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
-      "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
-      "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
+      "The kind of vessel comes from the file's extras, else from the file's name, else from the element's "
+      "name.\n"
+      "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to "
+      "veins.\n"
+      "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm "
+      "(overlaps; rest_overlaps\n"
       "of --json names those that stay, with the reason).");
   sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl; or centre lines with radii: .swc, .vtp")->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();

@@ -11,10 +11,10 @@
 #include "io/vtp.h"
 #include "render/look.h"
 #include "report.h"
-#include "track_option.h"
 #include "scene/bake.h"
 #include "scene/measurements.h"
 #include "scene_options.h"
+#include "track_option.h"
 
 // vasa export: vessels in motion as files that other programs read.
 namespace vasa::cli {

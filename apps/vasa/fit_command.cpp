@@ -77,20 +77,21 @@ Result<void> run(const Globals& globals, const Options& options) {
   const Network& parted = repair.network;
   const auto bytes = writeNetwork(options.output, parted, {.quantise = !options.exact});
   if (!bytes) return bytes.error();
-  Report report{{"file", options.output},
-                      {"file_bytes", *bytes},
-                      {"vessels", parted.vessels().size()},
-                      {"length_m", measure(parted, parted.points()).length},
-                      {"length_before_m", measure(*network, network->points()).length},
-                      {"body_height_m", carried->bodyHeight},
-                      {"radius_factor", carried->radiusFactor},
-                      {"joints_matched", carried->jointsMatched},
-                      {"joints_free", carried->jointsFree},
-                      {"points_pushed_in", carried->pushedIn},
-                      {"kinks", kinkCount(parted, parted.points())},
-                      {"kinks_before", kinkCount(*network, network->points())},
-                      {"outside_skin", outsideJson(parted, measureOutside(parted, parted.points(), *to))},
-                      {"outside_skin_before", outsideJson(*network, measureOutside(*network, network->points(), *from))}};
+  Report report{
+      {"file", options.output},
+      {"file_bytes", *bytes},
+      {"vessels", parted.vessels().size()},
+      {"length_m", measure(parted, parted.points()).length},
+      {"length_before_m", measure(*network, network->points()).length},
+      {"body_height_m", carried->bodyHeight},
+      {"radius_factor", carried->radiusFactor},
+      {"joints_matched", carried->jointsMatched},
+      {"joints_free", carried->jointsFree},
+      {"points_pushed_in", carried->pushedIn},
+      {"kinks", kinkCount(parted, parted.points())},
+      {"kinks_before", kinkCount(*network, network->points())},
+      {"outside_skin", outsideJson(parted, measureOutside(parted, parted.points(), *to))},
+      {"outside_skin_before", outsideJson(*network, measureOutside(*network, network->points(), *from))}};
   addRestRepair(report, repair);
   return globals.json ? printJson(report) : printText(restRepairText(repair) + asText(report));
 }
@@ -104,7 +105,8 @@ void addFit(CLI::App& app, Command& command) {
       "Examples:\n"
       "  vasa fit adult.vasa --from adult.glb --to child.glb -o child.vasa\n"
       "  vasa fit adult.vasa --from adult.glb --to other.glb --joint-map joints.txt -o other.vasa --json\n"
-      "Joints match by name where both bodies are rigged by one convention, else by what part of a human body their\n"
+      "Joints match by name where both bodies are rigged by one convention, else by what part of a human "
+      "body their\n"
       "names mean; --joint-map pairs the rest: a line `joint of the new body = joint of the old` each.\n"
       "Vessels that run through one another where they have come are moved apart, as by convert.");
   sub->add_option("NETWORK", options->network, "The network (.vasa)")->required();

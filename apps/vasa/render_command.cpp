@@ -79,14 +79,17 @@ Look lookOf(const LookChoice& choice, bool transparent) {
 }
 
 FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume, .avoid = options.avoid || options.highlightContacts, .beat = options.beat};
+  FrameOptions frame{.keepVolume = !options.noVolume,
+                     .avoid = options.avoid || options.highlightContacts,
+                     .beat = options.beat};
   frame.avoidance.skinWall = options.skinWall;
   if (!options.avoid) frame.avoidance.rounds = frame.avoidance.lumenRounds = 0;
   return frame;
 }
 
 // Everything that decides a picture but the frame's number.
-Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed, const Scene& scene, const Clip* clip) {
+Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed,
+                                const Scene& scene, const Clip* clip) {
   // What a clip became: a motion of its own file and the map of its joints are in it.
   std::uint64_t hash = clip ? trackKey(scene, *clip, frameOptions(options)) : 0;
   std::vector<std::filesystem::path> files = choice.networks;

@@ -5,16 +5,20 @@
 namespace vasa::cli {
 
 void addTrackOption(CLI::App& sub, std::string& file) {
-  sub.add_option("--track", file, "The solved motion of the clip: taken from this file where it goes, and kept there");
+  sub.add_option("--track", file,
+                 "The solved motion of the clip: taken from this file where it goes, and kept there");
 }
 
-Result<TrackFile> TrackFile::open(const std::string& file, const Scene& scene, const Clip* clip, FrameOptions& options) {
+Result<TrackFile> TrackFile::open(const std::string& file, const Scene& scene, const Clip* clip,
+                                  FrameOptions& options) {
   TrackFile track;
   track.file_ = file;
   track.track_ = options.track = std::make_shared<MotionTrack>();
   if (file.empty()) return track;
   if (!clip) return Error{Fault::usage, "--track " + file + ": a track is of a motion; name one with --clip"};
-  if (!options.avoid) return Error{Fault::usage, "--track " + file + ": holds how vessels are moved apart; leave out --no-avoid or --track"};
+  if (!options.avoid)
+    return Error{Fault::usage,
+                 "--track " + file + ": holds how vessels are moved apart; leave out --no-avoid or --track"};
   track.key_ = trackKey(scene, *clip, options);
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return track;

@@ -14,7 +14,8 @@ class TrackFile {
  public:
   /// Gives the options a track, filled from the file if it exists. The scene and the clip must outlive it.
   /// @param file  empty: the track is not kept  @param clip  null: no motion, which is usage with a file
-  static Result<TrackFile> open(const std::string& file, const Scene& scene, const Clip* clip, FrameOptions& options);
+  static Result<TrackFile> open(const std::string& file, const Scene& scene, const Clip* clip,
+                                FrameOptions& options);
   /// Writes the file if there are more frames than it had.
   Result<void> save() const;
 

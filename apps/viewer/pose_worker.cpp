@@ -9,7 +9,8 @@ namespace vasa::viewer {
 namespace {
 
 constexpr float kClearanceReach = 0.01f;  // [m]
-constexpr float kLiveSeconds = 0.1f;      // that a pose by hand takes: vessels follow a pull about as fast as it comes
+constexpr float kLiveSeconds =
+    0.1f;  // that a pose by hand takes: vessels follow a pull about as fast as it comes
 
 std::vector<std::uint32_t> spansOf(std::span<const Interference::Place> places) {
   std::vector<std::uint32_t> spans;
@@ -51,8 +52,10 @@ struct PoseWorker::Maker {
     } else {
       const Pose clipPose = clip ? samplePose(body.skeleton, *clip, wanted.time) : restPose(body.skeleton);
       const Pose pose = turned(body.skeleton, clipPose, wanted.turns);
-      if (live) maker.moveTo(pose, wanted.time, kLiveSeconds);
-      else maker.make(pose, wanted.time);
+      if (live)
+        maker.moveTo(pose, wanted.time, kLiveSeconds);
+      else
+        maker.make(pose, wanted.time);
     }
     live = true;
     auto done = std::make_shared<PosedBody>();

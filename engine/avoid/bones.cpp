@@ -396,7 +396,8 @@ void Bones::pose(std::span<const mat4> jointMatrices) {
   }
 }
 
-std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> last, Which which, std::span<const char> anew) {
+std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> last,
+                                             Which which, std::span<const char> anew) {
   State& state = *state_;
   if (which == Which::all) state.base.assign(tubes.begin(), tubes.end());
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
@@ -406,8 +407,10 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std:
   state.seenBefore.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
     state.found[task].clear();
-    if (which == Which::all) state.lookAtAll(task, {tubes, last, anew}, state.found[task]);
-    else state.lookAtNear(task, {tubes, last, anew}, state.found[task]);
+    if (which == Which::all)
+      state.lookAtAll(task, {tubes, last, anew}, state.found[task]);
+    else
+      state.lookAtNear(task, {tubes, last, anew}, state.found[task]);
   });
   state.contacts.clear();
   for (std::size_t task = 0; task < tasks; ++task)

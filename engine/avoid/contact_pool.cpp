@@ -100,8 +100,9 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
   return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
 }
 
-// Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at rest; where that is
-// the less sure, the farther they were apart then, not quite to where it counts as another side.
+// Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at
+// rest; where that is the less sure, the farther they were apart then, not quite to where it counts as
+// another side.
 bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Constraint& constraint) const {
   const auto [i, j, s, t, f, contactNormal] = contact;
   const vec3 side = sides_->carried({i, j, s, t}, shape, last.rotations);
@@ -129,8 +130,11 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     constraint.clearance = clearanceFor(constraint, a.w + b.w);
     const float distance = a.w + b.w + constraint.clearance;
     const vec3 apart = vec3(last.tubes[i].at(s)) - vec3(last.tubes[j].at(t));
-    const vec3 before = last.anew[i] || last.anew[j] ? 0.5f * distance * sides_->carried({i, j, s, t}, shape, last.rotations) : sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart), unitOr(vec3(shape[i].derivative(s)), vec3(0)),
-                                 unitOr(vec3(shape[j].derivative(t)), vec3(0)));
+    const vec3 before = last.anew[i] || last.anew[j]
+                            ? 0.5f * distance * sides_->carried({i, j, s, t}, shape, last.rotations)
+                            : sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart),
+                                       unitOr(vec3(shape[i].derivative(s)), vec3(0)),
+                                       unitOr(vec3(shape[j].derivative(t)), vec3(0)));
     constraint.normal = wayApart(gap, before, distance, contactNormal);
     const float lack = distance - glm::dot(constraint.normal, gap);
     if (lack <= kNegligible) continue;

@@ -6,7 +6,8 @@
 
 namespace vasa {
 
-/// What of c is at right angles to two tubes that run along u and v (unit); to their mean alone where they run about the same way.
+/// What of c is at right angles to two tubes that run along u and v (unit); to their mean alone where they
+/// run about the same way.
 vec3 sideways(vec3 c, vec3 u, vec3 v);
 
 /// Remembers on which side of one another vessels lie at rest, and tells where that is in a pose.

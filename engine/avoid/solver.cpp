@@ -23,7 +23,8 @@ constexpr float kRolled = 0;            // cosine of the angle from which on ves
 constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
 constexpr float kPace = 0.04f;                 // [m/s] at which a vessel may be moved aside among others that stand still
 constexpr float kNear = 0.045f;         // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
-constexpr float kFarthest = 0.04f;       // [m] that anything is held aside: what is caught on another limb is let go there
+constexpr float kFarthest =
+    0.04f;  // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -87,7 +88,8 @@ struct Avoider::State {
   bool isTooLong() const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
-  using Trouble = std::pair<std::size_t, std::size_t>;  // places where vessels interfere; and where they are in bones
+  using Trouble =
+      std::pair<std::size_t, std::size_t>;  // places where vessels interfere; and where they are in bones
   enum class Look { first, again, certain };
   void look(const Input& in, std::span<const vec4> points, Look how);
   void lookAtSolids(const Input& in, Bones::Which which);
@@ -233,7 +235,8 @@ void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
     sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
-    pool.addSides(changed, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes}, correction.motions);
+    pool.addSides(changed, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes},
+                  correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
@@ -241,7 +244,8 @@ void Avoider::State::separate(const Input& in) {
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
-      pool.add(places, solids, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes}, correction.motions);
+      pool.add(places, solids, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes},
+               correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       pool.ascend(options.sweeps, correction.motions);
@@ -292,11 +296,13 @@ void Avoider::State::solve(const Input& in, bool isLast) {
 void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
   const std::span<const Bezier> tubes = interference.tubes();
   std::vector<vec3> centres;
-  for (const Interference::Place& place : remaining) centres.push_back(vec3(tubes[place.contact.i].at(place.contact.s)));
+  for (const Interference::Place& place : remaining)
+    centres.push_back(vec3(tubes[place.contact.i].at(place.contact.s)));
   for (const BoneContact& contact : boneContacts) centres.push_back(vec3(tubes[contact.tube].at(contact.s)));
   for (const Vessel& vessel : network.vessels()) {
     const bool isNear = std::ranges::any_of(Network::pointsOf(vessel, points), [&](const vec4& point) {
-      return std::ranges::any_of(centres, [&](vec3 centre) { return glm::distance(centre, vec3(point)) < reach; });
+      return std::ranges::any_of(centres,
+                                 [&](vec3 centre) { return glm::distance(centre, vec3(point)) < reach; });
     });
     std::fill_n(anewPoints.begin() + vessel.firstPoint, vessel.pointCount, isNear);
   }
@@ -304,8 +310,8 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
     anewTubes[tube] = anewPoints[network.vessel(interference.layout().address(tube).vessel).firstPoint];
 }
 
-// Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the sides of one
-// another and of bones on which they were at rest. That is kept where it leaves less trouble;
+// Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the
+// sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble;
 // where vessels interfere it keeps no pace: better a jump than a wrong shape.
 void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
@@ -389,7 +395,8 @@ Avoider::Avoider(const Network& network, const Body* body, AvoidOptions options)
 Avoider::~Avoider() = default;
 Avoider::Avoider(Avoider&&) noexcept = default;
 
-AvoidReport Avoider::start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points) {
+AvoidReport Avoider::start(const Correction& correction, const PosedVessels& posed,
+                           const VolumeKeeper* volume, std::span<vec4> points) {
   State& state = *state_;
   if (correction.motions.empty()) {
     std::ranges::fill(state.correction.motions, vec3(0));

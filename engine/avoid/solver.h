@@ -83,7 +83,8 @@ class Avoider {
 
   /// Takes a pose with a correction that it was given before, as the place to go on from; or without any, which is right at
   /// rest. @param points  caller-owned, the network with the correction on return
-  AvoidReport start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume, std::span<vec4> points);
+  AvoidReport start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume,
+                    std::span<vec4> points);
 
   /// On to the next pose.
   /// @param posed    the posed network, before any correction

@@ -14,8 +14,8 @@ namespace {
 
 // A joint that turns no farther in one step moves vessels beside one another, some 2 cm from its axis, by 2.8 mm.
 constexpr float kLongestTurn = 8 * kPi / 180;
-// Of that. Quarters and eighths were measured, too: what passes through one another in the pose is caught more often by them,
-// and takes up to four times as long; whole steps alone leave more in one another's way.
+// Of that. Quarters and eighths were measured, too: what passes through one another in the pose is caught
+// more often by them, and takes up to four times as long; whole steps alone leave more in one another's way.
 constexpr float kShortestStep = 0.5f;
 constexpr float kStepSeconds = 0.1f;          // of the way from rest to a clip's beginning
 constexpr float kSamePlace = 1e-3f;           // [m] and of an axis: a clip whose last pose is its first closes
@@ -38,7 +38,8 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       kinks_(scene.network),
       volume_(scene.network),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
-      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance) : nullptr),
+      avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance)
+                             : nullptr),
       track_(options.track ? options.track : std::make_shared<MotionTrack>()),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),

@@ -30,16 +30,19 @@ struct FrameOptions {
   bool avoid = false;        ///< move vessels apart that run through one another
   bool beat = false;         ///< the heart beats (scene/beat.h)
   AvoidOptions avoidance;    ///< budgets; no rounds and lumen rounds: only look
-  std::shared_ptr<MotionTrack> track = {};  ///< where frames are kept, and taken from if they are of the clip; none: the maker's own
+  std::shared_ptr<MotionTrack> track =
+      {};  ///< where frames are kept, and taken from if they are of the clip; none: the maker's own
 };
 
-/// Turns poses into everything a picture needs: control points, knot frames, joint matrices. The scene must outlive it.
+/// Turns poses into everything a picture needs: control points, knot frames, joint matrices. The scene must
+/// outlive it.
 ///
-/// A motion is solved, not a frame. A frame is a function of scene, clip and time alone: from the rest pose the body goes
-/// along a fixed way (body/pose_path.h) to the clip's first pose, and then through the clip frame by frame, in steps whose
-/// length follows from the motion and what it brings into one another's way; each starts from the correction of the one before. A time between two frames
-/// is one step on from the earlier one. A pose without a clip is reached from the rest pose in the same way. Frames
-/// that were made once are kept (scene/motion_track.h), so that only what is ahead has to be solved.
+/// A motion is solved, not a frame. A frame is a function of scene, clip and time alone: from the rest pose
+/// the body goes along a fixed way (body/pose_path.h) to the clip's first pose, and then through the clip
+/// frame by frame, in steps whose length follows from the motion and what it brings into one another's way;
+/// each starts from the correction of the one before. A time between two frames is one step on from the
+/// earlier one. A pose without a clip is reached from the rest pose in the same way. Frames that were made
+/// once are kept (scene/motion_track.h), so that only what is ahead has to be solved.
 class FrameMaker {
  public:
   explicit FrameMaker(const Scene& scene, FrameOptions options = {});

@@ -87,23 +87,27 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
   std::uint64_t hash = hashed(kMagic, 0);
   hash = hashOf(network.points(), hash);
   for (const Vessel& vessel : network.vessels())
-    hash = hashed(std::array{vessel.firstPoint, vessel.pointCount, vessel.start.value, vessel.end.value}, hash);
+    hash =
+        hashed(std::array{vessel.firstPoint, vessel.pointCount, vessel.start.value, vessel.end.value}, hash);
   for (const Node& node : network.nodes())
     if (node.host) hash = hashed(node.host->parameter, hashed(node.host->vessel.value, hash));
   for (const SkinnedMesh& mesh : scene.body.meshes) {
     hash = hashOf(std::span(std::as_const(mesh.name)), hash);
     hash = hashOf(std::span(std::as_const(mesh.mesh.positions)), hash);
     hash = hashOf(std::span(std::as_const(mesh.mesh.triangles)), hash);
-    for (const SkinInfluence& influence : mesh.influences) hash = hashed(influence.weights, hashed(influence.joints, hash));
+    for (const SkinInfluence& influence : mesh.influences)
+      hash = hashed(influence.weights, hashed(influence.joints, hash));
   }
-  for (const Skeleton::Joint& joint : scene.body.skeleton.joints) hash = hashed(joint.inverseBind, hashed(joint.parent.value, hash));
+  for (const Skeleton::Joint& joint : scene.body.skeleton.joints)
+    hash = hashed(joint.inverseBind, hashed(joint.parent.value, hash));
   for (std::uint32_t frame = 0; frame < clip.frameCount(); ++frame) {
     const Pose pose = samplePose(scene.body.skeleton, clip, clip.timeOfFrame(frame));
     hash = hashOf(std::span(std::as_const(pose.world)), hash);
   }
   hash = hashed(std::array{clip.start, clip.end, clip.framesPerSecond, options.avoidance.bending}, hash);
-  return hashed(std::array{unsigned(options.keepVolume), unsigned(options.beat), options.avoidance.rounds, options.avoidance.sweeps,
-                           options.avoidance.lumenRounds, unsigned(options.avoidance.skinWall)},
+  return hashed(std::array{unsigned(options.keepVolume), unsigned(options.beat), options.avoidance.rounds,
+                           options.avoidance.sweeps, options.avoidance.lumenRounds,
+                           unsigned(options.avoidance.skinWall)},
                 hash);
 }
 
@@ -122,8 +126,13 @@ Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& tr
     for (const Narrowed& own : narrowed) append(frames, own);
   }
   const bool any = !track.frames.empty();
-  Header header{kMagic, key, 0, any ? std::uint32_t(track.frames[0].motions.size()) : 0,
-                      any ? std::uint32_t(track.frames[0].widest.size()) : 0, std::uint32_t(track.frames.size()), 0};
+  Header header{kMagic,
+                key,
+                0,
+                any ? std::uint32_t(track.frames[0].motions.size()) : 0,
+                any ? std::uint32_t(track.frames[0].widest.size()) : 0,
+                std::uint32_t(track.frames.size()),
+                0};
   header.hash = hashOfFile(header, frames);
   std::vector<std::byte> bytes;
   append(bytes, header);
@@ -131,22 +140,30 @@ Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& tr
   return writeFileAtomically(path, bytes);
 }
 
-Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& scene, const Clip& clip, std::uint64_t key) {
+Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& scene, const Clip& clip,
+                              std::uint64_t key) {
   const auto bytes = readFile(path);
   if (!bytes) return bytes.error();
-  const Error damaged = badInput(path.string() + ": is no whole track of a motion; remove it and it is made anew");
+  const Error damaged =
+      badInput(path.string() + ": is no whole track of a motion; remove it and it is made anew");
   Reader reader(*bytes);
   Header header;
-  if (!reader.take(header) || header.magic != kMagic || header.hash != hashOfFile(header, reader.rest())) return damaged;
+  if (!reader.take(header) || header.magic != kMagic || header.hash != hashOfFile(header, reader.rest()))
+    return damaged;
   if (header.key != key)
-    return Error{Fault::resumeMismatch, path.string() + ": is the track of another motion (other vessels, body, clip or options); choose another file, or remove "
-                                                        "it and it is made anew"};
+    return Error{Fault::resumeMismatch, path.string() +
+                                            ": is the track of another motion (other vessels, body, clip or "
+                                            "options); choose another file, or remove "
+                                            "it and it is made anew"};
   // A frame takes eight bytes at least, so a header cannot ask for more than the file holds.
   const std::size_t points = scene.network.points().size(), variables = points + scene.network.nodes().size();
-  if (header.frames > clip.frameCount() || (header.frames > 0 && (header.points != points || header.variables != variables))) return damaged;
+  if (header.frames > clip.frameCount() ||
+      (header.frames > 0 && (header.points != points || header.variables != variables)))
+    return damaged;
   MotionTrack track{&clip, {}};
   for (std::uint32_t k = 0; k < header.frames; ++k) {
-    Correction frame{std::vector<vec3>(variables, vec3(0)), std::vector<float>(points, std::numeric_limits<float>::infinity())};
+    Correction frame{std::vector<vec3>(variables, vec3(0)),
+                     std::vector<float>(points, std::numeric_limits<float>::infinity())};
     if (!takeFrame(reader, frame)) return damaged;
     track.frames.push_back(std::move(frame));
   }

@@ -11,7 +11,8 @@ TEST_CASE("the longest step near a place is that of all places in a cube about i
   std::mt19937 random(7);
   std::uniform_real_distribution<float> somewhere(-0.3f, 0.3f), length(0, 0.01f);
   std::vector<std::pair<vec3, float>> all;
-  for (int k = 0; k < 500; ++k) all.emplace_back(vec3(somewhere(random), somewhere(random), somewhere(random)), length(random));
+  for (int k = 0; k < 500; ++k)
+    all.emplace_back(vec3(somewhere(random), somewhere(random), somewhere(random)), length(random));
   constexpr float kNear = 0.045f, kLeast = 0.002f;
   NearbySteps steps(kNear);
   steps.set(kLeast, all.size(), [&](std::size_t k) { return all[k]; });

@@ -25,7 +25,8 @@ Network built(NetworkBuilder& builder) {
 Network grazing(float height) {
   NetworkBuilder builder;
   builder.addVessel({"wide", "", VesselKind::vein}, line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.006f));
-  builder.addVessel({"thin", "", VesselKind::artery}, line({0, height, -0.1f}, {0.005f, height, 0.1f}, 0.001f));
+  builder.addVessel({"thin", "", VesselKind::artery},
+                    line({0, height, -0.1f}, {0.005f, height, 0.1f}, 0.001f));
   return built(builder);
 }
 

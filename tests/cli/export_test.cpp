@@ -135,10 +135,13 @@ TEST_CASE("export tells what is wrong") {
   CHECK(listOf(folder.path()).empty());
 }
 
-TEST_CASE("export: a frame is the same bytes alone, from a track, in a run over all frames, and on any number of threads") {
+TEST_CASE(
+    "export: a frame is the same bytes alone, from a track, in a run over all frames, and on any number of "
+    "threads") {
   const TemporaryFolder folder;
   const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
-  exported({"--clip", "squat", "--frames", "0:12", "--track", at("squat.track"), "-o", at("all-{frame}.vtp")});
+  exported(
+      {"--clip", "squat", "--frames", "0:12", "--track", at("squat.track"), "-o", at("all-{frame}.vtp")});
   exported({"--clip", "squat", "--frames", "12", "-o", at("alone.vtp")});
   exported({"--clip", "squat", "--frames", "12", "--track", at("squat.track"), "-o", at("kept.vtp")});
   for (const char* threads : {"1", "8"}) {
@@ -148,7 +151,8 @@ TEST_CASE("export: a frame is the same bytes alone, from a track, in a run over 
   CHECK(textOf(at("alone.vtp")) == textOf(at("all-12.vtp")));
   CHECK(textOf(at("kept.vtp")) == textOf(at("all-12.vtp")));
   // A track of another motion is told, and nothing is written.
-  const auto other = runProgram({"export", "--clip", "run", "--frames", "2", "--track", at("squat.track"), "-o", at("other.vtp")});
+  const auto other = runProgram(
+      {"export", "--clip", "run", "--frames", "2", "--track", at("squat.track"), "-o", at("other.vtp")});
   CHECK(other.exit == 7);
   CHECK(other.err.find("squat.track") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(at("other.vtp")));

@@ -47,7 +47,8 @@ TEST_CASE("a track that was written and read gives the same frames to the byte")
     CHECK(read->frames[k].widest == solved.options.track->frames[k].widest);
   }
   // A frame alone, which is not solved again, and the one after the track's last.
-  FrameMaker maker(human(), {.avoid = true, .track = std::make_shared<MotionTrack>(std::move(*read))}), other(human(), {.avoid = true});
+  FrameMaker maker(human(), {.avoid = true, .track = std::make_shared<MotionTrack>(std::move(*read))}),
+      other(human(), {.avoid = true});
   maker.make(&clip, clip.timeOfFrame(kFrames - 1));
   CHECK(std::ranges::equal(maker.points(), solved.last));
   CHECK(maker.report().steps == 0);
@@ -66,7 +67,9 @@ TEST_CASE("a track of another motion and a damaged one are refused") {
   const Solved solved = solve(clip);
   const std::uint64_t key = trackKey(human(), clip, solved.options);
   REQUIRE(writeTrack(file, *solved.options.track, key).ok());
-  const auto faultOf = [&](std::uint64_t wanted) { return readTrack(file, human(), clip, wanted).error().fault; };
+  const auto faultOf = [&](std::uint64_t wanted) {
+    return readTrack(file, human(), clip, wanted).error().fault;
+  };
   CHECK(faultOf(trackKey(human(), run, solved.options)) == Fault::resumeMismatch);
   CHECK(faultOf(trackKey(human(), clip, {.keepVolume = false, .avoid = true})) == Fault::resumeMismatch);
   const auto whole = readFile(file);

@@ -12,7 +12,8 @@ TEST_CASE("a real body's vessels part in its motions, none changes sides, and fe
   const test::TemporaryFolder folder;
   const auto scene = test::realScene(data, folder.path());
   REQUIRE(scene.ok());
-  CHECK(Interference(scene->network).restPairCount() <= 39);  // a hundredth of those that overlap in the source
+  CHECK(Interference(scene->network).restPairCount() <=
+        39);  // a hundredth of those that overlap in the source
   FrameMaker maker(*scene, {.avoid = true});
   Interference interference(scene->network);
   RestSides sides(scene->network, interference);
@@ -22,7 +23,8 @@ TEST_CASE("a real body's vessels part in its motions, none changes sides, and fe
     const char* clip;
     std::uint32_t mostInBone;  // tubes of a frame, of 14,149
   };
-  for (const auto& [name, mostInBone] : {Motion{"elbow_flex", 0}, Motion{"fist", 6}, Motion{"neck_turn", 0}}) {
+  for (const auto& [name, mostInBone] :
+       {Motion{"elbow_flex", 0}, Motion{"fist", 6}, Motion{"neck_turn", 0}}) {
     CAPTURE(std::string(name));
     const auto clip = findClip(scene->body, name);
     REQUIRE(clip.ok());

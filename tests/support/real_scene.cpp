@@ -14,7 +14,8 @@ Result<Scene> realScene(const std::filesystem::path& data, const std::filesystem
     if (!elements) return elements.error();
     for (SourceElement& source : describeElements(std::move(*elements), name)) sources.push_back(std::move(source));
   }
-  auto conversion = convertElements(sources, {.mend = [](const Network& network) { return Result(separateAtRest(network).network); }});
+  auto conversion = convertElements(
+      sources, {.mend = [](const Network& network) { return Result(separateAtRest(network).network); }});
   if (!conversion) return conversion.error();
   if (auto written = writeNetwork(folder / "real.vasa", conversion->network); !written) return written.error();
   SceneFile file;
