@@ -162,12 +162,9 @@ void addConvert(CLI::App& app, Command& command) {
       "  vasa convert brain.swc --scale 0.001 --kind artery -o brain.vasa\n"
       "  vasa convert centerlines.vtp --scale 0.001 -o aorta.vasa\n"
       "  vasa convert arteries.glb -o arteries.vasa --keep-patches\n"
-      "The kind of vessel comes from the file's extras, else from the file's name, else from the element's "
-      "name.\n"
-      "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to "
-      "veins.\n"
-      "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm "
-      "(overlaps; rest_overlaps\n"
+      "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
+      "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
+      "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
       "of --json names those that stay, with the reason).");
   sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl; or centre lines with radii: .swc, .vtp")->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();

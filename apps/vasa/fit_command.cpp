@@ -105,8 +105,7 @@ void addFit(CLI::App& app, Command& command) {
       "Examples:\n"
       "  vasa fit adult.vasa --from adult.glb --to child.glb -o child.vasa\n"
       "  vasa fit adult.vasa --from adult.glb --to other.glb --joint-map joints.txt -o other.vasa --json\n"
-      "Joints match by name where both bodies are rigged by one convention, else by what part of a human "
-      "body their\n"
+      "Joints match by name where both bodies are rigged by one convention, else by what part of a human body their\n"
       "names mean; --joint-map pairs the rest: a line `joint of the new body = joint of the old` each.\n"
       "Vessels that run through one another where they have come are moved apart, as by convert.");
   sub->add_option("NETWORK", options->network, "The network (.vasa)")->required();
