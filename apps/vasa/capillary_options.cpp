@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/atomic_file.h"
-#include "core/hash.h"
 #include "scene_options.h"
 
 namespace vasa::cli {
@@ -53,19 +51,6 @@ Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const Capillar
   auto growth = loadGrowth(scene, *folder);
   if (!growth) return growth.error();
   return std::make_unique<SceneGrowth>(std::move(*growth));
-}
-
-Result<std::uint64_t> hashOfCapillaries(const CapillaryChoice& choice, std::uint64_t seed, std::uint64_t hash) {
-  if (choice.levels == 0) return hash;
-  const auto folder = rulesFolder(choice);
-  if (!folder) return folder.error();
-  for (const char* file : {"capillaries.lsys", "regions.csv"}) {
-    const auto bytes = readFile(*folder / file);
-    if (!bytes) return bytes.error();
-    hash = hashBytes(*bytes, hash);
-  }
-  const std::string settings = fmt::format("{}|{}|{}|{}|{}", choice.levels, choice.edges, choice.budget, choice.smallest, seed);
-  return hashOf(std::span(settings), hash);
 }
 
 }  // namespace vasa::cli

@@ -26,7 +26,4 @@ CapillaryWish wishOf(const CapillaryChoice& choice);
 /// What the scene's capillaries grow from; null where none are asked for.
 Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice);
 
-/// Everything about them that decides a picture, rules included: tells runs apart.
-Result<std::uint64_t> hashOfCapillaries(const CapillaryChoice& choice, std::uint64_t seed, std::uint64_t hash);
-
 }  // namespace vasa::cli

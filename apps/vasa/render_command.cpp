@@ -3,11 +3,13 @@
 #include <chrono>
 #include <future>
 #include <iostream>
+#include <set>
 
 #include "camera_choice.h"
 #include "capillary_options.h"
 #include "commands.h"
 #include "core/atomic_file.h"
+#include "core/files_read.h"
 #include "core/hash.h"
 #include "core/log.h"
 #include "frame_output.h"
@@ -32,6 +34,7 @@ struct Options {
   unsigned samples = 4;
   std::string look;  // empty: as the scene says
   std::string forks = "on";
+  std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
   bool beat = false;
   bool resume = false, transparent = false, noVolume = false, avoid = true, highlightContacts = false, skinWall = false;
@@ -87,25 +90,26 @@ FrameOptions frameOptions(const Options& options) {
   return frame;
 }
 
-// Everything that decides a picture but the frame's number.
-Result<std::uint64_t> hashOfRun(const SceneFile& choice, const Options& options, std::uint64_t seed,
-                                const Scene& scene, const Clip* clip) {
-  // What a clip became: a motion of its own file and the map of its joints are in it.
-  std::uint64_t hash = clip ? trackKey(scene, *clip, frameOptions(options)) : 0;
-  std::vector<std::filesystem::path> files = choice.networks;
-  files.push_back(choice.body);
-  if (!options.scene.scene.empty()) files.emplace_back(options.scene.scene);
-  for (const auto& file : files) {
-    const auto bytes = readFile(file);
-    if (!bytes) return bytes.error();
-    hash = hashBytes(*bytes, hash);
+// What was asked for, but for where the pictures go and which of them this run makes. Of files it is what they hold that
+// counts (FilesRead), of a clip its poses (trackKey).
+std::string settingsOf(const CLI::App& sub) {
+  static const std::set<std::string> otherwise{"SCENE",    "--body",  "--network", "--clip",   "--joint-map", "--growth", "--output",
+                                               "--frames", "--video", "--shard",   "--resume", "--track"};
+  std::string settings = VASA_VERSION;
+  for (const CLI::Option* option : sub.get_options()) {
+    if (otherwise.contains(option->get_name())) continue;
+    settings += fmt::format("|{}={}", option->get_name(),
+                            option->empty() ? option->get_default_str() : fmt::format("{}", fmt::join(option->results(), " ")));
   }
-  const std::string settings =
-      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", VASA_VERSION, choice.clip, options.camera.camera, options.camera.focus,
-                  options.camera.distance, options.size, options.quads, options.samples, options.hide, choice.look.preset, options.transparent,
-                  options.noVolume, options.avoid, options.highlightContacts) +
-      fmt::format("|{}|{}|{}|{}", options.supersample, options.beat, options.forks, options.skinWall);
-  return hashOfCapillaries(choice.capillaries, seed, hashOf(std::span(settings), hash));
+  return settings;
+}
+
+// Everything that decides a picture but the frame's number. The points tell in which order networks were given.
+std::uint64_t hashOfRun(const Job& job, const Options& options, std::uint64_t seed, const FilesRead& files) {
+  const std::uint64_t scene =
+      job.clip ? trackKey(job.scene, *job.clip, frameOptions(options)) : hashOf(job.scene.network.points());
+  const std::string run = fmt::format("{}|{:016x}|{:016x}|{}", options.settings, files.hash(), scene, seed);
+  return hashOf(std::span(run));
 }
 
 Result<Job> prepare(const Globals& globals, const Options& options) {
@@ -118,6 +122,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!quads) return quads.error();
   const auto shard = parseShard(options.shard);
   if (!shard) return shard.error();
+  const FilesRead files;
   auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
   job.choice = std::move(*choice);
@@ -149,8 +154,6 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   const float aspect = float(size->width) / float(size->height);
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
   if (!camera) return camera.error();
-  const auto hash = hashOfRun(job.choice, options, globals.seed, job.scene, job.clip);
-  if (!hash) return hash.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
   job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .forks = options.forks == "on", .supersample = options.supersample, .occlusion = true, .timed = false};
@@ -159,7 +162,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   job.render.growth = job.growth.get();
   job.render.capillaries = wishOf(job.choice.capillaries);
   job.render.seed = std::uint32_t(globals.seed);
-  job.runHash = *hash;
+  job.runHash = hashOfRun(job, options, globals.seed, files);
   return job;
 }
 
@@ -382,7 +385,10 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback([options, &command, sub] {
+    options->settings = settingsOf(*sub);
+    command.run = [options, &command] { return run(command.globals, *options); };
+  });
 }
 
 }  // namespace vasa::cli

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/cancellation.h"
+#include "core/files_read.h"
 
 namespace vasa {
 namespace {
@@ -167,6 +168,7 @@ Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, std::
     if (got == 0) return refuse("was cut short while it was read; try again");
     filled += std::size_t(got);
   }
+  FilesRead::note(bytes);
   return bytes;
 }
 
