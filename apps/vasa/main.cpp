@@ -4,7 +4,6 @@
 #include <new>
 
 #include "commands.h"
-#include "core/atomic_file.h"
 #include "core/log.h"
 #include "core/parallel.h"
 #include "help_command.h"
@@ -14,13 +13,9 @@ namespace {
 
 volatile std::sig_atomic_t stopSignal = 0;
 
-// The first signal asks loops to stop in good order; a second one ends the process at once, without leaving
-// half-written files behind.
+// The first signal asks loops to stop in good order; a second one ends the process at once.
 extern "C" void onStopSignal(int signal) {
-  if (stopSignal) {
-    removeUnfinishedFiles();
-    std::_Exit(128 + signal);
-  }
+  if (stopSignal) std::_Exit(128 + signal);
   stopSignal = signal;
 }
 
@@ -93,6 +88,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // the write fails and says so
   struct sigaction action{};
   action.sa_handler = vasa::cli::onStopSignal;
   sigaction(SIGINT, &action, nullptr);
@@ -104,6 +100,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     vasa::logError(error.what());
   }
-  vasa::removeUnfinishedFiles();
   return int(vasa::Fault::failed);
 }

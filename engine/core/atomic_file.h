@@ -9,9 +9,12 @@
 
 namespace vasa {
 
-/// A file that appears whole under its name or not at all: written under a temporary name in the same
-/// folder, flushed to the disk and renamed by commit(). Dropped without commit(), it leaves nothing.
-/// A target that exists and is no regular file (/dev/full, a pipe) is written to directly.
+/// A file that appears whole under its name or not at all: written without a name in the same folder, flushed
+/// to the disk and named by commit(). Dropped without commit(), or killed, it leaves nothing; where the file
+/// system knows no nameless files, a killed process leaves .vasa-*.part, which the next that writes into the
+/// folder removes. What is replaced keeps its mode, and its owner where we may; links are followed, files
+/// that may not be written refused. A target that exists and is no regular file (/dev/full, a pipe) is
+/// written to directly.
 class AtomicFile {
  public:
   static Result<AtomicFile> create(const std::filesystem::path& path);
@@ -24,16 +27,17 @@ class AtomicFile {
 
   const std::filesystem::path& path() const { return path_; }
   /// Where the bytes go until commit(): for another program that writes the file in our stead.
-  const std::filesystem::path& pathInProgress() const { return temporary_.empty() ? path_ : temporary_; }
+  int descriptor() const { return descriptor_; }
 
  private:
-  AtomicFile(int descriptor, std::filesystem::path path, std::filesystem::path temporary)
-      : descriptor_(descriptor), path_(std::move(path)), temporary_(std::move(temporary)) {}
+  explicit AtomicFile(std::filesystem::path path) : path_(std::move(path)) {}
   Error fail(const char* doing, int cause) const;
 
-  int descriptor_;
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;  // empty: written directly
+  int descriptor_ = -1;
+  bool direct_ = false;
+  std::filesystem::path path_;    // as it was given
+  std::filesystem::path target_;  // behind links
+  std::filesystem::path named_;   // the file in progress where it has a name
 };
 
 /// create, write, commit.
@@ -43,8 +47,5 @@ Result<void> writeFileAtomically(const std::filesystem::path& path, const std::s
 /// The bytes of a regular file. Refuses folders, pipes and devices, and files over maximumBytes.
 Result<std::vector<std::byte>> readFile(const std::filesystem::path& path,
                                         std::size_t maximumBytes = std::size_t(1) << 31);
-
-/// Removes every temporary file that is still open: for a signal handler, so async-signal-safe.
-void removeUnfinishedFiles() noexcept;
 
 }  // namespace vasa

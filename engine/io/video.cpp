@@ -19,6 +19,8 @@ extern char** environ;
 namespace vasa {
 namespace {
 
+constexpr int kOutput = 3;  // the file's descriptor in the encoder
+
 struct Format {
   const char* extension;
   std::vector<std::string> options;
@@ -42,7 +44,7 @@ const Format* formatOf(const std::filesystem::path& path) {
 }
 
 // Its own process group: Ctrl-C on the terminal stops us, and we stop the encoder.
-pid_t spawnEncoder(const std::vector<std::string>& arguments, int input) {
+pid_t spawnEncoder(const std::vector<std::string>& arguments, int input, int output) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -51,6 +53,7 @@ pid_t spawnEncoder(const std::vector<std::string>& arguments, int input) {
   posix_spawn_file_actions_init(&actions);
   posix_spawnattr_init(&attributes);
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, kOutput);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t child = -1;
@@ -80,8 +83,9 @@ Result<VideoWriter> VideoWriter::create(const std::filesystem::path& path, std::
       // Players want even sizes and 4:2:0.
       "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"};
   arguments.insert(arguments.end(), format->options.begin(), format->options.end());
-  arguments.push_back("file:" + file->pathInProgress().string());
-  const pid_t encoder = spawnEncoder(arguments, ends[1]);
+  // By its descriptor, for the file has no name yet.
+  arguments.push_back("file:/proc/self/fd/" + std::to_string(kOutput));
+  const pid_t encoder = spawnEncoder(arguments, ends[1], file->descriptor());
   const int cause = errno;
   close(ends[1]);
   if (encoder < 0) {
