@@ -3,6 +3,7 @@
 #   ./test.sh           the release build, all tests
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
+#   ./test.sh compilers everything builds with gcc and clang, in release, debug and under the sanitizers (hours)
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
 # Further arguments go to ctest, e.g. ./test.sh release -R network
 set -euo pipefail
@@ -10,7 +11,19 @@ cd "$(dirname "$0")"
 preset=${1:-release}
 [ $# -gt 0 ] && shift
 scripts/install-dependencies.sh
-if [ "$preset" = fuzz ] && ! command -v clang++ > /dev/null; then scripts/install-dependencies.sh clang; fi
+if [[ "$preset" = fuzz || "$preset" = compilers ]] && ! command -v clang++ > /dev/null; then scripts/install-dependencies.sh clang; fi
+if [ "$preset" = compilers ]; then
+  for compiler in "gcc g++" "clang clang++"; do
+    read -r c cxx <<< "$compiler"
+    for each in release debug asan tsan; do
+      folder=build/compilers/$c-$each
+      cmake --preset "$each" -B "$folder" -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" > /dev/null
+      cmake --build "$folder"
+      echo "compilers: $c $each builds without a warning"
+    done
+  done
+  exit 0
+fi
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
   readers=(swc vtp bvh obj stl scene vasa)

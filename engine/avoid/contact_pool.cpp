@@ -140,8 +140,10 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     if (lack <= kNegligible) continue;
     constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
-    if (std::ranges::any_of(own, [&](const Constraint& other) { return std::abs(other.s - s) < kSameParameter && std::abs(other.t - t) < kSameParameter; }) ||
-        known(constraint, kSameDirection))
+    const auto isHere = [&](const Constraint& other) {
+      return std::abs(other.s - constraint.s) < kSameParameter && std::abs(other.t - constraint.t) < kSameParameter;
+    };
+    if (std::ranges::any_of(own, isHere) || known(constraint, kSameDirection))
       continue;
     found.constraints[found.count++] = constraint;
   }

@@ -134,7 +134,9 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
   for (const auto& own : found_) changed.insert(changed.end(), own.begin(), own.end());
   const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
   std::ranges::stable_sort(changed, {}, pairOf);
-  changed.erase(std::ranges::unique(changed, {}, pairOf).begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end(),
+                            [&](const Contact& a, const Contact& b) { return pairOf(a) == pairOf(b); }),
+                changed.end());
 }
 
 }  // namespace vasa

@@ -15,7 +15,6 @@
 namespace vasa {
 namespace {
 
-constexpr int kRingSamples = 8;
 constexpr float kFarthest = 0.5f;          // [m] no error is told larger
 constexpr float kInsideMargin = 1e-5f;     // [m]
 

@@ -9,9 +9,7 @@ namespace vasa {
 static_assert(sizeof(vec4) == 16 && sizeof(quat) == 16);
 
 FrameUpload::FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_t knots, std::uint32_t joints)
-    : pointCount_(points),
-      knotCount_(knots),
-      jointCount_(joints),
+    : jointCount_(joints),
       knotOffset_(VkDeviceSize(points) * sizeof(vec4)),
       jointOffset_(knotOffset_ + VkDeviceSize(knots) * sizeof(quat)) {
   const VkDeviceSize bytes = jointOffset_ + VkDeviceSize(joints) * sizeof(shared::JointRows);
@@ -20,7 +18,7 @@ FrameUpload::FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_
 }
 
 void FrameUpload::write(std::span<const vec4> points, std::span<const quat> knots, std::span<const mat4> joints) {
-  assert(points.size() == pointCount_ && knots.size() == knotCount_ && joints.size() >= jointCount_);
+  assert(points.size_bytes() == knotOffset_ && knots.size_bytes() == jointOffset_ - knotOffset_ && joints.size() >= jointCount_);
   host_.write(points);
   host_.write(knots, knotOffset_);
   rows_.clear();

@@ -26,7 +26,7 @@ class FrameUpload {
   std::uint32_t jointCount() const { return jointCount_; }
 
  private:
-  std::uint32_t pointCount_, knotCount_, jointCount_;
+  std::uint32_t jointCount_;
   VkDeviceSize knotOffset_, jointOffset_;
   std::vector<shared::JointRows> rows_;
   gpu::Buffer host_, device_;

@@ -39,8 +39,8 @@ float forkRingParameter(const Network& network, const shared::ForkRing& ring, st
 }
 
 std::optional<TubeBehind> tubeBehind(const ForkPlan& plan, std::uint32_t vessel, float parameter, float outward) {
-  const auto [first, last] = std::ranges::equal_range(plan.tubes, vessel, {}, &TubeStretch::vessel);
-  for (auto tube = first; tube != last; ++tube) {
+  const auto first = std::ranges::lower_bound(plan.tubes, vessel, {}, &TubeStretch::vessel);
+  for (auto tube = first; tube != plan.tubes.end() && tube->vessel == vessel; ++tube) {
     const float near = outward > 0 ? tube->from : tube->to;
     if (std::abs(near - parameter) < kSameEnd)
       return TubeBehind{std::size_t(tube - plan.tubes.begin()), near, outward > 0 ? tube->to : tube->from,

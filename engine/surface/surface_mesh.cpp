@@ -163,7 +163,7 @@ class MeshLayout {
     for (std::uint32_t k = m; k < points.size(); ++k)
       put(caps_[index].vertex + k - m, points[k], network_.table.vesselOfSweep[sweep]);
     const std::uint32_t rim = tubes_[sweep].vertex + (last ? shape_.along * m : 0);
-    const auto target = [&](std::uint32_t k) {
+    const auto target = [&, last = last](std::uint32_t k) {
       return k >= m ? caps_[index].vertex + k - m : rim + capDirection(k, m, last);
     };
     std::uint32_t triangle = caps_[index].triangle;
