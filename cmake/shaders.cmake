@@ -25,17 +25,28 @@ function(vasa_shaders name)
     string(MAKE_C_IDENTIFIER "${file}" symbol)
     set(spirv "${root}/${file}.spv")
     set(header "${root}/spirv/${symbol}.h")
-    set(optimise "")
-    if(VASA_OPTIMISE_SHADERS)
-      set(optimise COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 --scalar-block-layout "${spirv}" -o "${spirv}")
+    # Compute shaders twice: with words of 64 bits for devices that have them, too (shaders/lib/words.glsl).
+    set(codes "${spirv}")
+    if(file MATCHES "\\.comp$")
+      list(APPEND codes "${spirv}.int64")
     endif()
+    set(compile "")
+    foreach(code IN LISTS codes)
+      list(APPEND compile COMMAND "${VASA_GLSLANG}" --quiet -V --target-env vulkan1.3 $<IF:$<CONFIG:Debug>,-g,-g0>
+           "-I${PROJECT_SOURCE_DIR}/shaders" --depfile "${code}.d.in" -o "${code}")
+      if(code MATCHES "int64$")
+        list(APPEND compile -DVASA_INT64)
+      endif()
+      list(APPEND compile "${source}")
+      if(VASA_OPTIMISE_SHADERS)
+        list(APPEND compile COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 --scalar-block-layout "${code}" -o "${code}")
+      endif()
+      list(APPEND compile COMMAND "${VASA_SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${code}")
+    endforeach()
     add_custom_command(
       OUTPUT "${header}"
       COMMAND "${CMAKE_COMMAND}" -E make_directory "${root}/spirv"
-      COMMAND "${VASA_GLSLANG}" --quiet -V --target-env vulkan1.3 $<IF:$<CONFIG:Debug>,-g,-g0>
-              "-I${PROJECT_SOURCE_DIR}/shaders" --depfile "${spirv}.d.in" -o "${spirv}" "${source}"
-      ${optimise}
-      COMMAND "${VASA_SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}"
+      ${compile}
       COMMAND "${CMAKE_COMMAND}" "-DSPIRV=${spirv}" "-DHEADER=${header}" "-DSYMBOL=${symbol}" "-DFILE=${file}"
               -P "${script}"
       DEPENDS "${source}" "${script}"

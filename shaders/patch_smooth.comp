@@ -24,7 +24,7 @@ struct Vertex {
 };
 
 Vertex vertexAt(SmoothedVertices vertices, uint v) {
-  u64vec2 words = vertices.vertex[v];
+  Word2 words = vertices.vertex[v];
   uint normal = normalIn(words);
   return Vertex(placeIn(words), unpackOctahedral(unpackSnorm(normal)), normal);
 }
@@ -32,8 +32,8 @@ Vertex vertexAt(SmoothedVertices vertices, uint v) {
 vec3 positionAt(SmoothedVertices vertices, uint v) { return placeIn(vertices.vertex[v]); }
 
 // The two other corners of a triangle at a vertex.
-uvec2 cornersOf(uint64_t triangle, uint firstVertex) {
-  uint corners = unpack32(triangle).x;
+uvec2 cornersOf(Word triangle, uint firstVertex) {
+  uint corners = halvesOf(triangle).x;
   return firstVertex + uvec2(corners & 0xffffu, corners >> 16);
 }
 
@@ -47,11 +47,11 @@ Pressed pressedAt(SmoothedVertices from, Vertex own, uvec2 fan, uint firstVertex
   precise vec3 sum = vec3(0);
   float least = 3e38;
   for (uint k = fan.x; k < fan.y; ++k) {
-    uint64_t triangle = push.fans.triangle[k];
+    Word triangle = push.fans.triangle[k];
     uvec2 corners = cornersOf(triangle, firstVertex);
     vec3 a = positionAt(from, corners.x), b = positionAt(from, corners.y);
     precise vec3 first = a - own.position, second = b - own.position;
-    precise float size = dotOf(crossOf(first, second), own.normal) * uintBitsToFloat(unpack32(triangle).y);
+    precise float size = dotOf(crossOf(first, second), own.normal) * uintBitsToFloat(halvesOf(triangle).y);
     least = min(least, size);
     sum += a + b;
   }
@@ -85,11 +85,11 @@ void findPressed(PatchWall wall) {
     uvec2 fan = fanAt(v);
     float share = fan.x < fan.y ? pressedAt(push.vertices, vertexAt(push.vertices, v), fan, wall.firstVertex).share : 0.0;
     if (share > 0) anyPressed = true;
-    push.between.vertex[v] = u64vec2(floatBitsToUint(share), 0);
+    push.between.vertex[v] = wordsOf(uvec4(floatBitsToUint(share), 0, 0, 0));
   }
 }
 
-float pressedBefore(uint v) { return uintBitsToFloat(unpack32(push.between.vertex[v].x).x); }
+float pressedBefore(uint v) { return uintBitsToFloat(halvesOf(push.between.vertex[v]).x); }
 
 // Pressed vertices and their neighbours.
 void findFree(PatchWall wall) {

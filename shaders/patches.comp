@@ -58,8 +58,7 @@ vec3 scaled(PatchSeam seam, float scale, vec3 d) {
 }
 
 void writeRow(uint row, vec4 values) {
-  uvec4 bits = floatBitsToUint(values);
-  push.joints.row[row] = u64vec2(pack64(bits.xy), pack64(bits.zw));
+  push.joints.row[row] = wordsOf(floatBitsToUint(values));
 }
 
 void writeJoint(uint i, PatchSeam seam, Section section, Turn turn) {

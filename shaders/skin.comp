@@ -23,10 +23,10 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= push.count) return;
   uint word = 5 * i;
-  uvec2 xy = unpack32(push.rest.word[word]), zNormal = unpack32(push.rest.word[word + 1]);
-  uvec2 joints = unpack32(push.rest.word[word + 2]);
-  vec2 weights01 = uintBitsToFloat(unpack32(push.rest.word[word + 3]));
-  vec2 weights23 = uintBitsToFloat(unpack32(push.rest.word[word + 4]));
+  uvec2 xy = halvesOf(push.rest.word[word]), zNormal = halvesOf(push.rest.word[word + 1]);
+  uvec2 joints = halvesOf(push.rest.word[word + 2]);
+  vec2 weights01 = uintBitsToFloat(halvesOf(push.rest.word[word + 3]));
+  vec2 weights23 = uintBitsToFloat(halvesOf(push.rest.word[word + 4]));
   JointRows m = JointRows(vec4(0), vec4(0), vec4(0));
   blend(m, joints.x & 0xffffu, weights01.x);
   blend(m, joints.x >> 16, weights01.y);
@@ -40,5 +40,5 @@ void main() {
   float size2 = dot(turned, turned);
   turned = size2 > 0 ? turned * inversesqrt(size2) : vec3(0, 0, 1);
   uvec3 posed = floatBitsToUint(vec3(dot(m.row0, position), dot(m.row1, position), dot(m.row2, position)));
-  push.posed.vertex[i] = u64vec2(pack64(posed.xy), pack64(uvec2(posed.z, packOctahedral(turned))));
+  push.posed.vertex[i] = vertexWords(uintBitsToFloat(posed), packOctahedral(turned));
 }

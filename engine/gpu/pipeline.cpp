@@ -21,8 +21,9 @@ VkSpecializationInfo Specialization::info() const {
 Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code) {
   VkShaderModuleCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  info.codeSize = code.words.size_bytes();
-  info.pCode = code.words.data();
+  const auto words = device.features().core.features.shaderInt64 && !code.int64Words.empty() ? code.int64Words : code.words;
+  info.codeSize = words.size_bytes();
+  info.pCode = words.data();
   VkShaderModule module = VK_NULL_HANDLE;
   const std::string call = "vkCreateShaderModule of " + std::string(code.name);
   check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), call.c_str());

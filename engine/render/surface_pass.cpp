@@ -182,7 +182,9 @@ void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push,
   (partial ? partial_ : whole_).tubes[std::size_t(look.style)].bind(commands, push);
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-  vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), 0, groups, sizeof(shared::DrawCommand));
+  // One by one: Vulkan 1.3 does not promise multiDrawIndirect, and a frame has few groups.
+  for (std::uint32_t g = 0; g < groups; ++g)
+    vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), g * sizeof(shared::DrawCommand), 1, sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,

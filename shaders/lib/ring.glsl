@@ -51,7 +51,7 @@ Section ringSection(SweepCurve curve, uint ring, uint along) {
 }
 
 // A TubeVertex in as few words as can be: storing them is most of what tessellation costs a CPU device.
-u64vec2 packVertex(SurfacePoint point) {
+Word2 packVertex(SurfacePoint point) {
   return vertexWords(point.position, packOctahedral(point.normal));
 }
 

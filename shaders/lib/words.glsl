@@ -1,15 +1,27 @@
-// Vectors in and out of words of 64 bits (shared/tubes.h).
+// Memory in words of 64 bits. A CPU device loads and stores lane by lane and word by word, and wide words are a tenth of
+// a frame: devices with shaderInt64 run what cmake/shaders.cmake compiles with VASA_INT64, others the same code on uvec2.
 #ifndef VASA_WORDS
 #define VASA_WORDS
 
-vec4 vec4Of(u64vec2 words) { return uintBitsToFloat(uvec4(unpack32(words.x), unpack32(words.y))); }
+#ifdef VASA_INT64
+#define Word uint64_t
+#define Word2 u64vec2
+uvec2 halvesOf(Word word) { return unpack32(word); }
+uvec4 halvesOf(Word2 words) { return uvec4(unpack32(words.x), unpack32(words.y)); }
+Word2 wordsOf(uvec4 halves) { return Word2(pack64(halves.xy), pack64(halves.zw)); }
+#else
+#define Word uvec2
+#define Word2 uvec4
+uvec2 halvesOf(Word word) { return word; }
+uvec4 halvesOf(Word2 words) { return words; }
+Word2 wordsOf(uvec4 halves) { return halves; }
+#endif
+
+vec4 vec4Of(Word2 words) { return uintBitsToFloat(halvesOf(words)); }
 
 // Of a TubeVertex.
-vec3 placeIn(u64vec2 words) { return vec3(uintBitsToFloat(unpack32(words.x)), uintBitsToFloat(unpack32(words.y).x)); }
-uint normalIn(u64vec2 words) { return unpack32(words.y).y; }
-u64vec2 vertexWords(vec3 place, uint normal) {
-  uvec3 bits = floatBitsToUint(place);
-  return u64vec2(pack64(bits.xy), pack64(uvec2(bits.z, normal)));
-}
+vec3 placeIn(Word2 words) { return vec4Of(words).xyz; }
+uint normalIn(Word2 words) { return halvesOf(words).w; }
+Word2 vertexWords(vec3 place, uint normal) { return wordsOf(uvec4(floatBitsToUint(place), normal)); }
 
 #endif

@@ -63,15 +63,15 @@ struct StrainedPatch {
 #ifndef __cplusplus
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Seams { PatchSeam seam[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Shares { float share[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer JointsOut { u64vec2 row[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer VerticesIn { u64vec2 vertex[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer JointsOut { Word2 row[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer VerticesIn { Word2 vertex[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PatchWalls { PatchWall wall[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PatchJoints { u64vec2 row[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fans { uint64_t triangle[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PatchJoints { Word2 row[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fans { Word triangle[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Strained { StrainedPatch patches[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer StrainedOut { StrainedPatch patches[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer DispatchOut { uint x, y, z; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) coherent buffer SmoothedVertices { u64vec2 vertex[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) coherent buffer SmoothedVertices { Word2 vertex[]; };
 #endif
 
 struct PatchesPush {

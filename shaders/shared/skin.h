@@ -22,10 +22,11 @@ struct JointRows {
 };
 
 #ifndef __cplusplus
-// A CPU device loads and stores lane by lane and word by word: these are SkinVertex, JointRows and TubeVertex.
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SkinVertices { uint64_t word[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Joints { u64vec2 row[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer PosedVertices { u64vec2 vertex[]; };
+#include "lib/words.glsl"
+// In words (lib/words.glsl): SkinVertex, JointRows and TubeVertex.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SkinVertices { Word word[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Joints { Word2 row[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer PosedVertices { Word2 vertex[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
 

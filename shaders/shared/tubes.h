@@ -42,20 +42,20 @@ struct DrawCommand {
 };
 
 #ifndef __cplusplus
+#include "lib/words.glsl"
 #define VASA_READ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer
 #define VASA_WRITE layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer
-// A CPU device loads and stores lane by lane and word by word: these are vec4 (lib/words.glsl) and TubeVertex;
-// lib/records.glsl reads the others so.
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Points { u64vec2 point[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Knots { u64vec2 knot[]; };  // x y z w
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Words { uint64_t word[]; };
+// In words: vec4 and TubeVertex (lib/words.glsl), others as lib/records.glsl reads them.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Points { Word2 point[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Knots { Word2 knot[]; };  // x y z w
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Words { Word word[]; };
 VASA_READ Sweeps { SweepRecord sweep[]; };
 VASA_READ Tables { TubeTables tables; };
 VASA_READ View { DetailView view; };
 VASA_READ Uints { uint value[]; };
 VASA_WRITE UintsOut { uint value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sizes { uint size[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer Vertices { u64vec2 vertex[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer Vertices { Word2 vertex[]; };
 VASA_WRITE Draws { DrawCommand draw[]; };
 #undef VASA_READ
 #undef VASA_WRITE

@@ -183,11 +183,12 @@ TEST_CASE("a vessel that is turned through two bones stays between them") {
   struct Through {
     float turn, tilt, lowered, aside;
   };
-  for (const auto& [turn, tilt, lowered, aside] :
+  for (const Through& through :
        {Through{-0.97f, 0.5672f, 0.0095f, 0.0053f}, Through{-0.9184f, 0.5774f, 0.0136f, 0.0023f},
         Through{0.9932f, -0.54f, 0.015f, -0.0098f}}) {
-    CAPTURE(turn);
+    CAPTURE(through.turn);
     const auto posedAt = [&](float share) {
+      const auto& [turn, tilt, lowered, aside] = through;
       const mat4 turned = glm::rotate(glm::rotate(mat4(1), share * turn, vec3(0, 1, 0)), share * tilt, vec3(0, 0, 1));
       const mat4 move = glm::translate(mat4(1), vec3(0, 0.011f - share * lowered, share * aside)) * turned *
                         glm::translate(mat4(1), vec3(0, -0.011f, 0));

@@ -13,11 +13,12 @@ TEST_CASE("every mesh file of the real anatomy loads, named and in metres") {
     std::size_t elements;
   } files[] = {
       {"bp3d_arteries.glb", 636}, {"bp3d_veins.glb", 395}, {"bp3d_bones.glb", 203}, {"bp3d_heart.glb", 23}};
-  for (const auto& [file, count] : files) {
+  for (const auto& listed : files) {
+    const char* file = listed.file;
     CAPTURE(file);
     const auto elements = readGltfElements(data / "bp3d" / file);
     REQUIRE_MESSAGE(elements.ok(), (elements ? "" : elements.error().message));
-    CHECK(elements->size() == count);
+    CHECK(elements->size() == listed.elements);
     for (const MeshElement& element : *elements) {
       CHECK(element.name.starts_with("FJ"));
       CHECK(element.ontologyId.starts_with("FMA"));

@@ -23,8 +23,9 @@ TEST_CASE("a real body's vessels part in its motions, none changes sides, and fe
     const char* clip;
     std::uint32_t mostInBone;  // tubes of a frame, of 14,149
   };
-  for (const auto& [name, mostInBone] :
+  for (const Motion& motion :
        {Motion{"elbow_flex", 0}, Motion{"fist", 6}, Motion{"neck_turn", 0}}) {
+    const char* name = motion.clip;
     CAPTURE(std::string(name));
     const auto clip = findClip(scene->body, name);
     REQUIRE(clip.ok());
@@ -34,7 +35,7 @@ TEST_CASE("a real body's vessels part in its motions, none changes sides, and fe
       maker.make(*clip, (*clip)->timeOfFrame(frame));
       const AvoidReport& report = maker.report().avoid;
       CHECK(report.after.holds());
-      CHECK(report.bonesAfter.contacts <= mostInBone);
+      CHECK(report.bonesAfter.contacts <= motion.mostInBone);
       if (frame % 15 != 7) continue;
       most = std::max(most, maker.lookAtPosed().vessels.contacts);
       interference.layout().shape(maker.points(), tubes);
