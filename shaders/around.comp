@@ -4,7 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/tubes.h"
+#include "lib/records.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { AroundPush push; };
@@ -12,14 +12,15 @@ layout(push_constant, scalar) uniform Push { AroundPush push; };
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= push.count) return;
-  uint m = push.view.view.around;
+  DetailView view = viewAt(push.view);
+  uint m = view.around;
   if (m == 0) {
-    float radius = uintBitsToFloat(push.sizes.size[i]), tolerance = push.view.view.tolerance;
+    float radius = uintBitsToFloat(push.sizes.size[i]), tolerance = view.tolerance;
     precise float thin = kThinShare * tolerance;
     bool coarse = tolerance >= kCoarse;
     m = coarse ? kMinAround : radius > tolerance ? kRoundAround : kThinAround;
     while (m < kMaxAround && (coarse || m >= kRoundAround)) {
-      precise float error = radius * push.tables.tables.aroundError[m];
+      precise float error = radius * aroundErrorAt(push.tables, m);
       if (error <= (m < kRoundAround ? thin : tolerance)) break;
       ++m;
     }

@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/growth.glsl"
 #include "lib/octahedral.glsl"
+#include "lib/records.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { CapillaryPush push; };
@@ -22,8 +23,8 @@ GrowthJob jobOf(uint curve) {
 
 // sectionOn of engine/surface/tessellate.cpp.
 Section rootSection(uint span, float t) {
-  SweepRecord record = push.spans.sweep[span];
-  Bezier bezier = bezierOf(push.tables.tables.spanClass[record.spanClass], vec4Of(push.points.point[record.point]),
+  SweepRecord record = sweepAt(push.spans, span);
+  Bezier bezier = bezierOf(spanClassAt(push.tables, record.spanClass), vec4Of(push.points.point[record.point]),
                            vec4Of(push.points.point[record.point + 1]), vec4Of(push.points.point[record.point + 2]),
                            vec4Of(push.points.point[record.point + 3]));
   vec3 chord = vec4Of(push.points.point[record.lastPoint]).xyz - vec4Of(push.points.point[record.firstPoint]).xyz;

@@ -105,13 +105,12 @@ void findFree(PatchWall wall) {
   }
 }
 
-void takeStep(PatchWall wall, float share, uint step) {
+// `first`: what stays is copied, too.
+void takeStep(SmoothedVertices from, SmoothedVertices to, PatchWall wall, float share, bool first) {
   uint end = wall.firstVertex + wall.vertexCount, i = 0;
-  bool back = step % 2 == 1;
-  SmoothedVertices from = back ? push.between : push.vertices, to = back ? push.vertices : push.between;
   for (uint v = wall.firstVertex + gl_LocalInvocationID.x; v < end; v += kSmoothThreads, ++i) {
     if (free[i] == 0) {
-      if (step == 0) to.vertex[v] = from.vertex[v];
+      if (first) to.vertex[v] = from.vertex[v];
       continue;
     }
     Vertex own = vertexAt(from, v);
@@ -147,8 +146,13 @@ void main() {
   if (!anyPressed) return;
   findFree(wall);
   meet();
-  for (uint step = 0; step < kPatchSteps; ++step) {
-    takeStep(wall, strained.share, step);
+  // There and back in turn: not every driver takes an address that is chosen while the shader runs.
+  takeStep(push.vertices, push.between, wall, strained.share, true);
+  meet();
+  for (uint step = 1; step < kPatchSteps; step += 2) {
+    takeStep(push.between, push.vertices, wall, strained.share, false);
+    meet();
+    takeStep(push.vertices, push.between, wall, strained.share, false);
     meet();
   }
   turnNormals(wall, strained.share);

@@ -97,7 +97,7 @@ void main() {
   writeJoint(i, seam, ring.section, turn);
 
   uint around = push.around.value[seam.vessel];
-  setDirections(push.tables.tables.step[around], around);
+  setDirections(stepAt(push.tables, around), around);
   for (uint k = 0; k < around; ++k)
     push.vertices.vertex[seam.vertex + k] = packVertex(surfacePoint(ring.section, directions[k]));
   uint first = seamAt(ring, turnedBy(turn, seam.start), around);

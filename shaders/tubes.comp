@@ -112,7 +112,7 @@ void main() {
   SweepCurve curve;
   if (along != 0) {
     SweepRecord record = sweepAt(push.sweeps, sweep);
-    it = itemOf(record, sweep, along, push.around.value[record.vessel], push.view.view.around != 0);
+    it = itemOf(record, sweep, along, push.around.value[record.vessel], viewAt(push.view).around != 0);
     curve = sweepCurve(push.points, push.knots, push.tables, record);
     prepare(it, push.tables);
     written = look(it, curve);

@@ -17,6 +17,7 @@ uvec4 halvesOf(Word2 words) { return words; }
 Word2 wordsOf(uvec4 halves) { return halves; }
 #endif
 
+vec2 vec2Of(Word word) { return uintBitsToFloat(halvesOf(word)); }
 vec4 vec4Of(Word2 words) { return uintBitsToFloat(halvesOf(words)); }
 
 // Of a TubeVertex.

@@ -45,13 +45,12 @@ struct DrawCommand {
 #include "lib/words.glsl"
 #define VASA_READ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer
 #define VASA_WRITE layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer
-// In words: vec4 and TubeVertex (lib/words.glsl), others as lib/records.glsl reads them.
+// In words: vec4 and TubeVertex (lib/words.glsl); SweepRecord, TubeTables and DetailView (lib/records.glsl).
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Points { Word2 point[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Knots { Word2 knot[]; };  // x y z w
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Words { Word word[]; };
-VASA_READ Sweeps { SweepRecord sweep[]; };
-VASA_READ Tables { TubeTables tables; };
-VASA_READ View { DetailView view; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Sweeps { Word word[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Tables { Word word[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer View { Word word[]; };
 VASA_READ Uints { uint value[]; };
 VASA_WRITE UintsOut { uint value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sizes { uint size[]; };
