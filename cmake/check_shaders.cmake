@@ -14,7 +14,7 @@ foreach(shader IN LISTS shaders)
     file(RENAME "${spirv}" "${spirv}.whole")
     execute_process(COMMAND head -c "${CUT}" "${spirv}.whole" OUTPUT_FILE "${spirv}")
   endif()
-  execute_process(COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}"
+  execute_process(COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 "${spirv}"
                   RESULT_VARIABLE valid OUTPUT_VARIABLE text ERROR_VARIABLE text)
   if(NOT valid EQUAL 0)
     message(FATAL_ERROR "${shader} is not valid:\n${text}")

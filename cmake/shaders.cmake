@@ -39,9 +39,9 @@ function(vasa_shaders name)
       endif()
       list(APPEND compile "${source}")
       if(VASA_OPTIMISE_SHADERS)
-        list(APPEND compile COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 --scalar-block-layout "${code}" -o "${code}")
+        list(APPEND compile COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 "${code}" -o "${code}")
       endif()
-      list(APPEND compile COMMAND "${VASA_SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${code}")
+      list(APPEND compile COMMAND "${VASA_SPIRV_VAL}" --target-env vulkan1.3 "${code}")
     endforeach()
     add_custom_command(
       OUTPUT "${header}"

@@ -3,13 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/growth.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/records.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { CapillaryPush push; };
+layout(push_constant, std430) uniform Push { CapillaryPush push; };
 
 GrowthJob jobOf(uint curve) {
   uint low = 0, high = push.jobCount - 1;
@@ -19,6 +18,14 @@ GrowthJob jobOf(uint curve) {
     else high = middle - 1;
   }
   return push.jobs.job[low];
+}
+
+// A CapillaryVertex.
+void writeVertex(uint i, vec4 clip, uint colour, uint across) {
+  uvec4 bits = floatBitsToUint(clip);
+  push.vertices.word[3 * i] = wordOf(bits.xy);
+  push.vertices.word[3 * i + 1] = wordOf(bits.zw);
+  push.vertices.word[3 * i + 2] = wordOf(uvec2(colour, across));
 }
 
 // sectionOn of engine/surface/tessellate.cpp.
@@ -106,12 +113,10 @@ void writeRibbon(Capillary capillary, uint rootColour, uint farColour, uint targ
     float radius = max(point.w, 0.5 * view.thinnest * (depth / view.focal));
     uint packed = packUnorm4x8(vec4(mix(from, to, t), point.w / radius));
     vec2 across = vec2(dotOf(side, view.right), dotOf(side, view.up));
-    push.vertices.vertex[target + 2 * i] =
-        CapillaryVertex(view.viewProjection * vec4(point.xyz + radius * side, 1), packed,
-                        toSnorm16(across.x) | toSnorm16(across.y) << 16);
-    push.vertices.vertex[target + 2 * i + 1] =
-        CapillaryVertex(view.viewProjection * vec4(point.xyz - radius * side, 1), packed,
-                        toSnorm16(-across.x) | toSnorm16(-across.y) << 16);
+    writeVertex(target + 2 * i, view.viewProjection * vec4(point.xyz + radius * side, 1), packed,
+                toSnorm16(across.x) | toSnorm16(across.y) << 16);
+    writeVertex(target + 2 * i + 1, view.viewProjection * vec4(point.xyz - radius * side, 1), packed,
+                toSnorm16(-across.x) | toSnorm16(-across.y) << 16);
   }
 }
 
@@ -124,7 +129,7 @@ void main() {
   uint target = curve * 2 * (push.edges + 1), colour = push.colours.colour[job.span];
   if ((push.hiddenKinds >> (colour >> 24) & 1u) != 0u) {
     for (uint i = 0; i < 2 * (push.edges + 1); ++i)
-      push.vertices.vertex[target + i] = CapillaryVertex(vec4(2, 2, 2, 1), 0, 0);  // outside the picture
+      writeVertex(target + i, vec4(2, 2, 2, 1), 0, 0);  // outside the picture
     return;
   }
   uint within = curve - job.firstCurve, sprout = job.firstSprout + within / size;

@@ -2,11 +2,10 @@
 // A ribbon lit as the round vessel it stands for; in x-ray, light that adds up.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/shade.glsl"
 #include "shared/draw.h"
 
-layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
 layout(location = 0) in vec4 tint;
 layout(location = 1) in vec2 side;

@@ -2,10 +2,9 @@
 // Depth alone, of what the cutting plane leaves.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
 #include "shared/draw.h"
 
-layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
 
 void main() {

@@ -5,7 +5,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/picture_place.glsl"
 #include "lib/ring.glsl"
 
@@ -26,7 +25,7 @@ const uint kGroupThreads = kGroupForks;
 #include "lib/group_sum.glsl"
 
 layout(local_size_x = kGroupForks) in;
-layout(push_constant, scalar) uniform Push { ForksPush push; };
+layout(push_constant, std430) uniform Push { ForksPush push; };
 
 void put(uint vertex, SurfacePoint point) {
   corners[vertex] = point;

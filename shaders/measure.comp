@@ -4,12 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/detail.glsl"
 #include "lib/records.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { MeasurePush push; };
+layout(push_constant, std430) uniform Push { MeasurePush push; };
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

@@ -3,10 +3,9 @@
 // CPU reference: engine/render/occlusion.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#extension GL_EXT_scalar_block_layout : require
 #include "shared/occlusion.h"
 
-layout(push_constant, scalar) uniform Push { OcclusionPush push; };
+layout(push_constant, std430) uniform Push { OcclusionPush push; };
 layout(set = 0, binding = 0) uniform texture2D depths;  // of the picture, 0: background
 layout(location = 0) out float light;  // share of the ambient light that is left, 0 to 1
 

@@ -3,14 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/ring.glsl"
 #include "lib/fork.glsl"
 #include "lib/ramp.glsl"
 #include "shared/patch.h"
 
 layout(local_size_x = kSmoothThreads) in;
-layout(push_constant, scalar) uniform Push { PatchSmoothPush push; };
+layout(push_constant, std430) uniform Push { PatchSmoothPush push; };
 
 const float kSpared = 0.6;  // of its size at rest: a larger triangle moves no corner
 const float kStep = 0.6;    // of the way to the neighbours' middle

@@ -4,14 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/ramp.glsl"
 #include "lib/section.glsl"
 #include "lib/words.glsl"
 #include "shared/patch.h"
 
 layout(local_size_x = kStrainThreads) in;
-layout(push_constant, scalar) uniform Push { PatchStrainPush push; };
+layout(push_constant, std430) uniform Push { PatchStrainPush push; };
 
 const float kLeastStrain = 1.0, kFullStrain = 2.0;  // of the rings' radii
 

@@ -4,7 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/picture_place.glsl"
 #include "lib/records.glsl"
 #include "lib/words.glsl"
@@ -14,7 +13,7 @@ const uint kGroupThreads = kPatchThreads;
 #include "lib/group_sum.glsl"
 
 layout(local_size_x = kPatchThreads) in;
-layout(push_constant, scalar) uniform Push { PatchTrianglesPush push; };
+layout(push_constant, std430) uniform Push { PatchTrianglesPush push; };
 
 vec2 placeAt(uint vertex) { return placeOf(placeIn(push.vertices.vertex[vertex])); }
 

@@ -3,13 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/ring.glsl"
 #include "lib/fork.glsl"
 #include "shared/patch.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { PatchesPush push; };
+layout(push_constant, std430) uniform Push { PatchesPush push; };
 
 vec3 centreOf(uint seam) {
   ForkRing ring = push.seams.seam[seam].ring;

@@ -3,13 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/octahedral.glsl"
 #include "lib/words.glsl"
 #include "shared/skin.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { SkinPush push; };
+layout(push_constant, std430) uniform Push { SkinPush push; };
 
 void blend(inout JointRows sum, uint joint, float weight) {
   if (weight == 0) return;  // bones have one joint: on a CPU device the loads saved are most of the work

@@ -2,11 +2,10 @@
 // A thin translucent shell: more of it is in the line of sight at the outline, so that vessels read through its middle.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/shade.glsl"
 #include "shared/draw.h"
 
-layout(push_constant, scalar) uniform Push { DrawPush push; };
+layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
 layout(location = 0) in vec3 normal;
 layout(location = 1) flat in vec4 colour;

@@ -2,10 +2,9 @@
 // The mean of occlusion over a tile of a pixel's neighbours on the same surface. CPU reference: engine/render/occlusion.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#extension GL_EXT_scalar_block_layout : require
 #include "shared/occlusion.h"
 
-layout(push_constant, scalar) uniform Push { OcclusionPush push; };
+layout(push_constant, std430) uniform Push { OcclusionPush push; };
 layout(set = 0, binding = 0) uniform texture2D depths;  // of the picture, 0: background
 layout(set = 0, binding = 1) uniform texture2D raw;     // what occlusion.frag found
 layout(location = 0) out float light;

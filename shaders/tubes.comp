@@ -6,7 +6,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_scalar_block_layout : require
 #include "lib/capped_sweep.glsl"
 #include "lib/picture_ring.glsl"
 #include "lib/ring.glsl"
@@ -16,7 +15,7 @@ const uint kGroupThreads = kGroupSweeps;
 #include "lib/group_sum.glsl"
 
 layout(local_size_x = kGroupSweeps) in;
-layout(push_constant, scalar) uniform Push { TubesPush push; };
+layout(push_constant, std430) uniform Push { TubesPush push; };
 
 // Of a group's sums, one word for both: triangles below, blocks of vertices above.
 const uint kTriangleBits = 17, kTriangleMask = (1u << kTriangleBits) - 1u;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <bit>
 #include <optional>
 
 #include "commands.h"
@@ -30,6 +31,18 @@ Result<Listing> list(const std::string& choice) {
   return listing;
 }
 
+Report limitsOf(const gpu::Adapter& adapter) {
+  const VkPhysicalDeviceLimits& limits = adapter.limits;
+  return {{"workgroup_invocations", limits.maxComputeWorkGroupInvocations},
+          {"subgroup", adapter.subgroup},
+          {"push_constant_bytes", limits.maxPushConstantsSize},
+          {"bound_sets", limits.maxBoundDescriptorSets},
+          {"sub_pixel_bits", limits.subPixelPrecisionBits},
+          {"most_samples", std::bit_floor(limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts)},
+          {"image_side", limits.maxImageDimension2D},
+          {"heap_bytes", adapter.largestHeap}};
+}
+
 Report asReport(const Listing& listing) {
   Report devices = Report::array();
   for (std::size_t i = 0; i < listing.adapters.size(); ++i) {
@@ -41,6 +54,8 @@ Report asReport(const Listing& listing) {
                        {"driver", adapter.driver},
                        {"usable", adapter.usable()},
                        {"lacks", adapter.lacks},
+                       {"without", adapter.without},
+                       {"limits", limitsOf(adapter)},
                        {"chosen", listing.chosen == i}});
   }
   return {{"devices", std::move(devices)}};
@@ -63,6 +78,10 @@ std::string asTable(const Listing& listing) {
     const std::string lacks = adapter.usable() ? "nothing" : fmt::format("{}", fmt::join(adapter.lacks, ", "));
     text += row(fmt::format("{}{}", adapter.index, listing.chosen == i ? " *" : ""), adapter.name,
                 gpu::typeName(adapter.type), adapter.api, adapter.driver, lacks);
+    text += fmt::format("       workgroups of {}, subgroups of {}, {} bytes of push constants, {} sub-pixel bits, pictures up to {} pixels, {} MiB\n",
+                        adapter.limits.maxComputeWorkGroupInvocations, adapter.subgroup, adapter.limits.maxPushConstantsSize,
+                        adapter.limits.subPixelPrecisionBits, adapter.limits.maxImageDimension2D, adapter.largestHeap >> 20);
+    if (!adapter.without.empty()) text += fmt::format("       does without {}\n", fmt::join(adapter.without, ", "));
   }
   return text;
 }

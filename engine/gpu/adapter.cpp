@@ -43,15 +43,27 @@ bool isBetter(const Adapter& a, const Adapter& b) {
   return preference(a.type) < preference(b.type);
 }
 
-std::string driverText(VkPhysicalDevice device, std::uint32_t apiVersion) {
-  if (apiVersion < VK_API_VERSION_1_2) return "";
+void readDriver(VkPhysicalDevice device, Adapter& adapter) {
+  VkPhysicalDeviceVulkan11Properties v11{};
+  v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  driver.pNext = &v11;
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(device, &properties);
-  std::string text = driver.driverName;
-  if (*driver.driverInfo) text += std::string(text.empty() ? "" : " ") + driver.driverInfo;
-  return text;
+  adapter.driver = driver.driverName;
+  if (*driver.driverInfo) adapter.driver += std::string(adapter.driver.empty() ? "" : " ") + driver.driverInfo;
+  adapter.driverId = driver.driverID;
+  adapter.subgroup = v11.subgroupSize;
+}
+
+VkDeviceSize largestHeap(VkPhysicalDevice device) {
+  VkPhysicalDeviceMemoryProperties memory;
+  vkGetPhysicalDeviceMemoryProperties(device, &memory);
+  VkDeviceSize largest = 0;
+  for (const VkMemoryHeap& heap : std::span(memory.memoryHeaps, memory.memoryHeapCount))
+    if (heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) largest = std::max(largest, heap.size);
+  return largest;
 }
 
 // One family that does everything keeps the queue ownership of every buffer trivial; all desktop drivers and
@@ -135,7 +147,9 @@ Adapter describe(VkPhysicalDevice device, std::uint32_t index) {
   adapter.name = properties.deviceName;
   adapter.type = properties.deviceType;
   adapter.api = versionText(properties.apiVersion);
-  adapter.driver = driverText(device, properties.apiVersion);
+  adapter.limits = properties.limits;
+  adapter.largestHeap = largestHeap(device);
+  if (properties.apiVersion >= VK_API_VERSION_1_2) readDriver(device, adapter);
   if (properties.apiVersion < VK_API_VERSION_1_3) {
     // Its feature structures may not be asked for.
     adapter.lacks.push_back("Vulkan 1.3 (has " + adapter.api + ")");
@@ -144,6 +158,7 @@ Adapter describe(VkPhysicalDevice device, std::uint32_t index) {
   Features offered;
   vkGetPhysicalDeviceFeatures2(device, offered.chain());
   adapter.lacks = missingFeatures(offered);
+  adapter.without = unofferedFeatures(offered);
   if (!findQueueFamily(device, adapter.queueFamily))
     adapter.lacks.emplace_back("a queue that draws and computes");
   findMissingLimits(device, properties.limits, adapter.lacks);

@@ -16,7 +16,12 @@ struct Adapter {
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
   std::string api;                 ///< "1.3.230"
   std::string driver;              ///< "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
-  std::vector<std::string> lacks;  ///< features by Vulkan's names, and limits in words
+  VkDriverId driverId = VkDriverId(0);
+  std::vector<std::string> lacks;    ///< features by Vulkan's names, and limits in words
+  std::vector<std::string> without;  ///< features that vasa uses where they are (README says what each is good for)
+  VkPhysicalDeviceLimits limits{};
+  std::uint32_t subgroup = 0;     ///< threads of a subgroup
+  VkDeviceSize largestHeap = 0;   ///< [bytes] of its own memory
   std::uint32_t queueFamily = 0;   ///< draws, computes and copies
 
   bool usable() const { return lacks.empty(); }

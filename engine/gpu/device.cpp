@@ -1,9 +1,26 @@
 #include "gpu/device.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "gpu/driver_threads.h"
 #include "gpu/error.h"
 
 namespace vasa::gpu {
+namespace {
+
+bool offers(VkPhysicalDevice device, std::string_view extension) {
+  std::uint32_t count = 0;
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
+        "vkEnumerateDeviceExtensionProperties");
+  std::vector<VkExtensionProperties> offered(count);
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, offered.data()),
+        "vkEnumerateDeviceExtensionProperties");
+  return std::ranges::any_of(
+      offered, [&](const VkExtensionProperties& each) { return each.extensionName == extension; });
+}
+
+}  // namespace
 
 Device::Device(const DeviceOptions& options)
     : instance_({options.validation, options.instanceExtensions}),
@@ -11,14 +28,14 @@ Device::Device(const DeviceOptions& options)
   choose(options.choice);
   create(options);
   if (options.validation.any()) loadLabels();
-  if (options.validation.synchronization) followAddresses();
   createPipelineCache();
   VkQueue queue = VK_NULL_HANDLE;
   vkGetDeviceQueue(handle(), adapter_.queueFamily, 0, &queue);
   queue_ = std::make_unique<Queue>(*this, queue);
 }
 
-Device::Device(const ForeignDevice& foreign) : instance_(Instance::foreign(foreign.instance)), gpuAssisted_(false) {
+Device::Device(const ForeignDevice& foreign)
+    : instance_(Instance::foreign(foreign.instance)), gpuAssisted_(false) {
   adopt(foreign);
   createPipelineCache();
   queue_ = std::make_unique<Queue>(*this, foreign.queue);
@@ -92,7 +109,9 @@ void Device::create(const DeviceOptions& options) {
   queueInfo.queueCount = 1;
   queueInfo.pQueuePriorities = &priority;
   std::vector<const char*> extensions = options.deviceExtensions;
-  if (options.validation.synchronization) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  const bool follows =
+      options.validation.synchronization && offers(physical_, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  if (follows) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = features_.chain();
@@ -103,6 +122,7 @@ void Device::create(const DeviceOptions& options) {
   const DriverThreads threads;
   check(vkCreateDevice(physical_, &info, nullptr, &owner_.device), "vkCreateDevice");
   threads.spread();
+  if (follows) followAddresses();
 }
 
 void Device::loadLabels() {

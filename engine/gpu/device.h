@@ -68,7 +68,7 @@ class Device {
   bool gpuAssisted() const { return gpuAssisted_; }
 
   /// Where buffers lie, and a way to bind one without a descriptor pool. For AddressShadow: the map is
-  /// nullptr, and nothing can be pushed, unless synchronization is validated.
+  /// nullptr, and nothing can be pushed, unless synchronization is validated and the driver has VK_KHR_push_descriptor.
   AddressMap* addresses() { return addresses_.get(); }
   void pushDescriptor(VkCommandBuffer commands, VkPipelineLayout layout,
                       const VkWriteDescriptorSet& descriptor) const;

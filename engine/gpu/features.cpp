@@ -1,5 +1,7 @@
 #include "gpu/features.h"
 
+#include <span>
+
 namespace vasa::gpu {
 namespace {
 
@@ -15,7 +17,6 @@ struct Feature {
 
 const Feature kRequired[] = {
     VASA_FEATURE(v12, bufferDeviceAddress),
-    VASA_FEATURE(v12, scalarBlockLayout),
     VASA_FEATURE(v12, timelineSemaphore),
     VASA_FEATURE(v13, dynamicRendering),
     VASA_FEATURE(v13, synchronization2),
@@ -36,6 +37,13 @@ const Feature kWelcome[] = {
 
 #undef VASA_FEATURE
 
+std::vector<std::string> notIn(Features& offered, std::span<const Feature> features) {
+  std::vector<std::string> names;
+  for (const Feature& feature : features)
+    if (!feature.at(offered)) names.emplace_back(feature.name);
+  return names;
+}
+
 }  // namespace
 
 Features::Features() {
@@ -53,10 +61,11 @@ VkPhysicalDeviceFeatures2* Features::chain() {
 }
 
 std::vector<std::string> missingFeatures(Features& offered) {
-  std::vector<std::string> missing;
-  for (const Feature& feature : kRequired)
-    if (!feature.at(offered)) missing.emplace_back(feature.name);
-  return missing;
+  return notIn(offered, kRequired);
+}
+
+std::vector<std::string> unofferedFeatures(Features& offered) {
+  return notIn(offered, kWelcome);
 }
 
 Features featuresToEnable(Features& offered) {

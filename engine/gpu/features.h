@@ -18,8 +18,11 @@ struct Features {
   VkPhysicalDeviceFeatures2* chain();
 };
 
-/// What vasa cannot do without, by Vulkan's names; all of it is there in lavapipe 22.3.
+/// What vasa cannot do without, by Vulkan's names; Vulkan 1.3 promises all of it.
 std::vector<std::string> missingFeatures(Features& offered);
+
+/// What vasa uses where it is, but can do without.
+std::vector<std::string> unofferedFeatures(Features& offered);
 
 /// The required features, and of the others vasa can use (or the validation layers want) those on offer.
 Features featuresToEnable(Features& offered);

@@ -114,18 +114,21 @@ void add(const Network& network, const ForkPatch& patch, const ForkRings& rings,
   for (std::size_t i = 0; i < rings.count; ++i) {
     const PatchRing& ring = patch.rings[i];
     shared::PatchSeam seam{.ring = *rings.ring[i],
-                           .centre = ring.centre,
-                           .outward = ring.outward,
-                           .radius = ring.radius,
-                           .across = across,
-                           .beside = beside,
-                           .start = patch.positions[loop - added.firstVertex] - ring.centre,
                            .firstSeam = added.firstSeam,
+                           .centre = ring.centre,
+                           .radius = ring.radius,
+                           .outward = ring.outward,
                            .loop = loop,
+                           .across = across,
                            .loopCount = ring.vertices,
+                           .beside = beside,
                            .vertex = 0,
+                           .start = patch.positions[loop - added.firstVertex] - ring.centre,
                            .index = 0,
-                           .vessel = rings.vessel[i]};
+                           .vessel = rings.vessel[i],
+                           .unused0 = 0,
+                           .unused1 = 0,
+                           .unused2 = 0};
     if (i == 0) seam.ring.turn = -seam.ring.turn;  // a fork's trunk runs from its first ring to its second
     table.seams.push_back(seam);
     loop += ring.vertices;

@@ -7,12 +7,14 @@
 #define Word uint64_t
 #define Word2 u64vec2
 uvec2 halvesOf(Word word) { return unpack32(word); }
+Word wordOf(uvec2 halves) { return pack64(halves); }
 uvec4 halvesOf(Word2 words) { return uvec4(unpack32(words.x), unpack32(words.y)); }
 Word2 wordsOf(uvec4 halves) { return Word2(pack64(halves.xy), pack64(halves.zw)); }
 #else
 #define Word uvec2
 #define Word2 uvec4
 uvec2 halvesOf(Word word) { return word; }
+Word wordOf(uvec2 halves) { return halves; }
 uvec4 halvesOf(Word2 words) { return words; }
 Word2 wordsOf(uvec4 halves) { return halves; }
 #endif

@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): what a frame's picture asks of the network's tessellation.
+// Read by C++ and GLSL (std430): what a frame's picture asks of the network's tessellation.
 #ifndef VASA_SHARED_DETAIL_H
 #define VASA_SHARED_DETAIL_H
 #include "shared/sweep.h"

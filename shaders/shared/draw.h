@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): push constants of everything that is drawn. All that the fragment
+// Read by C++ and GLSL (std430): push constants of everything that is drawn. All that the fragment
 // stage needs is here, too: a uniform load costs far less than one through an address on a CPU device.
 #ifndef VASA_SHARED_DRAW_H
 #define VASA_SHARED_DRAW_H
@@ -13,7 +13,7 @@ using uint = std::uint32_t;
 #define VASA_CONSTANT constexpr
 #else
 #define VASA_CONSTANT const
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Colours { uint colour[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Colours { uint colour[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
 

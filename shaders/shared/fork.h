@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): how a network's forks lie in memory.
+// Read by C++ and GLSL (std430): how a network's forks lie in memory.
 #ifndef VASA_SHARED_FORK_H
 #define VASA_SHARED_FORK_H
 #include "shared/tubes.h"
@@ -59,8 +59,8 @@ VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + kMostBranches * (1 + kColla
 VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + kMostBranches * (2 * kCollarRows + 2)) * kMaxAround;
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Branches { ForkBranch branch[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Branches { ForkBranch branch[]; };
 #define VASA_ADDRESS(Block) Block
 #else
 #define VASA_ADDRESS(Block) std::uint64_t

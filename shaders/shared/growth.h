@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): what capillaries grow from, and how one frame draws them.
+// Read by C++ and GLSL (std430): what capillaries grow from, and how one frame draws them.
 #ifndef VASA_SHARED_GROWTH_H
 #define VASA_SHARED_GROWTH_H
 #include "shared/tubes.h"
@@ -78,6 +78,7 @@ struct GrowthSite {
   uint key;      // of the vessel and the place on it
   uint sprouts;  // trees along the span
   uint partner;  // span, vein beside artery and the other way round, whose trees the last curves run into
+  uint unused0, unused1, unused2;
 };
 
 /// Trees of one span that are drawn one after another.
@@ -94,12 +95,14 @@ struct GrowthView {
   vec3 eye;           // [m] the camera; orthographic: unit direction towards it
   float perspective;  // 1, or 0 orthographic
   vec4 depth;         // dot(depth.xyz, p) + depth.w: how far p lies before the eye [m]; (0, 0, 0, 1) orthographic
-  vec3 right, up;     // the camera's axes
+  vec3 right;         // the camera's axes
   float focal;        // pixels a metre at depth 1
+  vec3 up;
   float thinnest;     // [pixels] least width of what is drawn: thinner curves fade instead
   uint seed;
   uint capillary;     // colour half way between artery and vein, sRGB, red lowest
   uint joinLevels;    // trees of so many generations run into their partners', others end freely
+  uint unused;
 };
 
 /// A vertex of a ribbon: 24 bytes.
@@ -110,12 +113,12 @@ struct CapillaryVertex {
 };
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Growth { GrowthTables growth; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sites { GrowthSite site[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Jobs { GrowthJob job[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Views { GrowthView view; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SpanColours { uint colour[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ribbons { CapillaryVertex vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Growth { GrowthTables growth; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Sites { GrowthSite site[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Jobs { GrowthJob job[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Views { GrowthView view; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer SpanColours { uint colour[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer Ribbons { Word word[]; };  // three a vertex
 #define VASA_ADDRESS(Block) Block
 #endif
 
@@ -139,8 +142,8 @@ struct CapillaryPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GrowthChild) == 32 && sizeof(GrowthSymbol) == 72 && sizeof(GrowthSystem) == 32);
-static_assert(sizeof(GrowthSite) == 116 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
-static_assert(sizeof(GrowthView) == 64 + 16 + 16 + 24 + 20 && sizeof(CapillaryPush) == 96);
+static_assert(sizeof(GrowthSite) == 128 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
+static_assert(sizeof(GrowthView) == 64 + 5 * 16 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): ambient occlusion from the picture's depth.
+// Read by C++ and GLSL (std430): ambient occlusion from the picture's depth.
 #ifndef VASA_SHARED_OCCLUSION_H
 #define VASA_SHARED_OCCLUSION_H
 #ifdef __cplusplus
@@ -31,9 +31,9 @@ const vec2 kOcclusionSpiral[kOcclusionTaps] = vec2[kOcclusionTaps](
 /// (fromDepth.x + fromDepth.y d) / (fromDepth.z + fromDepth.w d), and (corner + pixel * step) times that distance in
 /// perspective, times 1 orthographically.
 struct OcclusionPush {
+  vec4 fromDepth;
   uint width, height;
   vec2 corner, step;
-  vec4 fromDepth;
   float perspective;               // 1, or 0 orthographic
   float reach;                     // [m] how far away a surface takes light
   float strength;

@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): walls of the source mesh kept around forks. Five passes:
+// Read by C++ and GLSL (std430): walls of the source mesh kept around forks. Five passes:
 //   patches    a thread a seam   -> how the vertices that follow its ring move, the ring's vertices, and the triangles of the
 //                                   strip between ring and patch
 //   skin       a thread a vertex -> the patch's vertices (shared/skin.h)
@@ -32,14 +32,19 @@ VASA_CONSTANT uint kMostSmoothed = 4096, kMostFan = 32;
 /// Where a patch meets a tube; constant over time. What is said to be at rest is so when the patch was cut out.
 struct PatchSeam {
   ForkRing ring;              // turn: +1 where the vessel runs away from the fork
-  vec3 centre, outward;       // of the ring, at rest
-  float radius;
-  vec3 across, beside;        // two axes of the patch's frame, at rest
-  vec3 start;                 // the loop's first vertex from the centre, at rest
   uint firstSeam;             // of the patch: its frame follows from the centres of that one and the two behind it
-  uint loop, loopCount;       // the loop's first vertex, and how many
-  uint vertex, index;         // where the ring's vertices (kMaxAround) and the strip's indices begin
+  vec3 centre;                // of the ring, at rest
+  float radius;
+  vec3 outward;
+  uint loop;                  // the loop's first vertex
+  vec3 across;                // two axes of the patch's frame, at rest
+  uint loopCount;             // vertices of the loop
+  vec3 beside;
+  uint vertex;                // where the ring's vertices (kMaxAround) begin
+  vec3 start;                 // the loop's first vertex from the centre, at rest
+  uint index;                 // where the strip's indices begin
   uint vessel;
+  uint unused0, unused1, unused2;
 };
 
 /// A patch's seams and vertices.
@@ -61,17 +66,17 @@ struct StrainedPatch {
 };
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Seams { PatchSeam seam[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Shares { float share[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer JointsOut { Word2 row[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer VerticesIn { Word2 vertex[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PatchWalls { PatchWall wall[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PatchJoints { Word2 row[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fans { Word triangle[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Strained { StrainedPatch patches[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer StrainedOut { StrainedPatch patches[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer DispatchOut { uint x, y, z; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) coherent buffer SmoothedVertices { Word2 vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Seams { PatchSeam seam[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Shares { float share[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer JointsOut { Word2 row[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer VerticesIn { Word2 vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer PatchWalls { PatchWall wall[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer PatchJoints { Word2 row[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Fans { Word triangle[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Strained { StrainedPatch patches[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer StrainedOut { StrainedPatch patches[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer DispatchOut { uint x, y, z; };
+layout(buffer_reference, std430, buffer_reference_align = 8) coherent buffer SmoothedVertices { Word2 vertex[]; };
 #endif
 
 struct PatchesPush {
@@ -118,7 +123,7 @@ struct PatchTrianglesPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(PatchSeam) == 116 && sizeof(PatchesPush) == 80 && sizeof(PatchTrianglesPush) == 48);
+static_assert(sizeof(PatchSeam) == 128 && sizeof(PatchesPush) == 80 && sizeof(PatchTrianglesPush) == 48);
 static_assert(sizeof(PatchWall) == 16 && sizeof(FanTriangle) == 8 && sizeof(StrainedPatch) == 8);
 static_assert(sizeof(PatchStrainPush) == 48 && sizeof(PatchSmoothPush) == 48 && kPatchSteps % 2 == 1);
 }  // namespace vasa::shared

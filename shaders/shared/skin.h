@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): linear blend skinning.
+// Read by C++ and GLSL (std430): linear blend skinning.
 #ifndef VASA_SHARED_SKIN_H
 #define VASA_SHARED_SKIN_H
 #include "shared/sweep.h"
@@ -24,9 +24,9 @@ struct JointRows {
 #ifndef __cplusplus
 #include "lib/words.glsl"
 // In words (lib/words.glsl): SkinVertex, JointRows and TubeVertex.
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SkinVertices { Word word[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Joints { Word2 row[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer PosedVertices { Word2 vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer SkinVertices { Word word[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Joints { Word2 row[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer PosedVertices { Word2 vertex[]; };
 #define VASA_ADDRESS(Block) Block
 #endif
 

@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): how a network's sweeps lie in memory for tessellation.
+// Read by C++ and GLSL (std430): how a network's sweeps lie in memory for tessellation.
 #ifndef VASA_SHARED_SWEEP_H
 #define VASA_SHARED_SWEEP_H
 #ifdef __cplusplus

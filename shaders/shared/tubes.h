@@ -1,4 +1,4 @@
-// Read by C++ and GLSL (scalar layout): how a network's tubes become triangles. The passes, one dispatch each:
+// Read by C++ and GLSL (std430): how a network's tubes become triangles. The passes, one dispatch each:
 //   measure    a thread a sweep of the network -> n of each sweep, radius of each vessel in pixels
 //   around     a thread a vessel               -> m of each vessel
 //   tubes      a thread a sweep of a batch, a workgroup a group of them -> vertices, indices of the triangles that may be
@@ -43,18 +43,18 @@ struct DrawCommand {
 
 #ifndef __cplusplus
 #include "lib/words.glsl"
-#define VASA_READ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer
-#define VASA_WRITE layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer
+#define VASA_READ layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer
+#define VASA_WRITE layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer
 // In words: vec4 and TubeVertex (lib/words.glsl); SweepRecord, TubeTables and DetailView (lib/records.glsl).
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Points { Word2 point[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Knots { Word2 knot[]; };  // x y z w
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Sweeps { Word word[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Tables { Word word[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer View { Word word[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Points { Word2 point[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Knots { Word2 knot[]; };  // x y z w
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Sweeps { Word word[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Tables { Word word[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer View { Word word[]; };
 VASA_READ Uints { uint value[]; };
 VASA_WRITE UintsOut { uint value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sizes { uint size[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer Vertices { Word2 vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer Sizes { uint size[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer Vertices { Word2 vertex[]; };
 VASA_WRITE Draws { DrawCommand draw[]; };
 #undef VASA_READ
 #undef VASA_WRITE

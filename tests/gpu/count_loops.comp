@@ -1,14 +1,13 @@
 #version 460
 #extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
 
 // How many of `wanted` iterations a loop really makes.
 layout(local_size_x = 1) in;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Count {
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer Count {
   uint value;
 };
-layout(push_constant, scalar) uniform Push {
+layout(push_constant, std430) uniform Push {
   Count counted;
   uint wanted;
 } push;

@@ -1,8 +1,7 @@
 #version 460
 #extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
 
-layout(push_constant, scalar) uniform Push {
+layout(push_constant, std430) uniform Push {
   uvec2 corners;
   vec4 colour;
 } push;
