@@ -106,6 +106,13 @@ bool goesOn(const Site& site) {
           !site.always);
 }
 
+// Of the driver: a first run compiles its shaders for 20 s of processor time, later ones of all commands find
+// them there.
+std::filesystem::path cacheFolder() {
+  static const TemporaryFolder folder;
+  return folder.path();
+}
+
 struct Bench {
   TemporaryFolder folder;
   std::filesystem::path body = writeBytes(folder.path() / "body.glb", bodyFile().glb());
@@ -121,7 +128,7 @@ struct Bench {
         "4 2 0.05 0.6 0 0.008 3\n5 2 0.06 0.5 0 0.007 4\n6 2 -0.05 0.6 0 0.008 3\n7 2 -0.06 0.5 0 0.007 6\n");
     REQUIRE(runProgram({"convert", centres.string(), "--kind", "artery", "-o", vessels.string()}).exit == 0);
     environment = {"VK_LAYER_PATH=" VASA_FAULT_LAYER, "VK_INSTANCE_LAYERS=VK_LAYER_VASA_faults",
-                   "VK_LOADER_LAYERS_ENABLE=", "XDG_CACHE_HOME=" + folder.path().string(),
+                   "VK_LOADER_LAYERS_ENABLE=", "XDG_CACHE_HOME=" + cacheFolder().string(),
                    "XDG_CONFIG_HOME=" + folder.path().string()};
   }
 
@@ -134,6 +141,7 @@ struct Bench {
     ProgramOptions options{.environment = environment, .folder = out.string()};
     options.environment.push_back("VASA_FAULT_LOG=" + file.string());
     options.environment.push_back("VASA_FAULT=" + fault);
+    options.environment.push_back(std::string("VASA_FAULT_SECONDS=") + (fault.empty() ? "600" : "60"));
     arguments.insert(arguments.begin() + 1, {"--body", body.string(), "--network", vessels.string()});
     const Outcome outcome = runProgram(arguments, options);
     log = contentOf(file);
