@@ -4,8 +4,8 @@
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
 #   ./test.sh compilers everything builds with gcc and clang, in release, debug and under the sanitizers (hours)
-#   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, about 2,000 in all, a second or two each
-#   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app and 100,000 pictures (tests/soak/drift.py)
+#   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, some 1,500 in all, a second or two each
+#   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app (tests/soak/drift.py)
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
 # Further arguments go to ctest, e.g. ./test.sh release -R network
 set -euo pipefail
