@@ -4,6 +4,8 @@
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
 #   ./test.sh compilers everything builds with gcc and clang, in release, debug and under the sanitizers (hours)
+#   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, some 1,500 in all, a second or two each
+#   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app (tests/soak/drift.py)
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
 # Further arguments go to ctest, e.g. ./test.sh release -R network
 set -euo pipefail
@@ -22,6 +24,16 @@ if [ "$preset" = compilers ]; then
       echo "compilers: $c $each builds without a warning"
     done
   done
+  exit 0
+fi
+if [[ "$preset" = faults || "$preset" = soak ]]; then
+  cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
+  cmake --build --preset release --target vasa human test_faults
+  if [ "$preset" = faults ]; then
+    VASA_FAULTS=${1:-1} build/release/tests/soak/test_faults
+  else
+    tests/soak/drift.py build/release/bin/vasa build/release/data/human.glb build/release/data/human.vasa "$@"
+  fi
   exit 0
 fi
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null

@@ -31,6 +31,29 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
 }
 
 Result<ViewReport> Session::run() {
+  const auto done = gpu::attempt([&] { return go(); });
+  if (!done) return keepWhatIsThere(done.error());
+  if (!*done) return keepWhatIsThere(done->error());
+  return *done;
+}
+
+Result<void> Session::keepScript() {
+  return options_.record.empty() ? Result<void>() : writeFileAtomically(options_.record, recorder_.text());
+}
+
+// Of a session that cannot go on: what was done in it, how it looked, and the film so far.
+Error Session::keepWhatIsThere(Error error) {
+  if (!document_) return error;
+  const auto path = options_.record;
+  if (const auto kept = keepScript(); !kept) error.message += "; " + kept.error().message;
+  else if (!path.empty()) error.message += "; the session until then is in " + path.string();
+  if (recording_.running())
+    if (const auto film = recording_.finish()) error.message += "; the film until then is in " + film->string();
+  if (!options_.script && !saveSettings({width_, height_, state_})) error.message += "; the view's settings could not be kept";
+  return error;
+}
+
+Result<ViewReport> Session::go() {
   while (!ending_ && !options_.stopped()) {
     const auto start = Clock::now();
     now_ += pass();
@@ -50,8 +73,7 @@ Result<ViewReport> Session::run() {
     if (failure_) return *failure_;
     rest(std::chrono::duration<double>(Clock::now() - start).count());
   }
-  if (!options_.record.empty())
-    if (auto written = writeFileAtomically(options_.record, recorder_.text()); !written) return written.error();
+  if (const auto written = keepScript(); !written) return written.error();
   state_.recording = false;
   record();
   loader_.stop();

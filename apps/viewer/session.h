@@ -44,6 +44,9 @@ class Session {
   Result<ViewReport> run();
 
  private:
+  Result<ViewReport> go();
+  Result<void> keepScript();
+  Error keepWhatIsThere(Error error);
   using Clock = std::chrono::steady_clock;
 
   // input

@@ -46,6 +46,7 @@ UiPass::UiPass(gpu::Device& device) : device_(device) {
 }
 
 UiPass::~UiPass() {
+  device_.queue().settle();  // the canvas may be on its way to the window
   ImGui_ImplVulkan_Shutdown();
 }
 

@@ -37,6 +37,7 @@ Buffer::Buffer(Device& device, const BufferSpec& spec) : bytes_(spec.bytes) {
   memory_ = allocate(device, buffer, spec.role, spec.name);
   VkBufferDeviceAddressInfo addressInfo{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, buffer};
   address_ = vkGetBufferDeviceAddress(device.handle(), &addressInfo);
+  settled_ = Settled(device.queue());
   assert(address_ % 16 == 0);
   if (AddressMap* map = device.addresses()) known_ = map->add(address_, info.size, buffer);
 }

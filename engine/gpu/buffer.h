@@ -8,6 +8,7 @@
 #include <span>
 
 #include "gpu/memory.h"
+#include "gpu/queue.h"
 #include "gpu/unique.h"
 
 namespace vasa::gpu {
@@ -21,7 +22,7 @@ struct BufferSpec {
   VkBufferUsageFlags moreUsage = 0;  ///< beside storage, address, copy, index and indirect, which all have
 };
 
-/// A range of memory that shaders reach by address. Roles: see memory.h.
+/// A range of memory that shaders reach by address. Roles: see memory.h. Waits for the queue before it goes.
 class Buffer {
  public:
   Buffer() = default;
@@ -64,6 +65,7 @@ class Buffer {
   Unique<VkBuffer> buffer_;
   VkDeviceSize bytes_ = 0;
   VkDeviceAddress address_ = 0;
+  Settled settled_;
 };
 
 }  // namespace vasa::gpu

@@ -32,6 +32,7 @@ Image::Image(Device& device, const ImageSpec& spec) : size_(spec.size), format_(
   device.setName(image, spec.name);
   memory_ = allocate(device, image, spec.name);
   makeView(device, spec.name);
+  settled_ = Settled(device.queue());
 }
 
 void Image::makeView(Device& device, const char* name) {

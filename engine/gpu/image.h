@@ -2,6 +2,7 @@
 #include <vulkan/vulkan.h>
 
 #include "gpu/memory.h"
+#include "gpu/queue.h"
 #include "gpu/unique.h"
 
 namespace vasa::gpu {
@@ -17,7 +18,7 @@ struct ImageSpec {
 };
 
 /// A two-dimensional image in device memory with a view of all of it. Its layout is undefined at first and is
-/// changed with changeLayout() of barrier.h.
+/// changed with changeLayout() of barrier.h. Waits for the queue before it goes.
 class Image {
  public:
   Image() = default;
@@ -39,6 +40,7 @@ class Image {
   Memory memory_;
   Unique<VkImage> image_;
   Unique<VkImageView> view_;
+  Settled settled_;
 };
 
 /// An image of dynamic rendering; clear value and resolving are the caller's.

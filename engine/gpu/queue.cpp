@@ -1,10 +1,21 @@
 #include "gpu/queue.h"
 
+#include <chrono>
+#include <thread>
+
 #include "gpu/barrier.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
 
 namespace vasa::gpu {
+namespace {
+
+// Drivers call a GPU lost after 2 to 10 s; the largest pictures take a busy machine minutes in software.
+constexpr std::chrono::nanoseconds kLongestWait = std::chrono::minutes(10);
+// After a wait has failed: what was submitted is mostly over then.
+constexpr std::chrono::seconds kLongestDrain{10};
+
+}  // namespace
 
 struct Commands::Slot {
   Unique<VkCommandPool> pool;
@@ -41,10 +52,8 @@ Queue::Queue(Device& device, VkQueue queue) : device_(device), immediate_(device
 // Not vkQueueWaitIdle(): with synchronization validation (layer 1.3.239) that can go round for ever inside
 // the layer.
 Queue::~Queue() {
-  try {
-    wait(last());
-  } catch (const Error&) {  // a lost device may be destroyed all the same
-  }
+  settle();
+  retired_.clear();
 }
 
 Commands::Slot* Queue::freeSlot() {
@@ -123,16 +132,54 @@ bool Queue::done(Ticket ticket) const {
   return ticket.value == 0 || reached() >= ticket.value;
 }
 
-void Queue::wait(Ticket ticket) {
-  if (immediate_) return dropRetired();
+VkResult Queue::waitFor(std::uint64_t value) const {
   const VkSemaphore semaphore = timeline_.get();
   VkSemaphoreWaitInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
   info.semaphoreCount = 1;
   info.pSemaphores = &semaphore;
-  info.pValues = &ticket.value;
-  check(vkWaitSemaphores(device_.handle(), &info, UINT64_MAX), "vkWaitSemaphores");
+  info.pValues = &value;
+  return vkWaitSemaphores(device_.handle(), &info, std::uint64_t(kLongestWait.count()));
+}
+
+void Queue::wait(Ticket ticket) {
+  if (!immediate_ && ticket.value > finished_) {
+    const VkResult result = waitFor(ticket.value);
+    if (result == VK_SUCCESS) {
+      finished_ = ticket.value;
+    } else {
+      const bool over = drain();
+      check(result, "vkWaitSemaphores");
+      if (!over)
+        throw Error({Fault::deviceLost, "the Vulkan device does not finish its work; use a smaller picture, or choose another --device"});
+    }
+  }
   dropRetired();
+}
+
+void Queue::settle() noexcept {
+  if (immediate_ || finished_ >= submitted_) return;
+  if (waitFor(submitted_) == VK_SUCCESS) finished_ = submitted_;
+  else drain();
+}
+
+// Until the device does nothing, by the ways that are left. A lost device does nothing (Vulkan specification, "Lost
+// Device"). Past the limit nobody waits again.
+bool Queue::drain() noexcept {
+  const auto end = std::chrono::steady_clock::now() + kLongestDrain;
+  bool over = false;
+  while (!over && std::chrono::steady_clock::now() < end) {
+    std::uint64_t value = 0;
+    if (vkGetSemaphoreCounterValue(device_.handle(), timeline_.get(), &value) == VK_SUCCESS) {
+      over = value >= submitted_;
+    } else {
+      const VkResult idle = vkQueueWaitIdle(queue_);
+      over = idle == VK_SUCCESS || idle == VK_ERROR_DEVICE_LOST;
+    }
+    if (!over) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  finished_ = submitted_;
+  return over;
 }
 
 void Queue::dropRetired() {

@@ -59,8 +59,11 @@ class Queue {
 
   Ticket last() const { return {submitted_}; }  ///< of the latest submit
   bool done(Ticket ticket) const;
-  /// Blocks until the ticket's work is finished; throws Error (Fault::deviceLost) if it never will be.
+  /// Blocks until the ticket's work is finished. Throws Error, Fault::deviceLost if the device is lost or takes longer
+  /// than 10 minutes; by then nothing that was submitted runs any more, save on a device that hangs.
   void wait(Ticket ticket);
+  /// Likewise for everything submitted, whatever fails: what owns device memory calls it before it frees that.
+  void settle() noexcept;
 
   /// Destroys `owner` once everything submitted so far is done. Commands still being recorded do not count.
   template <class Owner>
@@ -73,6 +76,8 @@ class Queue {
     Ticket ticket;
     std::shared_ptr<void> owner;
   };
+  VkResult waitFor(std::uint64_t value) const;
+  bool drain() noexcept;
   std::uint64_t reached() const;
   void dropRetired();
   Commands::Slot* freeSlot();
@@ -82,8 +87,27 @@ class Queue {
   VkQueue queue_;
   Unique<VkSemaphore> timeline_;
   std::uint64_t submitted_ = 0;
+  std::uint64_t finished_ = 0;  // known to be done
   std::vector<std::unique_ptr<Commands::Slot>> slots_;
   std::deque<Retired> retired_;
+};
+
+/// The last member of what owns device memory: when that goes, on an error's way out too, the queue's work ends first.
+class Settled {
+ public:
+  Settled() = default;
+  explicit Settled(Queue& queue) : queue_(&queue) {}
+  Settled(Settled&& other) noexcept : queue_(std::exchange(other.queue_, nullptr)) {}
+  Settled& operator=(Settled&& other) noexcept {
+    std::swap(queue_, other.queue_);  // as Unique does
+    return *this;
+  }
+  ~Settled() {
+    if (queue_) queue_->settle();
+  }
+
+ private:
+  Queue* queue_ = nullptr;
 };
 
 }  // namespace vasa::gpu

@@ -13,6 +13,8 @@ namespace vasa::gpu {
 namespace {
 
 constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_BLIT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
+// A window that nobody sees may be given no image: the app goes on without.
+constexpr std::uint64_t kLongestAcquire = 1'000'000'000;  // [ns]
 constexpr VkImageSubresourceLayers kWhole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
 
 VkSemaphoreSubmitInfo semaphoreInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stage) {
@@ -65,10 +67,7 @@ Swapchain::Swapchain(Device& device, VkSurfaceKHR surface) : device_(device), su
 }
 
 Swapchain::~Swapchain() {
-  try {
-    device_.queue().wait(last_);
-  } catch (const Error&) {  // a lost device may be destroyed all the same
-  }
+  device_.queue().settle();
 }
 
 // Pictures hold sRGB values already: an SRGB format would encode them once more.
@@ -124,9 +123,9 @@ bool Swapchain::make(VkExtent2D window) {
   info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
   info.clipped = VK_TRUE;
   info.oldSwapchain = now_.chain.get();
+  device_.queue().wait(last_);
   VkSwapchainKHR chain = VK_NULL_HANDLE;
   check(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &chain), "vkCreateSwapchainKHR");
-  device_.queue().wait(last_);
   before_ = std::exchange(now_, Images{});
   now_.chain = {device_.handle(), chain};
   now_.size = size;
@@ -166,11 +165,12 @@ bool Swapchain::present(const Image& picture, VkExtent2D window) {
   if ((stale_ || resized) && !make(window)) return false;
   stale_ = false;
   std::uint32_t index = 0;
-  VkResult result = vkAcquireNextImageKHR(device_.handle(), now_.chain.get(), UINT64_MAX, acquired_.get(), VK_NULL_HANDLE, &index);
+  VkResult result = vkAcquireNextImageKHR(device_.handle(), now_.chain.get(), kLongestAcquire, acquired_.get(), VK_NULL_HANDLE, &index);
   if (result == VK_ERROR_OUT_OF_DATE_KHR) {
     stale_ = true;
     return false;
   }
+  if (result == VK_TIMEOUT || result == VK_NOT_READY) return false;
   stale_ = check(result, "vkAcquireNextImageKHR") == VK_SUBOPTIMAL_KHR;
   last_ = copy(picture, index);
   const VkSemaphore drawn = now_.drawn[index].get();

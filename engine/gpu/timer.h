@@ -44,7 +44,7 @@ class GpuTimer {
   [[nodiscard]] Scope scope(VkCommandBuffer commands, const char* name) { return {*this, commands, name}; }
 
   /// After the ticket is done: a time for each scope, in the order they began; empty where the device has no
-  /// timestamps.
+  /// timestamps, or lost them.
   std::vector<Time> results() const;
 
  private:

@@ -80,26 +80,34 @@ void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Targ
 
 }  // namespace
 
+OcclusionPass::Images::Images(gpu::Device& device, const gpu::Target& target)
+    : raw(makeLight(device, "occlusion, raw", target)),
+      light(makeLight(device, "occlusion", target)),
+      find(device, "depth", {&target.readableDepth()}),
+      smooth(device, "depth and raw occlusion", {&target.readableDepth(), &raw}),
+      apply(device, "occlusion", {&light}) {}
+
 OcclusionPass::OcclusionPass(gpu::Device& device, const gpu::Target& target)
-    : raw_(makeLight(device, "occlusion, raw", target)),
-      light_(makeLight(device, "occlusion", target)),
-      findSet_(device, "depth", {&target.readableDepth()}),
-      smoothSet_(device, "depth and raw occlusion", {&target.readableDepth(), &raw_}),
-      applySet_(device, "occlusion", {&light_}),
-      find_(device, intoLight(spirv::occlusion_frag, findSet_, target.spec(), raw_)),
-      smooth_(device, intoLight(spirv::smooth_frag, smoothSet_, target.spec(), light_)),
-      apply_(device, ontoPicture(applySet_, target.spec())) {}
+    : images_(device, target),
+      find_(device, intoLight(spirv::occlusion_frag, images_.find, target.spec(), images_.raw)),
+      smooth_(device, intoLight(spirv::smooth_frag, images_.smooth, target.spec(), images_.light)),
+      apply_(device, ontoPicture(images_.apply, target.spec())) {}
+
+// Set layouts made alike are compatible with those that the pipelines were made with.
+void OcclusionPass::resize(gpu::Device& device, const gpu::Target& target) {
+  images_ = Images(device, target);
+}
 
 void OcclusionPass::record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera, float reach,
                            float strength) const {
   const VkExtent2D size = target.spec().size;
   const shared::OcclusionPush push = occlusionConstants(camera, size.width, size.height, reach, strength);
   target.makeDepthReadable(commands);
-  drawInto(commands, raw_, target, find_, findSet_, push);
-  drawInto(commands, light_, target, smooth_, smoothSet_, push);
+  drawInto(commands, images_.raw, target, find_, images_.find, push);
+  drawInto(commands, images_.light, target, smooth_, images_.smooth, push);
   target.makeDepthWritable(commands);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
-  draw(commands, apply_, applySet_, push);
+  draw(commands, apply_, images_.apply, push);
   target.pause(commands);
 }
 

@@ -364,10 +364,9 @@ void Renderer::resize(std::uint32_t width, std::uint32_t height) {
   if (width == s.options.width && height == s.options.height) return;
   s.options.width = width;
   s.options.height = height;
-  s.occlusionPass.reset();
   s.target = gpu::Target(s.device, targetSpec(s.options));
   s.readBack = gpu::Buffer(s.device, readBackSpec(s.target));
-  if (s.options.occlusion) s.occlusionPass.emplace(s.device, s.target);
+  if (s.occlusionPass) s.occlusionPass->resize(s.device, s.target);
 }
 
 const gpu::Image& Renderer::picture() const {

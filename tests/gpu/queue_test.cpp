@@ -67,6 +67,26 @@ TEST_CASE("abandoned commands never run, and their buffer is used again") {
   CHECK(rig.download<std::uint32_t>(buffer) == std::vector<std::uint32_t>{1, 2, 3, 4});
 }
 
+TEST_CASE("memory that the device still uses is not freed before it has finished") {
+  VASA_REQUIRE_GPU(rig);
+  constexpr VkDeviceSize bytes = VkDeviceSize(64) << 20;  // some milliseconds
+  const auto submitFilling = [&](const gpu::Buffer& buffer) {
+    gpu::Commands fill = rig.device().queue().begin("fill");
+    vkCmdFillBuffer(fill, buffer.handle(), 0, bytes, 42);
+    return rig.device().queue().submit(std::move(fill));
+  };
+  gpu::Ticket ticket;
+  {
+    const gpu::Buffer buffer(rig.device(), {"filled", bytes});
+    ticket = submitFilling(buffer);
+  }
+  CHECK(rig.device().queue().done(ticket));
+  gpu::Buffer replaced(rig.device(), {"filled", bytes});
+  ticket = submitFilling(replaced);
+  replaced = gpu::Buffer(rig.device(), {"another", 16});
+  CHECK(rig.device().queue().done(ticket));
+}
+
 TEST_CASE("what is retired goes when everything submitted before is done") {
   VASA_REQUIRE_GPU(rig);
   gpu::Queue& queue = rig.device().queue();

@@ -292,6 +292,26 @@ TEST_CASE("a picture depends on its input alone: not on the batch size, nor on f
   CHECK(std::count(hashes.begin(), hashes.end(), hashes[0]) == std::ptrdiff_t(hashes.size()));
 }
 
+TEST_CASE("a picture after others of other sizes is that of a renderer made for its size, ambient occlusion and all") {
+  VASA_REQUIRE_GPU(rig);
+  const Subject subject(test::branchingNetwork(6, 3));
+  for (const std::uint32_t samples : {1u, 4u}) {
+    RenderOptions options = small(samples);
+    options.occlusion = true;
+    RenderInput input = subject.input(sideView());
+    input.look.occlusion = 1;
+    Renderer fresh(rig.device(), subject.network, {}, options);
+    fresh.draw(input);
+    RenderOptions other = options;
+    other.width = 90, other.height = 201;
+    Renderer resized(rig.device(), subject.network, {}, other);
+    resized.draw(input);
+    resized.resize(options.width, options.height);
+    resized.draw(input);
+    CHECK(hashOfPicture(resized.readBack()) == hashOfPicture(fresh.readBack()));
+  }
+}
+
 TEST_CASE("leaving out what cannot be seen changes no pixel") {
   VASA_REQUIRE_GPU(rig);
   const Subject subject(test::windingNetwork(60, 5));
