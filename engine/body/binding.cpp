@@ -7,8 +7,10 @@
 
 #include "body/arcs.h"
 #include "body/belonging.h"
+#include "body/stillness.h"
 #include "body/ties.h"
 #include "core/cancellation.h"
+#include "core/log.h"
 
 // Along a limb the joints have set in at a point by shares φ_j (bend) and ψ_j (twist), from the root on 1 1 1
 // φ 0 0. Where arcs are apart only one of them is between 0 and 1, and the point has one record; where they
@@ -20,6 +22,7 @@ namespace {
 constexpr float kSmallestTurn = 1e-3f;  // of a joint's motion
 constexpr float kSmallestShare = 0.004f;
 constexpr std::size_t kMostLimbs = 4;
+constexpr float kMostLeftBehind = 0.15f;  // as many vessels as may lie outside the body (body/belonging.h)
 
 /// How a point moves with one limb: the stations of the joints that have set in partly, the deepest first.
 struct LimbShare {
@@ -161,6 +164,10 @@ Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::
     if (i % Binding::kBlock == 0) binding.firstRecord.push_back(std::uint32_t(binding.records.size()));
     appendRecords(binder.bind(i), binding.records);
   }
+  if (const float behind = shareLeftBehind(body, binding, points); behind > kMostLeftBehind)
+    logWarning(fmt::format("{}: {:.0f} % of these vessels stay in the rest pose while {} moves; bind its skin's vertices "
+                           "to the joints that move it, or leave out meshes that follow other joints",
+                           name, 100 * behind, body.name));
   return binding;
 }
 

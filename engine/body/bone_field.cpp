@@ -17,6 +17,7 @@ constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
 constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
+constexpr float kBonesShare = 0.5f;    // of the links' length must have rigid vertices: else they are eyes, shoes, a hat
 
 using Links = std::vector<std::pair<vec3, vec3>>;
 
@@ -39,6 +40,24 @@ float distanceToLinks(const Links& links, vec3 p) {
   for (const auto& [from, to] : links)
     nearest = std::min(nearest, glm::distance(p, glm::mix(from, to, closestOnSegment(p, from, to))));
   return nearest;
+}
+
+float lengthOf(const Links& links) {
+  float length = 0;
+  for (const auto& [from, to] : links) length += glm::distance(from, to);
+  return length;
+}
+
+/// Whether rigid vertices, listed by joint, stand for the skeleton's bones. A few parts of it that move rigidly would
+/// otherwise be the nearest "bones" of the whole body, and everything would hang on them.
+bool standForBones(const std::vector<std::vector<vec3>>& points, const std::vector<Links>& links) {
+  float covered = 0, whole = 0;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const float length = lengthOf(links[i]);
+    whole += length;
+    if (!points[i].empty()) covered += length;
+  }
+  return covered >= kBonesShare * whole;
 }
 
 }  // namespace
@@ -73,8 +92,10 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
           points[influence.joints[std::size_t(k)]].push_back(mesh.mesh.positions[v]);
     }
   }
+  std::vector<Links> links = linksOf(spines);
+  fromMeshes_ = fromMeshes_ && standForBones(points, links);
   if (!fromMeshes_) {
-    std::vector<Links> links = linksOf(spines);
+    for (auto& list : points) list.clear();
     for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].links = std::move(links[i]);
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {

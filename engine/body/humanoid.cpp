@@ -8,8 +8,8 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kFamilies = 6;
-constexpr std::array<std::string_view, kFamilies> kFamilyNames{"cmu", "mixamo", "makehuman game", "makehuman", "vrm", "vroid"};
+constexpr std::size_t kFamilies = 7;
+constexpr std::array<std::string_view, kFamilies> kFamilyNames{"cmu", "mixamo", "makehuman game", "makehuman", "vrm", "vroid", "biovision"};
 constexpr int kLeastKnown = 8;
 
 // A row for each part of the body, a column for each family. @ stands for the side: "left" or "l" as the column's
@@ -19,28 +19,28 @@ struct Row {
   std::array<std::string_view, kFamilies> names;
 };
 constexpr Row kMiddle[] = {
-    {"hips", {"hips", "hips", "pelvis", "root", "hips", "jbipchips"}},
-    {"spine", {"lowerback", "spine", "spine01", "spine05", "spine", "jbipcspine"}},
-    {"chest", {"spine", "spine1", "spine02", "spine03", "chest", "jbipcchest"}},
-    {"upperChest", {"spine1", "spine2", "spine03", "spine01", "upperchest", "jbipcupperchest"}},
-    {"neck", {"neck", "neck", "neck01", "neck01", "neck", "jbipcneck"}},
-    {"head", {"head", "head", "head", "head", "head", "jbipchead"}},
+    {"hips", {"hips", "hips", "pelvis", "root", "hips", "jbipchips", "hips"}},
+    {"spine", {"lowerback", "spine", "spine01", "spine05", "spine", "jbipcspine", "chest"}},
+    {"chest", {"spine", "spine1", "spine02", "spine03", "chest", "jbipcchest", "chest2"}},
+    {"upperChest", {"spine1", "spine2", "spine03", "spine01", "upperchest", "jbipcupperchest", "chest3"}},
+    {"neck", {"neck", "neck", "neck01", "neck01", "neck", "jbipcneck", "neck"}},
+    {"head", {"head", "head", "head", "head", "head", "jbipchead", "head"}},
 };
 constexpr Row kSide[] = {
-    {"Shoulder", {"@shoulder", "@shoulder", "clavicle@", "clavicle@", "@shoulder", "jbip@shoulder"}},
-    {"UpperArm", {"@arm", "@arm", "upperarm@", "upperarm01@", "@upperarm", "jbip@upperarm"}},
-    {"LowerArm", {"@forearm", "@forearm", "lowerarm@", "lowerarm01@", "@lowerarm", "jbip@lowerarm"}},
-    {"Hand", {"@hand", "@hand", "hand@", "wrist@", "@hand", "jbip@hand"}},
-    {"UpperLeg", {"@upleg", "@upleg", "thigh@", "upperleg01@", "@upperleg", "jbip@upperleg"}},
-    {"LowerLeg", {"@leg", "@leg", "calf@", "lowerleg01@", "@lowerleg", "jbip@lowerleg"}},
-    {"Foot", {"@foot", "@foot", "foot@", "foot@", "@foot", "jbip@foot"}},
-    {"Toes", {"@toebase", "@toebase", "ball@", "toe11@", "@toes", "jbip@toebase"}},
-    {"ThumbProximal", {"#thumb", "@handthumb1", "thumb01@", "finger11@", "@thumbproximal", "jbip@thumb1"}},
-    {"IndexProximal", {"@handindex1", "@handindex1", "index01@", "finger21@", "@indexproximal", "jbip@index1"}},
-    {"MiddleProximal", {"@fingerbase", "@handmiddle1", "middle01@", "finger31@", "@middleproximal", "jbip@middle1"}},
+    {"Shoulder", {"@shoulder", "@shoulder", "clavicle@", "clavicle@", "@shoulder", "jbip@shoulder", "@collar"}},
+    {"UpperArm", {"@arm", "@arm", "upperarm@", "upperarm01@", "@upperarm", "jbip@upperarm", "@shoulder"}},
+    {"LowerArm", {"@forearm", "@forearm", "lowerarm@", "lowerarm01@", "@lowerarm", "jbip@lowerarm", "@elbow"}},
+    {"Hand", {"@hand", "@hand", "hand@", "wrist@", "@hand", "jbip@hand", "@wrist"}},
+    {"UpperLeg", {"@upleg", "@upleg", "thigh@", "upperleg01@", "@upperleg", "jbip@upperleg", "@hip"}},
+    {"LowerLeg", {"@leg", "@leg", "calf@", "lowerleg01@", "@lowerleg", "jbip@lowerleg", "@knee"}},
+    {"Foot", {"@foot", "@foot", "foot@", "foot@", "@foot", "jbip@foot", "@ankle"}},
+    {"Toes", {"@toebase", "@toebase", "ball@", "toe11@", "@toes", "jbip@toebase", "@toe"}},
+    {"ThumbProximal", {"#thumb", "@handthumb1", "thumb01@", "finger11@", "@thumbproximal", "jbip@thumb1", "@thumb"}},
+    {"IndexProximal", {"@handindex1", "@handindex1", "index01@", "finger21@", "@indexproximal", "jbip@index1", "@index"}},
+    {"MiddleProximal", {"@fingerbase", "@handmiddle1", "middle01@", "finger31@", "@middleproximal", "jbip@middle1", "@middle"}},
 };
 // Whether a family writes sides out.
-constexpr std::array<bool, kFamilies> kWholeSides{true, true, false, false, true, false};
+constexpr std::array<bool, kFamilies> kWholeSides{true, true, false, false, true, false, true};
 
 std::string withSide(std::string_view pattern, bool left, bool whole) {
   std::string name;

@@ -7,8 +7,8 @@
 namespace vasa {
 
 /// What a joint is in a human body, in the words of the VRM humanoid ("hips", "leftUpperArm", "rightToes" ...),
-/// judged by its name. Known families: CMU's mocap files, Mixamo, MakeHuman's game and default rigs, VRM and
-/// VRoid. The family is the one that knows most of the names; letters' case, prefixes up to a colon and marks
+/// judged by its name. Known families: CMU's mocap files, Mixamo, MakeHuman's game and default rigs, VRM,
+/// VRoid and Biovision's own (Collar, Shoulder, Elbow, Wrist; Hip, Knee, Ankle). The family is the one that knows most of the names; letters' case, prefixes up to a colon and marks
 /// between letters do not matter.
 struct HumanoidNames {
   std::string_view family;           ///< "cmu", "mixamo" ...; empty where no family fits

@@ -6,6 +6,7 @@
 
 #include "body/chain.h"
 #include "body/deform.h"
+#include "body/stillness.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 
@@ -220,4 +221,43 @@ TEST_CASE("vessels of another body are refused") {
             "net.vasa: these vessels do not belong to the body chain.glb: 100 % of them lie "
             "far from all of its joints at rest") == 0);
   CHECK(binding.error().message.find("Choose the body that they were made for") != std::string::npos);
+}
+
+TEST_CASE("rigid eyes in a smooth body are no bones: vessels follow the limbs as without them") {
+  Body body = chainBody({{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 2.5f, 0}, {0, 2.7f, 0}});
+  body.clips.push_back(turningClip(1, glm::angleAxis(1.0f, vec3(1, 0, 0))));
+  SkinnedMesh skin;  // a box around all of it, smoothly bound
+  skin.name = "body/skin";
+  for (std::uint32_t v = 0; v < 8; ++v) {
+    skin.mesh.positions.emplace_back(v & 1 ? 0.2f : -0.2f, v & 2 ? 2.8f : -0.1f, v & 4 ? 0.2f : -0.2f);
+    skin.influences.push_back({{1, 2, 0, 0}, vec4(0.5f, 0.5f, 0, 0)});
+    skin.normals.emplace_back(0, 0, 1);
+  }
+  skin.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                         {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  body.meshes.push_back(skin);
+  const std::vector<vec4> points = bundle({0, 0, 0}, {0, 2.7f, 0}, {0.05f}, 6, 40);
+  const auto without = bindPoints(body, points, "vessels");
+  REQUIRE(without.ok());
+  SkinnedMesh eyes;
+  eyes.name = "body/eyes";
+  for (std::uint32_t v = 0; v < 64; ++v) {
+    const float angle = float(v);
+    eyes.mesh.positions.emplace_back(0.02f * std::cos(angle), 2.6f + 0.001f * angle, 0.1f);
+    eyes.influences.push_back({{std::uint16_t(v % 2 ? 3 : 4), 0, 0, 0}, vec4(1, 0, 0, 0)});
+    eyes.normals.emplace_back(0, 0, 1);
+    if (v > 1) eyes.mesh.triangles.emplace_back(v - 2, v - 1, v);
+  }
+  body.meshes.push_back(eyes);
+  const auto with = bindPoints(body, points, "vessels");
+  if (!with.ok()) FAIL(with.error().message);
+  CHECK(shareLeftBehind(body, *with, points) == 0);
+  const Pose pose = turned(body, {{1, glm::angleAxis(1.0f, vec3(1, 0, 0))}});
+  const auto wanted = deformed(*without, points, pose), got = deformed(*with, points, pose);
+  for (std::size_t i = 0; i < points.size(); ++i) CHECK(glm::distance(vec3(wanted[i]), vec3(got[i])) < 1e-5f);
+
+  // What hangs on a joint that stays is told from what moves.
+  Binding still = *with;
+  for (BindingRecord& record : still.records) record.joint = 0, record.along = BindingRecord({{0}, 2}, 0).along;
+  CHECK(shareLeftBehind(body, still, points) > 0.4f);
 }

@@ -97,6 +97,17 @@ TEST_CASE("a turn of the motion's joint in space is the body's, however the rest
   CHECK(glm::distance(place(body, *clip, "LeftHand"), place(body, *clip, "LeftArm") + vec3(0, 0.55f, 0)) < 1e-5f);
 }
 
+TEST_CASE("a motion with Biovision's names moves a body with CMU's: its Shoulder is the upper arm") {
+  const Body body = standing(kCmu);
+  Motion motion = stretched();
+  const char* names[] = {"Hips", "Chest", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip", "LeftKnee", "LeftAnkle"};
+  for (std::size_t i = 0; i < motion.joints.size(); ++i) motion.joints[i].name = names[i];
+  motion.rotations[2] = glm::angleAxis(kPi / 2, vec3(0, 0, 1));
+  const auto clip = retarget(motion, body);
+  if (!clip.ok()) FAIL(clip.error().message);
+  CHECK(glm::distance(place(body, *clip, "LeftHand"), place(body, *clip, "LeftArm") + vec3(0, 0.55f, 0)) < 1e-5f);
+}
+
 TEST_CASE("joints without a common name are paired by a map; what is missing is told") {
   std::vector<std::string> names;
   JointMap map;

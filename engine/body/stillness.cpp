@@ -1,0 +1,60 @@
+#include "body/stillness.h"
+
+#include <algorithm>
+
+#include "math/closest_point.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kSamples = 200;
+constexpr std::uint32_t kFrames = 8;  // of a clip
+constexpr float kGoesHeights = 0.05f;
+constexpr float kStaysShare = 0.1f;
+
+JointId nearestLink(const SpineSet& spines, vec3 p) {
+  JointId nearest;
+  float least = 0;
+  for (const SpineJoint& joint : spines.joints) {
+    if (!joint.parent.valid()) continue;
+    const vec3 from = spines.joints[joint.parent.value].centre;
+    const float distance =
+        glm::distance(p, glm::mix(from, joint.centre, closestOnSegment(p, from, joint.centre)));
+    if (nearest.valid() && distance >= least) continue;
+    nearest = joint.parent;
+    least = distance;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+float shareLeftBehind(const Body& body, const Binding& binding, std::span<const vec4> points) {
+  const std::size_t count = std::min(points.size(), kSamples);
+  if (count == 0 || body.clips.empty()) return 0;
+  const std::vector<Station> stations = mainStations(binding);
+  std::vector<std::size_t> samples;
+  std::vector<JointId> links;
+  for (std::size_t i = 0; i < count; ++i) {
+    samples.push_back(i * points.size() / count);
+    links.push_back(nearestLink(binding.spines, vec3(points[samples.back()])));
+  }
+  const float goes = kGoesHeights * body.height();
+  std::vector<bool> behind(count);
+  SpinePose spine(binding.spines);
+  for (const Clip& clip : body.clips)
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+      const float time = glm::mix(clip.start, clip.end, float(frame) / float(kFrames - 1));
+      spine.run(binding.spines, samplePose(body.skeleton, clip, time));
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!links[i].valid()) continue;
+        const vec3 p(points[samples[i]]);
+        const float linkWay = glm::distance(spine.placeAfter(links[i], p), p);
+        const float own = glm::distance(spine.place(stations[samples[i]], p), p);
+        if (linkWay > goes && own < kStaysShare * linkWay) behind[i] = true;
+      }
+    }
+  return float(std::ranges::count(behind, true)) / float(count);
+}
+
+}  // namespace vasa
