@@ -4,6 +4,7 @@
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
 #   ./test.sh compilers everything builds with gcc and clang, in release, debug and under the sanitizers (hours)
+#   ./test.sh drivers   shaders, pictures and validation on a second driver, SwiftShader of Debian's chromium-common
 #   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, some 1,500 in all, a second or two each
 #   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app (tests/soak/drift.py)
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
@@ -24,6 +25,18 @@ if [ "$preset" = compilers ]; then
       echo "compilers: $c $each builds without a warning"
     done
   done
+  exit 0
+fi
+if [ "$preset" = drivers ]; then
+  scripts/install-dependencies.sh chromium-common
+  cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
+  cmake --build --preset release --target vasa human test_gpu test_render test_golden
+  # The package's own ICD file says Vulkan 1.0, and a loader then offers no more.
+  export VK_DRIVER_FILES=$PWD/build/swiftshader.json
+  export VK_ICD_FILENAMES=$VK_DRIVER_FILES  # loaders before 1.3.207
+  echo '{"file_format_version": "1.0.0", "ICD": {"library_path": "/usr/lib/chromium/libvk_swiftshader.so", "api_version": "1.3.0"}}' > "$VK_DRIVER_FILES"
+  build/release/bin/vasa devices
+  ctest --preset release -R '^(gpu|render|golden)$' "$@"
   exit 0
 fi
 if [[ "$preset" = faults || "$preset" = soak ]]; then

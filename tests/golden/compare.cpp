@@ -28,8 +28,9 @@ Difference compare(const Image& wanted, const Image& found) {
   return difference;
 }
 
-bool same(const Difference& difference) {
-  return difference.foreground > 100 && difference.mean <= 1 && difference.changed <= 0.01;
+bool same(const Difference& difference, std::uint32_t subPixelBits) {
+  const bool coarse = subPixelBits < 8;
+  return difference.foreground > 100 && difference.mean <= (coarse ? 4 : 1) && difference.changed <= (coarse ? 0.1 : 0.01);
 }
 
 }  // namespace vasa::golden

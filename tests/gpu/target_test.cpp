@@ -20,7 +20,7 @@ constexpr Pixel kRed{255, 0, 0, 255}, kGreen{0, 255, 0, 255}, kBlack{0, 0, 0, 25
 
 struct Push {
   std::uint64_t corners;
-  float colour[4];
+  alignas(16) float colour[4];
 };
 
 // Odd sizes: rows must come out without gaps whatever a driver's alignment is.

@@ -2,7 +2,7 @@
 #extension GL_EXT_buffer_reference : require
 
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Corners {
-  vec3 positions[];
+  float coordinates[];
 };
 layout(push_constant, std430) uniform Push {
   Corners corners;
@@ -10,5 +10,6 @@ layout(push_constant, std430) uniform Push {
 } push;
 
 void main() {
-  gl_Position = vec4(push.corners.positions[gl_VertexIndex], 1.0);
+  const uint first = 3 * gl_VertexIndex;
+  gl_Position = vec4(push.corners.coordinates[first], push.corners.coordinates[first + 1], push.corners.coordinates[first + 2], 1.0);
 }
