@@ -59,7 +59,7 @@ std::string glfwError() {
 
 template <class Event>
 void report(GLFWwindow* window, Event event) {
-  static_cast<std::vector<InputEvent>*>(glfwGetWindowUserPointer(window))->push_back(std::move(event));
+  static_cast<std::vector<InputEvent>*>(glfwGetWindowUserPointer(window))->emplace_back(std::in_place_type<Event>, std::move(event));
 }
 
 // A window's coordinates are not its pixels on every system.

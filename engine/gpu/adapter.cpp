@@ -10,8 +10,6 @@
 namespace vasa::gpu {
 namespace {
 
-constexpr std::uint32_t kWorkgroupSize = 256;  // the largest that vasa's shaders use
-
 std::string versionText(std::uint32_t version) {
   return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) +
          "." + std::to_string(VK_API_VERSION_PATCH(version));
@@ -88,9 +86,7 @@ bool drawsTo(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags use)
 
 void findMissingLimits(VkPhysicalDevice device, const VkPhysicalDeviceLimits& limits,
                        std::vector<std::string>& lacks) {
-  if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize ||
-      limits.maxComputeWorkGroupSize[0] < kWorkgroupSize)
-    lacks.push_back("workgroups of " + std::to_string(kWorkgroupSize));
+  // Workgroups have at most 128 threads, which Vulkan promises.
   const VkSampleCountFlags samples =
       limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
   if (!(samples & VK_SAMPLE_COUNT_4_BIT)) lacks.emplace_back("4 samples a pixel");
