@@ -211,14 +211,14 @@ std::string scriptLine(const ScriptStep& step) {
 void ScriptRecorder::flush() {
   if (frames_ > 0) text_ += scriptLine(LetFrames{frames_}) + "\n";
   frames_ = 0;
-  if (moved_) text_ += scriptLine(InputEvent(*moved_)) + "\n";
+  if (moved_) text_ += scriptLine(*moved_) + "\n";
   moved_.reset();
 }
 
 void ScriptRecorder::add(const InputEvent& event) {
   if (frames_ > 0) flush();
-  if (const auto* moved = std::get_if<PointerMoved>(&event)) {
-    moved_ = *moved;
+  if (std::holds_alternative<PointerMoved>(event)) {
+    moved_ = event;
     return;
   }
   flush();

@@ -57,7 +57,7 @@ class ScriptRecorder {
  private:
   void flush();
   std::string text_;
-  std::optional<PointerMoved> moved_;  // of several in a frame the last
+  std::optional<InputEvent> moved_;  // PointerMoved, of several in a frame the last
   std::uint32_t frames_ = 0;
 };
 
