@@ -15,6 +15,7 @@ struct Globals {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  bool noCache = false;
   unsigned threads = 0;  ///< 0: one a core
   std::string device;    ///< name or index; empty: the best
   std::uint64_t seed = 1;
@@ -33,6 +34,7 @@ void addDevices(CLI::App& app, Command& command);
 void addExport(CLI::App& app, Command& command);
 void addFit(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);
+void addPrepare(CLI::App& app, Command& command);
 void addProfile(CLI::App& app, Command& command);
 void addRender(CLI::App& app, Command& command);
 void addView(CLI::App& app, Command& command);

@@ -4,9 +4,11 @@
 #include <new>
 
 #include "commands.h"
+#include "core/kept.h"
 #include "core/log.h"
 #include "core/parallel.h"
 #include "help_command.h"
+#include "scene_options.h"
 
 namespace vasa::cli {
 namespace {
@@ -23,6 +25,7 @@ void addGlobals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print a machine-readable report on standard output, nothing else");
   app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
   app.add_flag("--verbose", globals.verbose, "Say more");
+  app.add_flag("--no-cache", globals.noCache, "Compute everything anew and keep nothing (see vasa prepare)");
   app.add_option("--threads", globals.threads, "Threads to use (default: one a core)");
   app.add_option("--device", globals.device, "Vulkan device: its index or part of its name (see vasa devices)");
   app.add_option("--seed", globals.seed, "Seed of everything random")->capture_default_str();
@@ -33,6 +36,10 @@ int runCommand(Command& command) {
               : command.globals.verbose ? LogLevel::verbose
                                         : LogLevel::normal);
   setThreadCount(command.globals.threads);
+  if (!command.globals.noCache) {
+    const auto data = dataFolder();
+    setKeptFolders({data ? std::vector{*data / "kept"} : std::vector<std::filesystem::path>{}, cacheFolder()});
+  }
   const Result<void> result = command.run();
   if (result.ok() && std::fflush(stdout) != 0) {
     logError("cannot write to standard output");
@@ -68,6 +75,7 @@ int run(int argc, char** argv) {
   addConvert(app, command);
   addFit(app, command);
   addExport(app, command);
+  addPrepare(app, command);
   addInfo(app, command);
   addCheck(app, command);
   addCompare(app, command);

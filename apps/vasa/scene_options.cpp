@@ -18,6 +18,12 @@ Result<std::filesystem::path> dataFolder() {
   return ioError("the built-in human (human.glb) is in none of its places; build the project or set VASA_DATA_DIR");
 }
 
+std::filesystem::path cacheFolder() {
+  if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set == '/') return std::filesystem::path(set) / "vasa";
+  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::filesystem::path(home) / ".cache" / "vasa";
+  return {};
+}
+
 void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option("SCENE", options.scene, "Scene file (.json); nothing: the built-in human");
   sub.add_option("--body", options.body, "Body with skeleton (glTF)");

@@ -20,6 +20,9 @@ struct SceneOptions {
 /// The folder of what ships with the program: the built-in human, the rules of growth.
 Result<std::filesystem::path> dataFolder();
 
+/// Where results are kept between runs (core/kept.h): $XDG_CACHE_HOME/vasa or ~/.cache/vasa; empty without either.
+std::filesystem::path cacheFolder();
+
 /// Declares SCENE, --body, --network, --clip and --joint-map.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 

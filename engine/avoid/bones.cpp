@@ -8,7 +8,7 @@
 #include <optional>
 #include <tuple>
 
-#include "body/mesh_role.h"
+#include "avoid/solid_parts.h"
 #include "collide/distance_field.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
@@ -25,40 +25,8 @@ constexpr float kStride = 0.8f;  // ... and of the distance
 constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
+constexpr float kWorthKeeping = 1.05f;  // that many times what was kept is kept instead
 constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
-
-// One part: what of a mesh one joint carries.
-struct Part {
-  std::uint32_t joint = 0;
-  std::vector<vec3> positions;
-  std::vector<uvec3> triangles;
-};
-
-std::uint32_t carrierOf(const SkinInfluence& influence) {
-  std::size_t heaviest = 0;
-  for (std::size_t k = 1; k < 4; ++k)
-    if (influence.weights[int(k)] > influence.weights[int(heaviest)]) heaviest = k;
-  return influence.joints[heaviest];
-}
-
-std::vector<Part> partsOf(const SkinnedMesh& mesh) {
-  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> vertices;  // of a joint: mesh's number -> part's
-  std::map<std::uint32_t, Part> parts;
-  for (const uvec3& triangle : mesh.mesh.triangles) {
-    const std::uint32_t joint = carrierOf(mesh.influences[triangle.x]);
-    Part& part = parts[joint];
-    uvec3 own;
-    for (int k = 0; k < 3; ++k) {
-      const auto [at, fresh] = vertices[joint].try_emplace(triangle[k], std::uint32_t(part.positions.size()));
-      if (fresh) part.positions.push_back(mesh.mesh.positions[triangle[k]]);
-      own[k] = at->second;
-    }
-    part.triangles.push_back(own);
-  }
-  std::vector<Part> list;
-  for (auto& [joint, part] : parts) part.joint = joint, list.push_back(std::move(part));
-  return list;
-}
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
   const float length = glm::length(v);
@@ -345,10 +313,12 @@ void Bones::State::lookAtNear(std::size_t task, const Tubes& tubes, std::vector<
 }
 
 Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::make_unique<State>()) {
-  for (const SkinnedMesh& mesh : body.meshes) {
-    if (!isSolid(mesh) || mesh.influences.empty()) continue;
-    for (const Part& part : partsOf(mesh))
-      state_->solids.push_back({part.joint, DistanceField(part.positions, part.triangles, {})});
+  const SolidParts parts(body);
+  std::vector<DistanceField> fields = parts.fields();
+  std::uint32_t filled = 0;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    filled += fields[k].filledBricks();
+    state_->solids.push_back({parts.joint(k), std::move(fields[k])});
   }
   state_->rest.assign(restTubes.begin(), restTubes.end());
   for (const Bezier& tube : restTubes) state_->pieces.push_back(piecesOf(tube));
@@ -364,6 +334,10 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     if (atRest.empty() || atRest.back().first != contact.tube) atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
     atRest.back().second = std::min(atRest.back().second, contact.f);
   }
+  std::uint32_t filledNow = 0;
+  std::vector<const DistanceField*> now;
+  for (const State::Solid& solid : state_->solids) now.push_back(&solid.field), filledNow += solid.field.filledBricks();
+  if (float(filledNow) > kWorthKeeping * float(filled)) parts.keepFields(now);
 }
 Bones::~Bones() = default;
 Bones::Bones(Bones&&) noexcept = default;

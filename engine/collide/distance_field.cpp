@@ -5,10 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <mutex>
 #include <thread>
 
+#include "collide/obstacle.h"
+#include "core/bytes.h"
 #include "core/cancellation.h"
 #include "mesh/weld.h"
+#include "mesh/winding_number.h"
 
 namespace vasa {
 namespace {
@@ -18,10 +22,26 @@ constexpr float kStepMargin = 1.001f;  // of the way from corner to corner
 
 }  // namespace
 
-DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const uvec3> everyTriangle, Options options)
-    : options_(options) {
-  const auto [positions, triangles] =
-      weld({{everyVertex.begin(), everyVertex.end()}, {everyTriangle.begin(), everyTriangle.end()}}, 0);
+// The surface itself: made when the first brick is filled, for a field that was restored may never need it.
+struct DistanceField::Exact {
+  TriangleMesh mesh;
+  mutable std::once_flag once;
+  mutable std::unique_ptr<Obstacle> surface;
+  mutable std::unique_ptr<WindingNumber> winding;
+};
+
+const DistanceField::Exact& DistanceField::exact() const {
+  std::call_once(exact_->once, [&] {
+    exact_->mesh = weld(exact_->mesh, 0);
+    exact_->surface = std::make_unique<Obstacle>(exact_->mesh.positions, exact_->mesh.triangles);
+    exact_->winding = std::make_unique<WindingNumber>(exact_->mesh.positions, exact_->mesh.triangles);
+  });
+  return *exact_;
+}
+
+DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options, Unfilled)
+    : options_(options), exact_(std::make_unique<Exact>()) {
+  exact_->mesh = {{positions.begin(), positions.end()}, {triangles.begin(), triangles.end()}};
   for (const uvec3& triangle : triangles)
     for (int k = 0; k < 3; ++k) box_.add(positions[triangle[k]], options_.band);
   if (box_.empty()) return;
@@ -31,15 +51,60 @@ DistanceField::DistanceField(std::span<const vec3> everyVertex, std::span<const 
   brickCount_ = std::size_t(counts_.x) * std::size_t(counts_.y) * std::size_t(counts_.z);
   bricks_ = std::make_unique_for_overwrite<std::atomic<std::uint32_t>[]>(brickCount_);
   for (std::size_t k = 0; k < brickCount_; ++k) bricks_[k].store(kUndecided, std::memory_order_relaxed);
-  surface_ = std::make_unique<Obstacle>(positions, triangles);
-  winding_ = std::make_unique<WindingNumber>(positions, triangles);
-  markBand(positions, triangles);
+}
+
+DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options)
+    : DistanceField(positions, triangles, options, Unfilled{}) {
+  if (box_.empty()) return;
+  markBand();
+  makeRoom();
   sortOutInside();
   measureRings();
 }
+DistanceField::~DistanceField() = default;
+DistanceField::DistanceField(DistanceField&&) noexcept = default;
+
+std::uint32_t DistanceField::filledBricks() const {
+  return filled_ ? filled_->load(std::memory_order_relaxed) : 0;
+}
+
+// Filled bricks count in their own order here, not in the one in which threads came upon them.
+void DistanceField::save(ByteWriter& out) const {
+  std::vector<std::uint32_t> bricks(brickCount_);
+  std::vector<float> values;
+  std::uint32_t filled = 0;
+  for (std::size_t k = 0; k < brickCount_; ++k) {
+    bricks[k] = bricks_[k].load(std::memory_order_acquire);
+    if (bricks[k] >= kUndecided) continue;
+    const float* own = values_.get() + std::size_t(bricks[k]) * kValues;
+    values.insert(values.end(), own, own + kValues);
+    bricks[k] = filled++;
+  }
+  out.addAll(std::span(std::as_const(bricks)));
+  out.addAll(std::span(std::as_const(values)));
+}
+
+std::optional<DistanceField> DistanceField::restored(std::span<const vec3> positions, std::span<const uvec3> triangles,
+                                                     Options options, ByteReader& in) {
+  DistanceField field(positions, triangles, options, Unfilled{});
+  std::vector<std::uint32_t> bricks;
+  std::vector<float> values;
+  if (!in.takeAll(bricks) || !in.takeAll(values) || bricks.size() != field.brickCount_ || values.size() % kValues != 0) return {};
+  if (bricks.empty()) return field;
+  const std::uint32_t filled = std::uint32_t(values.size() / kValues);
+  for (std::size_t k = 0; k < bricks.size(); ++k) {
+    if (bricks[k] < kUndecided && bricks[k] >= filled) return {};
+    field.bricks_[k].store(bricks[k], std::memory_order_relaxed);
+  }
+  field.makeRoom();
+  std::ranges::copy(values, field.values_.get());
+  *field.filled_ = filled;
+  return field;
+}
 
 // Bricks that come within the band of a triangle's box have values, once they are looked at.
-void DistanceField::markBand(std::span<const vec3> positions, std::span<const uvec3> triangles) {
+void DistanceField::markBand() {
+  const auto& [positions, triangles] = exact().mesh;
   const float side = options_.cell * kBrick;
   Checkpoints checkpoints;
   for (const uvec3& triangle : triangles) {
@@ -51,8 +116,15 @@ void DistanceField::markBand(std::span<const vec3> positions, std::span<const uv
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) set({x, y, z}, kEmpty);
   }
+}
+
+// For the values of all bricks that have some, or may get them.
+void DistanceField::makeRoom() {
   std::size_t count = 0;
-  for (std::size_t k = 0; k < brickCount_; ++k) count += bricks_[k].load(std::memory_order_relaxed) == kEmpty;
+  for (std::size_t k = 0; k < brickCount_; ++k) {
+    const std::uint32_t brick = bricks_[k].load(std::memory_order_relaxed);
+    count += brick < kUndecided || brick == kEmpty;
+  }
   values_ = std::make_unique_for_overwrite<float[]>(count * kValues);
   filled_ = std::make_unique<std::atomic<std::uint32_t>>(0);
 }
@@ -71,7 +143,7 @@ std::uint32_t DistanceField::fill(ivec3 at) const {
   for (int k = 0; k < kValues; ++k)
     corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
   const std::span<float, kValues> values(values_.get() + std::size_t(place) * kValues, kValues);
-  surface_->distances(corners, options_.band, near, values);
+  exact().surface->distances(corners, options_.band, near, values);
   giveSigns(corners, values);
   own.store(place, std::memory_order_release);
   return place;
@@ -100,7 +172,7 @@ void DistanceField::giveSigns(std::span<const vec3, kValues> corners, std::span<
     }
     const auto own = std::span(together).first(count);
     const int farthest = *std::ranges::max_element(own, {}, [&](int at) { return distances[std::size_t(at)]; });
-    if (winding_->at(corners[std::size_t(farthest)]) > kInsideFrom)
+    if (exact().winding->at(corners[std::size_t(farthest)]) > kInsideFrom)
       for (const int at : own) distances[std::size_t(at)] = -distances[std::size_t(at)];
   }
 }
@@ -114,7 +186,7 @@ void DistanceField::sortOutInside() {
       for (int x = 0; x < counts_.x; ++x) {
         if (brick({x, y, z}) != kUndecided) continue;
         const vec3 middle = origin_ + side * (vec3(x, y, z) + 0.5f);
-        const std::uint32_t found = winding_->at(middle) > kInsideFrom ? kInside : kOutside;
+        const std::uint32_t found = exact().winding->at(middle) > kInsideFrom ? kInside : kOutside;
         set({x, y, z}, found);
         region.assign(1, {x, y, z});
         for (std::size_t k = 0; k < region.size(); ++k)
@@ -206,8 +278,7 @@ DistanceField::Sample DistanceField::at(vec3 point) const {
 }
 
 std::size_t DistanceField::bytes() const {
-  const std::size_t filled = filled_ ? filled_->load(std::memory_order_relaxed) : 0;
-  return filled * kValues * sizeof(float) + brickCount_ * sizeof(std::uint32_t);
+  return filledBricks() * std::size_t(kValues) * sizeof(float) + brickCount_ * sizeof(std::uint32_t);
 }
 
 }  // namespace vasa

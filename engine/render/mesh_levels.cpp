@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "body/body.h"
+#include "core/bytes.h"
 #include "core/cancellation.h"
+#include "core/hash.h"
+#include "core/kept.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
 #include "mesh/components.h"
@@ -17,6 +21,7 @@
 namespace vasa {
 namespace {
 
+constexpr const char* kKind = "levels";
 constexpr float kFinestError = 0.0002f, kCoarsestError = 0.01f;  // [m]
 constexpr float kSqrt2 = 1.41421356f;
 // Cosines of a corner's normal and its triangle's: below the first one they belong to different sides of an edge, and
@@ -68,6 +73,34 @@ MeshLevel levelOf(const SkinnedMesh& mesh, const std::vector<uvec3>& triangles, 
   return level;
 }
 
+// All levels but the first, which is the mesh itself.
+void save(const LevelledMesh& mesh, ByteWriter& out) {
+  out.add(mesh.closed);
+  out.add(std::uint32_t(mesh.levels.size()));
+  for (const MeshLevel& level : std::span(mesh.levels).subspan(1)) {
+    out.add(level.error);
+    out.addAll(std::span(level.vertices));
+    out.addAll(std::span(level.normals));
+    out.addAll(std::span(level.triangles));
+  }
+}
+
+std::optional<BodyLevels> restored(std::span<const SkinnedMesh> meshes, std::span<const std::byte> bytes) {
+  BodyLevels all;
+  ByteReader in(bytes);
+  for (const SkinnedMesh& mesh : meshes) {
+    LevelledMesh& own = all.emplace_back(oneLevel(mesh));
+    std::uint32_t count = 0;
+    if (!in.take(own.closed) || !in.take(count)) return {};
+    for (std::uint32_t k = 1; k < count; ++k) {
+      MeshLevel level{};
+      if (!in.take(level.error) || !in.takeAll(level.vertices) || !in.takeAll(level.normals) || !in.takeAll(level.triangles)) return {};
+      own.levels.push_back(std::move(level));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 LevelledMesh oneLevel(const SkinnedMesh& mesh) {
@@ -108,8 +141,16 @@ bool isClosed(const TriangleMesh& mesh) {
 }
 
 BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes) {
+  std::uint64_t key = meshes.size();
+  for (const SkinnedMesh& mesh : meshes)
+    key = hashOf(std::span(mesh.normals), hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key)));
+  if (const auto kept = findKept(kKind, key))
+    if (auto levels = restored(meshes, *kept)) return std::move(*levels);
   BodyLevels all(meshes.size());
   parallelFor(meshes.size(), 1, [&](std::size_t i) { all[i] = coarserLevels(meshes[i]); });
+  ByteWriter out;
+  for (const LevelledMesh& mesh : all) save(mesh, out);
+  keep(kKind, key, out.bytes());
   return all;
 }
 

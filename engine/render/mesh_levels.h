@@ -31,7 +31,7 @@ LevelledMesh coarserLevels(const SkinnedMesh& mesh);
 
 /// Levels of each of a body's meshes. Renderers of one body can share them (RenderOptions::levels).
 using BodyLevels = std::vector<LevelledMesh>;
-/// coarserLevels() of each, several at a time.
+/// coarserLevels() of each, several at a time, or what an earlier run kept of them (core/kept.h).
 BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes);
 
 /// Every piece of it has a closed surface that faces outwards.

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/atomic_file.h"
+#include "core/bytes.h"
 #include "core/hash.h"
 #include "scene/frame.h"
 
@@ -29,30 +29,7 @@ struct Narrowed {
   float widest;
 };
 
-template <class T>
-void append(std::vector<std::byte>& bytes, const T& value) {
-  const auto own = std::as_bytes(std::span(&value, 1));
-  bytes.insert(bytes.end(), own.begin(), own.end());
-}
-
-// Values from bytes, as long as there are some.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  bool take(T& value) {
-    if (bytes_.size() < sizeof(T)) return false;
-    std::memcpy(&value, bytes_.data(), sizeof(T));
-    bytes_ = bytes_.subspan(sizeof(T));
-    return true;
-  }
-  std::span<const std::byte> rest() const { return bytes_; }
-
- private:
-  std::span<const std::byte> bytes_;
-};
-
-bool takeFrame(Reader& reader, Correction& frame) {
+bool takeFrame(ByteReader& reader, Correction& frame) {
   std::uint32_t moved = 0, narrowed = 0;
   if (!reader.take(moved) || !reader.take(narrowed)) return false;
   for (std::uint32_t k = 0; k < moved; ++k) {
@@ -112,7 +89,7 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
 }
 
 Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& track, std::uint64_t key) {
-  std::vector<std::byte> frames;
+  ByteWriter frames;
   std::vector<Moved> moved;
   std::vector<Narrowed> narrowed;
   for (const Correction& frame : track.frames) {
@@ -121,9 +98,9 @@ Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& tr
       if (const vec3 by = frame.motions[v]; by != vec3(0)) moved.push_back({v, {by.x, by.y, by.z}});
     for (std::uint32_t p = 0; p < frame.widest.size(); ++p)
       if (std::isfinite(frame.widest[p])) narrowed.push_back({p, frame.widest[p]});
-    append(frames, std::uint32_t(moved.size())), append(frames, std::uint32_t(narrowed.size()));
-    for (const Moved& own : moved) append(frames, own);
-    for (const Narrowed& own : narrowed) append(frames, own);
+    frames.add(std::uint32_t(moved.size())), frames.add(std::uint32_t(narrowed.size()));
+    for (const Moved& own : moved) frames.add(own);
+    for (const Narrowed& own : narrowed) frames.add(own);
   }
   const bool any = !track.frames.empty();
   Header header{kMagic,
@@ -133,11 +110,11 @@ Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& tr
                 any ? std::uint32_t(track.frames[0].widest.size()) : 0,
                 std::uint32_t(track.frames.size()),
                 0};
-  header.hash = hashOfFile(header, frames);
-  std::vector<std::byte> bytes;
-  append(bytes, header);
-  bytes.insert(bytes.end(), frames.begin(), frames.end());
-  return writeFileAtomically(path, bytes);
+  header.hash = hashOfFile(header, frames.bytes());
+  ByteWriter file;
+  file.add(header);
+  file.addRaw(frames.bytes());
+  return writeFileAtomically(path, file.bytes());
 }
 
 Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& scene, const Clip& clip,
@@ -146,7 +123,7 @@ Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& sc
   if (!bytes) return bytes.error();
   const Error damaged =
       badInput(path.string() + ": is no whole track of a motion; remove it and it is made anew");
-  Reader reader(*bytes);
+  ByteReader reader(*bytes);
   Header header;
   if (!reader.take(header) || header.magic != kMagic || header.hash != hashOfFile(header, reader.rest()))
     return damaged;

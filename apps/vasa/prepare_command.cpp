@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/kept.h"
+#include "core/log.h"
+#include "render/mesh_levels.h"
+#include "report.h"
+#include "scene/frame.h"
+#include "scene_options.h"
+
+// vasa prepare: what takes long to make of a body and stays the same, made beforehand.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string output;
+};
+
+Result<void> run(const Globals& globals, const Options& options) {
+  auto choice = chooseScene(options.scene);
+  if (!choice) return choice.error();
+  const std::filesystem::path folder = options.output.empty() ? cacheFolder() : std::filesystem::path(options.output);
+  if (folder.empty()) return Error{Fault::usage, "no folder to keep anything in: set HOME or XDG_CACHE_HOME, or give -o FOLDER"};
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return ioError(folder.string() + ": cannot make the folder: " + error.message() + "; choose one that you may write to");
+  setKeptFolders({{}, folder});
+  auto scene = loadScene(*choice);
+  if (!scene) return scene.error();
+  bodyLevels(scene->body.meshes);
+  const FrameMaker frames(*scene, {.avoid = true});
+  std::uintmax_t bytes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder, error))
+    if (file.path().extension() == ".kept") bytes += file.file_size(error);
+  if (globals.json) return printJson({{"folder", folder.string()}, {"bytes", bytes}});
+  logInfo(fmt::format("{}: {:.1f} MB kept for later runs", folder.string(), double(bytes) / 1e6));
+  return {};
+}
+
+}  // namespace
+
+void addPrepare(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("prepare", "Make beforehand what takes long at a body's first use");
+  sub->footer(
+      "Levels of detail of skin, bones and organs, and the distance fields of the bones. Commands that need them make\n"
+      "and keep them by themselves, in $XDG_CACHE_HOME/vasa (~/.cache/vasa), 512 MiB at most; --no-cache does without.\n\n"
+      "Examples:\n"
+      "  vasa prepare --body body.glb --network body.vasa");
+  addSceneOptions(*sub, options->scene);
+  sub->add_option("-o,--output", options->output, "Folder to keep it in (default: the cache)");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli
