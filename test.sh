@@ -7,6 +7,7 @@
 #   ./test.sh drivers   shaders, pictures and validation on a second driver, SwiftShader of Debian's chromium-common
 #   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, some 1,500 in all, a second or two each
 #   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app (tests/soak/drift.py)
+#   ./test.sh slurm     a film on a Slurm cluster of this machine, with a task that is killed; installs Slurm
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
 # Further arguments go to ctest, e.g. ./test.sh release -R network
 set -euo pipefail
@@ -37,6 +38,13 @@ if [ "$preset" = drivers ]; then
   echo '{"file_format_version": "1.0.0", "ICD": {"library_path": "/usr/lib/chromium/libvk_swiftshader.so", "api_version": "1.3.0"}}' > "$VK_DRIVER_FILES"
   build/release/bin/vasa devices
   ctest --preset release -R '^(gpu|render|golden)$' "$@"
+  exit 0
+fi
+if [ "$preset" = slurm ]; then
+  scripts/install-dependencies.sh slurm-wlm munge
+  cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
+  cmake --build --preset release --target vasa human
+  tests/slurm/film_test.sh build/release/bin/vasa build/slurm
   exit 0
 fi
 if [[ "$preset" = faults || "$preset" = soak ]]; then

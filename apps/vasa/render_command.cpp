@@ -296,7 +296,7 @@ class Film {
 
 // Folders are made when there is something to put into them.
 Result<void> makeFolders(const Options& options) {
-  for (const std::string& name : {options.output, options.video}) {
+  for (const std::string& name : {options.output, options.video, options.track}) {
     const auto folder = std::filesystem::path(name).parent_path();
     if (name == "-" || folder.empty() || folder.string().find('{') != std::string::npos) continue;
     std::error_code error;
@@ -306,8 +306,27 @@ Result<void> makeFolders(const Options& options) {
   return {};
 }
 
+// Without pictures or a video: the motion alone is solved and kept, which takes no Vulkan device.
+Result<void> makeTrack(const Globals& globals, const Options& options, const Job& job) {
+  FrameOptions frame = frameOptions(options);
+  const auto track = TrackFile::open(options.track, job.scene, job.clip, frame);
+  if (!track) return track.error();
+  FrameMaker maker(job.scene, frame);
+  ProgressLine progress("solving");
+  const std::uint32_t count = job.range.last + 1;
+  std::uint32_t solved = 0;
+  for (; solved < count && !stopRequested(); ++solved) {
+    maker.make(job.clip, job.clip->timeOfFrame(solved));
+    progress.update(solved + 1, count);
+  }
+  if (auto saved = track->save(); !saved) return saved;
+  if (solved < count) return stopError();
+  if (globals.json) return printJson({{"track", options.track}, {"frames", solved}});
+  return {};
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
-  if (options.output.empty() && options.video.empty())
+  if (options.output.empty() && options.video.empty() && options.track.empty())
     return Error{Fault::usage, "nothing to write; give -o 'frame_{frame:04}.png', --video film.mp4, or both"};
   if (options.output == "-" && globals.json)
     return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
@@ -316,6 +335,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (options.output == "-" && job->range.first != job->range.last)
     return Error{Fault::usage, "-o - writes one picture; choose it with --frames N"};
   if (auto made = makeFolders(options); !made) return made;
+  if (options.output.empty() && options.video.empty()) return makeTrack(globals, options, *job);
   const auto start = std::chrono::steady_clock::now();
   const auto film = gpu::attempt([&]() -> Result<Report> {
     gpu::Device device({.choice = globals.device});
@@ -324,8 +344,10 @@ Result<void> run(const Globals& globals, const Options& options) {
     const auto track = TrackFile::open(options.track, job->scene, job->clip, frame);
     if (!track) return track.error();
     Film work(*job, options, frame, device);
-    if (auto done = work.run(); !done) return done.error();
+    const auto done = work.run();
+    // A run that is stopped keeps what it solved, too.
     if (auto saved = track->save(); !saved) return saved.error();
+    if (!done) return done.error();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return Report{{"frames", work.drawn},
                   {"frames_kept", work.kept},
@@ -359,7 +381,8 @@ void addRender(CLI::App& app, Command& command) {
       "Examples:\n"
       "  vasa render --clip walk -o 'out/{frame:04}.png' --video walk.mp4\n"
       "  vasa render --body b.glb --network b.vasa --clip fist --focus LeftHand --camera left -o 'out/{frame:04}.png'\n"
-      "  vasa render --clip squat --frames 30 --size 640x1280 -o - > picture.png");
+      "  vasa render --clip squat --frames 30 --size 640x1280 -o - > picture.png\n"
+      "  vasa render --clip walk --track walk.track    (solves the motion for later runs, draws nothing)");
   addSceneOptions(*sub, options->scene);
   addTrackOption(*sub, options->track);
   addCameraOptions(*sub, options->camera);

@@ -55,6 +55,26 @@ TEST_CASE("the same frame has the same bits on one and two threads, and in any o
   for (const char* name : {"001.png", "003.png"}) CHECK(bytesOf(one.path() / name) == bytesOf(single.path() / name));
 }
 
+TEST_CASE("a track alone draws nothing, needs no device, and gives the pictures of a run without it") {
+  TemporaryFolder tracks, with, without;
+  const std::string track = (tracks.path() / "new" / "walk.track").string();
+  const auto solved = runProgram({"render", "--clip", "walk", "--frames", "0:3", "--track", track, "--json"},
+                                 {.environment = {"VK_DRIVER_FILES=/dev/null"}});
+  REQUIRE_MESSAGE(solved.exit == 0, solved.err);
+  CHECK(solved.json()["frames"] == 4);
+  REQUIRE(runProgram(walk(with.path(), {"--frames", "3", "--track", track})).exit == 0);
+  REQUIRE(runProgram(walk(without.path(), {"--frames", "3"})).exit == 0);
+  CHECK(bytesOf(with.path() / "003.png") == bytesOf(without.path() / "003.png"));
+  // A motion, and one that is solved, is needed.
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--clip", "walk", "--no-avoid"}}) {
+    std::vector<std::string> arguments{"render", "--track", (tracks.path() / "other.track").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    CHECK(runProgram(arguments).exit == 2);
+  }
+  CHECK(listOf(tracks.path() / "new") == std::vector<std::string>{"walk.track"});
+}
+
 TEST_CASE("shards share a film without overlap, and --resume keeps what is there") {
   TemporaryFolder folder;
   REQUIRE(runProgram(walk(folder.path(), {"--frames", "0:3", "--shard", "0/2"})).exit == 0);
