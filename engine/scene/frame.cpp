@@ -171,9 +171,10 @@ void FrameMaker::begin(const Clip& clip) {
   const bool closes = last > 0 && same(first, samplePose(skeleton, clip, clip.timeOfFrame(last)));
   std::uint32_t frame = closes ? last - std::min(kRunUp, last) : 0;
   make(samplePose(skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
-  while (closes && frame < last) {
-    ++frame;
-    walk(samplePose(skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame - 1), clip.timeOfFrame(frame), 1 / clip.framesPerSecond);
+  // The seam is where the last pose is the first one, to kSamePlace: frame 0 has the first, to the bit.
+  while (closes && ++frame <= last) {
+    const float time = clip.timeOfFrame(frame < last ? frame : 0);
+    walk(samplePose(skeleton, clip, time), clip.timeOfFrame(frame - 1), time, 1 / clip.framesPerSecond);
   }
   *track_ = {&clip, {avoider_->correction()}};
   at_ = 0;
