@@ -51,6 +51,12 @@ large walk 480x640 --clip walk --frames 9 --camera 1.8,1.1,2.8/0,0.87,0/33
 large squat 480x640 --clip squat --frames 45 --camera 1.7,0.9,2.6/0,0.62,0.05/27
 large fist 480x640 --clip fist --frames 30 --focus RightHand --distance 0.75
 
+# The walk once around, at every second frame.
+"$vasa" --quiet render --clip walk --size 300x400 --supersample 2 --camera 1.8,1.1,2.8/0,0.87,0/33 -o "$parts/film.{frame:03}.png"
+ffmpeg -loglevel error -y -framerate 30 -i "$parts/film.%03d.png" -vf \
+  "select=not(mod(n\,2)),setpts=N/15/TB,split[a][b];[a]palettegen=max_colors=96:stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle" \
+  -r 15 -loop 0 "$folder/walk.gif"
+
 only='--clip stand --hide skin,bones,organs'
 # shellcheck disable=SC2086
 {
