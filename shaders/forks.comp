@@ -1,6 +1,6 @@
 #version 460
-// A thread a fork, a workgroup a group: its vertices row by row, then those of its triangles that may be seen. What a
-// thread writes has its place by the threads before it in the group, so nothing depends on their timing.
+// A thread a fork, a workgroup a group: its vertices row by row, then those of its triangles that may be seen, if the
+// template has room for the group. What a thread writes has its place by the threads before it in the group.
 // CPU references: engine/surface/fork.h, fork_smooth.h, fork_stump.h, fork_template.h, visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -21,10 +21,11 @@ vec3 piercingOf(ForkBranch branch);
 
 #include "lib/fork_build.glsl"
 
-const uint kGroupThreads = kGroupForks;
+layout(constant_id = 1) const uint kGroupThreads = kGroupForks;
 #include "lib/group_sum.glsl"
+#include "lib/template_room.glsl"
 
-layout(local_size_x = kGroupForks) in;
+layout(local_size_x_id = 1) in;
 layout(push_constant, std430) uniform Push { ForksPush push; };
 
 void put(uint vertex, SurfacePoint point) {
@@ -69,15 +70,15 @@ ForkShape shapeOf(ForkRecord fork) {
   return shape;
 }
 
-void writeVertices(uint first, uint count, uint blocks, uint colour) {
+void writeVertices(uint block, uint count, uint blocks, uint colour) {
   Vertices vertices = push.vertices;
-  for (uint k = 0; k < count; ++k) vertices.vertex[first + k] = packVertex(corners[k]);
+  for (uint k = 0; k < count; ++k) vertices.vertex[(block << kBlockShift) + k] = packVertex(corners[k]);
   UintsOut colours = push.blockColours;
-  for (uint k = 0; k < blocks; ++k) colours.value[(first >> kBlockShift) + k] = colour;
+  for (uint k = 0; k < blocks; ++k) colours.value[block + k] = colour;
 }
 
 void writeTriangles(uint vertex, uint target) {
-  UintsOut indices = push.indices;
+  UintsOut indices = UintsOut(push.vertices);
   for (uint i = 0; i < triangles; ++i) {
     uvec3 corner = vertex + triangleAt(i);
     indices.value[target++] = corner.x;
@@ -86,24 +87,50 @@ void writeTriangles(uint vertex, uint target) {
   }
 }
 
+shared uint groupBlock, groupVertexBlocks;
+
+// Tubes come first: without room for all of them there is none for forks.
+uint undoneFork() {
+  Fill filling = push.filling;
+  return filling.state.undoneTube < filling.state.tubeEnd ? 0 : filling.state.undoneFork;
+}
+
+uint blockFor(uint begin, bool first, uint blocks, uint all) {
+  Fill filling = push.filling;
+  if (undoneFork() <= begin || atomicMin(filling.state.undoneFork, 0xffffffffu) <= begin) return kNoRoom;
+  uint block = takeBlocks(filling, blocksOf(blocks, all), first, push.reserve);
+  if (block == kNoRoom) atomicMin(filling.state.undoneFork, begin);
+  return block;
+}
+
 void main() {
-  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, item = group * kGroupForks + local, vertices = 0, colour = 0;
+  uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, vertices = 0, colour = 0;
+  uint begin = push.filling.state.firstFork + group * kGroupThreads, item = begin + local;
+  bool first = group == 0 && push.filling.state.firstTube == push.filling.state.tubeEnd;  // of the round
   triangles = 0;
-  if (item < push.forkCount) {
-    colour = push.colours.value[push.firstFork + item];
+  if (begin < undoneFork() && item < push.filling.state.forkEnd) {
+    colour = push.colours.value[item];
     view = viewAt(push.view);
     if ((view.hiddenKinds >> (colour >> 24) & 1u) == 0u) {
-      ForkRecord fork = push.forks.fork[push.firstFork + item];
+      ForkRecord fork = push.forks.fork[item];
       ForkShape shape = shapeOf(fork);
       Ring a = ringAt(fork.a), b = ringAt(fork.b);
       if (push.keepAll != 0 || !outOfView(fork, a, b)) build(fork, shape, a, b);
       if (triangles != 0) vertices = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
     }
   }
-  uint blocks = (vertices + kBlockVertices - 1) >> kBlockShift;
-  uint first = group * push.verticesPerGroup + (sumBefore(local, blocks) << kBlockShift);
-  writeVertices(first, vertices, blocks, colour);
-  uint before = sumBefore(local, triangles), firstIndex = group * push.indicesPerGroup;
-  writeTriangles(first, firstIndex + 3 * before);
-  if (local == kGroupForks - 1) push.draws.draw[group] = DrawCommand(3 * (before + triangles), 1, firstIndex, 0, 0);
+  uint blocks = (vertices + kBlockVertices - 1) >> kBlockShift, last = kGroupThreads - 1;
+  uint blocksBefore = sumBefore(local, blocks), before = sumBefore(local, triangles);
+  if (local == last) {
+    groupVertexBlocks = blocksBefore + blocks;
+    groupBlock = blockFor(begin, first, blocksBefore + blocks, before + triangles);
+  }
+  barrier();
+  uint block = groupBlock;
+  if (block == kNoRoom) return;
+  uint firstIndex = (block + groupVertexBlocks) * kBlockWords;
+  writeVertices(block + blocksBefore, vertices, blocks, colour);
+  writeTriangles(blocksBefore << kBlockShift, firstIndex + 3 * before);
+  if (local == last)
+    push.draws.draw[push.firstDraw + group] = DrawCommand(3 * (before + triangles), 1, firstIndex, int(block << kBlockShift), 0);
 }

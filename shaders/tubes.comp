@@ -1,7 +1,7 @@
 #version 460
-// A thread a sweep, a workgroup a group. First which triangles between two rings may be seen, then the vertices that these
-// need, ring by ring, and the triangles. What a thread writes has its place by the threads before it in the group, so
-// nothing depends on their timing.
+// A thread a sweep, a workgroup a group. First which triangles between two rings may be seen, then, if the template has room
+// for the group, the vertices that these need, ring by ring, and the triangles. What a thread writes has its place by the
+// threads before it in the group.
 // CPU references: engine/surface/tessellate.h, engine/surface/visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -10,11 +10,12 @@
 #include "lib/picture_ring.glsl"
 #include "lib/ring.glsl"
 #include "lib/strip.glsl"
+#include "lib/template_room.glsl"
 
-const uint kGroupThreads = kGroupSweeps;
+layout(constant_id = 1) const uint kGroupThreads = kGroupSweeps;
 #include "lib/group_sum.glsl"
 
-layout(local_size_x = kGroupSweeps) in;
+layout(local_size_x_id = 1) in;
 layout(push_constant, std430) uniform Push { TubesPush push; };
 
 // Of a group's sums, one word for both: triangles below, blocks of vertices above.
@@ -58,8 +59,8 @@ uint look(Item it, SweepCurve curve) {
   return (vertices + kBlockVertices - 1) >> kBlockShift << kTriangleBits | triangles;
 }
 
-void writeColours(Item it, uint vertex, uint blocks) {
-  uint colour = push.colours.value[it.sweep], first = vertex >> kBlockShift;
+void writeColours(Item it, uint first, uint blocks) {
+  uint colour = push.colours.value[it.sweep];
   UintsOut colours = push.blockColours;
   for (uint k = 0; k < blocks; ++k) colours.value[first + k] = colour;
 }
@@ -83,7 +84,7 @@ void writeVertices(Item it, SweepCurve curve, uint vertex) {
 }
 
 void writeTriangles(Item it, uint vertex, uint target) {
-  UintsOut indices = push.indices;
+  UintsOut indices = UintsOut(push.vertices);
   uint mask = 0, strips = seenStrips;
   RingVertices first, second;
   while (mask != 0 || strips != 0) {
@@ -103,10 +104,21 @@ void writeTriangles(Item it, uint vertex, uint target) {
   }
 }
 
+shared uint groupBlock, groupWritten;
+
+uint placeOf(uint begin, bool first, uint written) {
+  Fill filling = push.filling;
+  if (atomicMin(filling.state.undoneTube, 0xffffffffu) <= begin) return kNoRoom;
+  uint block = takeBlocks(filling, blocksOf(written >> kTriangleBits, written & kTriangleMask), first, push.reserve);
+  if (block == kNoRoom) atomicMin(filling.state.undoneTube, begin);
+  return block;
+}
+
 void main() {
   uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, written = 0;
-  uint item = group * kGroupSweeps + local, sweep = push.firstSweep + item;
-  uint along = item < push.sweepCount ? push.along.value[sweep] : 0;
+  uint begin = push.filling.state.firstTube + group * kGroupThreads, sweep = begin + local;
+  uint end = min(push.filling.state.tubeEnd, push.filling.state.undoneTube);  // behind it no room is left
+  uint along = begin < end && sweep < push.filling.state.tubeEnd ? push.along.value[sweep] : 0;
   Item it;
   SweepCurve curve;
   if (along != 0) {
@@ -116,14 +128,20 @@ void main() {
     prepare(it, push.tables);
     written = look(it, curve);
   }
-  uint before = sumBefore(local, written);
-  uint vertex = group * push.verticesPerGroup + (before >> kTriangleBits << kBlockShift);
-  uint triangle = before & kTriangleMask;
-  if (along != 0) {
-    writeColours(it, vertex, written >> kTriangleBits);
-    writeVertices(it, curve, vertex);
-    writeTriangles(it, vertex, group * push.indicesPerGroup + 3 * triangle);
+  uint before = sumBefore(local, written), last = kGroupThreads - 1;
+  if (local == last) {
+    groupWritten = before + written;
+    groupBlock = placeOf(begin, group == 0, before + written);
   }
-  if (local == kGroupSweeps - 1)
-    push.draws.draw[group] = DrawCommand(3 * (triangle + (written & kTriangleMask)), 1, group * push.indicesPerGroup, 0, 0);
+  barrier();
+  uint block = groupBlock, all = groupWritten;
+  if (block == kNoRoom) return;
+  uint vertex = before >> kTriangleBits << kBlockShift, triangle = before & kTriangleMask;
+  uint firstIndex = (block + (all >> kTriangleBits)) * kBlockWords;
+  if (along != 0) {
+    writeColours(it, block + (before >> kTriangleBits), written >> kTriangleBits);
+    writeVertices(it, curve, (block << kBlockShift) + vertex);
+    writeTriangles(it, vertex, firstIndex + 3 * triangle);
+  }
+  if (local == last) push.draws.draw[group] = DrawCommand(3 * (all & kTriangleMask), 1, firstIndex, int(block << kBlockShift), 0);
 }

@@ -4,23 +4,24 @@
 
 namespace vasa {
 
-/// Turns a batch of forks into triangles between the tubes' rings, and leaves out those that cannot be seen.
+/// Turns forks into triangles between the tubes' rings, and leaves out those that cannot be seen.
 /// CPU references: surface/fork.h, surface/fork_template.h, surface/visible.h.
 class ForkPass {
  public:
   /// @param samples  of the picture: 1 or 4 a pixel
-  ForkPass(gpu::Device& device, std::uint32_t samples);
+  /// @param forks    read, not kept: of a network that it will write
+  ForkPass(gpu::Device& device, std::uint32_t samples, const ForkSet& forks);
 
   struct Input {
     const TubeSet& tubes;  ///< of the same network
     const ForkSet& forks;
-    const ForkBatch& batch;
     const DetailPass& detail;
     VkDeviceAddress points, knots;  ///< de Boor points (vec4) and knot quaternions (x y z w) of the frame
-    const TubeDraws& draws;         ///< made for ForkSet::room()
-    bool cull = true;               ///< false: every triangle is drawn
+    const Filling& filling;
+    const Template& into;
+    bool cull = true;  ///< false: every triangle is drawn
   };
-  /// No barriers.
+  /// A round's forks, as far as the tubes before them have left room. No barriers.
   void record(VkCommandBuffer commands, const Input& input) const;
 
  private:

@@ -7,16 +7,17 @@
 
 namespace vasa {
 
-ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail, std::uint32_t batchForks)
+ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail, std::uint32_t templateBytes)
     : count_(std::uint32_t(table.forks.size())), spanOfFork_(table.spanOfFork) {
-  constexpr std::uint32_t group = shared::kGroupForks;
   const std::uint32_t most = detail.mostAround();
-  const std::uint32_t each = std::min((std::max(batchForks, 1u) - 1) / group, count_ / group) * group + group;
-  for (std::uint32_t first = 0; first < count_; first += each) batches_.push_back({first, std::min(each, count_ - first)});
   constexpr std::uint32_t branches = shared::kMostBranches;
   ForkShape largest{most, most, branches, {}};
   largest.branch.fill(most);
-  room_ = {inBlocks(largest.vertices()) * group, 3 * forkTriangleCount(largest, branches) * group};
+  constexpr VkDeviceSize blockBytes = sizeof(shared::TubeVertex) * shared::kBlockVertices;
+  for (; count_ > 0; groupForks_ /= 2) {
+    groupBlocks_ = blocksFor(inBlocks(largest.vertices()) * groupForks_, 3 * forkTriangleCount(largest, branches) * groupForks_);
+    if (groupForks_ == shared::kLeastGroup || 2 * blockBytes * groupBlocks_ <= templateBytes) break;
+  }
   if (!detail.automatic())
     for (const shared::ForkRecord& fork : table.forks) {
       std::uint32_t columns = 0;

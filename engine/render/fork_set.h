@@ -4,22 +4,14 @@
 
 namespace vasa {
 
-/// Groups of kGroupForks forks, the last one maybe of fewer, that are written and drawn together.
-struct ForkBatch {
-  std::uint32_t firstFork = 0, forks = 0;
-  std::uint32_t groups() const { return (forks + shared::kGroupForks - 1) / shared::kGroupForks; }
-};
-
 /// What of a network's forks stays the same from frame to frame, in device memory.
 class ForkSet {
  public:
-  /// @param batchForks  most forks in a batch, rounded up to whole groups
-  ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail, std::uint32_t batchForks);
+  /// @param templateBytes  as TubeSet's
+  ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail, std::uint32_t templateBytes);
 
-  std::span<const ForkBatch> batches() const { return batches_; }
-  const GroupRoom& room() const { return room_; }
-  std::uint32_t groupsPerBatch() const { return batches_.empty() ? 0 : batches_.front().groups(); }
-  std::uint32_t groupCount() const { return ForkBatch{0, count_}.groups(); }
+  std::uint32_t groupForks() const { return groupForks_; }  ///< forks that are written together: a workgroup
+  std::uint32_t groupBlocks() const { return groupBlocks_; }  ///< the most that a group needs; 0 without forks
   /// At fixed quads, seen or not; 0 if the picture decides.
   std::uint64_t triangleCount() const { return triangles_; }
 
@@ -33,8 +25,7 @@ class ForkSet {
  private:
   std::uint32_t count_ = 0;
   std::uint64_t triangles_ = 0;
-  std::vector<ForkBatch> batches_;
-  GroupRoom room_;
+  std::uint32_t groupForks_ = shared::kGroupForks, groupBlocks_ = 0;
   std::vector<std::uint32_t> spanOfFork_;
   gpu::Buffer forks_, branches_, colours_;
 };

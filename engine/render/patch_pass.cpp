@@ -63,14 +63,17 @@ PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
   strained_ = gpu::Buffer(device, {"strained patches", sizeof(shared::StrainedPatch) * table.patches.size()});
   dispatch_ = gpu::Buffer(device, {"patch smoothing", sizeof(VkDispatchIndirectCommand)});
   between_ = gpu::Buffer(device, {"patches between steps", sizeof(shared::TubeVertex) * table.vertices.size()});
-  draws_ = TubeDraws(device, {inBlocks(verticesOf(table)), 3 * triangleRoom_}, 1);
+  const VkDeviceSize vertices = inBlocks(verticesOf(table));
+  draws_.vertices = gpu::Buffer(device, {.name = "patch vertices", .bytes = vertices * sizeof(shared::TubeVertex), .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+  draws_.colours = gpu::Buffer(device, {"patch colours", 4 * (vertices >> shared::kBlockShift)});
+  draws_.indices = gpu::Buffer(device, {"patch indices", VkDeviceSize(12) * triangleRoom_});
   draws_.draws = gpu::Buffer(device, {"patch draws", sizeof(shared::DrawCommand) * groups_});
 }
 
 VkDeviceSize PatchSet::bytes() const {
   if (empty()) return 0;
-  VkDeviceSize sum = draws_.bytes();
-  for (const gpu::Buffer* buffer : {&seams_, &shares_, &rest_, &joints_, &all_, &walls_, &firstFan_, &fans_, &strained_, &dispatch_, &between_})
+  VkDeviceSize sum = 0;
+  for (const gpu::Buffer* buffer : {&draws_.vertices, &draws_.colours, &draws_.indices, &draws_.draws, &seams_, &shares_, &rest_, &joints_, &all_, &walls_, &firstFan_, &fans_, &strained_, &dispatch_, &between_})
     sum += buffer->bytes();
   return sum;
 }
@@ -91,7 +94,7 @@ PatchPass::PatchPass(gpu::Device& device, std::uint32_t samples)
 
 void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
   const PatchSet& patches = input.patches;
-  const TubeDraws& draws = patches.draws_;
+  const PatchDraws& draws = patches.draws_;
   seams_.dispatch(commands,
                   shared::PatchesPush{.points = input.points,
                                       .knots = input.knots,
@@ -138,7 +141,7 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
 }
 
 void PatchPass::recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail, bool cull) const {
-  const TubeDraws& draws = patches.draws_;
+  const PatchDraws& draws = patches.draws_;
   triangles_.dispatch(commands,
                       shared::PatchTrianglesPush{.vertices = draws.vertices.address(),
                                                  .all = patches.all_.address(),

@@ -5,6 +5,11 @@
 
 namespace vasa {
 
+/// What a frame draws of patches.
+struct PatchDraws {
+  gpu::Buffer vertices, colours, indices, draws;  ///< shared::TubeVertex, uint, uint, shared::DrawCommand
+};
+
 /// A network's patches (surface/patch.h) in device memory: what never changes, and what a frame makes of it.
 class PatchSet {
  public:
@@ -17,7 +22,7 @@ class PatchSet {
 
   /// Vertices, colours, indices of the triangles to draw, and a draw a group; all of a frame but the colours. Empty without
   /// patches.
-  const TubeDraws& draws() const { return draws_; }
+  const PatchDraws& draws() const { return draws_; }
   std::uint32_t groups() const { return groups_; }
   /// Indices of all triangles, seen or not: those of PatchTable, then the strips' (PatchSeam::index).
   const gpu::Buffer& allIndices() const { return all_; }
@@ -31,7 +36,7 @@ class PatchSet {
   std::vector<std::uint32_t> spanOfBlock_;
   gpu::Buffer seams_, shares_, rest_, joints_, all_;
   gpu::Buffer walls_, firstFan_, fans_, strained_, dispatch_, between_;  // for smoothing
-  TubeDraws draws_;
+  PatchDraws draws_;
 };
 
 /// Carries patches by the rings of their vessels, smooths those that these press together, closes the surface between them,

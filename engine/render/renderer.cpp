@@ -22,16 +22,20 @@
 // A frame:
 //   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
 //   picture, first stretch: clear, bones and heart
-//   for each batch k: write batch k+1 into the other template; stretch: draw batch k; barrier
-//   stretch: patches, if the network has some, which were posed with batch 0
+//   for each round k: write the next groups of tubes and forks into the other template, as many as it has room for; draw
+//   template k; barrier
+//   stretch: patches, if the network has some, which were posed with round 0
 //   ambient occlusion of what is there
-//   likewise batch by batch: capillaries
+//   batch by batch: capillaries
 //   picture, last stretch: skin; resolve
-// One barrier a batch keeps both templates apart: whatever wrote or read one of them before it is finished
-// after it. Between two barriers a device may write one template while it draws the other.
+// Stretches with nothing between them are one. One barrier a round keeps both templates apart: whatever wrote or read one
+// of them before it is finished after it. Between two barriers a device may write one template while it draws the other.
+// How many rounds a picture takes is seen once it is done: as many as the last one took, and where they do not do, the frame
+// is drawn once more with more of them. Rounds do not show in the picture.
 namespace vasa {
 namespace {
 
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
@@ -42,6 +46,9 @@ constexpr const char* kForks = "forks";
 constexpr const char* kDraw = "draw tubes";
 constexpr const char* kCapillaries = "capillaries";
 constexpr const char* kMeshes = "meshes";
+// Before it is known what pictures need: a whole body's at four samples a pixel; one that holds nothing costs next to nothing.
+constexpr std::uint32_t kFirstRounds = 4;
+constexpr std::uint32_t kScopes = 7, kScopesOfRound = 3;  // that are timed
 
 std::array<float, 4> clearColour(const Look& look) {
   if (look.transparent) return {0, 0, 0, 0};
@@ -51,21 +58,6 @@ std::array<float, 4> clearColour(const Look& look) {
 
 bool anyVessels(const Look& look) {
   return look.drawArteries || look.drawVeins || look.drawOtherVessels;
-}
-
-// One to be written while the other is drawn, where there are several batches.
-template <class Set>
-std::vector<TubeDraws> templatesFor(gpu::Device& device, const Set& set) {
-  std::vector<TubeDraws> made;
-  for (std::size_t i = 0; i < std::min<std::size_t>(set.batches().size(), 2); ++i)
-    made.emplace_back(device, set.room(), set.groupsPerBatch());
-  return made;
-}
-
-VkDeviceSize bytesOf(std::span<const TubeDraws> templates) {
-  VkDeviceSize bytes = 0;
-  for (const TubeDraws& draws : templates) bytes += draws.bytes();
-  return bytes;
 }
 
 BodyLevels levelsOf(std::span<const SkinnedMesh> meshes, const RenderOptions& options) {
@@ -97,13 +89,13 @@ struct Renderer::State {
         const RenderOptions& chosen);
 
   void record(VkCommandBuffer commands, const RenderInput& input);
+  bool settleRounds(const Look& look);
   double timeStatic(const StaticTubes& tubes, const RenderInput& input);
   shared::DetailView viewOf(const RenderInput& input) const;
 
   gpu::Device& device;
   RenderOptions options;
-  std::size_t batchCount() const { return tubes.batches().size() + forks.batches().size(); }
-  std::uint32_t groupCount() const { return tubes.groupCount() + forks.groupCount(); }
+  const Template& templateOf(std::uint32_t round) const { return round % 2 == 0 ? first : *second; }
   void setColours(std::span<const std::uint32_t> given);
 
   std::vector<std::uint32_t> ownColours;  // of the spans, by their vessels' kinds
@@ -120,20 +112,33 @@ struct Renderer::State {
   gpu::Target target;
   SurfacePass surfacePass;
   std::optional<OcclusionPass> occlusionPass;
-  std::vector<TubeDraws> templates, forkTemplates;
+  FillRange vessels;
+  Filling filling;
+  PlanPass planPass;
+  Template first;
+  std::optional<Template> second;  // where the first may not do
+  std::uint32_t rounds = kFirstRounds, timerRounds = 1;  // of the next frame, and that the timer has room for
+  std::uint64_t drawnTriangles = 0;
   std::optional<CapillaryPass> capillaries;
   gpu::Buffer readBack;
-  gpu::Buffer drawn;  // every group's draw of the latest frame, where frames are timed
-  gpu::GpuTimer timer, staticTimer;
+  std::optional<gpu::GpuTimer> timer;
+  gpu::GpuTimer staticTimer;
   FrameTimes times;
   bool transparent = false;
   bool partial = false, cull = true;  // of this frame
 
  private:
-  const TubeDraws& templateOf(std::size_t batch) const;
-  void recordTessellation(VkCommandBuffer commands, std::size_t batch);
-  void recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch, const Look& look);
-  void copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group, std::uint32_t groups);
+  struct Frame {
+    shared::DrawPush push;
+    const Look& look;
+    std::vector<MeshSet::Level> levels;
+    std::uint32_t rounds;  // of tubes and forks
+    bool wholeEnd;         // nothing comes between the last round and what is translucent
+  };
+  void recordFill(VkCommandBuffer commands, std::uint32_t round);
+  void recordOpaque(VkCommandBuffer commands, const Frame& frame);
+  void recordRounds(VkCommandBuffer commands, const Frame& frame);
+  void recordEnd(VkCommandBuffer commands, const Frame& frame);
   void recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look);
   void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
   void recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look);
@@ -144,24 +149,24 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
     : device(dev),
       options(chosen),
       ownColours(kindColours(network)),
-      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table}, chosen.sweepsPerBatch),
-      forks(device, tubes.table(), tubes.detail(), chosen.sweepsPerBatch),
+      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table}, chosen.templateBytes),
+      forks(device, tubes.table(), tubes.detail(), chosen.templateBytes),
       patches(device, tubes.table().patches),
       meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
-      tubePass(device, chosen.samples),
-      forkPass(device, chosen.samples),
+      tubePass(device, chosen.samples, tubes),
+      forkPass(device, chosen.samples, forks),
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
-      templates(templatesFor(device, tubes)),
-      forkTemplates(templatesFor(device, forks)),
+      vessels(everything(tubes)),
+      filling(device, tubes, forks, fillRoom(tubes, forks, vessels, chosen.templateBytes)),
+      planPass(device),
+      first(device, filling.room()),
       readBack(device, readBackSpec(target)),
-      drawn(device, {"draws, host", sizeof(shared::DrawCommand) * (chosen.timed ? groupCount() : 0),
-                     gpu::MemoryRole::readBack}),
-      timer(device, chosen.timed ? std::uint32_t(2 * batchCount() + 7) : 0),
       staticTimer(device, 1) {
+  timer.emplace(device, chosen.timed ? kScopes + kScopesOfRound : 0);
   if (!patches.empty()) patchPass.emplace(device, chosen.samples);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
@@ -177,68 +182,70 @@ void Renderer::State::setColours(std::span<const std::uint32_t> given) {
   if (capillaries) capillaries->setSpanColours(device, colours);
 }
 
-// Of a batch of tubes or, behind those, of forks.
-const TubeDraws& Renderer::State::templateOf(std::size_t batch) const {
-  const std::size_t tubeBatches = tubes.batches().size();
-  return batch < tubeBatches ? templates[batch % 2] : forkTemplates[(batch - tubeBatches) % 2];
-}
-
-void Renderer::State::recordTessellation(VkCommandBuffer commands, std::size_t batch) {
-  const std::size_t tubeBatches = tubes.batches().size();
-  const auto scope = timer.scope(commands, batch < tubeBatches ? kTessellate : kForks);
-  if (batch < tubeBatches)
-    tubePass.record(commands, {tubes, tubes.batches()[batch], detailPass, upload.points(), upload.knots(),
-                               templateOf(batch), cull});
-  else
-    forkPass.record(commands, {tubes, forks, forks.batches()[batch - tubeBatches], detailPass, upload.points(),
-                               upload.knots(), templateOf(batch), cull});
-}
-
-void Renderer::State::recordBatch(VkCommandBuffer commands, const shared::DrawPush& push, std::size_t batch,
-                                  const Look& look) {
-  const auto scope = timer.scope(commands, kDraw);
-  target.begin(commands, {}, 0, gpu::Stretch::middle);
-  const std::size_t tubeBatches = tubes.batches().size();
-  const TubeDraws& draws = templateOf(batch);
-  if (batch < tubeBatches) {
-    const TubeBatch& range = tubes.batches()[batch];
-    surfacePass.recordVessels(commands, push, draws, range.groups(), look, partial);
-    target.pause(commands);
-    copyDraws(commands, draws, range.firstSweep / shared::kGroupSweeps, range.groups());
-  } else {
-    const ForkBatch& range = forks.batches()[batch - tubeBatches];
-    surfacePass.recordVessels(commands, push, draws, range.groups(), look, partial);
-    target.pause(commands);
-    copyDraws(commands, draws, tubes.groupCount() + range.firstFork / shared::kGroupForks, range.groups());
+void Renderer::State::recordFill(VkCommandBuffer commands, std::uint32_t round) {
+  const Template& into = templateOf(round);
+  {
+    const auto scope = timer->scope(commands, kTessellate);
+    tubePass.record(commands, {tubes, detailPass, upload.points(), upload.knots(), filling, into, cull});
+    gpu::stageBarrier(commands, kCompute, kCompute);
   }
+  const auto scope = timer->scope(commands, kForks);
+  if (vessels.forkEnd > 0) {
+    forkPass.record(commands, {tubes, forks, detailPass, upload.points(), upload.knots(), filling, into, cull});
+    gpu::stageBarrier(commands, kCompute, kCompute);
+  }
+  planPass.record(commands, filling, into);
 }
 
-void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look) {
-  const auto scope = timer.scope(commands, kDraw);
-  target.begin(commands, {}, 0, gpu::Stretch::middle);
-  surfacePass.recordVessels(commands, push, patches.draws(), patches.groups(), look, partial);
+void Renderer::State::recordOpaque(VkCommandBuffer commands, const Frame& frame) {
+  const auto scope = timer->scope(commands, kMeshes);
+  target.begin(commands, clearColour(frame.look), 0, gpu::Stretch::first);
+  surfacePass.recordOpaque(commands, frame.push, meshes, frame.levels, frame.look, partial);
   target.pause(commands);
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
-void Renderer::State::copyDraws(VkCommandBuffer commands, const TubeDraws& from, std::uint32_t group,
-                                std::uint32_t groups) {
-  if (drawn.bytes() == 0) return;
-  constexpr VkDeviceSize each = sizeof(shared::DrawCommand);
-  const VkBufferCopy copy{0, each * group, each * groups};
-  vkCmdCopyBuffer(commands, from.draws.handle(), drawn.handle(), 1, &copy);
+void Renderer::State::recordRounds(VkCommandBuffer commands, const Frame& frame) {
+  const bool timed = options.timed;
+  if (timed) recordOpaque(commands, frame);
+  const std::uint32_t stretches = timed ? frame.rounds : std::max(frame.rounds, 1u);
+  for (std::uint32_t k = 0; k < stretches; ++k) {
+    if (k + 1 < frame.rounds) recordFill(commands, k + 1);
+    const auto scope = timer->scope(commands, kDraw);
+    const bool starts = k == 0 && !timed, ends = k + 1 == stretches && frame.wholeEnd;
+    target.begin(commands, clearColour(frame.look), 0,
+                 starts ? (ends ? gpu::Stretch::only : gpu::Stretch::first) : ends ? gpu::Stretch::last : gpu::Stretch::middle);
+    if (starts) surfacePass.recordOpaque(commands, frame.push, meshes, frame.levels, frame.look, partial);
+    if (frame.rounds > 0) surfacePass.recordVessels(commands, frame.push, drawsOf(templateOf(k)), frame.look, partial);
+    if (ends) return recordEnd(commands, frame);
+    target.pause(commands);
+    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+  }
+}
+
+void Renderer::State::recordEnd(VkCommandBuffer commands, const Frame& frame) {
+  surfacePass.recordTranslucent(commands, frame.push, meshes, frame.levels, frame.look, partial);
+  target.end(commands);
+}
+
+void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look) {
+  const auto scope = timer->scope(commands, kDraw);
+  target.begin(commands, {}, 0, gpu::Stretch::middle);
+  surfacePass.recordVessels(commands, push, drawsOf(patches), look, partial);
+  target.pause(commands);
+  gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
 // Before the capillaries: curves thinner than a pixel would only lay noise over one another.
 void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInput& input) {
-  const auto scope = timer.scope(commands, kMeshes);
+  const auto scope = timer->scope(commands, kMeshes);
   occlusionPass->record(commands, target, input.camera, kOcclusionReach, input.look.occlusion);
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
 void Renderer::State::recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look) {
   push.opacity = look.capillaryOpacity;
-  const auto scope = timer.scope(commands, kCapillaries);
+  const auto scope = timer->scope(commands, kCapillaries);
   const CapillaryPass::Input input{upload.points(), upload.knots(), push, look.style, partial};
   capillaries->recordUpload(commands);
   for (std::size_t batch = 0; batch < capillaries->batches(); ++batch) {
@@ -258,47 +265,61 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
 }
 
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
-  const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
-  const std::size_t batches = anyVessels(input.look) ? batchCount() : 0;
+  if (rounds > 1 && !second) second.emplace(device, filling.room());
+  if (options.timed && timerRounds < rounds) timer.emplace(device, kScopes + kScopesOfRound * (timerRounds = rounds));
+  const bool any = anyVessels(input.look);
   partial = isPartial(input.camera, input.look);
   // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss triangles.
   cull = options.cull && !input.camera.cut && device.limits().standardSampleLocations;
-  const std::vector<MeshSet::Level> levels =
-      meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
-                       meshPixelError(options.pixelError) / std::sqrt(float(options.samples)));
-  timer.begin(commands);
+  // Depth of what is translucent is grain.
+  const bool occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) && input.look.style != LookStyle::xray;
+  const bool grows = capillaries && any && input.look.capillaryOpacity > 0, patched = any && patchPass;
+  const Frame frame{.push = drawConstants(input.camera, input.look, target.spec().size),
+                    .look = input.look,
+                    .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
+                                               meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
+                    .rounds = any ? rounds : 0,
+                    .wholeEnd = !(options.timed || patched || occludes || grows)};
+  timer->begin(commands);
   upload.record(commands);
-  if (batches > 0) {
-    const auto scope = timer.scope(commands, kTessellate);
+  if (any) {
+    const auto scope = timer->scope(commands, kTessellate);
+    filling.recordStart(commands, vessels);
     detailPass.record(commands, tubes, upload.points(), viewOf(input));
   }
-  if (batches > 0) recordTessellation(commands, 0);
-  if (batches > 0 && patchPass) {
-    const auto scope = timer.scope(commands, kForks);
+  if (any) recordFill(commands, 0);
+  if (patched) {
+    const auto scope = timer->scope(commands, kForks);
     patchPass->record(commands, {tubes, patches, detailPass, upload.points(), upload.knots(), cull});
   }
   {
-    const auto scope = timer.scope(commands, kMeshes);
-    skinPass.record(commands, meshes, levels, upload.joints(), upload.jointCount(), input.heartScale);
-    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT);
-    target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
-    surfacePass.recordOpaque(commands, push, meshes, levels, input.look, partial);
-    target.pause(commands);
+    const auto scope = timer->scope(commands, kMeshes);
+    skinPass.record(commands, meshes, frame.levels, upload.joints(), upload.jointCount(), input.heartScale);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
-  for (std::size_t batch = 0; batch < batches; ++batch) {
-    if (batch + 1 < batches) recordTessellation(commands, batch + 1);
-    recordBatch(commands, push, batch, input.look);
-    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
-  }
-  if (batches > 0 && patchPass) recordPatches(commands, push, input.look);
-  // Depth of what is translucent is grain.
-  if (occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) && input.look.style != LookStyle::xray) recordOcclusion(commands, input);
-  if (capillaries && batches > 0 && input.look.capillaryOpacity > 0) recordCapillaries(commands, push, input.look);
-  const auto scope = timer.scope(commands, kMeshes);
+  recordRounds(commands, frame);
+  if (any) filling.recordCopy(commands);
+  if (frame.wholeEnd) return;
+  if (patched) recordPatches(commands, frame.push, input.look);
+  if (occludes) recordOcclusion(commands, input);
+  if (grows) recordCapillaries(commands, frame.push, input.look);
+  const auto scope = timer->scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
-  surfacePass.recordTranslucent(commands, push, meshes, levels, input.look, partial);
-  target.end(commands);
+  recordEnd(commands, frame);
+}
+
+// Whether the frame's rounds did for all of its vessels; says how many the next one gets, with an eighth to spare.
+bool Renderer::State::settleRounds(const Look& look) {
+  drawnTriangles = 0;
+  if (!anyVessels(look)) return true;
+  const shared::Filling state = filling.read();
+  const std::uint32_t room = filling.room().blocks, wanted = state.blocks + state.blocks / 8;
+  const double items = vessels.tubeEnd + vessels.forkEnd, done = double(state.firstTube) + state.firstFork;
+  const bool whole = done == items;
+  rounds = whole ? std::max({1u, state.rounds, (wanted + room - 1) / room})
+                 : std::uint32_t(std::min(items, std::max(rounds + 1.0, 1.25 * rounds * items / std::max(done, 1.0))));
+  drawnTriangles = state.indices / 3;
+  return whole;
 }
 
 double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderInput& input) {
@@ -316,7 +337,7 @@ double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderI
     const auto scope = staticTimer.scope(commands, kDraw);
     target.begin(commands, {}, 0, gpu::Stretch::middle);
     tubesAtOnce.recordDraw(commands, surfacePass, push);
-    if (patchPass) surfacePass.recordVessels(commands, push, patches.draws(), patches.groups());
+    if (patchPass) surfacePass.recordVessels(commands, push, drawsOf(patches));
     target.pause(commands);
   }
   gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
@@ -344,12 +365,14 @@ void Renderer::draw(const RenderInput& input) {
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);
   if (s.capillaries) s.capillaries->prepare(input.points, growthView(input.camera, s.target.spec().size, s.options.seed));
   s.times = {.upload = msSince(start)};
-  gpu::Commands commands = s.device.queue().begin("frame");
-  s.record(commands, input);
   s.transparent = input.look.transparent;
-  s.device.queue().wait(s.device.queue().submit(std::move(commands)));
+  do {
+    gpu::Commands commands = s.device.queue().begin("frame");
+    s.record(commands, input);
+    s.device.queue().wait(s.device.queue().submit(std::move(commands)));
+  } while (!s.settleRounds(input.look));
   s.times.total = msSince(start);
-  for (const auto& [name, ms] : s.timer.results()) {
+  for (const auto& [name, ms] : s.timer->results()) {
     const std::string_view stage(name);
     (stage == kTessellate    ? s.times.tessellate
      : stage == kForks       ? s.times.forks
@@ -404,7 +427,7 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   s.upload.record(commands);
   s.detailPass.record(commands, s.tubes, s.upload.points(), s.viewOf(input));
   if (s.patchPass) s.patchPass->record(commands, {s.tubes, s.patches, s.detailPass, s.upload.points(), s.upload.knots()});
-  tubes.recordVertices(commands, s.tubePass, s.forkPass, s.detailPass, s.upload.points(), s.upload.knots());
+  tubes.recordVertices(commands, s.tubePass, s.forkPass, s.planPass, s.detailPass, s.upload.points(), s.upload.knots());
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
   for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));
@@ -418,10 +441,7 @@ std::uint64_t Renderer::triangleCount() const {
 }
 
 std::uint64_t Renderer::drawnTriangleCount() const {
-  state_->drawn.invalidate();
-  std::uint64_t indices = 0;
-  for (const shared::DrawCommand& draw : state_->drawn.mapped<const shared::DrawCommand>()) indices += draw.indexCount;
-  return indices / 3;
+  return state_->drawnTriangles;
 }
 
 std::uint32_t Renderer::sweepCount() const {
@@ -429,7 +449,8 @@ std::uint32_t Renderer::sweepCount() const {
 }
 
 std::uint64_t Renderer::templateBytes() const {
-  return bytesOf(state_->templates) + bytesOf(state_->forkTemplates) + state_->patches.bytes();
+  const State& s = *state_;
+  return s.first.bytes() + (s.second ? s.second->bytes() : 0) + s.filling.state().bytes() + s.patches.bytes();
 }
 
 const RenderOptions& Renderer::options() const {

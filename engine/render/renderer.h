@@ -45,9 +45,9 @@ struct RenderOptions {
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
   bool bgra = false;       ///< Renderer::picture() has blue first, as windows do
   bool occlusion = false;  ///< Look::occlusion counts; takes 8 bytes a pixel, 12 with 4 samples
-  /// Sweeps tessellated and drawn at a time, rounded up to whole groups: a body's, as each batch costs barriers. Two
-  /// batches are all the vertex memory that tubes take, however many sweeps there are.
-  std::uint32_t sweepsPerBatch = 5120;
+  /// [bytes] of each of two templates, which tubes and forks are written to and drawn from by turns: all the vertex memory
+  /// that they take, however many there are. No less than what a few sweeps may need is taken (some 0.3 MB at most).
+  std::uint32_t templateBytes = (1u << 20) - 4096;
   const Growth* growth = nullptr;  ///< of the capillaries, must outlive the renderer; nullptr: none are drawn
   CapillaryWish capillaries;            ///< which of them
   std::uint32_t seed = 1;               ///< of their shapes
@@ -125,7 +125,7 @@ class Renderer {
   double staticDraw(const RenderInput& input, unsigned repeats);
 
   std::uint64_t triangleCount() const;     ///< of tubes and caps, seen or not; 0 if the picture decides
-  std::uint64_t drawnTriangleCount() const;  ///< of the latest frame's, those that may be seen, without patches; 0 unless timed
+  std::uint64_t drawnTriangleCount() const;  ///< of the latest frame's, those that may be seen, without patches
   std::uint32_t sweepCount() const;
   std::uint64_t templateBytes() const;     ///< device memory for all that batches of tubes write, and for patches
   const RenderOptions& options() const;

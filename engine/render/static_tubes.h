@@ -13,15 +13,22 @@ class StaticTubes {
   StaticTubes(gpu::Device& device, const TubeSet& tubes, const ForkSet& forks);
 
   /// Fills the buffers, with every triangle, and makes drawing see them.
-  void recordVertices(VkCommandBuffer commands, const TubePass& pass, const ForkPass& forkPass, const DetailPass& detail,
-                      VkDeviceAddress points, VkDeviceAddress knots) const;
+  void recordVertices(VkCommandBuffer commands, const TubePass& pass, const ForkPass& forkPass, const PlanPass& plan,
+                      const DetailPass& detail, VkDeviceAddress points, VkDeviceAddress knots) const;
   /// Draws them, between Target::begin() and end().
   void recordDraw(VkCommandBuffer commands, const SurfacePass& pass, const shared::DrawPush& push) const;
 
  private:
+  struct Part {
+    FillRange range;
+    Filling filling;
+    Template made;
+  };
+  void add(gpu::Device& device, const FillRange& range);
+
   const TubeSet& tubes_;
   const ForkSet& forks_;
-  std::vector<TubeDraws> draws_, forkDraws_;  // one a batch
+  std::vector<Part> parts_;
 };
 
 }  // namespace vasa

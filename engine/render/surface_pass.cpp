@@ -117,6 +117,15 @@ shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2
   return push;
 }
 
+VesselDraws drawsOf(const Template& filled) {
+  return {filled.pool, filled.pool, filled.colours, filled.draws, std::uint32_t(filled.draws.bytes() / sizeof(shared::DrawCommand))};
+}
+
+VesselDraws drawsOf(const PatchSet& patches) {
+  const PatchDraws& draws = patches.draws();
+  return {draws.vertices, draws.indices, draws.colours, draws.draws, patches.groups()};
+}
+
 bool isPartial(const Camera& camera, const Look& look) {
   return camera.cut || anyTranslucent(look);
 }
@@ -174,8 +183,8 @@ SurfacePass::Pipelines SurfacePass::make(gpu::Device& device, const gpu::TargetS
   return made;
 }
 
-void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws,
-                                std::uint32_t groups, const Look& look, bool partial) const {
+void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push, const VesselDraws& draws, const Look& look,
+                                bool partial) const {
   push.colours = draws.colours.address();
   push.shiftAndOpacities = shiftAndOpacities(shared::kBlockShift, look.arteryOpacity, look.veinOpacity);
   push.opacity = kXrayVessels;
@@ -183,8 +192,8 @@ void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push,
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
   // One by one: Vulkan 1.3 does not promise multiDrawIndirect, and a frame has few groups.
-  for (std::uint32_t g = 0; g < groups; ++g)
-    vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), g * sizeof(shared::DrawCommand), 1, sizeof(shared::DrawCommand));
+  for (std::uint32_t i = 0; i < draws.count; ++i)
+    vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), i * sizeof(shared::DrawCommand), 1, sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,

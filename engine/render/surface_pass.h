@@ -4,9 +4,9 @@
 #include "gpu/graphics_pipeline.h"
 #include "gpu/target.h"
 #include "render/camera.h"
-#include "render/fork_set.h"
+#include "render/filling.h"
 #include "render/mesh_set.h"
-#include "render/tube_pass.h"
+#include "render/patch_pass.h"
 #include "shared/draw.h"
 
 namespace vasa {
@@ -20,15 +20,22 @@ shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2
 /// Whether something of a frame's surfaces is left out by their opacity or by the camera's cutting plane.
 bool isPartial(const Camera& camera, const Look& look);
 
+/// Indexed triangles whose vertices, colours and draws compute passes have written.
+struct VesselDraws {
+  const gpu::Buffer &vertices, &indices, &colours, &draws;
+  std::uint32_t count = 0;  ///< of draws
+};
+VesselDraws drawsOf(const Template& filled);
+VesselDraws drawsOf(const PatchSet& patches);
+
 /// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
 /// reversed (clear to 0). `partial` is the frame's isPartial().
 class SurfacePass {
  public:
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
-  /// Tubes or forks. @param groups  of the batch
-  void recordVessels(VkCommandBuffer commands, shared::DrawPush push, const TubeDraws& draws, std::uint32_t groups,
-                     const Look& look = {}, bool partial = false) const;
+  void recordVessels(VkCommandBuffer commands, shared::DrawPush push, const VesselDraws& draws, const Look& look = {},
+                     bool partial = false) const;
   /// Bones, heart and others.
   /// @param levels  MeshSet::levelsFor()
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,

@@ -1,35 +1,27 @@
 #pragma once
 #include "gpu/compute_pipeline.h"
 #include "render/detail_pass.h"
+#include "render/filling.h"
 
 namespace vasa {
 
-/// What a batch's tubes or forks become: vertices, a colour for each block of them, indices of the triangles to draw, and
-/// a draw a group.
-struct TubeDraws {
-  TubeDraws() = default;
-  TubeDraws(gpu::Device& device, const GroupRoom& room, std::uint32_t groups);
-  VkDeviceSize bytes() const;
-
-  gpu::Buffer vertices, colours, indices, draws;  ///< shared::TubeVertex, uint, uint, shared::DrawCommand
-};
-
-/// Turns a batch of sweeps, with their caps, into triangles, and leaves out those that cannot be seen.
+/// Turns sweeps, with their caps, into triangles, and leaves out those that cannot be seen.
 /// CPU references: surface/tessellate.h, surface/visible.h.
 class TubePass {
  public:
   /// @param samples  of the picture: 1 or 4 a pixel
-  TubePass(gpu::Device& device, std::uint32_t samples);
+  /// @param tubes    read, not kept: of a network that it will write
+  TubePass(gpu::Device& device, std::uint32_t samples, const TubeSet& tubes);
 
   struct Input {
     const TubeSet& tubes;
-    const TubeBatch& batch;
     const DetailPass& detail;
     VkDeviceAddress points, knots;  ///< de Boor points (vec4) and knot quaternions (x y z w) of the frame
-    const TubeDraws& draws;
+    const Filling& filling;
+    const Template& into;
     bool cull = true;  ///< false: every triangle is drawn
   };
-  /// No barriers.
+  /// A round's sweeps, as far as there is room. No barriers.
   void record(VkCommandBuffer commands, const Input& input) const;
 
  private:

@@ -46,7 +46,7 @@ std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, st
   return kindColours;
 }
 
-TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t batchSweeps)
+TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t templateBytes)
     : table_(!detail.forks  ? makeSweepTable(network, planWithoutForks(network))
              : detail.table ? *detail.table
                             : makeSweepTable(network)),
@@ -54,7 +54,11 @@ TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& 
       vesselCount_(std::uint32_t(network.vessels().size())) {
   assert(detail.automatic() || detail.shape.valid());
   detail_.table = nullptr;  // it need not stay
-  makeBatches(batchSweeps);
+  constexpr VkDeviceSize blockBytes = sizeof(shared::TubeVertex) * shared::kBlockVertices;
+  for (;; groupSweeps_ /= 2) {
+    groupBlocks_ = blocksOfGroups(groupSweeps_);
+    if (groupSweeps_ == shared::kLeastGroup || 2 * blockBytes * groupBlocks_ <= templateBytes) break;
+  }
   const shared::TubeTables tables = tablesOf();
   sweeps_ = gpu::makeBuffer(device, "sweeps", std::span<const shared::SweepRecord>(table_.sweeps));
   tables_ = gpu::makeBuffer(device, "tube tables", std::span(&tables, 1));
@@ -62,21 +66,20 @@ TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& 
   setSpanColours(device, kindColours(network));
 }
 
-void TubeSet::makeBatches(std::uint32_t batchSweeps) {
-  constexpr std::uint32_t group = shared::kGroupSweeps;
+// The most that any group of so many sweeps needs.
+std::uint32_t TubeSet::blocksOfGroups(std::uint32_t sweeps) const {
   const std::uint32_t total = std::uint32_t(table_.sweeps.size()), along = detail_.mostAlong();
-  const std::uint32_t each = std::min((std::max(batchSweeps, 1u) - 1) / group, total / group) * group + group;
-  for (std::uint32_t first = 0; first < total; first += each) batches_.push_back({first, std::min(each, total - first)});
-  for (std::uint32_t first = 0; first < total; first += group) {
+  std::uint32_t most = 0;
+  for (std::uint32_t first = 0; first < total; first += sweeps) {
     std::uint32_t strips = 0, vertices = 0;
-    for (std::uint32_t i = first; i < std::min(first + group, total); ++i) {
+    for (std::uint32_t i = first; i < std::min(first + sweeps, total); ++i) {
       const std::uint32_t own = along + shared::kCapRings * capsOf(table_.sweeps[i]);
       strips += own;
       vertices += inBlocks((own + 1) * detail_.mostAround());
     }
-    room_.vertices = std::max(room_.vertices, vertices);
-    room_.indices = std::max(room_.indices, 6 * strips * detail_.mostAround());
+    most = std::max(most, blocksFor(vertices, 6 * strips * detail_.mostAround()));
   }
+  return most;
 }
 
 std::uint64_t TubeSet::triangleCount() const {

@@ -24,20 +24,15 @@ struct TubeDetail {
 /// Kind of an item that is never drawn; the others are VesselKind's values.
 constexpr std::uint32_t kHiddenKind = 31;
 
-/// Room for what a group of sweeps or forks writes at most; vertices in whole blocks (shared::kBlockVertices).
-struct GroupRoom {
-  std::uint32_t vertices = 0, indices = 0;
-};
-/// Vertices that an item's blocks hold.
+/// Vertices that an item's blocks (shared::kBlockVertices) hold.
 constexpr std::uint32_t inBlocks(std::uint32_t vertices) {
   return (vertices + shared::kBlockVertices - 1) >> shared::kBlockShift << shared::kBlockShift;
 }
-
-/// Groups of kGroupSweeps sweeps, the last one maybe of fewer, that are tessellated and drawn together.
-struct TubeBatch {
-  std::uint32_t firstSweep = 0, sweeps = 0;
-  std::uint32_t groups() const { return (sweeps + shared::kGroupSweeps - 1) / shared::kGroupSweeps; }
-};
+/// Blocks for so many vertices, already in whole blocks, and indices.
+constexpr std::uint32_t blocksFor(std::uint32_t vertices, std::uint32_t indices) {
+  constexpr std::uint32_t indicesOfBlock = sizeof(shared::TubeVertex) / 4 * shared::kBlockVertices;
+  return (vertices >> shared::kBlockShift) + (indices + indicesOfBlock - 1) / indicesOfBlock;
+}
 
 /// Colours of a network's spans by their vessels' kinds, kind in the highest 8 bits.
 std::vector<std::uint32_t> kindColours(const Network& network);
@@ -47,15 +42,13 @@ std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, st
 /// What of a network stays the same from frame to frame, in device memory.
 class TubeSet {
  public:
-  /// @param batchSweeps  most sweeps in a batch, rounded up to whole groups
-  TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t batchSweeps);
+  /// @param templateBytes  a group is so small that half of that always holds it; at least some 0.6 MB do for any quads
+  TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t templateBytes);
 
   const SweepTable& table() const { return table_; }
   const TubeDetail& detail() const { return detail_; }
-  std::span<const TubeBatch> batches() const { return batches_; }
-  const GroupRoom& room() const { return room_; }
-  std::uint32_t groupsPerBatch() const { return batches_.empty() ? 0 : batches_.front().groups(); }
-  std::uint32_t groupCount() const { return TubeBatch{0, std::uint32_t(table_.sweeps.size())}.groups(); }
+  std::uint32_t groupSweeps() const { return groupSweeps_; }  ///< sweeps that are written together: a workgroup
+  std::uint32_t groupBlocks() const { return groupBlocks_; }  ///< the most that a group needs
   std::uint32_t vesselCount() const { return vesselCount_; }
   /// Of tubes and caps at fixed quads, seen or not; 0 if the picture decides.
   std::uint64_t triangleCount() const;
@@ -68,12 +61,11 @@ class TubeSet {
   void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
 
  private:
-  void makeBatches(std::uint32_t batchSweeps);
+  std::uint32_t blocksOfGroups(std::uint32_t sweeps) const;
 
   SweepTable table_;
   TubeDetail detail_;
-  std::vector<TubeBatch> batches_;
-  GroupRoom room_;
+  std::uint32_t groupSweeps_ = shared::kGroupSweeps, groupBlocks_ = 0;
   std::uint32_t vesselCount_ = 0;
   gpu::Buffer sweeps_, tables_, colours_;
 };

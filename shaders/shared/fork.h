@@ -52,7 +52,7 @@ struct ForkRecord {
   uint firstBranch, branchCount;
 };
 
-/// Forks and threads of a workgroup.
+/// Most forks and threads of a workgroup; fewer where so many might not fit into a template.
 VASA_CONSTANT uint kGroupForks = 64;
 /// Most vertices (8 bits number them) and triangles of a fork.
 VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + kMostBranches * (1 + kCollarRows)) * kMaxAround;
@@ -67,7 +67,7 @@ layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Bra
 #endif
 
 /// Of forks.comp: a thread a fork, a workgroup a group of them -> vertices, indices of the triangles that may be seen, in
-/// the order of the forks, and an indirect draw a group.
+/// the order of the forks, and an indirect draw a group (shared/filling.h).
 struct ForksPush {
   VASA_ADDRESS(Points) points;
   VASA_ADDRESS(Knots) knots;
@@ -77,18 +77,18 @@ struct ForksPush {
   VASA_ADDRESS(View) view;
   VASA_ADDRESS(Uints) colours;       // of each fork, kind in the highest 8 bits
   VASA_ADDRESS(Uints) around;        // m of each vessel
-  VASA_ADDRESS(Vertices) vertices;
+  VASA_ADDRESS(Vertices) vertices;   // of a template; indices lie among them
   VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its fork's
-  VASA_ADDRESS(UintsOut) indices;
   VASA_ADDRESS(Draws) draws;
-  uint firstFork, forkCount;
-  uint verticesPerGroup, indicesPerGroup;  // room; whole blocks
+  VASA_ADDRESS(Fill) filling;
+  uint reserve;                       // FillRoom's
+  uint firstDraw;                     // of the forks'
   uint keepAll;                       // 1: every triangle is drawn
   uint unused;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 120);
+static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 112);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

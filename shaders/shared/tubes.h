@@ -1,11 +1,11 @@
 // Read by C++ and GLSL (std430): how a network's tubes become triangles. The passes, one dispatch each:
 //   measure    a thread a sweep of the network -> n of each sweep, radius of each vessel in pixels
 //   around     a thread a vessel               -> m of each vessel
-//   tubes      a thread a sweep of a batch, a workgroup a group of them -> vertices, indices of the triangles that may be
-//              seen, in the order of the sweeps, and an indirect draw a group
+//   tubes      a thread a sweep, a workgroup a group of them -> vertices, indices of the triangles that may be seen, in
+//              the order of the sweeps, and an indirect draw a group (shared/filling.h)
 #ifndef VASA_SHARED_TUBES_H
 #define VASA_SHARED_TUBES_H
-#include "shared/detail.h"
+#include "shared/filling.h"
 #ifdef __cplusplus
 namespace vasa::shared {
 #define VASA_CONSTANT constexpr
@@ -15,8 +15,10 @@ namespace vasa::shared {
 #define VASA_ADDRESS(Block) Block
 #endif
 
-/// Sweeps and threads of a workgroup.
+/// Most sweeps and threads of a workgroup; fewer where so many might not fit into a template.
 VASA_CONSTANT uint kGroupSweeps = 128;
+/// Fewest sweeps or forks of a workgroup.
+VASA_CONSTANT uint kLeastGroup = 16;
 /// Vertices of one item (a sweep, a fork) lie in whole blocks, the items' blocks of a group one behind the other: what is
 /// drawn stays close together in memory, and a vertex finds its item's colour.
 VASA_CONSTANT uint kBlockShift = 3, kBlockVertices = 1 << kBlockShift;
@@ -56,6 +58,7 @@ VASA_WRITE UintsOut { uint value[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Sizes { uint size[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer Vertices { Word2 vertex[]; };
 VASA_WRITE Draws { DrawCommand draw[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer RoundDraws { DrawCommand draw[]; };
 #undef VASA_READ
 #undef VASA_WRITE
 #endif
@@ -92,20 +95,27 @@ struct TubesPush {
   VASA_ADDRESS(Uints) along;         // n of each sweep, 0: not drawn
   VASA_ADDRESS(Uints) around;        // m of each vessel
   VASA_ADDRESS(Uints) colours;       // of each sweep
-  VASA_ADDRESS(Vertices) vertices;
+  VASA_ADDRESS(Vertices) vertices;   // of a template; indices lie among them
   VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its sweep's
-  VASA_ADDRESS(UintsOut) indices;
   VASA_ADDRESS(Draws) draws;
-  uint firstSweep, sweepCount;
-  uint verticesPerGroup, indicesPerGroup;  // room; whole blocks
+  VASA_ADDRESS(Fill) filling;
+  uint reserve;                       // FillRoom's
   uint keepAll;                       // 1: every triangle is drawn
-  uint unused;
+};
+
+/// Of template_plan.comp. Draws: the window's groups of tubes, then those of forks.
+struct PlanPush {
+  VASA_ADDRESS(Fill) filling;
+  VASA_ADDRESS(RoundDraws) draws;
+  uint groupSweeps, groupForks;
+  FillRoom room;
 };
 
 #ifdef __cplusplus
+static_assert(sizeof(PlanPush) == 40);
 static_assert(offsetof(TubeTables, polar) == 8 * (8 * kSpanClasses + 2 * (kMaxAround + 1)));
 static_assert(sizeof(TubeTables) == 64 * 9 + 20 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
-static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 120);
+static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 104);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS

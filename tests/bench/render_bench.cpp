@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kWarmUp = 5, kFrames = 40;
 constexpr const char* kUsage =
-    "usage: bench_render BODY.glb NETWORK.vasa [MxN|auto[:PIXELS][/all] [BATCH [SAMPLES [WxH [VIEW [OUT.png]]]]]]\n";
+    "usage: bench_render BODY.glb NETWORK.vasa [MxN|auto[:PIXELS][/all] [TEMPLATE_BYTES [SAMPLES [WxH [VIEW [OUT.png]]]]]]\n";
 
 void print(const char* name, std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -46,7 +46,7 @@ void readQuads(const std::string& text, RenderOptions& options) {
 Arguments argumentsOf(int argc, char** argv) {
   Arguments a;
   if (argc > 3) readQuads(argv[3], a.options);
-  if (argc > 4) a.options.sweepsPerBatch = std::uint32_t(std::atoi(argv[4]));
+  if (argc > 4) a.options.templateBytes = std::uint32_t(std::atoi(argv[4]));
   if (argc > 5) a.options.samples = std::uint32_t(std::atoi(argv[5]));
   if (argc > 6) std::sscanf(argv[6], "%ux%u", &a.options.width, &a.options.height);
   if (argc > 7) a.view = viewNamed(argv[7]).value_or(View::front);
@@ -116,10 +116,10 @@ int main(int argc, char** argv) {
   const Arguments arguments = argumentsOf(argc, argv);
   gpu::Device device;
   Renderer renderer(device, network, body.meshes, arguments.options);
-  std::printf("%s: %u sweeps, %ux%u quads, %llu triangles, batches of %u, templates %llu bytes\n",
+  std::printf("%s: %u sweeps, %ux%u quads, %llu triangles, templates of %u, in all %llu bytes\n",
               device.adapter().name.c_str(), renderer.sweepCount(), arguments.options.shape.around,
               arguments.options.shape.along, static_cast<unsigned long long>(renderer.triangleCount()),
-              arguments.options.sweepsPerBatch, static_cast<unsigned long long>(renderer.templateBytes()));
+              arguments.options.templateBytes, static_cast<unsigned long long>(renderer.templateBytes()));
 
   std::vector<quat> frames(network.sectionCount());
   networkFrames(network, network.points(), restReferences(network), frames);

@@ -1,6 +1,7 @@
 #pragma once
 #include <bit>
 
+#include "gpu/barrier.h"
 #include "gpu/gpu_rig.h"
 #include "render/fork_pass.h"
 #include "render/patch_pass.h"
@@ -16,18 +17,24 @@ struct Drawn {
   std::vector<shared::DrawCommand> draws;
 };
 
-/// Where each item's vertices begin in what a batch wrote.
+/// Where each item's vertices begin in what a round wrote.
 /// @param vertices  of each item, 0 where it is not drawn
 inline std::vector<std::uint32_t> firstVertices(std::span<const std::uint32_t> vertices, std::uint32_t perGroup,
-                                                const GroupRoom& room) {
+                                                std::span<const shared::DrawCommand> draws) {
   std::vector<std::uint32_t> first;
   std::uint32_t next = 0;
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    if (i % perGroup == 0) next = i / perGroup * room.vertices;
+    if (i % perGroup == 0) next = std::uint32_t(draws[i / perGroup].vertexOffset);
     first.push_back(next);
     next += inBlocks(vertices[i]);
   }
   return first;
+}
+
+/// The corners of a triangle of a draw.
+inline uvec3 cornersAt(const Drawn& drawn, const shared::DrawCommand& draw, std::uint32_t index) {
+  const std::uint32_t* corner = &drawn.indices[draw.firstIndex + index];
+  return uvec3(corner[0], corner[1], corner[2]) + std::uint32_t(draw.vertexOffset);
 }
 
 /// A network in device memory, and what the passes make of all its tubes, caps, forks and patches.
@@ -41,8 +48,9 @@ struct Forks {
         forks(rig.device(), tubes.table(), detail, 1u << 20),
         patches(rig.device(), tubes.table().patches),
         detailPass(rig.device(), tubes),
-        tubePass(rig.device(), 1),
-        forkPass(rig.device(), 1),
+        tubePass(rig.device(), 1, tubes),
+        forkPass(rig.device(), 1, forks),
+        planPass(rig.device()),
         patchPass(rig.device(), 1) {
     const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);
     Camera camera;
@@ -50,26 +58,31 @@ struct Forks {
     camera.target = {0, 0.5f, 0};
     view = detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
     forks.setSpanColours(rig.device(), kindColours(network));
-    const TubeDraws tubeDraws(rig.device(), tubes.room(), tubes.groupCount());
-    const TubeDraws forkDraws(rig.device(), forks.room(), forks.groupCount());
+    const FillRange all = everything(tubes);
+    const Filling filling(rig.device(), tubes, forks, roomForAll(tubes, forks, all));
+    const Template filled(rig.device(), filling.room());
     rig.run([&](VkCommandBuffer commands) {
       detailPass.record(commands, tubes, pointBuffer.address(), view);
       if (!patches.empty())
         patchPass.record(commands, {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address(), false});
-      tubePass.record(commands, {tubes, tubes.batches()[0], detailPass, pointBuffer.address(), knotBuffer.address(),
-                                 tubeDraws, false});
-      if (!forks.batches().empty())
-        forkPass.record(commands, {tubes, forks, forks.batches()[0], detailPass, pointBuffer.address(),
-                                   knotBuffer.address(), forkDraws, false});
+      filling.recordStart(commands, all);
+      tubePass.record(commands, {tubes, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, false});
+      gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+      if (all.forkEnd > 0)
+        forkPass.record(commands, {tubes, forks, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, false});
+      gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+      planPass.record(commands, filling, filled);
     });
-    tubesDrawn = download(tubeDraws);
-    if (!forks.batches().empty()) forksDrawn = download(forkDraws);
+    tubesDrawn = forksDrawn = {rig.download<shared::TubeVertex>(filled.pool), rig.download<std::uint32_t>(filled.pool),
+                               rig.download<shared::DrawCommand>(filled.draws)};
+    tubesDrawn.draws.resize(filling.room().tubeWindow);
+    forksDrawn.draws.erase(forksDrawn.draws.begin(), forksDrawn.draws.begin() + filling.room().tubeWindow);
     if (!patches.empty()) patchesDrawn = download(patches.draws());
     around = rig.download<std::uint32_t>(detailPass.aroundBuffer());
     along = rig.download<std::uint32_t>(detailPass.alongBuffer());
   }
 
-  Drawn download(const TubeDraws& draws) const {
+  Drawn download(const PatchDraws& draws) const {
     return {rig.download<shared::TubeVertex>(draws.vertices), rig.download<std::uint32_t>(draws.indices),
             rig.download<shared::DrawCommand>(draws.draws)};
   }
@@ -84,12 +97,12 @@ struct Forks {
       const std::uint32_t m = around[tubes.table().vesselOfSweep[i]], caps = std::uint32_t(std::popcount(tubes.table().sweeps[i].caps));
       counts.push_back((along[i] + 1 + capRings(m, view) * caps) * m);
     }
-    return firstVertices(counts, shared::kGroupSweeps, tubes.room());
+    return firstVertices(counts, tubes.groupSweeps(), tubesDrawn.draws);
   }
   std::vector<std::uint32_t> firstForkVertices() const {
     std::vector<std::uint32_t> counts;
     for (const shared::ForkRecord& fork : tubes.table().forks) counts.push_back(shapeOf(fork).vertices());
-    return firstVertices(counts, shared::kGroupForks, forks.room());
+    return firstVertices(counts, forks.groupForks(), forksDrawn.draws);
   }
 
   const GpuRig& rig;
@@ -101,6 +114,7 @@ struct Forks {
   DetailPass detailPass;
   TubePass tubePass;
   ForkPass forkPass;
+  PlanPass planPass;
   PatchPass patchPass;
   shared::DetailView view{};
   Drawn tubesDrawn, forksDrawn, patchesDrawn;
@@ -111,10 +125,7 @@ inline void take(const Drawn& drawn, std::vector<vec3>& positions, std::vector<u
   const std::uint32_t base = std::uint32_t(positions.size());
   for (const shared::TubeVertex& v : drawn.vertices) positions.emplace_back(v.x, v.y, v.z);
   for (const shared::DrawCommand& draw : drawn.draws)
-    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
-      const std::uint32_t* index = &drawn.indices[draw.firstIndex + i];
-      triangles.push_back(uvec3(index[0], index[1], index[2]) + base);
-    }
+    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) triangles.push_back(cornersAt(drawn, draw, i) + base);
 }
 
 /// Edges that do not belong to exactly two triangles. A cap's pole is a ring of vertices in one place: triangles without

@@ -51,10 +51,7 @@ void checkAgainstReference(const Forks& passes) {
   CHECK(normal <= 2e-4f);
   std::vector<uvec3> found;
   for (const shared::DrawCommand& draw : passes.forksDrawn.draws)
-    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
-      const std::uint32_t* index = &passes.forksDrawn.indices[draw.firstIndex + i];
-      found.push_back({index[0], index[1], index[2]});
-    }
+    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) found.push_back(test::cornersAt(passes.forksDrawn, draw, i));
   CHECK(found == wanted);
 }
 

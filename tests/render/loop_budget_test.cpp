@@ -43,6 +43,7 @@ std::map<std::string, unsigned> mostLoops() {
       // directions, the ring's vertices, where it begins, the strip's triangles and those without area
       {"patches.comp", 3 * m + kMostOnLoop + 2 * m},
       {"skin.comp", 0},
+      {"template_plan.comp", 2 * (kWindow / kPlanThreads + 1)},
       {"access_read.comp", 0},
       {"access_write.comp", 0},
   };

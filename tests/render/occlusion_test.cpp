@@ -82,10 +82,14 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
       const gpu::Target target(rig.device(), {.name = "picture", .size = {kWidth, kHeight}, .samples = samples, .readDepth = true});
       const SurfacePass surface(rig.device(), target.spec());
       const OcclusionPass pass(rig.device(), target);
-      const TubeSet tubes(rig.device(), network, {}, 10000);
+      const TubeSet tubes(rig.device(), network, {}, 1u << 20);
       const DetailPass detail(rig.device(), tubes);
-      const TubePass tubePass(rig.device(), samples);
-      const TubeDraws draws(rig.device(), tubes.room(), tubes.groupsPerBatch());
+      const ForkSet forks(rig.device(), tubes.table(), {}, 1u << 20);
+      const TubePass tubePass(rig.device(), samples, tubes);
+      const PlanPass planPass(rig.device());
+      const FillRange all{0, std::uint32_t(tubes.table().sweeps.size()), 0, 0};
+      const Filling filling(rig.device(), tubes, forks, roomForAll(tubes, forks, all));
+      const Template filled(rig.device(), filling.room());
       const gpu::Buffer points = rig.upload(std::vector<vec4>(network.points().begin(), network.points().end()));
       const gpu::Buffer knots = rig.upload(frames);
       const std::vector<float> none(kWidth * kHeight);
@@ -95,10 +99,13 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
       const shared::DetailView view = detailView(camera, {}, target.spec().size, tubes.detail(), 0.01f);
       rig.run([&](VkCommandBuffer commands) {
         detail.record(commands, tubes, points.address(), view);
-        tubePass.record(commands, {tubes, tubes.batches()[0], detail, points.address(), knots.address(), draws});
+        filling.recordStart(commands, all);
+        tubePass.record(commands, {tubes, detail, points.address(), knots.address(), filling, filled});
+        gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+        planPass.record(commands, filling, filled);
         gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
         target.begin(commands, {1, 1, 1, 1}, 0, gpu::Stretch::first);
-        surface.recordVessels(commands, drawConstants(camera, {}, target.spec().size), draws, tubes.groupsPerBatch());
+        surface.recordVessels(commands, drawConstants(camera, {}, target.spec().size), drawsOf(filled));
         target.pause(commands);
         gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
         pass.record(commands, target, camera, 0.05f, 1);

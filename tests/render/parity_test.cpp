@@ -7,6 +7,7 @@
 #include <random>
 
 #include "body/skinning.h"
+#include "gpu/barrier.h"
 #include "gpu/gpu_rig.h"
 #include "render/frame_upload.h"
 #include "render/skin_pass.h"
@@ -65,14 +66,16 @@ Camera cameraAt(vec3 position, float orthographic = 0) {
 // A network in device memory and the passes that draw it.
 struct Tubes {
   Tubes(const test::GpuRig& used, const Network& network, std::vector<vec4> posed, const TubeDetail& detail,
-        std::uint32_t batchSweeps, std::uint32_t samplesOfPixel = 1)
+        std::uint32_t samplesOfPixel = 1)
       : rig(used),
         samples(samplesOfPixel),
         points(std::move(posed)),
         frames(framesOf(network, points)),
-        set(rig.device(), network, detail, batchSweeps),
+        set(rig.device(), network, detail, 1u << 20),
+        forks(rig.device(), set.table(), detail, 1u << 20),
         detailPass(rig.device(), set),
-        pass(rig.device(), samples),
+        pass(rig.device(), samples, set),
+        planPass(rig.device()),
         pointBuffer(rig.upload(points)),
         knotBuffer(rig.upload(frames)) {}
 
@@ -87,8 +90,10 @@ struct Tubes {
   std::vector<vec4> points;
   std::vector<quat> frames;
   TubeSet set;
+  ForkSet forks;
   DetailPass detailPass;
   TubePass pass;
+  PlanPass planPass;
   gpu::Buffer pointBuffer, knotBuffer;
 };
 
@@ -98,15 +103,21 @@ struct Drawn {
   std::vector<shared::DrawCommand> draws;
 };
 
-Drawn drawnBatch(const Tubes& tubes, const TubeBatch& batch, const shared::DetailView& view, bool cull) {
-  const TubeDraws draws(tubes.rig.device(), tubes.set.room(), batch.groups());
+// Every group's triangles, in one round.
+Drawn drawnTubes(const Tubes& tubes, const shared::DetailView& view, bool cull) {
+  const FillRange all{0, std::uint32_t(tubes.set.table().sweeps.size()), 0, 0};
+  const Filling filling(tubes.rig.device(), tubes.set, tubes.forks, roomForAll(tubes.set, tubes.forks, all));
+  const Template filled(tubes.rig.device(), filling.room());
   tubes.rig.run([&](VkCommandBuffer commands) {
+    filling.recordStart(commands, all);
     tubes.detailPass.record(commands, tubes.set, tubes.pointBuffer.address(), view);
-    tubes.pass.record(commands, {tubes.set, batch, tubes.detailPass, tubes.pointBuffer.address(),
-                                 tubes.knotBuffer.address(), draws, cull});
+    tubes.pass.record(commands, {tubes.set, tubes.detailPass, tubes.pointBuffer.address(), tubes.knotBuffer.address(), filling,
+                                 filled, cull});
+    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+    tubes.planPass.record(commands, filling, filled);
   });
-  return {tubes.rig.download<shared::TubeVertex>(draws.vertices), tubes.rig.download<std::uint32_t>(draws.indices),
-          tubes.rig.download<shared::DrawCommand>(draws.draws)};
+  return {tubes.rig.download<shared::TubeVertex>(filled.pool), tubes.rig.download<std::uint32_t>(filled.pool),
+          tubes.rig.download<shared::DrawCommand>(filled.draws)};
 }
 
 // The rings of one sweep with its caps, as shaders/tubes.comp writes them where all are needed.
@@ -171,12 +182,12 @@ Corners cornersOf(const Drawn& drawn, const uvec3& triangle) {
 
 std::vector<Corners> drawnTriangles(const Drawn& drawn, std::uint32_t group) {
   const shared::DrawCommand& draw = drawn.draws[group];
-  CHECK(draw.instanceCount == 1);
+  CHECK((draw.instanceCount == 1 || draw.indexCount == 0));
   CHECK(draw.indexCount % 3 == 0);
   std::vector<Corners> found;
   for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
     const std::uint32_t* index = &drawn.indices[draw.firstIndex + i];
-    found.push_back(cornersOf(drawn, {index[0], index[1], index[2]}));
+    found.push_back(cornersOf(drawn, uvec3(index[0], index[1], index[2]) + std::uint32_t(draw.vertexOffset)));
   }
   return found;
 }
@@ -190,30 +201,29 @@ struct Outcome {
 Outcome passAgainstReference(const Tubes& tubes, const shared::DetailView& view, bool cull) {
   const NetworkDetail detail = tubes.chosen(view);
   Outcome outcome;
-  for (const TubeBatch& batch : tubes.set.batches()) {
-    const Drawn whole = drawnBatch(tubes, batch, view, false), drawn = cull ? drawnBatch(tubes, batch, view, true) : whole;
-    for (std::uint32_t group = 0; group < batch.groups(); ++group) {
-      std::vector<Corners> wanted;
-      std::uint32_t next = group * tubes.set.room().vertices;
-      for (std::uint32_t i = group * shared::kGroupSweeps; i < std::min((group + 1) * shared::kGroupSweeps, batch.sweeps); ++i) {
-        const std::uint32_t sweep = batch.firstSweep + i, along = detail.along[sweep];
-        if (along == 0) continue;
-        const std::uint32_t m = detail.around[tubes.set.table().vesselOfSweep[sweep]], base = next;
-        const Rings rings = ringsOf(tubes.posed(), sweep, m, along, view);
-        next += inBlocks(std::uint32_t(rings.points.size()));
-        compare(outcome.vertices, std::span(whole.vertices).subspan(base, rings.points.size()), rings.points);
-        const Triangles triangles = trianglesOf(whole, view, base, rings.near, m, tubes.samples);
-        outcome.triangles += triangles.all.size();
-        for (const uvec3& triangle : cull ? triangles.seen : triangles.all) wanted.push_back(cornersOf(whole, triangle));
-      }
-      std::vector<Corners> found = drawnTriangles(drawn, group), different;
-      outcome.drawn += found.size();
-      if (!cull) CHECK(found == wanted);  // in the same order, too
-      std::ranges::sort(found);
-      std::ranges::sort(wanted);
-      std::ranges::set_symmetric_difference(found, wanted, std::back_inserter(different));
-      outcome.wrong += different.size();
+  const Drawn whole = drawnTubes(tubes, view, false), drawn = cull ? drawnTubes(tubes, view, true) : whole;
+  const std::uint32_t size = tubes.set.groupSweeps(), sweeps = std::uint32_t(tubes.set.table().sweeps.size());
+  for (std::uint32_t group = 0; group < gpu::groupsFor(sweeps, size); ++group) {
+    std::vector<Corners> wanted;
+    std::uint32_t next = std::uint32_t(whole.draws[group].vertexOffset);
+    for (std::uint32_t sweep = group * size; sweep < std::min((group + 1) * size, sweeps); ++sweep) {
+      const std::uint32_t along = detail.along[sweep];
+      if (along == 0) continue;
+      const std::uint32_t m = detail.around[tubes.set.table().vesselOfSweep[sweep]], base = next;
+      const Rings rings = ringsOf(tubes.posed(), sweep, m, along, view);
+      next += inBlocks(std::uint32_t(rings.points.size()));
+      compare(outcome.vertices, std::span(whole.vertices).subspan(base, rings.points.size()), rings.points);
+      const Triangles triangles = trianglesOf(whole, view, base, rings.near, m, tubes.samples);
+      outcome.triangles += triangles.all.size();
+      for (const uvec3& triangle : cull ? triangles.seen : triangles.all) wanted.push_back(cornersOf(whole, triangle));
     }
+    std::vector<Corners> found = drawnTriangles(drawn, group), different;
+    outcome.drawn += found.size();
+    if (!cull) CHECK(found == wanted);  // in the same order, too
+    std::ranges::sort(found);
+    std::ranges::sort(wanted);
+    std::ranges::set_symmetric_difference(found, wanted, std::back_inserter(different));
+    outcome.wrong += different.size();
   }
   return outcome;
 }
@@ -227,7 +237,7 @@ TEST_CASE("tubes are what the CPU reference says, at all extremes of m and n") {
                                  SweepShape{8, 10}, SweepShape{16, 2}, SweepShape{16, 20}}) {
     CAPTURE(shape.around);
     CAPTURE(shape.along);
-    const Tubes tubes(rig, network, restPoints(network), {shape, 0}, 101);
+    const Tubes tubes(rig, network, restPoints(network), {shape, 0});
     const Outcome outcome = passAgainstReference(tubes, tubes.view(cameraAt({0, 0.5f, 9})), false);
     CHECK(outcome.triangles == tubes.set.triangleCount());
     CHECK(outcome.drawn == outcome.triangles);
@@ -241,7 +251,7 @@ TEST_CASE("one sweep, and one more than a workgroup takes") {
   VASA_REQUIRE_GPU(rig);
   for (const std::uint32_t spans : {1u, 2u, 21u, 64u, 65u}) {
     const Network network = test::straightVessel(0.5f, 0.02f, 0.004f, spans);
-    const Tubes tubes(rig, network, restPoints(network), {{5, 2}, 0}, 1000);
+    const Tubes tubes(rig, network, restPoints(network), {{5, 2}, 0});
     const Outcome outcome = passAgainstReference(tubes, tubes.view(cameraAt({2, 0.5f, 1})), false);
     CHECK(outcome.triangles == 10 * (2 * spans + 6));
     CHECK(outcome.wrong == 0);
@@ -256,7 +266,7 @@ TEST_CASE("m, n and what is left out are what the CPU reference says, from near 
   std::size_t drawn = 0, wrong = 0;
   for (const float tolerance : {0.2f, 0.8f})
     for (const std::uint32_t samples : {1u, 4u}) {
-      const Tubes tubes(rig, network, restPoints(network), {{}, tolerance}, 128, samples);
+      const Tubes tubes(rig, network, restPoints(network), {{}, tolerance}, samples);
       for (const Camera& camera : {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
                                    cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)}) {
         const shared::DetailView view = tubes.view(camera);
@@ -336,7 +346,7 @@ TEST_CASE("degenerate curves: points that coincide, hairpins, a radius that fall
         own[1].w = 0.2f;
     }
   }
-  const Tubes tubes(rig, network, points, {{6, 5}, 0}, 64);
+  const Tubes tubes(rig, network, points, {{6, 5}, 0});
   const Difference worst = passAgainstReference(tubes, tubes.view(cameraAt({0, 0.5f, 3})), false).vertices;
   CHECK(worst.position <= 1e-5f);
   CHECK(worst.normal <= 1e-3f);
