@@ -111,7 +111,7 @@ void bvh(Bytes bytes) {
 }
 
 void obj(Bytes bytes) {
-  const auto elements = parseObj(std::string(textOf(bytes)), "f");
+  const auto elements = parseObj(textOf(bytes), "f");
   messageNames(elements);
   checkMesh(elements);
 }
