@@ -46,10 +46,12 @@ struct System {
   std::size_t line = 0;
   std::vector<std::pair<std::string, Letter>> letters;
 
-  Letter& letter(std::string_view wanted) {
+  // Null: there are too many.
+  Letter* letter(std::string_view wanted) {
     for (auto& [known, value] : letters)
-      if (known == wanted) return value;
-    return letters.emplace_back(std::string(wanted), Letter{}).second;
+      if (known == wanted) return &value;
+    if (letters.size() == shared::kMostGrowthSymbols) return nullptr;
+    return &letters.emplace_back(std::string(wanted), Letter{}).second;
   }
 };
 
@@ -83,6 +85,10 @@ class Parser {
 
  private:
   Error fault(std::size_t line, const std::string& what) const { return ruleFault(file_, line, what); }
+
+  Error tooManyLetters(std::size_t line) const {
+    return fault(line, "more than " + std::to_string(shared::kMostGrowthSymbols) + " letters in all; leave out some");
+  }
 
   Result<void> readLine(const RuleLine& line) {
     const std::string_view first = line.words[0];
@@ -154,7 +160,9 @@ class Parser {
 
   Result<void> readLetter(const RuleLine& line, System& system) {
     if (line.words.size() < 2) return fault(line.number, "say which letter is drawn, as in `draw S length 14 taper 0.6`");
-    Letter& letter = system.letter(line.words[1]);
+    Letter* const found = system.letter(line.words[1]);
+    if (!found) return tooManyLetters(line.number);
+    Letter& letter = *found;
     if (letter.drawn)
       return fault(line.number, "letter " + inQuotes(line.words[1]) + " was drawn in line " + std::to_string(letter.drawn) + " already; leave out one of the lines");
     letter.drawn = line.number;
@@ -167,7 +175,9 @@ class Parser {
   }
 
   Result<void> readProduction(const RuleLine& line, System& system) {
-    Letter& letter = system.letter(line.words[0]);
+    Letter* const found = system.letter(line.words[0]);
+    if (!found) return tooManyLetters(line.number);
+    Letter& letter = *found;
     if (letter.produced)
       return fault(line.number, "letter " + inQuotes(line.words[0]) + " has a production in line " + std::to_string(letter.produced) + " already; leave out one of them");
     letter.produced = line.number;
@@ -250,7 +260,7 @@ class Parser {
     if (system.axiom.empty()) return fault(system.line, "system " + inQuotes(system.name) + " has no axiom; add a line `axiom LETTER`");
     if (numberOf(system.axiom) < 0) return fault(system.line, "the axiom " + inQuotes(system.axiom) + " is never drawn; add a line `draw " + system.axiom + " length 14`");
     if (firstSymbol + system.letters.size() > shared::kMostGrowthSymbols)
-      return fault(system.line, "more than " + std::to_string(shared::kMostGrowthSymbols) + " letters in all; leave out some");
+      return tooManyLetters(system.line);
     for (auto& [name, letter] : system.letters) {
       if (!letter.drawn) return fault(letter.produced, "letter " + inQuotes(name) + " has a production but is never drawn; add a line `draw " + name + " length 14`");
       if (auto shared = shareFlow(name, letter); !shared) return shared;

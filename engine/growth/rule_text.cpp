@@ -36,7 +36,8 @@ std::vector<RuleLine> ruleLines(std::string_view text) {
   std::vector<RuleLine> lines;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, std::min(end, text.find('#')));
+    std::string_view line = text.substr(0, end);
+    line = line.substr(0, line.find('#'));
     if (auto words = wordsOf(line); !words.empty()) lines.push_back({number, std::move(words)});
     text.remove_prefix(std::min(end + 1, text.size()));
   }
