@@ -1,5 +1,5 @@
 #pragma once
-#include <unordered_map>
+#include <map>
 
 #include "core/result.h"
 #include "network/network.h"
@@ -56,7 +56,7 @@ class NetworkBuilder {
   std::vector<Label> labels_;
   std::vector<std::vector<vec4>> points_;
   std::vector<PendingNode> nodes_;
-  std::unordered_map<std::uint64_t, std::uint32_t> hosted_;  // the first node of each host, by both its parts
+  std::map<std::uint64_t, std::uint32_t> hosted_;  // the first node of each host, by both its parts
 };
 
 }  // namespace vasa

@@ -85,12 +85,19 @@ struct Contents {
   std::vector<std::pair<std::optional<Host>, std::vector<VesselEnd>>> nodes;
   std::vector<vec4> points;
   std::vector<ForkPatch> patches;
+  std::string fault;  // of a chunk, where there is more to say than that it is malformed
   bool meta = false, vessel = false, node = false, point = false, patch = false;
 };
 
-bool readVessels(ByteReader in, Contents& contents) {
+// A name may be some bytes in the file and thousands in memory, as it shares what the one before has.
+constexpr std::size_t kNameTimes = 4, kFreeNames = std::size_t(16) << 20;
+
+bool readVessels(std::span<const std::byte> payload, Contents& contents) {
+  ByteReader in(payload);
   NetworkBuilder::Label before;
-  for (std::size_t left = in.count(6); left && in.ok(); --left) {
+  const std::size_t mostText = kNameTimes * payload.size() + kFreeNames;
+  std::size_t left = in.count(6), text = 0;
+  for (contents.vessels.reserve(left); left && in.ok(); --left) {
     NetworkBuilder::Label label;
     const auto kind = in.raw<std::uint8_t>();
     if (kind > std::uint8_t(VesselKind::other)) return false;
@@ -98,6 +105,11 @@ bool readVessels(ByteReader in, Contents& contents) {
     label.name = in.text(before.name);
     label.ontologyId = in.text(before.ontologyId);
     before = label;
+    text += label.name.size() + label.ontologyId.size();
+    if (text > mostText) {
+      contents.fault = "its names are longer than the " + std::to_string(mostText) + " bytes accepted for a file of this size";
+      return false;
+    }
     const std::uint64_t points = in.number();
     if (points > 0x7fffffff) return false;
     contents.vessels.emplace_back(std::move(label), std::size_t(points));
@@ -106,7 +118,8 @@ bool readVessels(ByteReader in, Contents& contents) {
 }
 
 bool readNodes(ByteReader in, Contents& contents) {
-  for (std::size_t left = in.count(2); left && in.ok(); --left) {
+  std::size_t left = in.count(2);
+  for (contents.nodes.reserve(left); left && in.ok(); --left) {
     std::optional<Host> host;
     if (in.raw<std::uint8_t>()) {
       const std::uint64_t vessel = in.number();
@@ -149,7 +162,7 @@ bool readChunk(const std::string& tag, std::span<const std::byte> payload, Conte
     contents.bodyHeight = in.raw<float>();
     return first(contents.meta) && in.ok();
   }
-  if (tag == "VESL") return first(contents.vessel) && readVessels(ByteReader(payload), contents);
+  if (tag == "VESL") return first(contents.vessel) && readVessels(payload, contents);
   if (tag == "NODE") return first(contents.node) && readNodes(ByteReader(payload), contents);
   if (tag == "PNTS") return first(contents.point) && readExactPoints(payload, contents);
   if (tag == "PNTQ") return first(contents.point) && readQuantisedPoints(ByteReader(payload), contents);
@@ -158,6 +171,9 @@ bool readChunk(const std::string& tag, std::span<const std::byte> payload, Conte
 }
 
 Result<Network> build(Contents contents, const std::string& name) {
+  if (contents.vessels.size() > contents.points.size() / kMinPoints || contents.nodes.size() > 2 * contents.vessels.size())
+    return badInput(name + ": " + std::to_string(contents.vessels.size()) + " vessels and " + std::to_string(contents.nodes.size()) +
+                    " nodes are more than " + std::to_string(contents.points.size()) + " points can make; write the file anew");
   NetworkBuilder builder;
   std::size_t next = 0;
   for (auto& [label, count] : contents.vessels) {
@@ -243,7 +259,8 @@ Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::strin
     const auto payload = in.take(in.raw<std::uint32_t>());
     if (!in.ok() || !readChunk(tag, payload, contents))
       return badInput(name + ": chunk '" + tag + "' at byte " +
-                      std::to_string(letters.data() - bytes.data()) + " is malformed; write the file anew");
+                      std::to_string(letters.data() - bytes.data()) + " is malformed" + (contents.fault.empty() ? "" : ": " + contents.fault) +
+                      "; write the file anew");
   }
   if (!contents.meta || !contents.vessel || !contents.point)
     return badInput(name + ": a chunk is missing (META, VESL and points are needed); write the file anew");

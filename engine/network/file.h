@@ -16,6 +16,7 @@
 //     PTCH   (only where patches were kept) count, then per patch: u8 rings, per ring: vessel, f32 parameter, centre x y z,
 //            outward x y z, radius, vertices of its loop; vertices, f32 origin x y z, i8 exponent of the position step, per
 //            vertex u16 x y z and u8 a ring; triangles, three indices each
+// Names together take at most four times the chunk's bytes and 16 MiB.
 // Counts and lengths inside VESL, NODE and PTCH are LEB128; strings are a length and UTF-8 bytes.
 namespace vasa {
 
