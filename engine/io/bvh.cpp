@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
+#include "io/read_limits.h"
 #include "io/words.h"
 
 namespace vasa {
 namespace {
 
 constexpr std::size_t kMaximumBytes = std::size_t(1) << 29;
-constexpr std::size_t kMostJoints = 4096, kMostValues = std::size_t(1) << 27;
+constexpr std::size_t kMostJoints = 4096;
+constexpr std::size_t kMaximumMapBytes = std::size_t(1) << 20;
 constexpr int kDeepest = 256;
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kFarthest = 1e9;  // in any unit
@@ -23,7 +25,7 @@ enum class Channel : std::uint8_t { x, y, z, turnX, turnY, turnZ };
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name) : rest_(text) { motion_.name = name; }
+  Parser(std::string_view text, const std::string& name) : rest_(text), bytes_(text.size()) { motion_.name = name; }
 
   Motion run() {
     expect("HIERARCHY");
@@ -139,8 +141,14 @@ class Parser {
     // A value is two bytes of text at least: what is promised but not there costs no memory.
     std::size_t perFrame = 0;
     for (const auto& channels : channels_) perFrame += channels.size();
-    if (total > kMostValues || motion_.frameCount * perFrame > rest_.size() || perFrame == 0)
+    if (motion_.frameCount * perFrame > rest_.size() || perFrame == 0)
       breaks("the file holds fewer values than its " + std::to_string(motion_.frameCount) + " frames of " + std::to_string(perFrame) + " channels need");
+    // Joints without channels take memory in every frame, too.
+    if (const std::size_t wanted = total * (sizeof(quat) + sizeof(vec3)), most = partOfMemory(bytes_, 15, 48); wanted > most)
+      breaks(std::to_string(motion_.frameCount) + " frames of " + std::to_string(motion_.joints.size()) + " joints " + beyondMemory(wanted, most) +
+             "; leave out joints that have no channels");
+    motion_.rotations.reserve(total);
+    motion_.translations.reserve(total);
     for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame)
       for (std::size_t j = 0; j < motion_.joints.size(); ++j) readValues(j);
   }
@@ -161,7 +169,7 @@ class Parser {
   }
 
   std::string_view rest_;
-  std::size_t line_ = 1;
+  std::size_t bytes_, line_ = 1;
   std::vector<std::vector<Channel>> channels_;
   Motion motion_;
 };
@@ -188,9 +196,12 @@ Result<Motion> readBvh(const std::filesystem::path& path) {
 }
 
 Result<JointMap> readJointMap(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, 1 << 20);
+  const auto bytes = readFile(path, kMaximumMapBytes);
   if (!bytes) return bytes.error();
-  std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  return parseJointMap({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+}
+
+Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
   JointMap map;
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = nextLine(text);
@@ -199,7 +210,7 @@ Result<JointMap> readJointMap(const std::filesystem::path& path) {
     const std::size_t sign = line.find('=');
     const std::string_view from = trimmed(line.substr(0, sign));
     if (sign == line.npos || from.empty())
-      return badInput(path.string() + ":" + std::to_string(number) + ": a line must be `motion's joint = body's joint`");
+      return badInput(name + ":" + std::to_string(number) + ": a line must be `motion's joint = body's joint`");
     map[std::string(from)] = std::string(trimmed(line.substr(sign + 1)));
   }
   return map;

@@ -3,8 +3,10 @@
 #include <exception>
 #include <new>
 
+#include "core/atomic_file.h"
 #include "io/gltf_asset.h"
 #include "io/gltf_body.h"
+#include "io/gltf_container.h"
 #include "io/gltf_rule.h"
 
 namespace vasa {
@@ -20,33 +22,52 @@ std::string printable(std::string text) {
 /// Loads a file, makes something of it, and turns what is thrown on the way into an Error that begins with
 /// the file's name.
 template <class T, class Maker>
-Result<T> read(const std::filesystem::path& path, Maker make) {
+Result<T> parse(std::vector<std::byte> bytes, const std::filesystem::path& path, Maker make) {
   const std::string file = path.string() + ": ";
   try {
-    return make(gltf::loadAsset(path));
+    return make(gltf::loadAsset(std::move(bytes), path));
   } catch (const gltf::BrokenRule& broken) {
     return badInput(file + printable(broken.place + ": " + broken.rule + "; " + broken.remedy));
   } catch (const Error& error) {
     return error.message.starts_with(file) ? error : Error{error.fault, file + error.message};
   } catch (const std::bad_alloc&) {
-    return badInput(file + "needs more memory than there is; split or reduce the asset");
+    return Error{Fault::failed, file + "needs more memory than there is; split or reduce the asset"};
   } catch (const std::exception& error) {
     return badInput(file + "cannot be read: " + error.what() + "; " + gltf::kExportAgain);
   }
 }
 
+Result<std::vector<std::byte>> bytesOf(const std::filesystem::path& path) {
+  auto bytes = readFile(path, gltf::kMaximumFileBytes);
+  const std::string file = path.string() + ": ";
+  if (!bytes && !bytes.error().message.starts_with(file)) return Error{bytes.error().fault, file + bytes.error().message};
+  return bytes;
+}
+
 }  // namespace
 
+Result<Body> parseBody(std::vector<std::byte> bytes, const std::filesystem::path& path) {
+  return parse<Body>(std::move(bytes), path, gltf::bodyOf);
+}
+
 Result<Body> readBody(const std::filesystem::path& path) {
-  return read<Body>(path, gltf::bodyOf);
+  auto bytes = bytesOf(path);
+  return bytes ? parseBody(std::move(*bytes), path) : bytes.error();
+}
+
+Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes, const std::filesystem::path& path) {
+  return parse<std::vector<MeshElement>>(std::move(bytes), path, gltf::elementsOf);
 }
 
 Result<std::vector<MeshElement>> readGltfElements(const std::filesystem::path& path) {
-  return read<std::vector<MeshElement>>(path, gltf::elementsOf);
+  auto bytes = bytesOf(path);
+  return bytes ? parseGltfElements(std::move(*bytes), path) : bytes.error();
 }
 
 Result<GltfSummary> checkGltf(const std::filesystem::path& path) {
-  return read<GltfSummary>(path, [](const gltf::Asset& asset) {
+  auto bytes = bytesOf(path);
+  if (!bytes) return bytes.error();
+  return parse<GltfSummary>(std::move(*bytes), path, [](const gltf::Asset& asset) {
     const auto& model = asset.model;
     return GltfSummary{model.nodes.size(), model.meshes.size(), model.skins.size(), model.animations.size()};
   });

@@ -22,10 +22,14 @@ namespace vasa {
 /// otherwise they are those of the binding pose (skinVertices gives the rest pose).
 Result<Body> readBody(const std::filesystem::path& path);
 
+/// The same from memory. @param path  for messages, and whose folder holds the files beside it
+Result<Body> parseBody(std::vector<std::byte> bytes, const std::filesystem::path& path);
+
 /// One element for each node of the default scene that has a mesh, in the file's order: primitives merged, in
 /// world coordinates, skinned ones in the rest pose. The name is the node's; category and ontology id are the
 /// node's (or the mesh's) extras "category" and "fma".
 Result<std::vector<MeshElement>> readGltfElements(const std::filesystem::path& path);
+Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes, const std::filesystem::path& path);
 
 struct GltfSummary {
   std::size_t nodes = 0, meshes = 0, skins = 0, animations = 0;

@@ -11,7 +11,7 @@ namespace vasa::gltf {
 namespace {
 
 template <class T>
-T load(const unsigned char* from) {
+T load(const std::byte* from) {
   T value;
   std::memcpy(&value, from, sizeof value);
   return value;
@@ -19,50 +19,51 @@ T load(const unsigned char* from) {
 
 // c / 255, max(c / 127, -1) and so on, as glTF 2.0, 3.11 defines.
 template <class Stored>
-float toFloat(const unsigned char* from, bool normalised) {
+float toFloat(const std::byte* from, bool normalised) {
   const auto value = float(load<Stored>(from));
   if (!normalised) return value;
   return std::max(value / float(std::numeric_limits<Stored>::max()), -1.0f);
 }
 
-float component(const unsigned char* from, int type, bool normalised, float) {
+float component(const std::byte* from, int type, bool normalised, float) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case kByte:
       return toFloat<std::int8_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUnsignedByte:
       return toFloat<std::uint8_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case kShort:
       return toFloat<std::int16_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedShort:
       return toFloat<std::uint16_t>(from, normalised);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case kUnsignedInt:
       return float(load<std::uint32_t>(from));
     default:
       return load<float>(from);
   }
 }
 
-std::uint32_t component(const unsigned char* from, int type, bool, std::uint32_t) {
+std::uint32_t component(const std::byte* from, int type, bool, std::uint32_t) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return *from;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedByte:
+      return load<std::uint8_t>(from);
+    case kUnsignedShort:
       return load<std::uint16_t>(from);
     default:
       return load<std::uint32_t>(from);
   }
 }
 
-const unsigned char* bytesOf(const Asset& asset, int view, std::size_t offset) {
+const std::byte* bytesOf(const Asset& asset, int view, std::size_t offset) {
   const auto& bufferView = asset.model.bufferViews[std::size_t(view)];
-  const std::string buffer = "/buffers/" + std::to_string(bufferView.buffer);
-  if (!asset.bufferPresent[std::size_t(bufferView.buffer)])
-    breaks(buffer, "its data is needed, but it is not in the file or beside it", "export with embedded data");
-  return asset.model.buffers[std::size_t(bufferView.buffer)].data.data() + bufferView.byteOffset + offset;
+  const auto bytes = asset.buffers.bytes[std::size_t(bufferView.buffer)];
+  if (bytes.empty())
+    breaks("/buffers/" + std::to_string(bufferView.buffer), "its data is needed, but it is not in the file or beside it",
+           "export with embedded data");
+  return bytes.data() + bufferView.byteOffset + offset;
 }
 
 template <class T>
-void readElement(const unsigned char* from, const ElementLayout& layout, int type, bool normalised, T* to) {
+void readElement(const std::byte* from, const ElementLayout& layout, int type, bool normalised, T* to) {
   for (std::uint32_t column = 0; column < layout.columns; ++column)
     for (std::uint32_t row = 0; row < layout.rows; ++row)
       *to++ = component(from + column * layout.columnBytes() + row * layout.componentBytes, type, normalised,
@@ -74,11 +75,11 @@ void readSparse(const Asset& asset, int index, const ElementLayout& layout, std:
   const auto& accessor = asset.model.accessors[std::size_t(index)];
   const auto places = readSparseIndices(asset, index);
   if (places.empty()) return;
-  const auto& values = accessor.sparse.values;
-  const unsigned char* from = bytesOf(asset, values.bufferView, std::size_t(values.byteOffset));
+  const auto& values = accessor.sparse;
+  const std::byte* from = bytesOf(asset, values.valuesView, values.valuesOffset);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i] >= out.size() / layout.components()) continue;  // beyond what was asked for
-    readElement(from + i * layout.packedBytes(), layout, accessor.componentType, accessor.normalized,
+    readElement(from + i * layout.packedBytes(), layout, accessor.componentType, accessor.normalised,
                 out.data() + std::size_t(places[i]) * layout.components());
   }
 }
@@ -92,10 +93,10 @@ std::vector<T> readElements(const Asset& asset, int index, std::size_t atMost) {
   if (accessor.bufferView >= 0) {
     const std::size_t given = asset.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
     const std::size_t stride = given ? given : layout.packedBytes();
-    const unsigned char* from = bytesOf(asset, accessor.bufferView, accessor.byteOffset);
+    const std::byte* from = bytesOf(asset, accessor.bufferView, accessor.byteOffset);
     Checkpoints checkpoints;
     for (std::size_t i = 0; i < count; ++i, checkpoints.pass())
-      readElement(from + i * stride, layout, accessor.componentType, accessor.normalized,
+      readElement(from + i * stride, layout, accessor.componentType, accessor.normalised,
                   out.data() + i * layout.components());
   }
   readSparse(asset, index, layout, out);
@@ -106,14 +107,14 @@ std::vector<T> readElements(const Asset& asset, int index, std::size_t atMost) {
 
 std::uint32_t componentBytes(std::int64_t componentType) {
   switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kByte:
+    case kUnsignedByte:
       return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kShort:
+    case kUnsignedShort:
       return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case kUnsignedInt:
+    case kFloat:
       return 4;
     default:
       return 0;
@@ -121,7 +122,7 @@ std::uint32_t componentBytes(std::int64_t componentType) {
 }
 
 bool isFloatComponent(std::int64_t componentType) {
-  return componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  return componentType == kFloat;
 }
 
 ElementLayout elementLayout(std::int64_t componentType, const std::string& type) {
@@ -143,33 +144,23 @@ ElementLayout elementLayout(std::int64_t componentType, const std::string& type)
   return layout;
 }
 
-ElementLayout elementLayout(const tinygltf::Accessor& accessor) {
-  switch (accessor.type) {
-    case TINYGLTF_TYPE_MAT2:
-      return elementLayout(accessor.componentType, "MAT2");
-    case TINYGLTF_TYPE_MAT3:
-      return elementLayout(accessor.componentType, "MAT3");
-    case TINYGLTF_TYPE_MAT4:
-      return elementLayout(accessor.componentType, "MAT4");
-    default:
-      return {componentBytes(accessor.componentType),
-              std::uint32_t(tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type))), 1};
-  }
+ElementLayout elementLayout(const Model::Accessor& accessor) {
+  return elementLayout(accessor.componentType, accessor.type);
 }
 
 bool hasData(const Asset& asset, int index) {
   const auto& accessor = asset.model.accessors[std::size_t(index)];
   const auto present = [&](int view) {
-    return asset.bufferPresent[std::size_t(asset.model.bufferViews[std::size_t(view)].buffer)];
+    return !asset.buffers.bytes[std::size_t(asset.model.bufferViews[std::size_t(view)].buffer)].empty();
   };
   if (accessor.bufferView >= 0 && !present(accessor.bufferView)) return false;
-  return !accessor.sparse.isSparse ||
-         (present(accessor.sparse.indices.bufferView) && present(accessor.sparse.values.bufferView));
+  return accessor.sparse.count == 0 ||
+         (present(accessor.sparse.indicesView) && present(accessor.sparse.valuesView));
 }
 
 bool isStored(const Asset& asset, int index) {
   const auto& accessor = asset.model.accessors[std::size_t(index)];
-  return accessor.bufferView >= 0 || accessor.sparse.isSparse;
+  return accessor.bufferView >= 0 || accessor.sparse.count > 0;
 }
 
 std::vector<float> readFloats(const Asset& asset, int accessor, std::size_t atMost) {
@@ -182,13 +173,13 @@ std::vector<std::uint32_t> readIntegers(const Asset& asset, int accessor) {
 
 std::vector<std::uint32_t> readSparseIndices(const Asset& asset, int index) {
   const auto& sparse = asset.model.accessors[std::size_t(index)].sparse;
-  if (!sparse.isSparse) return {};
-  const unsigned char* from =
-      bytesOf(asset, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset));
-  const std::uint32_t bytes = componentBytes(sparse.indices.componentType);
-  std::vector<std::uint32_t> places(std::size_t(sparse.count));
+  if (sparse.count == 0) return {};
+  const std::byte* from =
+      bytesOf(asset, sparse.indicesView, sparse.indicesOffset);
+  const std::uint32_t bytes = componentBytes(sparse.indicesType);
+  std::vector<std::uint32_t> places(sparse.count);
   for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] = component(from + i * bytes, sparse.indices.componentType, false, std::uint32_t{});
+    places[i] = component(from + i * bytes, sparse.indicesType, false, std::uint32_t{});
   return places;
 }
 

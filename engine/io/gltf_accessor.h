@@ -29,7 +29,7 @@ bool isFloatComponent(std::int64_t componentType);
 
 /// @param type  "SCALAR", "VEC2" ... "MAT4"; rows stays 0 for anything else
 ElementLayout elementLayout(std::int64_t componentType, const std::string& type);
-ElementLayout elementLayout(const tinygltf::Accessor& accessor);
+ElementLayout elementLayout(const Model::Accessor& accessor);
 
 inline constexpr std::size_t kAll = ~std::size_t(0);
 

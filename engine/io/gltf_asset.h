@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf_tinygltf.h"
+#include "io/gltf_buffers.h"
+#include "io/gltf_model.h"
 
 namespace vasa::gltf {
 
@@ -11,16 +12,15 @@ namespace vasa::gltf {
 /// hold.
 struct Asset {
   std::string name;  ///< file name, for messages
-  tinygltf::Model model;
-  /// One a buffer: false where the file names no data (no URI), or data on a network. Such a buffer may be
-  /// described, but using it is an error.
-  std::vector<bool> bufferPresent;
+  Model model;
+  std::vector<std::byte> file;  ///< the bytes that the GLB's own buffer is a view of
+  Buffers buffers;
+  std::size_t bytes = 0;  ///< of the file and of those beside it that were read
 };
 
-/// Reads and checks a .gltf or .glb: file size and kind, container, JSON nesting, structure, then tinygltf,
-/// then the data in the buffers. tinygltf sees only a document whose structure has been checked, and no file:
-/// buffers come from memory, and outside files only from the asset's own folder. Throws BrokenRule, or Error
-/// for I/O.
-Asset loadAsset(const std::filesystem::path& path);
+/// Checks the bytes of a .gltf or .glb: container, JSON nesting and amount, structure, then the data in the
+/// buffers. Outside files come only from the asset's own folder. Throws BrokenRule, or Error for I/O.
+/// @param path  for messages, and whose folder it is
+Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path);
 
 }  // namespace vasa::gltf

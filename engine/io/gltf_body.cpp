@@ -6,20 +6,19 @@
 #include "core/log.h"
 #include "io/gltf_clips.h"
 #include "io/gltf_rule.h"
+#include "io/read_limits.h"
 
 namespace vasa::gltf {
 namespace {
 
-constexpr std::size_t kMaximumExpandedSize = std::size_t(1) << 26;  // vertices and indices
+// What a mesh takes in what is made of it, beside its vertices.
+constexpr std::size_t kBytesAMesh = 400, kBytesAPrimitive = 16, kBytesAnIndex = 4;
+constexpr std::size_t kBytesAVertex = 2 * sizeof(vec3) + sizeof(SkinInfluence);
 
-vec4 colourOf(const tinygltf::Model& model, int material) {
+vec4 colourOf(const Model& model, int material) {
   if (material < 0) return SkinnedMesh{}.colour;
   const auto& found = model.materials[std::size_t(material)];
-  const auto& factor = found.pbrMetallicRoughness.baseColorFactor;
-  vec4 colour(1);
-  for (int i = 0; i < 4; ++i) colour[i] = float(factor[std::size_t(i)]);
-  if (found.alphaMode != "BLEND") colour.a = 1;
-  return colour;
+  return found.blends ? found.baseColour : vec4(vec3(found.baseColour), 1);
 }
 
 // One a node: the nearest joint above it, or itself.
@@ -50,7 +49,7 @@ SkinnedMesh onJoint(Geometry geometry, JointId carrier, const Skeleton& skeleton
   return out;
 }
 
-std::map<int, Geometry> geometryByMaterial(const Asset& asset, const tinygltf::Node& node) {
+std::map<int, Geometry> geometryByMaterial(const Asset& asset, const Model::Node& node) {
   std::map<int, Geometry> byMaterial;
   const auto& primitives = asset.model.meshes[std::size_t(node.mesh)].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i)
@@ -103,24 +102,25 @@ void addMeshesOfNode(const Source& from, int index, std::vector<SkinnedMesh>& me
 
 }  // namespace
 
-void checkExpandedSize(const tinygltf::Model& model, const NodeTree& tree) {
-  std::vector<std::size_t> sizes;  // of a mesh; a primitive without triangles costs time too
+void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t vertexBytes) {
+  const Model& model = asset.model;
+  std::vector<std::size_t> sizes;  // [bytes] of a mesh; a primitive without triangles costs time too
   for (const auto& mesh : model.meshes) {
-    sizes.push_back(0);
+    sizes.push_back(kBytesAMesh + mesh.name.size());
     for (const auto& primitive : mesh.primitives) {
-      const auto position = primitive.attributes.find("POSITION");
-      ++sizes.back();
-      if (position != primitive.attributes.end())
-        sizes.back() += model.accessors[std::size_t(position->second)].count;
-      if (primitive.indices >= 0) sizes.back() += model.accessors[std::size_t(primitive.indices)].count;
+      sizes.back() += kBytesAPrimitive;
+      if (primitive.position >= 0) sizes.back() += primitive.vertices * vertexBytes;
+      if (primitive.indices >= 0) sizes.back() += model.accessors[std::size_t(primitive.indices)].count * kBytesAnIndex;
     }
   }
+  const std::size_t most = partOfMemory(asset.bytes, 8, 32);
   std::size_t sum = 0;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     if (model.nodes[i].mesh < 0 || !tree.inScene[i]) continue;
     sum += sizes[std::size_t(model.nodes[i].mesh)];
-    if (sum > kMaximumExpandedSize)
-      breaks("/nodes/" + std::to_string(i), "the meshes, repeated as often as nodes name them, are too large",
+    if (sum > most)
+      breaks("/nodes/" + std::to_string(i),
+             "the meshes, repeated as often as nodes name them, are too large: all up to this " + beyondMemory(sum, most),
              "split or reduce the asset");
   }
 }
@@ -159,7 +159,7 @@ Body bodyOf(const Asset& asset) {
   const Source from{asset, tree, joints, carriers(tree, joints)};
   Body body;
   body.name = asset.name;
-  checkExpandedSize(asset.model, tree);
+  checkExpandedSize(asset, tree, kBytesAVertex);
   for (int node = 0; node < int(asset.model.nodes.size()); ++node)
     if (asset.model.nodes[std::size_t(node)].mesh >= 0 && tree.inScene[std::size_t(node)])
       addMeshesOfNode(from, node, body.meshes);

@@ -17,7 +17,8 @@ std::vector<MeshElement> elementsOf(const Asset& asset);
 
 /// Throws BrokenRule where the scene's meshes, each counted as often as nodes use it, are more than memory
 /// should hold: a few bytes of JSON can name a mesh any number of times.
-void checkExpandedSize(const tinygltf::Model& model, const NodeTree& tree);
+/// @param vertexBytes  that a vertex takes in what is made
+void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t vertexBytes);
 
 /// The first name that is not empty, or the node's number.
 std::string nameOf(const std::string& first, const std::string& second, int node);

@@ -1,16 +1,17 @@
 #include "io/gltf_buffers.h"
 
 #include <cctype>
-#include <cstring>
+#include <map>
 
 #include "core/atomic_file.h"
+#include "io/base64.h"
 #include "io/gltf_container.h"
-#include "io/gltf_tinygltf.h"
 
 namespace vasa::gltf {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+using Bytes = std::vector<std::byte>;
+using BytesView = std::span<const std::byte>;
 constexpr std::size_t kGlbPadding = 3;  // the BIN chunk may be this much longer than its buffer
 
 int hexDigit(char c) {
@@ -64,12 +65,11 @@ Bytes decodeDataUri(const JsonView& uri) {
   const std::string header = text.substr(0, comma);
   if (header != "data:application/octet-stream;base64" && header != "data:application/gltf-buffer;base64")
     uri.fail("data of type \"" + header.substr(0, 60) + "\" must be data:application/octet-stream;base64");
+  if (comma == std::string::npos) uri.fail("is not valid base64 data");
   const std::string_view payload = std::string_view(text).substr(comma + 1);
-  if (comma == std::string::npos || !isBase64(payload)) uri.fail("is not valid base64 data");
-  Bytes bytes;
-  std::string mimeType;
-  if (!tinygltf::DecodeDataURI(&bytes, mimeType, text, 0, false)) uri.fail("is not valid base64 data");
-  return bytes;
+  auto bytes = isBase64(payload) ? decodeBase64(payload) : std::nullopt;
+  if (!bytes) uri.fail("is not valid base64 data");
+  return std::move(*bytes);
 }
 
 bool isInside(const std::filesystem::path& file, const std::filesystem::path& folder) {
@@ -77,44 +77,65 @@ bool isInside(const std::filesystem::path& file, const std::filesystem::path& fo
   return end == folder.end() || end->empty();
 }
 
-Bytes readBeside(const JsonView& uri, const std::string& relative, const std::filesystem::path& folder) {
-  const std::filesystem::path home = std::filesystem::weakly_canonical(folder.empty() ? "." : folder);
-  const std::filesystem::path file = std::filesystem::weakly_canonical(home / relative);
-  if (!isInside(file, home))
-    uri.fail("\"" + relative + "\" leaves the asset's folder", "keep all files of the asset in one folder");
-  auto bytes = readFile(file, kMaximumFileBytes);
-  if (!bytes) throw Error{bytes.error().fault, uri.place() + ": " + bytes.error().message};
-  const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
-  return Bytes(first, first + bytes->size());
-}
+class Loader {
+ public:
+  Loader(std::optional<BytesView> binary, const std::filesystem::path& folder)
+      : binary_(binary), home_(std::filesystem::weakly_canonical(folder.empty() ? "." : folder)) {}
 
-Bytes loadBuffer(const JsonView& buffer, bool isFirst, std::optional<std::span<const std::byte>> binary,
-                 const std::filesystem::path& folder) {
-  const std::size_t length = std::size_t(buffer.at("byteLength").integer(1, kMaximumFileBytes));
-  const auto uri = buffer.find("uri");
-  Bytes bytes;
-  if (uri) {
-    const UriTarget target = classifyUri(*uri);
-    if (target.kind == UriTarget::Kind::elsewhere) return {};
-    bytes =
-        target.kind == UriTarget::Kind::data ? decodeDataUri(*uri) : readBeside(*uri, target.path, folder);
-  } else if (isFirst && binary) {
-    const auto* first = reinterpret_cast<const unsigned char*>(binary->data());
-    bytes.assign(first, first + binary->size());
-    if (length + kGlbPadding < bytes.size())
-      buffer.at("byteLength")
-          .fail("is " + std::to_string(length) + ", but the BIN chunk has " + std::to_string(bytes.size()) +
-                " bytes");
-  } else {
-    return {};
+  Buffers run(const JsonView& root) {
+    for (const JsonView& buffer : root.items("buffers")) out_.bytes.push_back(load(buffer));
+    return std::move(out_);
   }
-  if (bytes.size() < length)
-    buffer.at("byteLength")
-        .fail("is " + std::to_string(length) + ", but there are only " + std::to_string(bytes.size()) +
-              " bytes");
-  bytes.resize(length);
-  return bytes;
-}
+
+ private:
+  BytesView load(const JsonView& buffer) {
+    const std::size_t length = std::size_t(buffer.at("byteLength").integer(1, kMaximumFileBytes));
+    BytesView bytes;
+    if (const auto uri = buffer.find("uri")) {
+      const UriTarget target = classifyUri(*uri);
+      if (target.kind == UriTarget::Kind::elsewhere) return {};
+      bytes = target.kind == UriTarget::Kind::data ? out_.read.emplace_back(decodeDataUri(*uri)) : beside(*uri, target.path);
+    } else if (out_.bytes.empty() && binary_) {
+      bytes = *binary_;
+      if (length + kGlbPadding < bytes.size())
+        buffer.at("byteLength")
+            .fail("is " + std::to_string(length) + ", but the BIN chunk has " + std::to_string(bytes.size()) + " bytes");
+    } else {
+      return {};
+    }
+    if (bytes.size() < length)
+      buffer.at("byteLength")
+          .fail("is " + std::to_string(length) + ", but there are only " + std::to_string(bytes.size()) + " bytes");
+    return bytes.first(length);
+  }
+
+  // However many buffers name it, a file is read once.
+  BytesView beside(const JsonView& uri, const std::string& relative) {
+    const auto known = byName_.find(relative);
+    if (known != byName_.end()) return known->second;
+    const std::filesystem::path file = std::filesystem::weakly_canonical(home_ / relative);
+    if (!isInside(file, home_))
+      uri.fail("\"" + relative + "\" leaves the asset's folder", "keep all files of the asset in one folder");
+    auto [found, fresh] = byFile_.try_emplace(file);
+    if (fresh) found->second = read(uri, file);
+    return byName_[relative] = found->second;
+  }
+  BytesView read(const JsonView& uri, const std::filesystem::path& file) {
+    auto bytes = readFile(file, kMaximumFileBytes);
+    if (!bytes) throw Error{bytes.error().fault, uri.place() + ": " + bytes.error().message};
+    out_.bytesBeside += bytes->size();
+    if (out_.bytesBeside > kMaximumFileBytes)
+      uri.fail("all buffers together hold more than " + std::to_string(kMaximumFileBytes) + " bytes",
+               "split or reduce the asset");
+    return out_.read.emplace_back(std::move(*bytes));
+  }
+
+  std::optional<BytesView> binary_;
+  std::filesystem::path home_;
+  std::map<std::string, BytesView> byName_;
+  std::map<std::filesystem::path, BytesView> byFile_;
+  Buffers out_;
+};
 
 }  // namespace
 
@@ -132,18 +153,8 @@ UriTarget classifyUri(const JsonView& uri) {
   return {UriTarget::Kind::relative, path};
 }
 
-std::vector<Bytes> loadBuffers(const JsonView& root, std::optional<std::span<const std::byte>> binary,
-                               const std::filesystem::path& folder) {
-  std::vector<Bytes> buffers;
-  std::size_t total = 0;
-  for (const JsonView& buffer : root.items("buffers")) {
-    buffers.push_back(loadBuffer(buffer, buffers.empty(), binary, folder));
-    total += buffers.back().size();
-    if (total > kMaximumFileBytes)
-      buffer.fail("all buffers together hold more than " + std::to_string(kMaximumFileBytes) + " bytes",
-                  "split or reduce the asset");
-  }
-  return buffers;
+Buffers loadBuffers(const JsonView& root, std::optional<BytesView> binary, const std::filesystem::path& folder) {
+  return Loader(binary, folder).run(root);
 }
 
 }  // namespace vasa::gltf

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -10,12 +11,18 @@
 namespace vasa::gltf {
 
 /// The bytes of every buffer, exactly byteLength each; empty where the file names none (no URI, or one with a
-/// scheme such as http:, which is never fetched). Sources: the GLB's BIN chunk, base64 data URIs, and files
-/// in the asset's folder or below it, symbolic links resolved. Throws BrokenRule, or Error where a file
-/// cannot be read.
-std::vector<std::vector<unsigned char>> loadBuffers(const JsonView& root,
-                                                    std::optional<std::span<const std::byte>> binary,
-                                                    const std::filesystem::path& folder);
+/// scheme such as http:, which is never fetched): such a buffer may be described, but using it is an error.
+struct Buffers {
+  std::vector<std::span<const std::byte>> bytes;
+  std::deque<std::vector<std::byte>> read;  ///< what `bytes` are views of, beside the GLB's own chunk
+  std::size_t bytesBeside = 0;              ///< of the files beside the asset, each counted once
+};
+
+/// Sources: the GLB's BIN chunk, base64 data URIs, and files in the asset's folder or below it, symbolic links
+/// resolved, each of them read once. Throws BrokenRule, or Error where a file cannot be read.
+/// @param binary  must outlive the result
+Buffers loadBuffers(const JsonView& root, std::optional<std::span<const std::byte>> binary,
+                    const std::filesystem::path& folder);
 
 /// What a URI in a glTF names, percent-decoded.
 struct UriTarget {

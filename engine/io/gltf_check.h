@@ -8,8 +8,15 @@ namespace vasa::gltf {
 /// Everything that can be told from the JSON alone, before any data is touched.
 void checkStructure(const JsonView& root);
 
+/// Whether the file asks for no more than one of so many bytes may. Needs checkStructure.
+void checkAmounts(const JsonView& root, std::size_t bytes);
+
 /// Everything that needs the buffers' bytes.
 void checkData(const Asset& asset);
+
+/// Whether an accessor's buffer view has a stride of its own. Only vertex attributes may: other readers take what
+/// else has one as packed, and see other numbers than we.
+bool hasStride(const JsonView& accessor, const std::vector<JsonView>& views);
 
 // The topics of checkStructure, in its order.
 void checkHead(const JsonView& root);        ///< asset version, extensions, kinds of the top-level arrays

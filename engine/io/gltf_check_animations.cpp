@@ -13,13 +13,15 @@ struct Sampler {
   bool normalised, cubic;
 };
 
-Sampler checkSampler(const JsonView& sampler, const std::vector<JsonView>& accessors) {
+Sampler checkSampler(const JsonView& sampler, const std::vector<JsonView>& accessors, const std::vector<JsonView>& views) {
   const auto accessorOf = [&](const char* key) -> const JsonView& {
     return accessors[sampler.at(key).index(accessors.size(), "accessors")];
   };
   const JsonView &input = accessorOf("input"), &output = accessorOf("output");
   if (input.at("type").text() != "SCALAR" || !isFloatComponent(input.at("componentType").integer(0, 65535)))
     sampler.at("input").fail("key times must be scalar floats");
+  for (const char* key : {"input", "output"})
+    if (hasStride(accessorOf(key), views)) sampler.at(key).fail("keys must lie one behind the other, without a byteStride");
   const auto interpolation = sampler.find("interpolation");
   const std::string& method = interpolation ? interpolation->text() : std::string("LINEAR");
   if (method != "LINEAR" && method != "STEP" && method != "CUBICSPLINE")
@@ -53,10 +55,10 @@ void checkOutput(const Sampler& sampler, const std::string& path) {
 }
 
 void checkAnimation(const JsonView& animation, const std::vector<JsonView>& nodes,
-                    const std::vector<JsonView>& accessors) {
+                    const std::vector<JsonView>& accessors, const std::vector<JsonView>& views) {
   std::vector<Sampler> samplers;
   for (const JsonView& sampler : animation.at("samplers").items())
-    samplers.push_back(checkSampler(sampler, accessors));
+    samplers.push_back(checkSampler(sampler, accessors, views));
   std::set<std::pair<std::uint32_t, std::string>> driven;
   for (const JsonView& channel : animation.at("channels").items()) {
     const JsonView target = channel.at("target");
@@ -77,8 +79,8 @@ void checkAnimation(const JsonView& animation, const std::vector<JsonView>& node
 }  // namespace
 
 void checkAnimations(const JsonView& root) {
-  const auto nodes = root.items("nodes"), accessors = root.items("accessors");
-  for (const JsonView& animation : root.items("animations")) checkAnimation(animation, nodes, accessors);
+  const auto nodes = root.items("nodes"), accessors = root.items("accessors"), views = root.items("bufferViews");
+  for (const JsonView& animation : root.items("animations")) checkAnimation(animation, nodes, accessors, views);
 }
 
 }  // namespace vasa::gltf

@@ -32,12 +32,12 @@ void checkSparseOrder(const Asset& asset, int index) {
 }
 
 // Exporters round the bounds they write; only what is clearly outside tells of damage.
-void checkBound(const tinygltf::Accessor& accessor, int index, const std::vector<float>& values,
+void checkBound(const Model::Accessor& accessor, int index, const std::vector<float>& values,
                 bool isMinimum) {
-  const auto& bounds = isMinimum ? accessor.minValues : accessor.maxValues;
+  const auto& bounds = isMinimum ? accessor.least : accessor.most;
   if (bounds.empty()) return;
   const ElementLayout layout = elementLayout(accessor);
-  if (accessor.normalized) return;  // bounds are of the stored integers, values are mapped already
+  if (accessor.normalised) return;  // bounds are of the stored integers, values are mapped already
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double bound = bounds[i % layout.components()];
     const double tolerance = 1e-3 + 1e-4 * std::abs(bound);
@@ -54,7 +54,7 @@ void checkValues(const Asset& asset, int index) {
   const auto& accessor = asset.model.accessors[std::size_t(index)];
   const bool isFloat = isFloatComponent(accessor.componentType);
   if (!isStored(asset, index)) return;
-  if (!isFloat && accessor.minValues.empty() && accessor.maxValues.empty()) return;
+  if (!isFloat && accessor.least.empty() && accessor.most.empty()) return;
   const auto values = readFloats(asset, index);
   const auto bad = std::find_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); });
   if (bad != values.end())
@@ -88,16 +88,34 @@ class Largest {
   std::map<int, Place> known_;
 };
 
-void checkIndices(const Asset& asset, const tinygltf::Primitive& primitive, const std::string& place,
+void checkIndices(const Asset& asset, const Model::Primitive& primitive, const std::string& place,
                   Largest& largest) {
   if (primitive.indices < 0 || !hasData(asset, primitive.indices)) return;
-  const std::size_t vertices = asset.model.accessors[std::size_t(primitive.attributes.begin()->second)].count;
+  const std::size_t vertices = primitive.vertices;
   const auto& [value, component] = largest.of(primitive.indices);
+  const auto bits = 8 * componentBytes(asset.model.accessors[std::size_t(primitive.indices)].componentType);
+  if (value == 0xffffffffu >> (32 - bits))
+    breaks(accessorPlace(primitive.indices),
+           "index " + std::to_string(component) + " is " + std::to_string(value) + ", which asks drivers to begin a new strip",
+           kExportAgain);
   if (value >= vertices)
     breaks(accessorPlace(primitive.indices),
            "index " + std::to_string(component) + " is " + std::to_string(value) + ", but " + place +
                " has " + std::to_string(vertices) + " vertices",
            kExportAgain);
+}
+
+// Coarse where they are integers. A normal of no length has no direction: the triangles' is taken.
+void checkNormals(const Asset& asset, int accessor) {
+  if (!isStored(asset, accessor) || !hasData(asset, accessor)) return;
+  const float tolerance = isFloatComponent(asset.model.accessors[std::size_t(accessor)].componentType) ? 0.01f : 0.02f;
+  const auto values = readFloats(asset, accessor);
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+    const float length = glm::length(vec3(values[i], values[i + 1], values[i + 2]));
+    if (length > 0 && !(std::abs(length - 1) <= tolerance))
+      breaks(accessorPlace(accessor), "element " + std::to_string(i / 3) + " must be a unit vector, has length " + std::to_string(length),
+             "normalise the normals");
+  }
 }
 
 void checkWeights(const Asset& asset, int accessor) {
@@ -115,11 +133,11 @@ struct LargestJoint {
   Largest::Place place;
 };
 
-LargestJoint largestJoint(const Asset& asset, const tinygltf::Mesh& mesh, Largest& largest) {
+LargestJoint largestJoint(const Asset& asset, const Model::Mesh& mesh, Largest& largest) {
   LargestJoint result;
   for (const auto& primitive : mesh.primitives)
-    for (const auto& [name, accessor] : primitive.attributes) {
-      if (!name.starts_with("JOINTS_") || !hasData(asset, accessor)) continue;
+    for (const int accessor : primitive.joints) {
+      if (!hasData(asset, accessor)) continue;
       const auto& place = largest.of(accessor);
       if (result.accessor < 0 || place.value > result.place.value) result = {accessor, place};
     }
@@ -144,16 +162,17 @@ void checkJoints(const Asset& asset, Largest& largest) {
 
 void checkMeshData(const Asset& asset) {
   Largest largest(asset);
-  std::set<int> weights;
+  std::set<int> weights, normals;
   for (std::size_t mesh = 0; mesh < asset.model.meshes.size(); ++mesh)
     for (std::size_t i = 0; i < asset.model.meshes[mesh].primitives.size(); ++i) {
       const auto& primitive = asset.model.meshes[mesh].primitives[i];
       checkIndices(asset, primitive, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i),
                    largest);
-      for (const auto& [name, accessor] : primitive.attributes)
-        if (name.starts_with("WEIGHTS_")) weights.insert(accessor);
+      weights.insert(primitive.weights.begin(), primitive.weights.end());
+      if (primitive.normal >= 0) normals.insert(primitive.normal);
     }
   for (const int accessor : weights) checkWeights(asset, accessor);
+  for (const int accessor : normals) checkNormals(asset, accessor);
   checkJoints(asset, largest);
 }
 
@@ -213,9 +232,9 @@ void checkAnimationData(const Asset& asset) {
   for (const auto& animation : asset.model.animations) {
     for (const auto& sampler : animation.samplers) times.insert(sampler.input);
     for (const auto& channel : animation.channels)
-      if (channel.target_path == "rotation") {
+      if (channel.path == Model::Path::rotation) {
         const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
-        rotations.emplace(sampler.output, sampler.interpolation == "CUBICSPLINE");
+        rotations.emplace(sampler.output, sampler.interpolation == Interpolation::cubic);
       }
   }
   for (const int accessor : times) checkTimes(asset, accessor);

@@ -17,11 +17,13 @@ struct Shape {
   std::uint64_t begin = 0;   // byteOffset, of the accessor and of its view
   std::uint64_t stride = 0;  // as the elements lie
   bool stored = false;       // has a buffer view
+  bool strided = false;      // which has a stride
+  std::size_t view = 0;
 };
 
 class Shapes {
  public:
-  explicit Shapes(const JsonView& root) : views_(root.items("bufferViews")) {
+  explicit Shapes(const JsonView& root) : views_(root.items("bufferViews")), firstIn_(views_.size()) {
     for (const JsonView& accessor : root.items("accessors")) shapes_.push_back(shapeOf(accessor));
     quantised_ = false;
     for (const JsonView& extension : root.items("extensionsUsed"))
@@ -31,6 +33,13 @@ class Shapes {
     return shapes_[index.index(shapes_.size(), "accessors")];
   }
   bool quantised() const { return quantised_; }
+  /// Several attributes in one buffer view may be meant to be interleaved, or not: only a stride tells.
+  bool sharesUnstrided(const Shape& shape) {
+    if (!shape.stored || shape.strided) return false;
+    const Shape*& first = firstIn_[shape.view];
+    if (!first) first = &shape;
+    return first != &shape;
+  }
 
  private:
   Shape shapeOf(const JsonView& accessor) const {
@@ -49,25 +58,27 @@ class Shapes {
       const JsonView& bufferView = views_[view->index(views_.size(), "bufferViews")];
       shape.stored = true;
       shape.begin = offset(accessor) + offset(bufferView);
+      shape.view = view->index(views_.size(), "bufferViews");
       if (const auto stride = bufferView.find("byteStride"))
-        shape.stride = std::uint64_t(stride->integer(4, 252));
+        shape.strided = true, shape.stride = std::uint64_t(stride->integer(4, 252));
     }
     return shape;
   }
   std::vector<JsonView> views_;
   std::vector<Shape> shapes_;
+  std::vector<const Shape*> firstIn_;  // that an attribute uses, one a view
   bool quantised_;
 };
 
 bool isUnsignedSmall(const Shape& shape) {
-  return shape.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-         shape.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  return shape.component == kUnsignedByte ||
+         shape.component == kUnsignedShort;
 }
 
 // What a set of JOINTS_n or WEIGHTS_n attributes is called without its number.
-std::string setName(const std::string& attribute) {
+std::string_view setName(std::string_view attribute) {
   const std::size_t underscore = attribute.find('_');
-  return underscore == std::string::npos || underscore == 0 ? attribute : attribute.substr(0, underscore);
+  return underscore == attribute.npos || underscore == 0 ? attribute : attribute.substr(0, underscore);
 }
 
 void checkVector(const JsonView& place, const Shape& shape, const char* type, bool quantised) {
@@ -76,13 +87,13 @@ void checkVector(const JsonView& place, const Shape& shape, const char* type, bo
     place.fail("must be of floats", "export without quantisation, or declare KHR_mesh_quantization");
 }
 
-void checkAttribute(const std::string& name, const JsonView& place, const Shape& shape, bool quantised) {
-  if (shape.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+void checkAttribute(std::string_view name, const JsonView& place, const Shape& shape, bool quantised) {
+  if (shape.component == kUnsignedInt)
     place.fail("a vertex attribute must not be of 32-bit integers");
   if (shape.stored && (shape.begin % 4 != 0 || shape.stride % 4 != 0))
     place.fail("vertex attributes must lie at multiples of 4 bytes: begins at " +
                std::to_string(shape.begin) + ", stride " + std::to_string(shape.stride));
-  const std::string set = setName(name);
+  const std::string_view set = setName(name);
   if (name == "POSITION" || name == "NORMAL") checkVector(place, shape, "VEC3", quantised);
   if (set == "JOINTS") {
     if (shape.type != "VEC4") place.fail("must be VEC4, is " + shape.type);
@@ -96,9 +107,9 @@ void checkAttribute(const std::string& name, const JsonView& place, const Shape&
   }
 }
 
-void checkInfluenceSets(const JsonView& attributes, const std::set<std::string>& names) {
+void checkInfluenceSets(const JsonView& attributes, const std::set<std::string_view>& names) {
   std::size_t joints = 0, weights = 0;
-  for (const std::string& name : names) {
+  for (const std::string_view name : names) {
     joints += setName(name) == "JOINTS";
     weights += setName(name) == "WEIGHTS";
   }
@@ -115,12 +126,13 @@ void checkInfluenceSets(const JsonView& attributes, const std::set<std::string>&
         attributes.fail(std::string("must have ") + set + std::to_string(i) + ": sets are numbered from 0");
 }
 
-void checkAttributes(const JsonView& attributes, const Shapes& shapes, std::int64_t& vertexCount) {
-  std::set<std::string> names;
+void checkAttributes(const JsonView& attributes, Shapes& shapes, std::int64_t& vertexCount) {
+  std::set<std::string_view> names;
   vertexCount = -1;
   for (const auto& [name, place] : attributes.members()) {
     const Shape& shape = shapes.referredBy(place);
     checkAttribute(name, place, shape, shapes.quantised());
+    if (shapes.sharesUnstrided(shape)) place.fail("its buffer view holds another attribute, too, and has no byteStride");
     if (vertexCount >= 0 && shape.count != vertexCount)
       place.fail("has " + std::to_string(shape.count) + " elements where the others have " +
                  std::to_string(vertexCount));
@@ -134,8 +146,9 @@ void checkAttributes(const JsonView& attributes, const Shapes& shapes, std::int6
 void checkIndices(const JsonView& place, const Shapes& shapes) {
   const Shape& shape = shapes.referredBy(place);
   if (shape.type != "SCALAR" || shape.normalised ||
-      (!isUnsignedSmall(shape) && shape.component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
+      (!isUnsignedSmall(shape) && shape.component != kUnsignedInt))
     place.fail("indices must be scalars of unsigned 8, 16 or 32 bits, not normalised");
+  if (shape.strided) place.fail("indices must lie one behind the other, without a byteStride");
 }
 
 void checkTargets(const JsonView& primitive, const Shapes& shapes, std::int64_t vertexCount) {
@@ -145,12 +158,12 @@ void checkTargets(const JsonView& primitive, const Shapes& shapes, std::int64_t 
       if (shape.count != vertexCount)
         place.fail("has " + std::to_string(shape.count) + " elements where the mesh has " +
                    std::to_string(vertexCount));
-      if (!primitive.at("attributes").has(name.c_str()))
-        place.fail("displaces " + name + ", which the mesh does not have");
+      if (!primitive.at("attributes").has(name))
+        place.fail("displaces " + std::string(name) + ", which the mesh does not have");
     }
 }
 
-void checkPrimitive(const JsonView& primitive, const JsonView& root, const Shapes& shapes) {
+void checkPrimitive(const JsonView& primitive, const JsonView& root, Shapes& shapes) {
   std::int64_t vertexCount = 0;
   checkAttributes(primitive.at("attributes"), shapes, vertexCount);
   if (const auto indices = primitive.find("indices")) checkIndices(*indices, shapes);
@@ -163,7 +176,7 @@ void checkPrimitive(const JsonView& primitive, const JsonView& root, const Shape
 }  // namespace
 
 void checkMeshes(const JsonView& root) {
-  const Shapes shapes(root);
+  Shapes shapes(root);
   for (const JsonView& mesh : root.items("meshes")) {
     const auto primitives = mesh.at("primitives").items();
     if (primitives.empty()) mesh.at("primitives").fail("must not be empty");

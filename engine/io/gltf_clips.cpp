@@ -11,13 +11,7 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr std::size_t kMaximumKeys = std::size_t(1) << 25;
-
-Interpolation interpolationOf(const tinygltf::AnimationSampler& sampler) {
-  if (sampler.interpolation == "STEP") return Interpolation::step;
-  if (sampler.interpolation == "CUBICSPLINE") return Interpolation::cubic;
-  return Interpolation::linear;
-}
+constexpr std::size_t kFreeKeys = std::size_t(1) << 20;  // above one for four bytes of the file, which is what a key has at least
 
 std::vector<float> storedFloats(const Asset& asset, int accessor) {
   if (!isStored(asset, accessor))
@@ -26,16 +20,16 @@ std::vector<float> storedFloats(const Asset& asset, int accessor) {
   return readFloats(asset, accessor);
 }
 
-Track<vec3> vectorTrack(const Asset& asset, const tinygltf::AnimationSampler& sampler) {
-  Track<vec3> track{interpolationOf(sampler), storedFloats(asset, sampler.input), {}};
+Track<vec3> vectorTrack(const Asset& asset, const Model::Sampler& sampler) {
+  Track<vec3> track{sampler.interpolation, storedFloats(asset, sampler.input), {}};
   const auto values = storedFloats(asset, sampler.output);
   for (std::size_t i = 0; i + 2 < values.size(); i += 3)
     track.values.emplace_back(values[i], values[i + 1], values[i + 2]);
   return track;
 }
 
-Track<quat> rotationTrack(const Asset& asset, const tinygltf::AnimationSampler& sampler) {
-  Track<quat> track{interpolationOf(sampler), storedFloats(asset, sampler.input), {}};
+Track<quat> rotationTrack(const Asset& asset, const Model::Sampler& sampler) {
+  Track<quat> track{sampler.interpolation, storedFloats(asset, sampler.input), {}};
   const auto values = storedFloats(asset, sampler.output);
   for (std::size_t i = 0; i + 3 < values.size(); i += 4) {
     const quat q(values[i + 3], values[i], values[i + 1], values[i + 2]);
@@ -54,33 +48,35 @@ void extend(Clip& clip, const Track<T>& track, std::vector<float>& longest) {
 }
 
 // Any number of channels may share a sampler, but each gets keys of its own.
-void checkKeyCount(const tinygltf::Model& model) {
+void checkKeyCount(const Model& model, std::size_t bytes) {
+  const std::size_t most = bytes / 4 + kFreeKeys;
   std::size_t keys = 0;
   for (std::size_t i = 0; i < model.animations.size(); ++i)
     for (const auto& channel : model.animations[i].channels) {
       keys += model.accessors[std::size_t(model.animations[i].samplers[std::size_t(channel.sampler)].output)]
                   .count;
-      if (keys > kMaximumKeys)
-        breaks("/animations/" + std::to_string(i), "too many keys, counting each channel's",
+      if (keys > most)
+        breaks("/animations/" + std::to_string(i),
+               "too many keys, counting each channel's: more than the " + std::to_string(most) + " accepted for a file of this size",
                "bake fewer keys");
     }
 }
 
-Clip readClip(const Asset& asset, const tinygltf::Animation& animation,
+Clip readClip(const Asset& asset, const Model::Animation& animation,
               const std::vector<JointId>& jointOfNode) {
   std::map<std::uint32_t, JointTracks> byJoint;
   for (const auto& channel : animation.channels) {
-    if (channel.target_node < 0) continue;
-    const JointId joint = jointOfNode[std::size_t(channel.target_node)];
+    if (channel.node < 0) continue;
+    const JointId joint = jointOfNode[std::size_t(channel.node)];
     if (!joint.valid()) continue;
     const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
     JointTracks& tracks = byJoint[joint.value];
     tracks.joint = joint;
-    if (channel.target_path == "translation")
+    if (channel.path == Model::Path::translation)
       tracks.translation = vectorTrack(asset, sampler);
-    else if (channel.target_path == "rotation")
+    else if (channel.path == Model::Path::rotation)
       tracks.rotation = rotationTrack(asset, sampler);
-    else if (channel.target_path == "scale")
+    else if (channel.path == Model::Path::scale)
       tracks.scale = vectorTrack(asset, sampler);
   }
   Clip clip;
@@ -117,7 +113,7 @@ float framesPerSecondOf(const std::vector<float>& times) {
 }
 
 std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode) {
-  checkKeyCount(asset.model);
+  checkKeyCount(asset.model, asset.bytes);
   std::vector<Clip> clips;
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
     Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);

@@ -6,6 +6,7 @@
 
 #include "core/log.h"
 #include "io/gltf_rule.h"
+#include "io/read_limits.h"
 
 // GLB (glTF 2.0, section 4.4): magic, version, total length; then chunks of length, type, payload. The first
 // is JSON, the second may be BIN, further types are to be skipped. All numbers are little-endian 32-bit.
@@ -93,19 +94,32 @@ Container splitGlb(std::span<const std::byte> bytes, const std::filesystem::path
   return container;
 }
 
-void checkNesting(std::string_view json) {
-  std::size_t depth = 0;
+// Memory that the parsed document takes [bytes], rather too much than too little: a list's slots while it grows, a tree's
+// nodes, texts.
+constexpr std::size_t kASlot = 48, kAMember = 96, kAText = 48, kABracket = 64;
+
+// @return the memory that the parsed document takes [bytes]
+std::size_t checkNesting(std::string_view json) {
+  std::size_t depth = 0, memory = 0, textBegin = 0;
   bool inString = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (inString) {
       if (c == '\\')
         ++i;
-      else if (c == '"')
+      else if (c == '"') {
         inString = false;
+        memory += kAText + (i - textBegin > 16 ? i - textBegin : 0);
+      }
     } else if (c == '"') {
       inString = true;
+      textBegin = i;
+    } else if (c == ':') {
+      memory += kAMember - kAText;  // its key has been counted
+    } else if (c == ',') {
+      memory += kASlot;
     } else if (c == '{' || c == '[') {
+      memory += kABracket + kASlot;
       if (++depth > kMaximumNesting)
         breaks("JSON byte " + std::to_string(i),
                "nested more than " + std::to_string(kMaximumNesting) + " deep",
@@ -114,6 +128,7 @@ void checkNesting(std::string_view json) {
       --depth;
     }
   }
+  return memory;
 }
 
 bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) {
@@ -135,7 +150,8 @@ Container openContainer(std::span<const std::byte> bytes, const std::filesystem:
            "store data in binary buffers");
   if (container.json.starts_with("\xEF\xBB\xBF"))
     breaks("JSON byte 0", "begins with a byte order mark", "save the JSON as UTF-8 without one");
-  checkNesting(container.json);
+  const std::size_t memory = checkNesting(container.json), most = partOfMemory(bytes.size(), 11, 24);
+  if (memory > most) breaks("JSON", beyondMemory(memory, most), "split or reduce the asset");
   return container;
 }
 

@@ -27,10 +27,15 @@ TriangleMesh atRest(Geometry geometry, int skin, const RestPose& rest) {
   return std::move(mesh.mesh);
 }
 
-std::string extra(const tinygltf::Value& node, const tinygltf::Value& mesh, const char* key) {
-  for (const auto* extras : {&node, &mesh})
-    if (extras->IsObject() && extras->Get(key).IsString()) return extras->Get(key).Get<std::string>();
-  return {};
+// The node's, or else its mesh's.
+Model::Labels labelsOf(const Model& model, int node) {
+  Model::Labels labels;
+  if (const auto own = model.nodeLabels.find(node); own != model.nodeLabels.end()) labels = own->second;
+  const auto mesh = model.meshLabels.find(model.nodes[std::size_t(node)].mesh);
+  if (mesh == model.meshLabels.end()) return labels;
+  if (labels.category.empty()) labels.category = mesh->second.category;
+  if (labels.ontologyId.empty()) labels.ontologyId = mesh->second.ontologyId;
+  return labels;
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ std::string extra(const tinygltf::Value& node, const tinygltf::Value& mesh, cons
 std::vector<MeshElement> elementsOf(const Asset& asset) {
   const NodeTree tree = resolveNodes(asset.model);
   std::optional<RestPose> rest;
-  checkExpandedSize(asset.model, tree);
+  checkExpandedSize(asset, tree, sizeof(vec3));
   std::vector<MeshElement> elements;
   for (std::size_t i = 0; i < asset.model.nodes.size(); ++i) {
     const auto& node = asset.model.nodes[i];
@@ -50,9 +55,9 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
       transform(geometry, tree.world[i]);
     else if (!rest)
       rest = restOf(asset, tree);
+    Model::Labels labels = labelsOf(asset.model, int(i));
     elements.push_back(
-        {nameOf(node.name, mesh.name, int(i)), extra(node.extras, mesh.extras, "category"),
-         extra(node.extras, mesh.extras, "fma"),
+        {nameOf(node.name, mesh.name, int(i)), std::move(labels.category), std::move(labels.ontologyId),
          node.skin < 0 ? std::move(geometry.mesh) : atRest(std::move(geometry), node.skin, *rest)});
     mustBeFinite(elements.back().mesh.positions, int(i));
   }

@@ -22,14 +22,14 @@ std::vector<vec3> readVectors(const Asset& asset, int accessor) {
 std::vector<uvec3> trianglesOf(const std::vector<std::uint32_t>& corners, int mode) {
   std::vector<uvec3> out;
   if (corners.size() < 3) return out;
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
+  if (mode == kTriangles) {
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
       out.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
     return out;
   }
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     uvec3 triangle;
-    if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+    if (mode == kTriangleFan)
       triangle = {corners[i + 1], corners[i + 2], corners[0]};
     else
       triangle = {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]};  // every second one is turned
@@ -37,11 +37,6 @@ std::vector<uvec3> trianglesOf(const std::vector<std::uint32_t>& corners, int mo
     if (!stitch) out.push_back(triangle);
   }
   return out;
-}
-
-int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
-  const auto it = primitive.attributes.find(name);
-  return it == primitive.attributes.end() ? -1 : it->second;
 }
 
 // The strongest four of all sets, the same joint counted once.
@@ -69,14 +64,12 @@ struct Gathered {
   }
 };
 
-void readInfluences(const Asset& asset, const tinygltf::Primitive& primitive, std::size_t vertices,
+void readInfluences(const Asset& asset, const Model::Primitive& primitive, std::size_t vertices,
                     Geometry& geometry) {
   std::vector<std::vector<std::uint32_t>> joints;
   std::vector<std::vector<float>> weights;
-  for (int set = 0; attribute(primitive, "JOINTS_" + std::to_string(set)) >= 0; ++set) {
-    joints.push_back(readIntegers(asset, attribute(primitive, "JOINTS_" + std::to_string(set))));
-    weights.push_back(readFloats(asset, attribute(primitive, "WEIGHTS_" + std::to_string(set))));
-  }
+  for (const int accessor : primitive.joints) joints.push_back(readIntegers(asset, accessor));
+  for (const int accessor : primitive.weights) weights.push_back(readFloats(asset, accessor));
   Gathered gathered;
   Checkpoints checkpoints;
   for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
@@ -93,7 +86,7 @@ void readInfluences(const Asset& asset, const tinygltf::Primitive& primitive, st
   }
 }
 
-std::vector<std::uint32_t> cornersOf(const Asset& asset, const tinygltf::Primitive& primitive,
+std::vector<std::uint32_t> cornersOf(const Asset& asset, const Model::Primitive& primitive,
                                      std::size_t vertices) {
   if (primitive.indices >= 0) return readIntegers(asset, primitive.indices);
   std::vector<std::uint32_t> corners(vertices);
@@ -101,9 +94,9 @@ std::vector<std::uint32_t> cornersOf(const Asset& asset, const tinygltf::Primiti
   return corners;
 }
 
-std::vector<vec3> normalsOf(const Asset& asset, const tinygltf::Primitive& primitive,
+std::vector<vec3> normalsOf(const Asset& asset, const Model::Primitive& primitive,
                             const TriangleMesh& mesh) {
-  const int accessor = attribute(primitive, "NORMAL");
+  const int accessor = primitive.normal;
   std::vector<vec3> computed = vertexNormals(mesh);
   if (accessor < 0) return computed;
   std::vector<vec3> normals = readVectors(asset, accessor);
@@ -116,10 +109,10 @@ std::vector<vec3> normalsOf(const Asset& asset, const tinygltf::Primitive& primi
 
 }  // namespace
 
-void appendPrimitive(const Asset& asset, const tinygltf::Primitive& primitive, bool skinned,
+void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, bool skinned,
                      Geometry& geometry) {
-  const int position = attribute(primitive, "POSITION");
-  if (position < 0 || primitive.mode < TINYGLTF_MODE_TRIANGLES) return;
+  const int position = primitive.position;
+  if (position < 0 || primitive.mode < kTriangles) return;
   const std::size_t vertices = asset.model.accessors[std::size_t(position)].count;
   const TriangleMesh mesh{readVectors(asset, position),
                           trianglesOf(cornersOf(asset, primitive, vertices), primitive.mode)};

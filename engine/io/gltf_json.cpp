@@ -23,6 +23,20 @@ std::string escaped(const std::string& key) {
   return out;
 }
 
+// The way from a value down to one of those inside it; at most 64 deep: checked before parsing.
+bool findPlace(const nlohmann::json& from, const nlohmann::json* wanted, std::string& place) {
+  if (&from == wanted) return true;
+  const std::size_t length = place.size();
+  std::size_t index = 0;
+  if (from.is_structured())
+    for (auto it = from.begin(); it != from.end(); ++it, ++index) {
+      place.append("/").append(from.is_object() ? escaped(it.key()) : std::to_string(index));
+      if (findPlace(*it, wanted, place)) return true;
+      place.resize(length);
+    }
+  return false;
+}
+
 constexpr double kLargestExactInteger = 9007199254740992.0;  // 2^53
 
 bool fitsFloat(double number) {
@@ -38,32 +52,46 @@ bool isInteger(const nlohmann::json& value) {
 
 }  // namespace
 
+std::string JsonView::place() const {
+  std::string place;
+  findPlace(*document_, value_, place);
+  return place.empty() ? "/" : place;
+}
+
 void JsonView::fail(const std::string& rule, const std::string& remedy) const {
-  breaks(place_.empty() ? "/" : place_, rule, remedy.empty() ? kExportAgain : remedy);
+  breaks(place(), rule, remedy.empty() ? kExportAgain : remedy);
 }
 
 void JsonView::mustBeObject() const {
   if (!value_->is_object()) fail(std::string("must be an object, is ") + value_->type_name());
 }
 
-std::optional<JsonView> JsonView::find(const char* key) const {
+bool JsonView::isObject() const {
+  return value_->is_object();
+}
+
+bool JsonView::isText() const {
+  return value_->is_string();
+}
+
+std::optional<JsonView> JsonView::find(std::string_view key) const {
   mustBeObject();
   const auto it = value_->find(key);
   if (it == value_->end()) return std::nullopt;
-  return JsonView(*it, place_ + "/" + escaped(key));
+  return JsonView(*it, *document_);
 }
 
-JsonView JsonView::at(const char* key) const {
+JsonView JsonView::at(std::string_view key) const {
   auto found = find(key);
-  if (!found) fail(std::string("must have the property ") + key);
+  if (!found) fail("must have the property " + std::string(key));
   return *found;
 }
 
-std::vector<std::pair<std::string, JsonView>> JsonView::members() const {
+std::vector<std::pair<std::string_view, JsonView>> JsonView::members() const {
   mustBeObject();
-  std::vector<std::pair<std::string, JsonView>> out;
+  std::vector<std::pair<std::string_view, JsonView>> out;
   for (auto it = value_->begin(); it != value_->end(); ++it)
-    out.emplace_back(it.key(), JsonView(it.value(), place_ + "/" + escaped(it.key())));
+    out.emplace_back(it.key(), JsonView(it.value(), *document_));
   return out;
 }
 
@@ -76,11 +104,11 @@ std::vector<JsonView> JsonView::items() const {
   const std::size_t count = size();
   std::vector<JsonView> out;
   out.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) out.emplace_back((*value_)[i], place_ + "/" + std::to_string(i));
+  for (std::size_t i = 0; i < count; ++i) out.push_back(JsonView((*value_)[i], *document_));
   return out;
 }
 
-std::vector<JsonView> JsonView::items(const char* key) const {
+std::vector<JsonView> JsonView::items(std::string_view key) const {
   const auto array = find(key);
   return array ? array->items() : std::vector<JsonView>{};
 }
@@ -92,7 +120,7 @@ const std::string& JsonView::text() const {
 
 JsonView JsonView::first() const {
   if (size() == 0) fail("must not be empty");
-  return JsonView((*value_)[0], place_ + "/0");
+  return JsonView((*value_)[0], *document_);
 }
 
 bool JsonView::boolean() const {
@@ -115,7 +143,7 @@ std::vector<double> JsonView::numbers(std::size_t count) const {
     const auto& value = (*value_)[i];
     out[i] = value.is_number() && fitsFloat(value.get<double>())
                  ? value.get<double>()
-                 : JsonView(value, place_ + "/" + std::to_string(i)).number();
+                 : JsonView(value, *document_).number();
   }
   return out;
 }
@@ -141,18 +169,6 @@ std::uint32_t JsonView::index(std::size_t count, const char* array) const {
 std::size_t countOf(const JsonView& root, const char* array) {
   const auto found = root.find(array);
   return found ? found->size() : 0;
-}
-
-void normaliseIntegers(nlohmann::json& value) {
-  if (value.is_structured()) {
-    for (auto& child : value) normaliseIntegers(child);  // at most 64 deep: checked before parsing
-  } else if (value.is_number_float() && isInteger(value)) {
-    const double number = value.get<double>();
-    if (number >= 0)
-      value = std::uint64_t(number);
-    else
-      value = std::int64_t(number);
-  }
 }
 
 }  // namespace vasa::gltf

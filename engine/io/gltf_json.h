@@ -3,33 +3,36 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vasa::gltf {
 
-/// A value of the glTF document together with its place, so that every check can say where it failed.
-/// Accessors throw BrokenRule where the document is not what they ask for.
+/// A value of the glTF document together with the document, so that every check can say where it failed.
+/// Accessors throw BrokenRule where the document is not what they ask for. Two pointers: views are made by the million.
 class JsonView {
  public:
-  explicit JsonView(const nlohmann::json& value, std::string place = "")
-      : value_(&value), place_(std::move(place)) {}
+  explicit JsonView(const nlohmann::json& document) : JsonView(document, document) {}
 
-  const std::string& place() const { return place_; }
+  /// A JSON pointer such as "/accessors/3/byteOffset"; looked for in the whole document.
+  std::string place() const;
   [[noreturn]] void fail(const std::string& rule, const std::string& remedy = "") const;
 
   /// Members of an object.
-  std::optional<JsonView> find(const char* key) const;
-  JsonView at(const char* key) const;
-  bool has(const char* key) const { return find(key).has_value(); }
-  std::vector<std::pair<std::string, JsonView>> members() const;
+  std::optional<JsonView> find(std::string_view key) const;
+  JsonView at(std::string_view key) const;
+  bool has(std::string_view key) const { return find(key).has_value(); }
+  std::vector<std::pair<std::string_view, JsonView>> members() const;
 
   /// Elements of an array; items(key) is empty where the member is absent.
   std::vector<JsonView> items() const;
-  std::vector<JsonView> items(const char* key) const;
+  std::vector<JsonView> items(std::string_view key) const;
   std::size_t size() const;
   JsonView first() const;  ///< of an array that is not empty
 
   void mustBeObject() const;
+  bool isObject() const;
+  bool isText() const;
   const std::string& text() const;
   bool boolean() const;
   double number() const;                                            ///< finite
@@ -39,14 +42,13 @@ class JsonView {
   std::uint32_t index(std::size_t count, const char* array) const;
 
  private:
+  JsonView(const nlohmann::json& value, const nlohmann::json& document) : value_(&value), document_(&document) {}
+
   const nlohmann::json* value_;
-  std::string place_;
+  const nlohmann::json* document_;
 };
 
 /// How many elements a top-level array has; 0 where it is absent.
 std::size_t countOf(const JsonView& root, const char* array);
-
-/// Numbers such as 3.0 become 3: some exporters write integers so, and glTF allows it.
-void normaliseIntegers(nlohmann::json& value);
 
 }  // namespace vasa::gltf

@@ -5,24 +5,16 @@
 namespace vasa::gltf {
 namespace {
 
-mat4 localMatrix(const tinygltf::Node& node) {
+mat4 localMatrix(const Model::Node& node) {
   if (!node.matrix.empty()) {
     mat4 matrix;
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = float(node.matrix[std::size_t(i)]);
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[std::size_t(i)];
     return matrix;
   }
-  JointTransform transform;
-  const auto vector = [](const std::vector<double>& v) {
-    return vec3(float(v[0]), float(v[1]), float(v[2]));
-  };
-  if (!node.translation.empty()) transform.translation = vector(node.translation);
-  if (!node.scale.empty()) transform.scale = vector(node.scale);
-  if (const auto& q = node.rotation; !q.empty())
-    transform.rotation = glm::normalize(quat(float(q[3]), float(q[0]), float(q[1]), float(q[2])));
-  return transform.matrix();
+  return node.transform.matrix();
 }
 
-std::vector<int> depthFirst(const tinygltf::Model& model, const std::vector<int>& parent) {
+std::vector<int> depthFirst(const Model& model, const std::vector<int>& parent) {
   std::vector<int> order, waiting;
   for (int i = int(parent.size()) - 1; i >= 0; --i)
     if (parent[std::size_t(i)] < 0) waiting.push_back(i);
@@ -36,17 +28,16 @@ std::vector<int> depthFirst(const tinygltf::Model& model, const std::vector<int>
   return order;
 }
 
-std::vector<bool> sceneRoots(const tinygltf::Model& model) {
-  if (model.scenes.empty()) return std::vector<bool>(model.nodes.size(), true);
+std::vector<bool> sceneRoots(const Model& model) {
+  if (!model.hasScenes) return std::vector<bool>(model.nodes.size(), true);
   std::vector<bool> root(model.nodes.size(), false);
-  const int scene = model.defaultScene >= 0 ? model.defaultScene : 0;
-  for (const int node : model.scenes[std::size_t(scene)].nodes) root[std::size_t(node)] = true;
+  for (const int node : model.sceneNodes) root[std::size_t(node)] = true;
   return root;
 }
 
 }  // namespace
 
-NodeTree resolveNodes(const tinygltf::Model& model) {
+NodeTree resolveNodes(const Model& model) {
   NodeTree tree;
   const std::size_t count = model.nodes.size();
   tree.parent.assign(count, -1);

@@ -15,6 +15,6 @@ struct NodeTree {
   std::vector<bool> inScene;  ///< below the default scene; everything where the file has no scene
 };
 
-NodeTree resolveNodes(const tinygltf::Model& model);
+NodeTree resolveNodes(const Model& model);
 
 }  // namespace vasa::gltf

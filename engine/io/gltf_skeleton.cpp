@@ -26,18 +26,18 @@ bool invertible(const mat4& m) {
   return std::isfinite(determinant) && determinant > 1e-12f;
 }
 
-std::vector<bool> animatedNodes(const tinygltf::Model& model) {
+std::vector<bool> animatedNodes(const Model& model) {
   std::vector<bool> animated(model.nodes.size());
   for (const auto& animation : model.animations)
     for (const auto& channel : animation.channels)
-      if (channel.target_node >= 0 && channel.target_path != "weights")
-        animated[std::size_t(channel.target_node)] = true;
+      if (channel.node >= 0 && channel.path != Model::Path::other)
+        animated[std::size_t(channel.node)] = true;
   return animated;
 }
 
 class Members {
  public:
-  Members(const tinygltf::Model& model, const NodeTree& tree) : tree_(tree), is_(model.nodes.size()) {
+  Members(const Model& model, const NodeTree& tree) : tree_(tree), is_(model.nodes.size()) {
     for (const auto& skin : model.skins)
       for (const int joint : skin.joints) is_[std::size_t(joint)] = true;
     const auto animated = animatedNodes(model);
@@ -114,20 +114,12 @@ JointTransform decompose(const mat4& m, const std::string& place) {
   return out;
 }
 
-JointTransform restOf(const tinygltf::Node& node, const mat4& local, int index) {
+JointTransform restOf(const Model::Node& node, const mat4& local, int index) {
   if (!node.matrix.empty()) return decompose(local, "/nodes/" + std::to_string(index) + "/matrix");
-  JointTransform out;
-  const auto vector = [](const std::vector<double>& v) {
-    return vec3(float(v[0]), float(v[1]), float(v[2]));
-  };
-  if (!node.translation.empty()) out.translation = vector(node.translation);
-  if (!node.scale.empty()) out.scale = vector(node.scale);
-  if (const auto& q = node.rotation; !q.empty())
-    out.rotation = glm::normalize(quat(float(q[3]), float(q[0]), float(q[1]), float(q[2])));
-  return out;
+  return node.transform;
 }
 
-std::vector<mat4> inverseBinds(const Asset& asset, const tinygltf::Skin& skin) {
+std::vector<mat4> inverseBinds(const Asset& asset, const Model::Skin& skin) {
   std::vector<mat4> out(skin.joints.size(), mat4(1));
   if (skin.inverseBindMatrices < 0) return out;
   const auto values = readFloats(asset, skin.inverseBindMatrices, skin.joints.size());

@@ -1,41 +1,51 @@
 #include "io/stl.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string_view>
-#include <unordered_map>
+#include <tuple>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
-#include "core/hash.h"
 
 namespace vasa {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
 
-struct SamePlace {
-  std::size_t operator()(const vec3& p) const { return std::size_t(hashOf(std::span(&p.x, 3))); }
-};
-
-// Facets with their own corners -> shared vertices, corners at the same place only.
+// Facets with their own corners -> shared vertices, corners at the same place only, numbered as they come. Sorted and not
+// hashed: places can be chosen so that they all meet in one place of a hash table.
 class Welder {
  public:
-  std::uint32_t add(vec3 p) {
-    p += vec3(0);  // -0 and +0 are one place
-    const auto [found, fresh] = numbers_.try_emplace(p, std::uint32_t(mesh.positions.size()));
-    if (fresh) mesh.positions.push_back(p);
-    return found->second;
+  void reserve(std::size_t facets) { corners_.reserve(3 * facets); }
+  void add(vec3 p) { corners_.push_back(p + vec3(0)); }  // -0 and +0 are one place
+
+  TriangleMesh mesh() const {
+    std::vector<std::uint32_t> order(corners_.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::sort(order, {}, [this](std::uint32_t i) { return std::tuple(corners_[i].x, corners_[i].y, corners_[i].z, i); });
+    std::vector<std::uint32_t> first(corners_.size());  // of each corner, the first at its place
+    for (std::size_t k = 0; k < order.size(); ++k)
+      first[order[k]] = k > 0 && corners_[order[k]] == corners_[order[k - 1]] ? first[order[k - 1]] : order[k];
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {  // the first comes before the others: its number is known by then
+      if (first[i] == i) {
+        first[i] = std::uint32_t(mesh.positions.size());
+        mesh.positions.push_back(corners_[i]);
+      } else {
+        first[i] = first[first[i]];
+      }
+    }
+    for (std::size_t i = 0; i + 2 < first.size(); i += 3)
+      if (const uvec3 t(first[i], first[i + 1], first[i + 2]); t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
+    return mesh;
   }
-  void addTriangle(uvec3 t) {
-    if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
-  }
-  TriangleMesh mesh;
 
  private:
-  std::unordered_map<vec3, std::uint32_t, SamePlace> numbers_;
+  std::vector<vec3> corners_;
 };
 
 std::string coordinateFault(dvec3 p, const ImportFrame& frame) {
@@ -58,21 +68,20 @@ Result<std::vector<MeshElement>> readBinary(const std::string& file, const std::
     return badInput(file + ": the file is cut short: it promises " + std::to_string(count) + " triangles and holds " +
                     std::to_string((bytes.size() - kHeaderBytes) / kFacetBytes) + "; copy or export it again");
   Welder welder;
+  welder.reserve(count);
   Checkpoints checkpoints;
   for (std::uint64_t i = 0; i < count; ++i) {
     checkpoints.pass();
-    uvec3 triangle;
     for (int corner = 0; corner < 3; ++corner) {
       const std::byte* at = bytes.data() + kHeaderBytes + i * kFacetBytes + 12 + 12 * corner;
       const dvec3 p(std::bit_cast<float>(littleEndian(at)), std::bit_cast<float>(littleEndian(at + 4)),
                     std::bit_cast<float>(littleEndian(at + 8)));
       if (const std::string fault = coordinateFault(p, frame); !fault.empty())
         return badInput(file + ": triangle " + std::to_string(i) + ": " + fault);
-      triangle[corner] = welder.add(frame.toHouse(p));
+      welder.add(frame.toHouse(p));
     }
-    welder.addTriangle(triangle);
   }
-  return std::vector<MeshElement>{{name, {}, {}, std::move(welder.mesh)}};
+  return std::vector<MeshElement>{{name, {}, {}, welder.mesh()}};
 }
 
 // Words of an ASCII file with their line numbers.
@@ -122,8 +131,8 @@ class AsciiReader {
         title = words_.restOfLine();
       } else if (word == "endsolid") {
         words_.restOfLine();
-        if (!welder.mesh.empty())
-          elements.push_back({title.empty() ? name_ : title, {}, {}, std::move(welder.mesh)});
+        if (TriangleMesh mesh = welder.mesh(); !mesh.empty())
+          elements.push_back({title.empty() ? name_ : title, {}, {}, std::move(mesh)});
         welder = {};
       } else if (word == "facet") {
         if (auto read = facet(welder); !read) return read.error();
@@ -131,7 +140,7 @@ class AsciiReader {
         return fail("expected 'facet' or 'endsolid', found '" + std::string(word.substr(0, 40)) + "'");
       }
     }
-    if (!welder.mesh.empty()) return fail("the file ends before 'endsolid'; copy or export it again");
+    if (!welder.mesh().empty()) return fail("the file ends before 'endsolid'; copy or export it again");
     return elements;
   }
 
@@ -143,7 +152,6 @@ class AsciiReader {
   Result<void> facet(Welder& welder) {
     for (std::string_view word = words_.next(); word != "loop"; word = words_.next())
       if (word.empty() || word == "endfacet") return fail("a facet without 'outer loop'");
-    uvec3 triangle;
     for (int corner = 0; corner < 3; ++corner) {
       if (const std::string_view word = words_.next(); word != "vertex")
         return fail("a facet needs three corners, found '" + std::string(word.substr(0, 40)) + "'");
@@ -151,10 +159,9 @@ class AsciiReader {
       for (int axis = 0; axis < 3; ++axis)
         if (!number(p[axis])) return fail("a corner needs three finite numbers");
       if (const std::string fault = coordinateFault(p, frame_); !fault.empty()) return fail(fault);
-      triangle[corner] = welder.add(frame_.toHouse(p));
+      welder.add(frame_.toHouse(p));
     }
     if (words_.next() != "endloop" || words_.next() != "endfacet") return fail("a facet with more than three corners");
-    welder.addTriangle(triangle);
     return {};
   }
   bool number(double& value) {

@@ -1,6 +1,6 @@
 #include "io/swc.h"
 
-#include <unordered_map>
+#include <algorithm>
 
 #include "core/atomic_file.h"
 #include "core/log.h"
@@ -26,10 +26,12 @@ class Reader {
       if (auto read = readLine(nextLine(text), line); !read) return read.error();
     if (rows_.empty())
       return badInput(name_ + ": the file has no samples; an SWC line is: id type x y z radius parent");
+    if (auto numbered = orderIds(); !numbered) return numbered.error();
     if (auto linked = linkParents(); !linked) return linked.error();
     if (auto checked = checkCircles(); !checked) return checked.error();
     mendRadii();
     std::vector<SwcSample> samples;
+    samples.reserve(rows_.size());
     for (const Row& row : rows_) samples.push_back(row.sample);
     return samples;
   }
@@ -63,21 +65,30 @@ class Reader {
              float(value[5] * frame_.metresPerUnit)},
             std::int64_t(value[6]),
             line};
-    const auto [found, fresh] = numbers_.emplace(row.sample.id, std::uint32_t(rows_.size()));
-    if (!fresh)
-      return fail(line, "id " + std::to_string(row.sample.id) + " is that of line " +
-                            std::to_string(rows_[found->second].line) + " already; number the samples anew");
     rows_.push_back(row);
     return {};
+  }
+
+  // Sorted and not hashed: ids can be chosen so that they all meet in one place of a hash table.
+  Result<void> orderIds() {
+    byId_.resize(rows_.size());
+    for (std::uint32_t i = 0; i < byId_.size(); ++i) byId_[i] = i;
+    std::ranges::sort(byId_, {}, [this](std::uint32_t i) { return std::pair(rows_[i].sample.id, i); });
+    std::uint32_t first = SwcSample::kRoot, before = 0;  // of the samples that have an earlier one's id, the first in the file
+    for (std::size_t k = 1; k < byId_.size(); ++k)
+      if (rows_[byId_[k]].sample.id == rows_[byId_[k - 1]].sample.id && byId_[k] < first) first = byId_[k], before = byId_[k - 1];
+    if (first == SwcSample::kRoot) return {};
+    return fail(rows_[first].line, "id " + std::to_string(rows_[first].sample.id) + " is that of line " +
+                                       std::to_string(rows_[before].line) + " already; number the samples anew");
   }
 
   Result<void> linkParents() {
     for (Row& row : rows_) {
       if (row.parentId < 0) continue;
-      const auto found = numbers_.find(row.parentId);
-      if (found == numbers_.end())
+      const auto found = std::ranges::lower_bound(byId_, row.parentId, {}, [this](std::uint32_t i) { return rows_[i].sample.id; });
+      if (found == byId_.end() || rows_[*found].sample.id != row.parentId)
         return fail(row.line, "parent " + std::to_string(row.parentId) + " does not exist; give -1 to a root");
-      row.sample.parent = found->second;
+      row.sample.parent = *found;
     }
     return {};
   }
@@ -132,7 +143,7 @@ class Reader {
   std::string name_;
   ImportFrame frame_;
   std::vector<Row> rows_;
-  std::unordered_map<std::int64_t, std::uint32_t> numbers_;
+  std::vector<std::uint32_t> byId_;
 };
 
 }  // namespace

@@ -8,12 +8,25 @@ namespace {
 
 constexpr std::uint32_t kNone = SwcSample::kRoot;
 
-std::vector<std::vector<std::uint32_t>> childrenOf(std::span<const SwcSample> samples) {
-  std::vector<std::vector<std::uint32_t>> children(samples.size());
-  for (std::uint32_t i = 0; i < samples.size(); ++i)
-    if (samples[i].parent != kNone) children[samples[i].parent].push_back(i);
-  return children;
-}
+// The children of each sample in the file's order, in one list.
+class Children {
+ public:
+  explicit Children(std::span<const SwcSample> samples) : first_(samples.size() + 1) {
+    for (const SwcSample& sample : samples)
+      if (sample.parent != kNone) ++first_[sample.parent + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    all_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t i = 0; i < samples.size(); ++i)
+      if (samples[i].parent != kNone) all_[next[samples[i].parent]++] = i;
+  }
+  std::span<const std::uint32_t> of(std::uint32_t sample) const {
+    return std::span(all_).subspan(first_[sample], first_[sample + 1] - first_[sample]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_, all_;
+};
 
 // How well a child continues the way that led to its parent.
 float continuity(std::span<const SwcSample> samples, std::uint32_t before, std::uint32_t at, std::uint32_t child) {
@@ -30,7 +43,7 @@ float continuity(std::span<const SwcSample> samples, std::uint32_t before, std::
 class Tree {
  public:
   Tree(std::span<const SwcSample> samples, const std::string& name, VesselKind kind)
-      : samples_(samples), name_(name), kind_(kind), children_(childrenOf(samples)) {}
+      : samples_(samples), name_(name), kind_(kind), children_(samples) {}
 
   Centrelines run() {
     for (std::uint32_t i = 0; i < samples_.size(); ++i) {
@@ -61,11 +74,12 @@ class Tree {
     while (true) {
       const vec4 section(samples_[at].position, samples_[at].radius);
       if (line.samples.empty() || vec3(line.samples.back()) != vec3(section)) line.samples.push_back(section);
-      if (children_[at].empty()) break;
-      std::uint32_t next = children_[at][0];
-      for (const std::uint32_t child : children_[at])
+      const auto children = children_.of(at);
+      if (children.empty()) break;
+      std::uint32_t next = children[0];
+      for (const std::uint32_t child : children)
         if (continuity(samples_, before, at, child) > continuity(samples_, before, at, next)) next = child;
-      for (const std::uint32_t child : children_[at])
+      for (const std::uint32_t child : children)
         if (child != next)
           branches.push_back({at, child, Centrelines::Place{number, std::uint32_t(line.samples.size() - 1)}});
       before = at;
@@ -86,7 +100,7 @@ class Tree {
   std::span<const SwcSample> samples_;
   std::string name_;
   VesselKind kind_;
-  std::vector<std::vector<std::uint32_t>> children_;
+  Children children_;
   std::vector<Start> pending_;
   Centrelines out_;
 };

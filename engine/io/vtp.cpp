@@ -9,6 +9,8 @@
 
 #include "core/atomic_file.h"
 #include "core/log.h"
+#include "io/base64.h"
+#include "io/read_limits.h"
 #include "io/vtp_data.h"
 #include "io/words.h"
 
@@ -19,6 +21,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMaximumBytes = std::size_t(1) << 28;
 constexpr std::int64_t kMostItems = 1 << 26;
+constexpr std::size_t kMostCellArrays = 100;
 constexpr const char* kExportAgain = "; write the file again";
 
 // The first rule that reading finds broken.
@@ -34,11 +37,57 @@ std::string_view attribute(const XMLElement& element, const char* name) {
   return value ? value : "";
 }
 
+// The numbers of an array: as its bytes, or as the text gave them.
+class Numbers {
+ public:
+  Numbers(std::vector<std::byte> content, vtp::Scalar scalar, bool bigEndian)
+      : content_(std::move(content)), scalar_(scalar), bigEndian_(bigEndian) {}
+  explicit Numbers(std::vector<double> values) : values_(std::move(values)) {}
+  std::size_t size() const { return content_.empty() ? values_.size() : content_.size() / vtp::sizeOf(scalar_); }
+  double operator[](std::size_t i) const {
+    return content_.empty() ? values_[i] : vtp::numberAt(content_.data() + i * vtp::sizeOf(scalar_), scalar_, bigEndian_);
+  }
+
+ private:
+  std::vector<std::byte> content_;
+  std::vector<double> values_;
+  vtp::Scalar scalar_ = vtp::Scalar::float64;
+  bool bigEndian_ = false;
+};
+
+// What a file of so many bytes may hold, packed data unpacked. Points, lines and names take 16, 100 and 80 bytes of memory.
+struct Amounts {
+  explicit Amounts(std::size_t bytes)
+      : content(partOfMemory(bytes, 6, 16)), points(bytes / 4 + 500'000), lines(bytes / 16 + 100'000), corners(bytes / 2 + 1'000'000),
+        names(bytes / 16 + 100'000), cellNumbers(bytes + 4'000'000) {}
+  std::size_t content, points, lines, corners, names, cellNumbers;
+
+  static void check(const std::string& place, const char* things, std::size_t found, std::size_t most) {
+    if (found > most)
+      breaks(place, std::string("all ") + things + " up to this are " + std::to_string(found) + ", more than the " + std::to_string(most) +
+                        " accepted for a file of this size; split or reduce it");
+  }
+};
+
+// Memory that the parsed XML takes [bytes], rather too much than too little.
+std::size_t xmlMemory(std::string_view text) {
+  constexpr std::size_t kANode = 128, kAnAttribute = 80;
+  std::size_t memory = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '<' && text[i + 1] != '/') memory += kANode;
+    if (text[i] == '>' && text[i + 1] != '<') memory += kANode;
+    if (text[i] == '=') memory += kAnAttribute;
+  }
+  return memory;
+}
+
 class Reader {
  public:
-  Reader(std::span<const std::byte> bytes, const ImportFrame& frame) : frame_(frame) {
+  Reader(std::span<const std::byte> bytes, const ImportFrame& frame) : frame_(frame), most_(bytes.size()) {
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::string xml(takeAppended(text));
+    if (const std::size_t memory = xmlMemory(xml), most = partOfMemory(bytes.size(), 10, 24); memory > most)
+      breaks("/", "the XML " + beyondMemory(memory, most) + "; split or reduce it");
     if (document_.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
       breaks("line " + std::to_string(document_.ErrorLineNum()), std::string("is not valid XML: ") + document_.ErrorName());
   }
@@ -88,13 +137,13 @@ class Reader {
     return value;
   }
 
-  std::vector<double> numbers(const XMLElement& array, const std::string& place) {
+  Numbers numbers(const XMLElement& array, const std::string& place) {
     const auto scalar = vtp::scalarNamed(attribute(array, "type"));
     if (!scalar) breaks(place + "/type", "is not a number type that VTK has");
-    if (attribute(array, "format") == "ascii") return asciiNumbers(array.GetText() ? array.GetText() : "", place);
-    const std::vector<std::byte> content = bytesOf(array, place);
+    if (attribute(array, "format") == "ascii") return Numbers(asciiNumbers(array.GetText() ? array.GetText() : "", place));
+    std::vector<std::byte> content = bytesOf(array, place);
     if (content.size() % vtp::sizeOf(*scalar) != 0) breaks(place, "is no whole number of values");
-    return vtp::numbersOf(content, *scalar, encoding_.bigEndian);
+    return Numbers(std::move(content), *scalar, encoding_.bigEndian);
   }
 
   std::vector<std::byte> bytesOf(const XMLElement& array, const std::string& place) {
@@ -106,6 +155,7 @@ class Reader {
 
   static std::vector<double> asciiNumbers(std::string_view text, const std::string& place) {
     std::vector<double> values;
+    values.reserve(text.size() / 2 + 1);
     for (std::string_view word = nextWord(text, " \t\r\n"); !word.empty(); word = nextWord(text, " \t\r\n"))
       if (!parseNumber(word, values.emplace_back()))
         breaks(place, "value " + std::to_string(values.size() - 1) + " is no finite number: '" + std::string(word.substr(0, 40)) + "'");
@@ -113,12 +163,22 @@ class Reader {
   }
 
   std::vector<std::byte> block(std::string_view text, const std::string& place) {
-    const auto bytes = vtp::decodeBase64(text);
+    charge(text.size() / 4 * 3, place);
+    const auto bytes = decodeBase64(text);
     if (!bytes) breaks(place, std::string("is not base64") + kExportAgain);
     return unpacked(*bytes, place);
   }
+  // Arrays may share their data, so it counts as often as it is read.
+  void charge(std::size_t bytes, const std::string& place) {
+    contentRead_ += bytes;
+    if (contentRead_ > most_.content)
+      breaks(place, "all data up to this " + beyondMemory(contentRead_, most_.content) + "; split or reduce it");
+  }
   std::vector<std::byte> unpacked(std::span<const std::byte> bytes, const std::string& place) {
     std::string fault;
+    const auto size = vtp::contentBytes(bytes, encoding_, fault);
+    if (!size) breaks(place, fault + kExportAgain);
+    charge(*size, place);
     auto content = vtp::unpack(bytes, encoding_, fault);
     if (!content) breaks(place, fault + kExportAgain);
     return std::move(*content);
@@ -135,10 +195,13 @@ class Reader {
   std::string_view firstBlock(std::string_view text) const {
     const std::size_t word = encoding_.wideHeader ? 8 : 4;
     const auto lengths = [&](std::size_t count) -> std::vector<double> {
-      const auto bytes = vtp::decodeBase64(text.substr(0, std::min(text.size(), (count * word + 2) / 3 * 4)));
+      const auto bytes = decodeBase64(text.substr(0, std::min(text.size(), (count * word + 2) / 3 * 4)));
       if (!bytes || bytes->size() < count * word) return {};
-      return vtp::numbersOf(std::span(*bytes).first(count * word), encoding_.wideHeader ? vtp::Scalar::uint64 : vtp::Scalar::uint32,
-                            encoding_.bigEndian);
+      std::vector<double> values;
+      for (std::size_t i = 0; i < count; ++i)
+        values.push_back(vtp::numberAt(bytes->data() + i * word, encoding_.wideHeader ? vtp::Scalar::uint64 : vtp::Scalar::uint32,
+                                       encoding_.bigEndian));
+      return values;
     };
     const auto letters = [](double bytes) { return std::ceil(bytes / 3) * 4; };
     double length = 0;
@@ -164,12 +227,12 @@ class Reader {
     const XMLElement* array = fields.FirstChildElement("Array");  // what VTK calls arrays of anything but numbers
     while (array && attribute(*array, "Name") != "VesselNames") array = array->NextSiblingElement("Array");
     if (!array || attribute(*array, "type") != "String") return;
-    std::vector<double> letters;
-    if (attribute(*array, "format") == "ascii") letters = asciiNumbers(array->GetText() ? array->GetText() : "", place);
-    else letters = vtp::numbersOf(bytesOf(*array, place), vtp::Scalar::uint8, false);
+    const Numbers letters = attribute(*array, "format") == "ascii" ? Numbers(asciiNumbers(array->GetText() ? array->GetText() : "", place))
+                                                                   : Numbers(bytesOf(*array, place), vtp::Scalar::uint8, false);
     std::string text;
-    for (const double letter : letters) {
-      if (letter == 0) out_.names.push_back(std::exchange(text, {}));
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      const double letter = letters[i];
+      if (letter == 0) Amounts::check(place, "names", out_.names.size() + 1, most_.names), out_.names.push_back(std::exchange(text, {}));
       else if (letter >= 1 && letter < 256) text += char(static_cast<unsigned char>(letter));
     }
   }
@@ -178,6 +241,8 @@ class Reader {
     const std::int64_t points = count(piece, "NumberOfPoints", place), lines = count(piece, "NumberOfLines", place);
     if (lines == 0) return;
     const auto base = std::uint32_t(out_.points.size());
+    Amounts::check(place + "/NumberOfPoints", "points", base + std::size_t(points), most_.points);
+    Amounts::check(place + "/NumberOfLines", "lines", out_.lines.size() + std::size_t(lines), most_.lines);
     readPoints(piece, std::size_t(points), place);
     const std::vector<bool> kept = readLines(piece, std::size_t(points), std::size_t(lines), base, place);
     readCells(piece, kept, std::size_t(count(piece, "NumberOfVerts", place)), place);
@@ -187,7 +252,7 @@ class Reader {
     const XMLElement* points = piece.FirstChildElement("Points");
     const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
     if (!array) breaks(place + "/Points", "is missing");
-    const std::vector<double> xyz = numbers(*array, place + "/Points");
+    const Numbers xyz = numbers(*array, place + "/Points");
     if (xyz.size() != 3 * count)
       breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " + std::to_string(count) + " points");
     const XMLElement* data = piece.FirstChildElement("PointData");
@@ -197,7 +262,7 @@ class Reader {
     if (!radiusArray)
       breaks(place + "/PointData", "has no array MaximumInscribedSphereRadius or Radius; add one (vmtkcenterlines does)");
     const std::string radiusPlace = place + "/PointData/" + std::string(attribute(*radiusArray, "Name"));
-    const std::vector<double> radius = numbers(*radiusArray, radiusPlace);
+    const Numbers radius = numbers(*radiusArray, radiusPlace);
     if (radius.size() != count)
       breaks(radiusPlace, "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
     for (std::size_t i = 0; i < count; ++i) {
@@ -216,8 +281,8 @@ class Reader {
     const XMLElement* element = piece.FirstChildElement("Lines");
     const XMLElement *connectivity = arrayNamed(element, "connectivity"), *offsets = arrayNamed(element, "offsets");
     if (!connectivity || !offsets) breaks(place, "needs the arrays connectivity and offsets");
-    const std::vector<double> numbersOfPoints = numbers(*connectivity, place + "/connectivity");
-    const std::vector<double> ends = numbers(*offsets, place + "/offsets");
+    const Numbers numbersOfPoints = numbers(*connectivity, place + "/connectivity");
+    const Numbers ends = numbers(*offsets, place + "/offsets");
     if (ends.size() != lines)
       breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " + std::to_string(lines) + " lines");
     std::vector<bool> kept;
@@ -225,7 +290,10 @@ class Reader {
     for (std::size_t i = 0; i < lines; ++i) {
       if (!(ends[i] >= start && ends[i] <= double(numbersOfPoints.size())))
         breaks(place + "/offsets", "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
+      corners_ += std::size_t(ends[i] - start);
+      Amounts::check(place + "/connectivity", "lines' points", corners_, most_.corners);
       std::vector<std::uint32_t> line;
+      line.reserve(std::size_t(ends[i] - start));
       for (auto k = std::size_t(start); k < std::size_t(ends[i]); ++k) {
         const double point = numbersOfPoints[k];
         if (!(point >= 0 && point < double(points)))
@@ -248,10 +316,12 @@ class Reader {
       const std::string name(attribute(*e, "Name"));
       const std::string_view components = attribute(*e, "NumberOfComponents");
       if (!scalar || *scalar >= vtp::Scalar::float32 || name.empty() || !(components.empty() || components == "1")) continue;
-      const std::vector<double> values = numbers(*e, place + "/CellData/" + name);
+      const Numbers values = numbers(*e, place + "/CellData/" + name);
       if (values.size() < verts + kept.size()) breaks(place + "/CellData/" + name, "has fewer numbers than there are cells");
       auto array = std::ranges::find(out_.cellArrays, name, &VtpLines::CellArray::name);
       if (array == out_.cellArrays.end()) array = out_.cellArrays.insert(array, {name, {}});
+      Amounts::check(place + "/CellData", "arrays of cells", out_.cellArrays.size(), kMostCellArrays);
+      Amounts::check(place + "/CellData", "cells' numbers", out_.cellArrays.size() * out_.lines.size(), most_.cellNumbers);
       array->values.resize(before, 0);
       for (std::size_t i = 0; i < kept.size(); ++i)
         if (kept[i]) array->values.push_back(std::int32_t(std::clamp(values[verts + i], -2147483648.0, 2147483647.0)));
@@ -279,6 +349,8 @@ class Reader {
   vtp::Encoding encoding_;
   std::string_view appended_;
   bool appendedRaw_ = false;
+  Amounts most_;
+  std::size_t contentRead_ = 0, corners_ = 0;
   VtpLines out_;
 };
 

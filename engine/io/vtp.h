@@ -30,7 +30,8 @@ struct VtpLines {
 /// polygons and other arrays are passed over.
 /// Fails with badInput, naming file and place: XML that is not well formed, no PolyData, data cut short or not
 /// decodable, counts that disagree, a point index out of range, a value that is not finite or a radius below
-/// zero, no lines, no radius.
+/// zero, no lines, no radius. More than a file of so many bytes may ask for is refused before it is unpacked: six times as
+/// many bytes of data and 16 MiB, a point for 4 bytes and 500,000, a line for 16 and 100,000 (io/read_limits.h).
 Result<VtpLines> readVtp(const std::filesystem::path& path, const ImportFrame& frame = {});
 
 /// The same from memory. @param name  for messages
@@ -44,7 +45,8 @@ std::string encodeVtp(const VtpLines& lines, const ImportFrame& frame = {});
 /// together again, and what several centre lines have in common (every one starts at the inlet) becomes one
 /// vessel, that of the longest; the others leave its side where they part from it. Ends at exactly the place of
 /// another line's sample are joined there.
-Centrelines centrelinesOfVtp(const VtpLines& lines, const std::string& name, VesselKind kind);
+/// Fails with badInput where lines lie so close that telling them apart takes more than 1,000 comparisons a point and 10^8.
+Result<Centrelines> centrelinesOfVtp(const VtpLines& lines, const std::string& name, VesselKind kind);
 
 /// Arrays CenterlineIds, GroupIds and TractIds number the lines (a group each, no tract divided), Blanking is 0,
 /// VesselIds and VesselKinds are ours.

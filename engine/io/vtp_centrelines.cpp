@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "io/vtp.h"
@@ -15,6 +17,9 @@ namespace {
 // Two samples tell the same when their centres and their radii differ by less than this share of the radius.
 constexpr float kSameCentre = 0.05f, kSameRadius = 0.01f;
 constexpr float kDetourRadii = 4;
+// Comparisons with lines taken before; what VMTK writes needs some ten a point. Where one step is as long as a thousand
+// others, all of these fall into one cell.
+constexpr std::size_t kComparisonsAPoint = 1000, kFreeComparisons = 100'000'000;
 
 using Samples = std::vector<vec4>;
 
@@ -35,7 +40,7 @@ class Taken {
     lines_[line] = samples;
   }
   // The sample nearest to where a line passes within the tolerance.
-  std::optional<Centrelines::Place> sameAs(const vec4& sample) const {
+  std::optional<Centrelines::Place> sameAs(const vec4& sample) {
     std::optional<Centrelines::Place> best;
     float least = kSameCentre * sample.w;
     const glm::ivec3 middle = cellOf(sample);
@@ -44,11 +49,13 @@ class Taken {
         for (int z = -1; z <= 1; ++z) {
           const auto cell = cells_.find(cellKey(middle + glm::ivec3(x, y, z)));
           if (cell == cells_.end()) continue;
+          comparisons += 2 * cell->second.size();
           for (const auto& [line, i] : cell->second)
             for (const std::uint32_t from : {i, i - 1}) look(sample, line, from, least, best);
         }
     return best;
   }
+  std::size_t comparisons = 0;  ///< so far
 
  private:
   glm::ivec3 cellOf(const vec4& p) const { return glm::ivec3(glm::floor(vec3(p) / cell_)); }
@@ -110,13 +117,19 @@ class Merger {
  public:
   explicit Merger(std::vector<Samples> lines) : lines_(std::move(lines)), taken_(cellSize(lines_)) {}
 
-  Centrelines run() {
+  /// Nothing where it takes too long.
+  std::optional<Centrelines> run() {
+    std::size_t most = kFreeComparisons;
+    for (const Samples& line : lines_) most += kComparisonsAPoint * line.size();
     std::vector<std::uint32_t> order(lines_.size());
     std::iota(order.begin(), order.end(), 0u);
     std::vector<float> lengths;
     for (const Samples& line : lines_) lengths.push_back(lengthOf(line));
     std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t i) { return lengths[i]; });
-    for (const std::uint32_t i : order) takeWhatIsNew(lines_[i]);
+    for (const std::uint32_t i : order) {
+      takeWhatIsNew(lines_[i], most);
+      if (taken_.comparisons > most) return std::nullopt;
+    }
     return std::move(out_);
   }
 
@@ -130,9 +143,12 @@ class Merger {
   }
 
   // A run of samples that no line taken before has, led to those beside it.
-  void takeWhatIsNew(const Samples& line) {
+  void takeWhatIsNew(const Samples& line, std::size_t mostComparisons) {
     std::vector<std::optional<Centrelines::Place>> known;
-    for (const vec4& sample : line) known.push_back(taken_.sameAs(sample));
+    for (const vec4& sample : line) {
+      if (taken_.comparisons > mostComparisons) return;
+      known.push_back(taken_.sameAs(sample));
+    }
     for (std::size_t i = 0; i < line.size();) {
       if (known[i]) {
         ++i;
@@ -167,15 +183,13 @@ class Merger {
   Centrelines out_;
 };
 
-struct PlaceHash {
-  std::size_t operator()(const vec3& p) const {
-    return std::hash<float>()(p.x) ^ std::hash<float>()(p.y) * 31 ^ std::hash<float>()(p.z) * 1009;
-  }
+struct PlaceOrder {
+  bool operator()(const vec3& a, const vec3& b) const { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 };
 
 // Joins free ends that lie exactly on a sample of another line.
 void joinAtSamePlace(Centrelines& lines) {
-  std::unordered_map<vec3, std::vector<Centrelines::Place>, PlaceHash> inside;
+  std::map<vec3, std::vector<Centrelines::Place>, PlaceOrder> inside;
   std::vector<std::pair<vec3, Centrelines::End>> ends;
   for (std::uint32_t i = 0; i < lines.lines.size(); ++i) {
     const auto& samples = lines.lines[i].samples;
@@ -186,7 +200,7 @@ void joinAtSamePlace(Centrelines& lines) {
   std::vector<std::uint8_t> joined(ends.size(), 0);
   for (const auto& joint : lines.joints)
     for (const auto& end : joint.ends) joined[2 * end.line + end.last] = 1;
-  std::unordered_map<vec3, std::uint32_t, PlaceHash> jointAt;
+  std::map<vec3, std::uint32_t, PlaceOrder> jointAt;
   for (const auto& [place, end] : ends) {
     if (joined[2 * end.line + end.last]) continue;
     const auto [found, fresh] = jointAt.emplace(place, std::uint32_t(lines.joints.size()));
@@ -197,17 +211,17 @@ void joinAtSamePlace(Centrelines& lines) {
     auto& joint = lines.joints[number];
     const auto hosts = inside.find(place);
     if (hosts == inside.end()) continue;
-    for (const auto& host : hosts->second) {
-      const bool own = std::ranges::any_of(joint.ends, [&](const auto& end) { return end.line == host.line; });
-      if (!own && !joint.host) joint.host = host;
-    }
+    std::set<std::uint32_t> own;
+    for (const auto& end : joint.ends) own.insert(end.line);
+    const auto other = std::ranges::find_if(hosts->second, [&](const auto& host) { return !own.contains(host.line); });
+    if (other != hosts->second.end()) joint.host = *other;
   }
   std::erase_if(lines.joints, [](const auto& joint) { return !joint.host && joint.ends.size() < 2; });
 }
 
 }  // namespace
 
-Centrelines centrelinesOfVtp(const VtpLines& file, const std::string& name, VesselKind kind) {
+Result<Centrelines> centrelinesOfVtp(const VtpLines& file, const std::string& name, VesselKind kind) {
   const auto *vessels = file.find("VesselIds"), *kinds = file.find("VesselKinds");
   Centrelines result;
   if (vessels) {
@@ -220,7 +234,11 @@ Centrelines centrelinesOfVtp(const VtpLines& file, const std::string& name, Vess
                               told >= 0 && told <= int(VesselKind::other) ? VesselKind(told) : kind, std::move(samples)});
     }
   } else {
-    result = Merger(wholeLines(file)).run();
+    auto merged = Merger(wholeLines(file)).run();
+    if (!merged)
+      return badInput("its lines lie so close to one another that telling them apart takes more than " + std::to_string(kComparisonsAPoint) +
+                      " comparisons a point; leave out lines that are traced several times, or long steps");
+    result = std::move(*merged);
     for (auto& line : result.lines) line.kind = kind;
   }
   for (std::size_t i = 0; i < result.lines.size(); ++i)

@@ -20,15 +20,14 @@ struct Encoding {
   bool zlib = false;
 };
 
-/// Base64, also where several padded runs follow one another, blanks between them; nothing where it is none.
-std::optional<std::vector<std::byte>> decodeBase64(std::string_view text);
-std::string encodeBase64(std::span<const std::byte> bytes);
+/// How many bytes a block holds, before anything is unpacked; `fault` tells why nobody knows.
+std::optional<std::uint64_t> contentBytes(std::span<const std::byte> block, const Encoding& encoding, std::string& fault);
 
 /// The content of one block: behind its length, or its compressed pieces. `fault` tells why there is none.
 std::optional<std::vector<std::byte>> unpack(std::span<const std::byte> block, const Encoding& encoding,
                                              std::string& fault);
 
-/// Numbers of any type as 64-bit floats; integers beyond 2^53 lose digits, which no use here minds.
-std::vector<double> numbersOf(std::span<const std::byte> content, Scalar scalar, bool bigEndian);
+/// The number at a place [bytes] as a 64-bit float; integers beyond 2^53 lose digits, which no use here minds.
+double numberAt(const std::byte* at, Scalar scalar, bool bigEndian);
 
 }  // namespace vasa::vtp

@@ -1,5 +1,6 @@
 #include <bit>
 
+#include "io/base64.h"
 #include "io/vtp.h"
 #include "io/vtp_data.h"
 
@@ -15,7 +16,7 @@ std::string block(const std::vector<T>& values) {
   const auto header = std::as_bytes(std::span(&length, 1)), content = std::as_bytes(std::span(values));
   bytes.insert(bytes.end(), header.begin(), header.end());
   bytes.insert(bytes.end(), content.begin(), content.end());
-  return vtp::encodeBase64(bytes);
+  return encodeBase64(bytes);
 }
 
 // An attribute's text: what XML might take for its own goes by number.

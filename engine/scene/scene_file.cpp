@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::json;
 constexpr std::size_t kMaximumBytes = 1 << 20;
 constexpr int kMaximumDepth = 16;
+constexpr std::size_t kMostFiles = 1000;
 
 // The first fault that reading meets; what follows it is not looked at.
 struct BrokenRule {
@@ -89,6 +90,7 @@ class Reader {
   Field paths(std::vector<std::filesystem::path>& out) {
     return [this, &out](const Json& value, const std::string& place) {
       if (!value.is_array()) return fail(place, "must be a list of file names");
+      if (value.size() > kMostFiles) return fail(place, "must be a list of at most " + std::to_string(kMostFiles) + " file names");
       for (std::size_t i = 0; i < value.size(); ++i) path(out.emplace_back())(value[i], place + "/" + std::to_string(i));
     };
   }

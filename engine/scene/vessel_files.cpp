@@ -108,7 +108,9 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   }
   const auto lines = readVtp(path, import.frame);
   if (!lines) return lines.error();
-  return centrelinesOfVtp(*lines, name, kind);
+  auto centrelines = centrelinesOfVtp(*lines, name, kind);
+  if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);
+  return centrelines;
 }
 
 Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight, const ReadingProgress& told) {

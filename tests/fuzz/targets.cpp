@@ -97,7 +97,7 @@ void vtp(Bytes bytes) {
   const std::string text = encodeVtp(*lines);
   const auto again = parseVtp(std::as_bytes(std::span(text)), "f");
   must(again.ok() && encodeVtp(*again) == text);
-  useLines(centrelinesOfVtp(*lines, "f", VesselKind::artery));
+  if (const auto centrelines = centrelinesOfVtp(*lines, "f", VesselKind::artery)) useLines(*centrelines);
 }
 
 void bvh(Bytes bytes) {

@@ -123,8 +123,9 @@ TEST_CASE("root joints under different transforms keep them as joints") {
   file.document["nodes"][0].erase("children");
   file.document["nodes"][1]["translation"] = {0, 0, 0};
   file.add("nodes", {{"name", "holder"}, {"translation", {0, 0.5, 0}}, {"children", {1}}});
+  file.add("nodes", {{"name", "both"}, {"children", {0, 3}}});
   const Body body = bodyOf(file);
-  CHECK(body.skeleton.joints.size() == 3);
+  CHECK(body.skeleton.joints.size() == 4);
   CHECK(body.skeleton.rootTransform == mat4(1));
   CHECK(near(vec3(body.skeleton.joints[body.skeleton.find("knee").value].restWorld[3]), {0, 0.5f, 0}));
   CHECK(atRest(body) == std::vector<vec3>{{0, 1, 0}, {1, 1, 0}, {0, 0, 0}});

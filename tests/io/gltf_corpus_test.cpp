@@ -2,7 +2,7 @@
 
 #include <chrono>
 #include <fstream>
-#include <set>
+#include <map>
 #include <sstream>
 
 #include "io/gltf.h"
@@ -39,29 +39,23 @@ std::vector<Verdict> readManifest(const std::filesystem::path& path) {
   return verdicts;
 }
 
-/// Errors that do not touch what is used here, or leave no doubt about what is meant: pictures, cameras and
-/// texture coordinates are not read; an empty array says the same as none; buffer targets and bounds are
-/// hints; data with a stride or without one is read as the stride says; joints are used whether or not the
-/// scene lists them.
-const std::set<std::string> kTolerated = {
-    "ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE",
-    "BUFFER_VIEW_TARGET_OVERRIDE",
-    "CAMERA_ZFAR_LEQUAL_ZNEAR",
-    "EMPTY_ENTITY",
-    "IMAGE_DATA_INVALID",
-    "IMAGE_UNEXPECTED_EOS",
-    "INVALID_URI",
-    "IO_ERROR",
-    "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
-    "MESH_PRIMITIVE_INVALID_ATTRIBUTE",
-    "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
-    "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
-    "NODE_SKIN_NO_SCENE",
-    "ONE_OF_MISMATCH",
-    "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
-    "SKIN_SKELETON_INVALID",
-    "UNDECLARED_EXTENSION",
-    "UNSATISFIED_DEPENDENCY",
+/// Errors that touch nothing of what is used here, and why.
+const std::map<std::string, const char*> kTolerated = {
+    {"BUFFER_VIEW_TARGET_OVERRIDE", "a target is a hint for uploading, and nothing is uploaded from a view"},
+    {"CAMERA_ZFAR_LEQUAL_ZNEAR", "cameras are not read"},
+    {"EMPTY_ENTITY", "an empty list says the same as none (lists that must not be empty are refused)"},
+    {"IMAGE_DATA_INVALID", "pictures are never opened"},
+    {"IMAGE_UNEXPECTED_EOS", "pictures are never opened"},
+    {"INVALID_URI", "of a picture, which is never opened (of a buffer it is refused)"},
+    {"IO_ERROR", "of a picture, which is never opened"},
+    {"MESH_PRIMITIVE_INVALID_ATTRIBUTE", "attributes are looked up by the names that are used; others are passed over"},
+    {"MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", "bounds are computed from the positions"},
+    {"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "textures are not drawn"},
+    {"NODE_SKIN_NO_SCENE", "joints are posed by the tree that they hang in, whichever scene lists it"},
+    {"ONE_OF_MISMATCH", "of a camera, which is not read (of a picture it is refused)"},
+    {"SKIN_SKELETON_INVALID", "the named node is not used: the joints' own tree is"},
+    {"UNDECLARED_EXTENSION", "no extension's properties are read; KHR_mesh_quantization counts only where it is declared"},
+    {"UNSATISFIED_DEPENDENCY", "a picture's missing MIME type: it is never opened (all others are refused)"},
 };
 
 }  // namespace
@@ -73,6 +67,7 @@ TEST_CASE(
   const auto verdicts = readManifest(corpus / "manifest.csv");
   CHECK(verdicts.size() == 175);
   std::size_t refused = 0, tolerated = 0;
+  std::map<std::string, int> acceptedBy;
   for (const Verdict& verdict : verdicts) {
     CAPTURE(verdict.file);
     const auto begin = std::chrono::steady_clock::now();
@@ -85,6 +80,8 @@ TEST_CASE(
     for (const std::string& code : verdict.codes) all = all && kTolerated.contains(code);
     if (verdict.errors > 0 && !all) CHECK_FALSE(result.ok());
     if (verdict.errors > 0) ++(result.ok() ? tolerated : refused);
+    if (verdict.errors > 0 && result.ok())
+      for (const std::string& code : verdict.codes) ++acceptedBy[code];
     if (result.ok()) continue;
     CHECK(result.error().fault == Fault::badInput);
     const std::string file = (corpus / verdict.file).string() + ": ";
@@ -93,5 +90,8 @@ TEST_CASE(
     CHECK((place[0] == '/' || place.starts_with("GLB byte ") || place.starts_with("JSON")));
   }
   CHECK(refused + tolerated == 125);
-  CHECK(refused == 97);
+  CHECK(refused == 100);
+  std::string told;
+  for (const auto& [code, count] : acceptedBy) told += "\n  " + std::to_string(count) + " " + code;
+  MESSAGE(refused << " of 125 files with errors are refused, " << tolerated << " tolerated:" << told);
 }

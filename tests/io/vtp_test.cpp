@@ -4,7 +4,7 @@
 
 #include <zlib.h>
 
-#include "io/vtp_data.h"
+#include "io/base64.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -67,21 +67,21 @@ TEST_CASE("VTP data in every encoding") {
   };
   expectRead(file(kPoints, kRadius, kLine));
   const auto plain = packed<std::uint32_t>({12}) + packed(radii);
-  expectRead(file(kPoints, radius("format=\"binary\"", "\n  " + vtp::encodeBase64(plain) + "\n"), kLine));
+  expectRead(file(kPoints, radius("format=\"binary\"", "\n  " + encodeBase64(plain) + "\n"), kLine));
   const auto big = packed<std::uint64_t>({12}, true) + packed(radii, true);
-  expectRead(file(kPoints, radius("format=\"binary\"", vtp::encodeBase64(big)), kLine, "byte_order=\"BigEndian\" header_type=\"UInt64\""));
+  expectRead(file(kPoints, radius("format=\"binary\"", encodeBase64(big)), kLine, "byte_order=\"BigEndian\" header_type=\"UInt64\""));
   std::vector<std::byte> squeezed(100);
   uLongf length = 100;
   REQUIRE(compress(reinterpret_cast<Bytef*>(squeezed.data()), &length, reinterpret_cast<const Bytef*>(radii.data()), 12) == Z_OK);
   squeezed.resize(length);
   const auto header = packed<std::uint32_t>({1, 32768, 12, std::uint32_t(length)});
   const std::string zlib = "compressor=\"vtkZLibDataCompressor\"";
-  expectRead(file(kPoints, radius("format=\"binary\"", vtp::encodeBase64(header) + vtp::encodeBase64(squeezed)), kLine, zlib));
+  expectRead(file(kPoints, radius("format=\"binary\"", encodeBase64(header) + encodeBase64(squeezed)), kLine, zlib));
   const auto raw = header + squeezed;
   const std::string rawText(reinterpret_cast<const char*>(raw.data()), raw.size());
   expectRead(file(kPoints, radius("format=\"appended\" offset=\"2\"", ""), kLine, zlib, "<AppendedData encoding=\"raw\">_\x01<" + rawText + "</AppendedData>"));
   expectRead(file(kPoints, radius("format=\"appended\" offset=\"4\"", ""), kLine, zlib,
-                  "<AppendedData encoding=\"base64\">_AAAA" + vtp::encodeBase64(header) + vtp::encodeBase64(squeezed) + vtp::encodeBase64(header) + "</AppendedData>"));
+                  "<AppendedData encoding=\"base64\">_AAAA" + encodeBase64(header) + encodeBase64(squeezed) + encodeBase64(header) + "</AppendedData>"));
 }
 
 TEST_CASE("what is wrong with a VTP file is told with its place") {
@@ -121,7 +121,7 @@ TEST_CASE("VTP written is read back the same, byte for byte") {
   const auto read = parseVtp(bytesOf(text), "a.vtp", kMillimetres);
   if (!read.ok()) FAIL(read.error().message);
   CHECK(encodeVtp(*read, kMillimetres) == text);
-  const Centrelines again = centrelinesOfVtp(*read, "a", VesselKind::other);
+  const Centrelines again = centrelinesOfVtp(*read, "a", VesselKind::other).value();
   REQUIRE(again.lines.size() == 2);
   for (int i = 0; i < 2; ++i) {
     CHECK(again.lines[i].name == lines.lines[i].name);
@@ -151,7 +151,7 @@ TEST_CASE("VMTK's aorta: one tree, radii within 1 % of the source's at every sam
   for (const char* name : {"aorta-centerline.vtp", "aorta-centerline-branches.vtp"}) {
     const auto source = readVtp(data / "centerlines/vmtk" / name, kMillimetres);
     if (!source.ok()) FAIL(source.error().message);
-    const Centrelines lines = centrelinesOfVtp(*source, "aorta", VesselKind::artery);
+    const Centrelines lines = centrelinesOfVtp(*source, "aorta", VesselKind::artery).value();
     const auto made = networkOfCentrelines(lines);
     if (!made.ok()) FAIL(made.error().message);
     CHECK(made->network.vessels().size() == 2);

@@ -1,0 +1,94 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "body/clip.h"
+#include "body/skeleton.h"
+#include "io/gltf_json.h"
+
+// What is used of a glTF document, as plain numbers. Optional indices are -1 where they are absent.
+namespace vasa::gltf {
+
+/// glTF's own numbers: types of components, modes of primitives that make triangles.
+enum ComponentType : int { kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
+enum Mode : int { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
+
+struct Model {
+  struct BufferView {
+    int buffer = 0;
+    std::size_t byteOffset = 0, byteLength = 0, byteStride = 0;  // stride 0: none given
+  };
+  struct Sparse {
+    std::size_t count = 0;  // 0: none
+    int indicesView = -1, indicesType = 0, valuesView = -1;
+    std::size_t indicesOffset = 0, valuesOffset = 0;
+  };
+  struct Accessor {
+    int bufferView = -1, componentType = 0;
+    bool normalised = false;
+    std::string type;
+    std::size_t byteOffset = 0, count = 0;
+    std::vector<double> least, most;  // empty: not given
+    Sparse sparse;
+  };
+  struct Primitive {
+    int position = -1, normal = -1, indices = -1, material = -1, mode = kTriangles;
+    std::size_t vertices = 0;               // of any attribute
+    std::vector<int> joints, weights;       // accessors, one a set
+  };
+  struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+  };
+  struct Node {
+    std::string name;
+    int mesh = -1, skin = -1;
+    JointTransform transform;
+    std::vector<float> matrix;  // column by column, in place of the transform; empty: none
+    std::vector<int> children;
+  };
+  struct Skin {
+    std::vector<int> joints;
+    int inverseBindMatrices = -1;
+  };
+  struct Material {
+    std::string name;
+    vec4 baseColour{1};
+    bool blends = false;
+  };
+  enum class Path { translation, rotation, scale, other };
+  struct Sampler {
+    int input = -1, output = -1;
+    Interpolation interpolation = Interpolation::linear;
+  };
+  struct Channel {
+    int sampler = -1, node = -1;
+    Path path = Path::other;
+  };
+  struct Animation {
+    std::string name;
+    std::vector<Sampler> samplers;
+    std::vector<Channel> channels;
+  };
+  /// Of a node's or a mesh's extras.
+  struct Labels {
+    std::string category, ontologyId;
+  };
+
+  std::vector<BufferView> bufferViews;
+  std::vector<Accessor> accessors;
+  std::vector<Mesh> meshes;
+  std::vector<Node> nodes;
+  std::vector<Skin> skins;
+  std::vector<Material> materials;
+  std::vector<Animation> animations;
+  bool hasScenes = false;
+  std::vector<int> sceneNodes;                // roots of the default scene
+  std::map<int, Labels> nodeLabels, meshLabels;  // of those that have any
+};
+
+/// @param root  has passed checkStructure
+Model modelOf(const JsonView& root);
+
+}  // namespace vasa::gltf
