@@ -59,13 +59,13 @@ if [[ "$preset" = faults || "$preset" = soak ]]; then
 fi
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
-  readers=(swc vtp bvh obj stl scene vasa)
+  readers=(swc vtp bvh obj stl gltf map rules scene vasa)
   cmake --build --preset fuzz --target "${readers[@]/#/fuzz_}"
   mkdir -p build/fuzz/found
   # As many at a time as there are cores.
   # shellcheck disable=SC2016
   printf '%s\n' "${readers[@]}" | xargs -P "$(nproc)" -I{} sh -c 'mkdir -p build/fuzz/corpus/{}
-    build/fuzz/tests/fuzz/fuzz_{} -max_total_time="$1" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
+    build/fuzz/tests/fuzz/fuzz_{} -max_total_time="$1" $(test ! -e tests/fuzz/{}.dict || echo -dict=tests/fuzz/{}.dict) -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
       -artifact_prefix=build/fuzz/found/{}- build/fuzz/corpus/{} tests/fuzz/corpus/{} > build/fuzz/{}.log 2>&1 ||
       { cat build/fuzz/{}.log; exit 1; }
     echo "fuzz {}: $(grep -E "number_of_executed_units" build/fuzz/{}.log | tr -s " " | cut -d" " -f2) runs, nothing found"' sh "${1:-30}"

@@ -1,12 +1,17 @@
 #include "fuzz/targets.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 #include "body/retarget.h"
 #include "core/hash.h"
 #include "core/log.h"
+#include "growth/growth_rules.h"
+#include "growth/regions.h"
 #include "io/bvh.h"
+#include "io/gltf.h"
 #include "io/obj.h"
 #include "io/stl.h"
 #include "io/swc.h"
@@ -122,6 +127,53 @@ void stl(Bytes bytes) {
   checkMesh(elements);
 }
 
+void gltf(Bytes bytes) {
+  const std::filesystem::path path = "f";
+  const std::vector<std::byte> file(bytes.begin(), bytes.end());
+  const auto elements = parseGltfElements(file, path);
+  messageNames(elements);
+  if (elements) {
+    for (const MeshElement& element : *elements)
+      for (const vec3& p : element.mesh.positions) must(std::isfinite(p.x + p.y + p.z));
+    checkMesh(elements);
+  }
+  const auto body = parseBody(file, path);
+  messageNames(body);
+  if (!body) return;
+  const std::size_t joints = body->skeleton.joints.size();
+  for (std::size_t j = 0; j < joints; ++j)
+    if (const JointId parent = body->skeleton.joints[j].parent; parent.valid()) must(parent.value < j);
+  for (const SkinnedMesh& mesh : body->meshes) {
+    must(mesh.influences.size() == mesh.mesh.positions.size() && mesh.normals.size() == mesh.mesh.positions.size());
+    for (const uvec3& t : mesh.mesh.triangles) must(std::max({t.x, t.y, t.z}) < mesh.mesh.positions.size());
+    for (const SkinInfluence& influence : mesh.influences)
+      for (const auto joint : influence.joints) must(joint < joints);
+  }
+  for (const Clip& clip : body->clips) must(samplePose(body->skeleton, clip, clip.end).world.size() == joints);
+}
+
+void map(Bytes bytes) {
+  const auto pairs = parseJointMap(textOf(bytes), "f");
+  messageNames(pairs);
+  if (!pairs) return;
+  for (const auto& [from, to] : *pairs) must(!from.empty());
+}
+
+void rules(Bytes bytes) {
+  const std::string_view text = textOf(bytes);
+  const std::size_t border = text.find("\n---\n");
+  const auto rules = parseGrowthRules(text.substr(0, border), "f");
+  messageNames(rules);
+  if (!rules) return;
+  must(!rules->systems.empty());
+  for (std::size_t s = 0; s < rules->systems.size(); ++s) must(rules->tables.system[s].axiom < rules->symbols.size());
+  if (border == text.npos) return;
+  const auto regions = parseRegions(text.substr(border + 5), "f", *rules);
+  messageNames(regions);
+  if (!regions) return;
+  for (const GrowthRegion& region : *regions) must(region.system == GrowthRegion::kNoSystem || region.system < rules->systems.size());
+}
+
 void scene(Bytes bytes) {
   messageNames(parseScene(std::string(textOf(bytes)), "folder", "f"));
 }
@@ -144,7 +196,7 @@ void vasa(Bytes bytes) {
 }
 
 std::span<const Target> targets() {
-  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"scene", scene}, {"vasa", vasa}};
+  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"gltf", gltf}, {"map", map}, {"rules", rules}, {"scene", scene}, {"vasa", vasa}};
   return all;
 }
 

@@ -14,6 +14,9 @@ void vtp(Bytes bytes);
 void bvh(Bytes bytes);
 void obj(Bytes bytes);
 void stl(Bytes bytes);
+void gltf(Bytes bytes);   ///< .glb or .gltf, as a body and as vessels
+void map(Bytes bytes);    ///< pairs of joints
+void rules(Bytes bytes);  ///< of growth; behind a line `---` their regions
 void scene(Bytes bytes);  ///< a scene's JSON
 void vasa(Bytes bytes);   ///< a network's chunks: header and checksum are made to fit
 

@@ -1,0 +1,13 @@
+#pragma once
+#include <cstddef>
+
+// What the program that includes live_memory.cpp has allocated and not yet given back.
+namespace vasa::test {
+
+/// Whether it is counted: not under sanitizers, which have an allocator of their own.
+bool countsMemory();
+/// Forgets the peak so far. @return the bytes that are live
+std::size_t restartPeak();
+std::size_t peakMemory();
+
+}  // namespace vasa::test
