@@ -6,6 +6,7 @@
 #include "io/gltf_accessor.h"
 #include "io/gltf_check.h"
 #include "io/gltf_rule.h"
+#include "math/types.h"
 
 namespace vasa::gltf {
 namespace {
@@ -176,6 +177,12 @@ void checkMeshData(const Asset& asset) {
   checkJoints(asset, largest);
 }
 
+// Whether the linear part of an affine matrix has no inverse, whatever its scale.
+bool isFlat(const float* m) {
+  const dvec3 x(m[0], m[1], m[2]), y(m[4], m[5], m[6]), z(m[8], m[9], m[10]);
+  return std::abs(glm::dot(x, glm::cross(y, z))) <= 1e-6 * glm::length(x) * glm::length(y) * glm::length(z);
+}
+
 void checkInverseBinds(const Asset& asset) {
   for (std::size_t i = 0; i < asset.model.skins.size(); ++i) {
     const auto& skin = asset.model.skins[i];
@@ -188,6 +195,9 @@ void checkInverseBinds(const Asset& asset) {
         breaks(accessorPlace(skin.inverseBindMatrices),
                "matrix " + std::to_string(joint) + " must be affine: the last row must be 0 0 0 1",
                kExportAgain);
+      if (isFlat(m))
+        breaks(accessorPlace(skin.inverseBindMatrices),
+               "matrix " + std::to_string(joint) + " flattens what it carries and cannot be undone", kExportAgain);
     }
   }
 }

@@ -12,6 +12,7 @@ namespace vasa::gltf {
 namespace {
 
 constexpr std::size_t kFreeKeys = std::size_t(1) << 20;  // above one for four bytes of the file, which is what a key has at least
+constexpr double kMaximumFrames = 1e6;  // of a clip: nine hours at 30 a second
 
 std::vector<float> storedFloats(const Asset& asset, int accessor) {
   if (!isStored(asset, accessor))
@@ -118,7 +119,13 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
     Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);
     if (clip.name.empty()) clip.name = "animation " + std::to_string(i);
-    if (clip.end >= clip.start) clips.push_back(std::move(clip));
+    if (!(clip.end >= clip.start)) continue;
+    const double frames = (double(clip.end) - clip.start) * clip.framesPerSecond;
+    if (!(frames <= kMaximumFrames))
+      breaks("/animations/" + std::to_string(i),
+             "lasts " + std::to_string(clip.end - clip.start) + " s: more than the 1000000 frames that are accepted",
+             "check the key times, which are in seconds");
+    clips.push_back(std::move(clip));
   }
   return clips;
 }

@@ -218,6 +218,10 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     joint.name = model.nodes[i].name.empty() ? "node " + std::to_string(node) : model.nodes[i].name;
     if (tree.parent[i] >= 0) joint.parent = out.jointOfNode[std::size_t(tree.parent[i])];
     joint.rest = restOf(model.nodes[i], tree.local[i], node);
+    const vec3 scale = glm::abs(joint.rest.scale);
+    if (!(std::min({scale.x, scale.y, scale.z}) > 0))
+      breaks("/nodes/" + std::to_string(node), "the joint's scale is 0 at rest, which flattens all that it moves",
+             "give it a scale other than 0");
     joint.restWorld =
         (joint.parent.valid() ? skeleton.joints[joint.parent.value].restWorld : skeleton.rootTransform) *
         joint.rest.matrix();

@@ -29,7 +29,7 @@ class Reader {
     if (auto numbered = orderIds(); !numbered) return numbered.error();
     if (auto linked = linkParents(); !linked) return linked.error();
     if (auto checked = checkCircles(); !checked) return checked.error();
-    mendRadii();
+    if (auto mended = mendRadii(); !mended) return mended.error();
     std::vector<SwcSample> samples;
     samples.reserve(rows_.size());
     for (const Row& row : rows_) samples.push_back(row.sample);
@@ -105,11 +105,13 @@ class Reader {
     return {};
   }
 
-  void mendRadii() {
+  Result<void> mendRadii() {
     std::vector<std::uint32_t> bare;
     for (std::uint32_t i = 0; i < rows_.size(); ++i)
       if (!(rows_[i].sample.radius > 0)) bare.push_back(i);
-    if (bare.empty()) return;
+    if (bare.empty()) return {};
+    if (bare.size() == rows_.size())
+      return fail(rows_.front().line, "no sample of the file has a radius above 0; give the vessels' radii in column 6");
     logWarning(name_ + ": " + std::to_string(bare.size()) + " samples without a radius (first: line " +
                std::to_string(rows_[bare.front()].line) + ") take a neighbour's");
     // Known radii spread from parents to children, then the other way, then whatever is left takes the mean.
@@ -123,7 +125,8 @@ class Reader {
     for (const Row& row : rows_)
       if (row.sample.radius > 0) sum += row.sample.radius, ++known;
     for (const std::uint32_t i : bare)
-      if (!(rows_[i].sample.radius > 0)) rows_[i].sample.radius = known ? float(sum / double(known)) : 1e-4f;
+      if (!(rows_[i].sample.radius > 0)) rows_[i].sample.radius = float(sum / double(known));
+    return {};
   }
 
   template <class Next>

@@ -245,6 +245,8 @@ TEST_CASE("broken skins") {
       {"/skins/0/joints/1", "node 1 and the first joint have no common root", erase("/nodes/0", "children")},
       {"/skins/0/inverseBindMatrices", "1 matrices are too few for 2 joints", set("/accessors/3/count", 1)},
       {"/accessors/3", "matrix 1 must be affine", number(3, 31, 2)},
+      {"/accessors/3", "matrix 0 flattens what it carries", number(3, 0, 0)},
+      {"/accessors/3", "matrix 1 flattens what it carries", both(number(3, 21, 0), number(3, 26, 0))},
       {"/nodes/2/skin", "no joints and weights", set("/meshes/0/primitives/0/attributes", {{"POSITION", 0}})},
   });
 }

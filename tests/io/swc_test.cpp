@@ -44,9 +44,6 @@ TEST_CASE("a sample without a radius takes its parent's, a root its child's") {
   const auto samples = parseSwc("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n3 3 0 2 0 0.5 2\n4 3 0 3 0 0 3\n", "a.swc");
   REQUIRE(samples.ok());
   for (const SwcSample& s : *samples) CHECK(s.radius == 0.5f);
-  const auto bare = parseSwc("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n", "a.swc");
-  REQUIRE(bare.ok());
-  CHECK((*bare)[0].radius > 0);
 }
 
 TEST_CASE("what is wrong with an SWC file is told with its line") {
@@ -62,6 +59,7 @@ TEST_CASE("what is wrong with an SWC file is told with its line") {
   expectFault("1 1 0 0 0 1 1\n", "lead back to itself");
   expectFault("1.5 1 0 0 0 1 -1\n", "the id must be a whole number");
   expectFault("1 1 1e12 0 0 1 -1\n", "--scale");
+  expectFault("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n", "a.swc:1: no sample of the file has a radius above 0");
   CHECK(readSwc("/nowhere/a.swc").error().fault == Fault::io);
 }
 
