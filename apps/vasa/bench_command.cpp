@@ -6,6 +6,7 @@
 #include "collide/tube_detector.h"
 #include "collide/tube_list.h"
 #include "commands.h"
+#include "core/cancellation.h"
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "report.h"
@@ -50,7 +51,7 @@ Result<Timings> timeRuns(Detector& detector, const TubeList& list, const Options
   Timings timings;
   LargeVector<Bezier> shape;
   for (int run = -kWarmUp; run < options.runs; ++run) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     list.blend(shareOf(std::abs(run), options.runs, options.pose), shape);
     const auto start = Clock::now();
     detector.update(shape);

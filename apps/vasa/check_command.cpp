@@ -5,6 +5,7 @@
 
 #include "avoid/sides.h"
 #include "commands.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "frame_output.h"
 #include "network/kinks.h"
@@ -295,7 +296,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto [first, last] = setting->range;
   Looks looks(setting->scene.network);
   for (std::uint32_t frame = first; frame <= last; ++frame) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     maker.make(setting->clip, setting->timeOf(frame));
     report["frames"].push_back(frameReport(setting->scene, maker, looks, frame, options));
     progress.update(frame - first + 1, last - first + 1);

@@ -39,8 +39,4 @@ void addProfile(CLI::App& app, Command& command);
 void addRender(CLI::App& app, Command& command);
 void addView(CLI::App& app, Command& command);
 
-/// Set by SIGINT and SIGTERM. Long loops ask, stop, and return stopError().
-bool stopRequested();
-Error stopError();
-
 }  // namespace vasa::cli

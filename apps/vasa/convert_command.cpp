@@ -48,7 +48,6 @@ VesselImport importOf(const Options& options) {
 Result<std::vector<SourceElement>> readSources(const Options& options) {
   std::vector<SourceElement> sources;
   for (const std::string& file : options.meshes) {
-    if (stopRequested()) return stopError();
     auto read = readSurfaces(file, importOf(options));
     if (!read) return read.error();
     std::ranges::move(*read, std::back_inserter(sources));
@@ -65,7 +64,6 @@ ConvertOptions convertOptions(const Options& options) {
     for (FitTolerance* part : {&settings.fit.position, &settings.fit.radius})
       *part = {part->share, std::min(part->least, tolerance), tolerance};
   }
-  settings.stopRequested = stopRequested;
   return settings;
 }
 
@@ -127,7 +125,6 @@ Result<void> run(const Globals& globals, const Options& options) {
     return repair.network;
   };
   auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
-  if (stopRequested()) return stopError();
   if (!conversion) return conversion.error();
   if (lines) repair = overlapsAtRest(conversion->network);  // told with their radii: nothing is done about it
   const bool quantised = isQuantised(options, settings, conversion->network);

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "frame_output.h"
 #include "io/swc.h"
@@ -85,7 +86,6 @@ Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
   bake.maxBytes = std::size_t(options.budgetMegabytes * 1048576);
   bake.betweenTolerance = float(1e-3 * options.betweenMillimetres);
   bake.mesh = {float(1e-3 * options.toleranceMillimetres), !options.flat, linearColour};
-  bake.stopRequested = stopRequested;
   return bake;
 }
 
@@ -107,7 +107,6 @@ Result<Report> exportGlb(const Options& options, const Job& job) {
   ProgressLine progress("posing");
   settings->progress = [&](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
   auto made = bake(job.scene, job.clip, *settings);
-  if (stopRequested()) return stopError();
   if (!made) return Error{made.error().fault, options.output + ": " + made.error().message};
   Report report = describe(*made);
   const std::vector<std::byte> file = encodeGlb(made->mesh);
@@ -124,7 +123,7 @@ Result<Report> exportFrames(const Options& options, const Job& job, Encode encod
   Report report;
   std::size_t bytes = 0;
   for (std::uint32_t frame = job.range.first; frame <= job.range.last; ++frame) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     const Result<std::string> text = encode(frame, report);
     if (!text) return text.error();
     if (auto written = writeFileAtomically(pattern->of(frame), *text); !written) return written.error();
@@ -172,7 +171,7 @@ Result<Report> exportMeasurements(const Options& options, const Job& job) {
   std::string text = "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m\n";
   ProgressLine progress("measuring");
   for (std::uint32_t frame = job.range.first; frame <= job.range.last; ++frame) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     const float time = job.clip ? job.clip->timeOfFrame(frame) : 0;
     maker.make(job.clip, time);
     const std::vector<VesselMeasures> all = meter.run(maker.points());

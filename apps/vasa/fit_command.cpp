@@ -4,6 +4,7 @@
 
 #include "body/carry.h"
 #include "commands.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
@@ -47,10 +48,10 @@ std::string asText(const Report& report) {
   std::size_t listed = 0;
   for (const Report& vessel : outside["vessels"]) {
     if (++listed > 10) break;
-    text += fmt::format("           {:<50} {:.1f} of {:.1f} mm, farthest {:.1f} mm\n", vessel["name"].get<std::string>(), 1e3 * vessel["outside_m"].get<double>(),
+    text += fmt::format("           {:<50} {:.1f} of {:.1f} mm, farthest {:.1f} mm\n", plainText(vessel["name"]), 1e3 * vessel["outside_m"].get<double>(),
                         1e3 * vessel["length_m"].get<double>(), 1e3 * vessel["farthest_m"].get<double>());
   }
-  return text + fmt::format("written    {}: {} bytes\n", report["file"].get<std::string>(), report["file_bytes"].get<std::size_t>());
+  return text + fmt::format("written    {}: {} bytes\n", plainText(report["file"]), report["file_bytes"].get<std::size_t>());
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
@@ -69,11 +70,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   auto carried = carryNetwork(*network, *from, *to, options.network, map);
   if (!carried) return carried.error();
   KinkRelaxer(*network).run(carried->points);
-  if (stopRequested()) return stopError();
+  checkpoint();
   const auto fitted = reshapeNetwork(*network, carried->points, carried->bodyHeight);
   if (!fitted) return badInput(options.network + ": " + fitted.error().message);
   const RestRepair repair = separateAtRest(*fitted);
-  if (stopRequested()) return stopError();
+  checkpoint();
   const Network& parted = repair.network;
   const auto bytes = writeNetwork(options.output, parted, {.quantise = !options.exact});
   if (!bytes) return bytes.error();

@@ -4,22 +4,16 @@
 #include <new>
 
 #include "commands.h"
+#include "core/cancellation.h"
 #include "core/kept.h"
 #include "core/log.h"
 #include "core/parallel.h"
+#include "endings.h"
 #include "help_command.h"
 #include "scene_options.h"
 
 namespace vasa::cli {
 namespace {
-
-volatile std::sig_atomic_t stopSignal = 0;
-
-// The first signal asks loops to stop in good order; a second one ends the process at once.
-extern "C" void onStopSignal(int signal) {
-  if (stopSignal) std::_Exit(128 + signal);
-  stopSignal = signal;
-}
 
 void addGlobals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print a machine-readable report on standard output, nothing else");
@@ -31,6 +25,16 @@ void addGlobals(CLI::App& app, Globals& globals) {
   app.add_option("--seed", globals.seed, "Seed of everything random")->capture_default_str();
 }
 
+// Work leaves at a checkpoint once a signal has asked.
+Result<void> runStoppable(const Command& command) {
+  const CancellationScope scope(stopWish());
+  try {
+    return command.run();
+  } catch (const Cancelled&) {
+    return stopError();
+  }
+}
+
 int runCommand(Command& command) {
   setLogLevel(command.globals.quiet     ? LogLevel::quiet
               : command.globals.verbose ? LogLevel::verbose
@@ -40,7 +44,7 @@ int runCommand(Command& command) {
     const auto data = dataFolder();
     setKeptFolders({data ? std::vector{*data / "kept"} : std::vector<std::filesystem::path>{}, cacheFolder()});
   }
-  const Result<void> result = command.run();
+  const Result<void> result = runStoppable(command);
   if (result.ok() && std::fflush(stdout) != 0) {
     logError("cannot write to standard output");
     return int(Fault::io);
@@ -51,14 +55,6 @@ int runCommand(Command& command) {
 }
 
 }  // namespace
-
-bool stopRequested() {
-  return stopSignal != 0;
-}
-
-Error stopError() {
-  return {stopSignal == SIGTERM ? Fault::terminated : Fault::interrupted, "stopped by a signal"};
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"Moves a body's blood vessels with its skeleton.\n"
@@ -97,10 +93,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // the write fails and says so
-  struct sigaction action{};
-  action.sa_handler = vasa::cli::onStopSignal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  vasa::cli::catchStopSignals();
+  vasa::cli::endWhereMemoryEnds();
+  vasa::cli::tellWhatTerminates();
   try {
     return vasa::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {

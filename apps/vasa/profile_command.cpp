@@ -9,6 +9,7 @@
 #include "collide/network_tubes.h"
 #include "collide/sphere_tree.h"
 #include "commands.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "frame_output.h"
 #include "gpu/device.h"
@@ -165,13 +166,15 @@ Result<void> run(const Globals& globals, const Options& options) {
     for (const Quads& each : setting->quads) quads.push_back({{each.around, each.along}, each.pixelError});
     Profiler profiler(device, profileSetting(*setting, options), quads);
     ProgressLine progress("profiling");
-    while (!stopRequested() && profiler.step()) progress.update(profiler.done(), profiler.total());
+    while (profiler.step()) {
+      progress.update(profiler.done(), profiler.total());
+      checkpoint();
+    }
     for (const ProfileRow& row : profiler.rows()) all["rows"].push_back(asReport(row, setting->growth != nullptr));
     all["storage"] = storageReport(setting->scene);
     return all;
   });
   if (!report) return report.error();
-  if (stopRequested()) return stopError();
   return globals.json ? printJson(*report) : printText(asText(*report));
 }
 

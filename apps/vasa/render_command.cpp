@@ -9,9 +9,11 @@
 #include "capillary_options.h"
 #include "commands.h"
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "core/files_read.h"
 #include "core/hash.h"
 #include "core/log.h"
+#include "endings.h"
 #include "frame_output.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
@@ -184,7 +186,7 @@ class Film {
       video_.emplace(std::move(*video));
     }
     for (std::uint32_t frame = job_.range.first; frame <= job_.range.last; ++frame) {
-      if (stopRequested()) return stopError();
+      checkpoint();
       if (frame % job_.shard.count != job_.shard.index) continue;
       if (auto done = makeFrame(frame); !done) return done;
       progress.update(frame - job_.range.first + 1, job_.range.last - job_.range.first + 1);
@@ -315,6 +317,8 @@ Result<void> makeTrack(const Globals& globals, const Options& options, const Job
   ProgressLine progress("solving");
   const std::uint32_t count = job.range.last + 1;
   std::uint32_t solved = 0;
+  setPatience(kPatienceToSave);  // what is solved is kept, so frames are left whole
+  const CancellationScope fromWithin(nullptr);
   for (; solved < count && !stopRequested(); ++solved) {
     maker.make(job.clip, job.clip->timeOfFrame(solved));
     progress.update(solved + 1, count);

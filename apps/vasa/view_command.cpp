@@ -4,7 +4,9 @@
 #include "capillary_options.h"
 #include "commands.h"
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "core/log.h"
+#include "endings.h"
 #include "frame_output.h"
 #include "gpu/error.h"
 #include "io/gltf.h"
@@ -124,6 +126,9 @@ Report asReport(const viewer::ViewReport& view) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto view = prepare(globals, options);
   if (!view) return view.error();
+  // A session is asked, and leaves with its script and settings saved: within a picture's time, or opening's.
+  setPatience(kPatienceToSave);
+  const CancellationScope fromWithin(nullptr);
   const auto session = gpu::attempt([&] { return viewer::view(*view); });
   if (!session) return session.error();
   if (!*session) return session->error();

@@ -12,10 +12,6 @@
 namespace vasa {
 namespace {
 
-bool stopped(const ConvertOptions& options) {
-  return options.stopRequested && options.stopRequested();
-}
-
 std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
                                        std::span<const std::optional<std::uint32_t>> duplicateOf,
                                        const ConvertOptions& options) {
@@ -23,7 +19,7 @@ std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
   ProgressLine progress("converting");
   std::atomic<std::size_t> done{0};
   parallelFor(elements.size(), 1, [&](std::size_t e) {
-    if (!duplicateOf[e] && !stopped(options)) result[e] = skeletonise(elements[e].element.mesh, options.element);
+    if (!duplicateOf[e]) result[e] = skeletonise(elements[e].element.mesh, options.element);
     const std::size_t now = ++done;
     progress.update(now, elements.size());
     if (options.progress) options.progress(now, elements.size());
@@ -56,7 +52,6 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
 Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options) {
   const auto duplicateOf = findDuplicates(elements, options.duplicates);
   const std::vector<ElementSkeleton> found = skeletons(elements, duplicateOf, options);
-  if (stopped(options)) return Error{Fault::interrupted, "stopped"};
 
   StrandGraph graph;
   std::vector<ElementOutcome> outcomes(elements.size());
@@ -72,7 +67,6 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
     if (auto& standIn = outcomes[absorbed.element].standIn; std::ranges::find(standIn, absorbed.into) == standIn.end())
       standIn.push_back(absorbed.into);
   const AttachReport joins = attachEnds(graph, elements, bodyHeight, options.attach);
-  if (stopped(options)) return Error{Fault::interrupted, "stopped"};
   for (std::uint32_t strand = 0; strand < graph.strands.size(); ++strand)
     for (const bool last : {false, true})
       if (!graph.strands[strand].dropped() && graph.isFree({strand, last}))

@@ -20,7 +20,6 @@ struct ConvertOptions {
   SurfaceErrorOptions error;
   float bodyHeight = 0;  ///< [m]; 0: the vertical extent of the input
   std::function<Result<Network>(const Network&)> mend;  ///< what is done to the network before it is measured; may be empty
-  std::function<bool()> stopRequested;  ///< asked between elements, from any thread
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< elements, from any thread
 };
 
@@ -33,8 +32,7 @@ struct Conversion {
 /// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and
 /// separate elements, fit splines, measure. The result does not depend on the number of threads. Shows a
 /// progress line on a terminal.
-/// Fails with badInput where no element gives a vessel, and with interrupted where stopRequested answers true; can be
-/// cancelled (core/cancellation.h), also within an element.
+/// Fails with badInput where no element gives a vessel; can be cancelled (core/cancellation.h), also within an element.
 Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options = {});
 
 }  // namespace vasa

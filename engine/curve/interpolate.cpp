@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/cancellation.h"
 #include "curve/bspline.h"
 #include "math/closest_point.h"
 
@@ -131,6 +132,7 @@ SampledSpline interpolateSamples(std::span<const vec4> samples) {
   for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
   SampledSpline result;
   for (int round = 0;; ++round) {
+    checkpoint();
     result.points = solve(dense);
     if (round == kRounds) break;
     const std::vector<bool> split = toSplit(result.points, dense);
@@ -156,6 +158,7 @@ SampledSpline followSamples(std::span<const vec4> samples, float centre, float r
   assert(samples.size() >= 2);
   const Tolerance tolerance{centre, radius};
   std::vector<bool> kept = polylineCorners(samples, {0.5f * centre, 0.5f * radius});
+  Checkpoints checkpoints;
   for (bool missed = true; missed;) {
     std::vector<vec4> corners;
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -171,6 +174,7 @@ SampledSpline followSamples(std::span<const vec4> samples, float centre, float r
       worst = 1;
     };
     for (std::size_t i = 0; i < samples.size(); ++i) {
+      checkpoints.pass();
       if (i > 0 && kept[i]) ++corner, keepWorst();
       Nearest at{through.parameters[corner], 0};
       if (!kept[i]) at = nearestBetween(through.points, at.parameter, through.parameters[corner + 1], samples[i], tolerance);

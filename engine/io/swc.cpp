@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "io/words.h"
 
@@ -22,7 +23,8 @@ class Reader {
   Reader(const std::string& name, const ImportFrame& frame) : name_(name), frame_(frame) {}
 
   Result<std::vector<SwcSample>> run(std::string_view text) {
-    for (std::size_t line = 1; !text.empty(); ++line)
+    Checkpoints checkpoints;
+    for (std::size_t line = 1; !text.empty(); ++line, checkpoints.pass())
       if (auto read = readLine(nextLine(text), line); !read) return read.error();
     if (rows_.empty())
       return badInput(name_ + ": the file has no samples; an SWC line is: id type x y z radius parent");

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/cancellation.h"
 #include "io/swc.h"
 
 // An SWC file's forest of samples and vessels: both ways.
@@ -49,6 +50,7 @@ class Tree {
     for (std::uint32_t i = 0; i < samples_.size(); ++i) {
       if (samples_[i].parent != kNone) continue;
       pending_.push_back({kNone, i, {}});
+      checkpoints_.pass();
       while (!pending_.empty()) {
         const Start start = pending_.back();
         pending_.pop_back();
@@ -72,6 +74,7 @@ class Tree {
     if (start.fork != kNone) line.samples.push_back(vec4(samples_[start.fork].position, samples_[start.first].radius));
     std::uint32_t before = start.fork, at = start.first;
     while (true) {
+      checkpoints_.pass();
       const vec4 section(samples_[at].position, samples_[at].radius);
       if (line.samples.empty() || vec3(line.samples.back()) != vec3(section)) line.samples.push_back(section);
       const auto children = children_.of(at);
@@ -102,6 +105,7 @@ class Tree {
   VesselKind kind_;
   Children children_;
   std::vector<Start> pending_;
+  Checkpoints checkpoints_;
   Centrelines out_;
 };
 

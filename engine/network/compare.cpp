@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "math/closest_point.h"
 
@@ -61,6 +62,7 @@ std::vector<Pieces> piecesOf(const Network& network) {
 double meanDistance(const Pieces& from, const Pieces& to) {
   double sum = 0, weights = 0;
   for (const Segment& s : from.segments) {
+    checkpoint();
     const vec3 p = 0.5f * (s.a + s.b);
     float nearest = std::numeric_limits<float>::max();
     for (const Segment& t : to.segments)

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
+
+#include "core/cancellation.h"
 
 namespace vasa {
 namespace {
@@ -26,11 +27,11 @@ class FilmMaker {
  public:
   FilmMaker(const Scene& scene, const Clip* clip, const BakeOptions& options) : clip_(clip), options_(options), maker_(scene, options.frame) {}
 
-  std::optional<Film> run() {
+  Film run() {
     const std::vector<float> times = keyTimes();
     const auto count = std::uint32_t(times.size());
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (options_.stopRequested && options_.stopRequested()) return std::nullopt;
+      checkpoint();
       const float time = times[i];
       PosedFrame frame = posed(time);
       if (i > 0) addBetween(film_.times.back() + start(), time, frame, 0);
@@ -144,13 +145,12 @@ Result<Bake> finestThatFits(const FilmBaker& baker, std::size_t frames, const Ba
 }  // namespace
 
 Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& options) {
-  const auto film = FilmMaker(scene, clip, options).run();
-  if (!film) return Error{Fault::interrupted, "stopped"};
-  const FilmBaker baker(scene.network, *film, options.mesh);
+  const Film film = FilmMaker(scene, clip, options).run();
+  const FilmBaker baker(scene.network, film, options.mesh);
   auto result = [&]() -> Result<Bake> {
-    if (options.finestThatFits) return finestThatFits(baker, film->frames.size(), options);
+    if (options.finestThatFits) return finestThatFits(baker, film.frames.size(), options);
     const auto size = baker.sizeOf(options.shape);
-    if (!holdable(size, film->frames.size())) return tooLarge(options.shape, size.vertices * 24 * film->frames.size(), kMostMemory);
+    if (!holdable(size, film.frames.size())) return tooLarge(options.shape, size.vertices * 24 * film.frames.size(), kMostMemory);
     Bake made = baker.run(options.shape);
     if (bytesOf(made) > options.maxBytes) return tooLarge(options.shape, bytesOf(made), options.maxBytes);
     return made;

@@ -19,12 +19,11 @@ struct BakeOptions {
   float betweenTolerance = 1e-3f;
   FilmBaker::Options mesh;
   std::function<void(std::uint32_t, std::uint32_t)> progress = {};  ///< frames done, of how many
-  std::function<bool()> stopRequested = {};
 };
 
 /// The drawn surface of a scene's vessels with its motion through a clip as shapes with weights, a key a frame or
 /// `fps` a second, and more where vertices do not move straight (mesh/shape_basis.h). The first key is the mesh itself.
-/// Fails with `failed` where even the coarsest shape takes more than maxBytes, and as stopRequested says.
+/// Fails with `failed` where even the coarsest shape takes more than maxBytes; can be cancelled (core/cancellation.h).
 /// @param clip  nullptr: at rest, not moving
 Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& options);
 

@@ -37,7 +37,11 @@ Outcome runProgram(const std::vector<std::string>& arguments, const ProgramOptio
   TemporaryFolder folder;
   const auto out = options.standardOutput.empty() ? folder.path() / "out" : std::filesystem::path(options.standardOutput);
   const auto err = folder.path() / "err";
-  std::vector<char*> argv{const_cast<char*>(VASA_PROGRAM)};
+  // A limit on memory is set by a shell that becomes the program.
+  std::vector<std::string> words{VASA_PROGRAM};
+  if (options.memoryKiB > 0) words = {"/bin/sh", "-c", "ulimit -v \"$0\"; exec \"$@\"", std::to_string(options.memoryKiB), VASA_PROGRAM};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   std::vector<char*> environment;
@@ -55,15 +59,22 @@ Outcome runProgram(const std::vector<std::string>& arguments, const ProgramOptio
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
   if (!options.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   pid_t child = -1;
-  REQUIRE(posix_spawn(&child, VASA_PROGRAM, &actions, nullptr, argv.data(), environment.data()) == 0);
+  REQUIRE(posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environment.data()) == 0);
   posix_spawn_file_actions_destroy(&actions);
   if (options.signalAfterMs >= 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(options.signalAfterMs));
-    kill(child, SIGINT);
+    kill(child, options.signal);
   }
+  const auto signalled = std::chrono::steady_clock::now();
+  const auto since = [&] { return std::chrono::steady_clock::now() - signalled; };
   int status = 0;
-  waitpid(child, &status, 0);
+  while (options.signalAfterMs >= 0 && waitpid(child, &status, WNOHANG) == 0) {
+    if (since() > std::chrono::seconds(options.signalPatience)) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  if (options.signalAfterMs < 0) waitpid(child, &status, 0);
   Outcome outcome;
+  outcome.msFromSignal = std::chrono::duration<double, std::milli>(since()).count();
   outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (options.standardOutput.empty()) outcome.out = contentOf(out);
   outcome.err = contentOf(err);

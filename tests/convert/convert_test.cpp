@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "convert/sources.h"
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "network/file.h"
 
@@ -79,9 +80,8 @@ TEST_CASE("input without a vessel is refused with a remedy, a stop is obeyed") {
   REQUIRE(!nothing.ok());
   CHECK(nothing.error().fault == Fault::badInput);
   CHECK(nothing.error().message.find("give surfaces of tubes") != std::string::npos);
-  ConvertOptions options;
-  options.stopRequested = [] { return true; };
-  const auto stopped = convertElements(smallBody(), options);
-  REQUIRE(!stopped.ok());
-  CHECK(stopped.error().fault == Fault::interrupted);
+  Cancellation wish;
+  wish.ask();
+  const CancellationScope scope(wish);
+  CHECK_THROWS_AS((void)convertElements(smallBody()), Cancelled);
 }
