@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "commands.h"
+#include "core/visible.h"
 #include "network/compare.h"
 #include "network/file.h"
 #include "report.h"
@@ -46,7 +47,7 @@ std::string asText(const std::vector<VesselComparison>& all, const Report& repor
                                  summary["length_ratio_median"].get<double>(), 1e3 * summary["apart_median_m"].get<double>());
   text += fmt::format("{:<50} {:>9} {:>9} {:>6} {:>9} {:>9}\n", "farthest apart", "length mm", "other mm", "ratio", "apart mm", "back mm");
   for (std::size_t i = 0; i < std::min(rows, all.size()); ++i)
-    text += fmt::format("{:<50} {:>9.1f} {:>9.1f} {:>6.2f} {:>9.1f} {:>9.1f}\n", all[i].name, 1e3 * all[i].length, 1e3 * all[i].otherLength,
+    text += fmt::format("{:<50} {:>9.1f} {:>9.1f} {:>6.2f} {:>9.1f} {:>9.1f}\n", visible(all[i].name), 1e3 * all[i].length, 1e3 * all[i].otherLength,
                         all[i].lengthRatio(), 1e3 * all[i].distance, 1e3 * all[i].otherDistance);
   return text;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/visible.h"
 #include "network/file.h"
 
 namespace vasa::cli {
@@ -96,7 +97,7 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
   for (const ElementReport& element : report.elements) {
     if (element.status == ElementStatus::ok || ++poor > kListed) continue;
     ++listed;
-    text += fmt::format("{:<8} {:<60} {}\n", statusName(element.status), element.name.substr(0, 60), element.reason);
+    text += fmt::format("{:<8} {:<60} {}\n", statusName(element.status), visible(element.name.substr(0, 60)), visible(element.reason));
   }
   if (poor > listed) text += fmt::format("... and {} more; --json lists them all\n", poor - listed);
   text += fmt::format("{:<22} {}: {} ok, {} partial, {} failed; {} repeat others\n", "elements", s.elements, s.ok,
@@ -110,7 +111,7 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
   if (s.meshBytes > 0) text += fmt::format("{:<22} {:.1f} % of the surface\n", "coverage", 100 * s.coverage);
   text += errorText(s.meshBytes > 0 ? "mesh to sweeps" : "samples to sweeps", s.error);
   if (s.backError.measured) text += errorText("sweeps to mesh", s.backError);
-  text += fmt::format("{:<22} {}: {} bytes{}{}\n", "written", output.file, output.bytes,
+  text += fmt::format("{:<22} {}: {} bytes{}{}\n", "written", visible(output.file), output.bytes,
                       s.meshBytes > 0 && output.bytes > 0
                           ? fmt::format(", {:.0f} times smaller than the meshes", double(s.meshBytes) / double(output.bytes))
                           : std::string{},

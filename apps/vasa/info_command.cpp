@@ -85,7 +85,7 @@ std::string asText(const Report& report, const std::string& indent = "") {
       for (const Report& item : value) {
         std::string line;
         for (const auto& [name, field] : item.items())
-          line += name == "name" ? fmt::format("{:<28}", field.get<std::string>())
+          line += name == "name" ? fmt::format("{:<28}", plainText(field))
                                  : fmt::format("  {} {}", name, plainText(field));
         text += indent + "  " + line + "\n";
       }

@@ -264,7 +264,7 @@ class Film {
     const auto bytes = encodePng(picture, {.alpha = job_.look.transparent, .comment = stamp()});
     if (!bytes) return bytes.error();
     if (job_.pattern) return writeFileAtomically(job_.pattern->of(frame), *bytes);
-    return printText({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    return printBytes(*bytes);
   }
 
   Result<void> finishWriting() { return writing_.valid() ? writing_.get() : Result<void>(); }

@@ -6,16 +6,23 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/visible.h"
+
 namespace vasa::cli {
 
-Result<void> printText(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+Result<void> printBytes(std::span<const std::byte> bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
     return ioError(std::string("standard output: cannot write: ") + std::strerror(errno));
   return {};
 }
 
+Result<void> printText(const std::string& text) {
+  const std::string shown = visibleLines(text);
+  return printBytes(std::as_bytes(std::span(shown)));
+}
+
 std::string plainText(const Report& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return visible(value.get<std::string>());
   return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/result.h"
 
@@ -10,10 +12,14 @@ using Report = nlohmann::ordered_json;
 /// Prints a report on standard output, indented, with a line end; fails with io when it cannot be written.
 Result<void> printJson(const Report& report);
 
-/// The same for text.
+/// The same for lines of text. What could steer a terminal is shown in words (core/visible.h); names go through visible()
+/// or plainText() before, so that they end no line.
 Result<void> printText(const std::string& text);
 
-/// A value for people: text as it is, numbers to six digits.
+/// The same for bytes as they are.
+Result<void> printBytes(std::span<const std::byte> bytes);
+
+/// A value for people: text made visible, numbers to six digits.
 std::string plainText(const Report& value);
 
 }  // namespace vasa::cli

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/visible.h"
+
 namespace vasa::cli {
 
 void addRestRepair(Report& report, const RestRepair& repair) {
@@ -26,7 +28,7 @@ std::string restRepairText(const RestRepair& repair) {
       repair.pairsBefore, repair.pairsAfter, 1e3 * repair.movedMax, 100 * repair.thinnedMax);
   for (const RestOverlap& overlap : repair.left)
     text += fmt::format("           {} and {}: {} pairs, {:.1f} mm deep ({})\n",
-                        repair.network.vessel(overlap.first).name, repair.network.vessel(overlap.second).name,
+                        visible(repair.network.vessel(overlap.first).name), visible(repair.network.vessel(overlap.second).name),
                         overlap.pairs, 1e3 * overlap.depth, reasonName(overlap.reason));
   return text;
 }

@@ -9,6 +9,8 @@
 #include <mutex>
 #include <string>
 
+#include "core/visible.h"
+
 namespace vasa {
 namespace {
 
@@ -23,8 +25,9 @@ bool colourful() {
 void write(const char* colour, std::string_view label, std::string_view message) {
   const std::lock_guard lock(outputMutex);
   const bool paint = colourful() && *colour;
-  std::fprintf(stderr, "%s%.*s%s%.*s\n", paint ? colour : "", int(label.size()), label.data(),
-               paint ? "\x1b[0m" : "", int(message.size()), message.data());
+  const std::string text = visible(message);  // names of files, and of what is in them, are others' words
+  std::fprintf(stderr, "%s%.*s%s%s\n", paint ? colour : "", int(label.size()), label.data(),
+               paint ? "\x1b[0m" : "", text.c_str());
 }
 
 }  // namespace

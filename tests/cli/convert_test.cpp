@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -139,6 +140,34 @@ TEST_CASE("convert tells what is wrong and leaves no file") {
   expect({"convert", mesh, "-o", out, "--scale", "-1"}, 2, "--scale");
   expect({"convert", mesh, "-o", out, "--exact", "--quantise"}, 2, "--quantise");
   expect({"convert", mesh, "-o", folder.path("no/such/folder.vasa")}, 6, "folder");
+}
+
+TEST_CASE("names from files steer no terminal and forge no line, on standard output and error") {
+  const Folder folder;
+  const auto clean = [](const std::string& text) {
+    return std::ranges::all_of(text, [](unsigned char c) { return c == '\n' || c == '\t' || (c >= 0x20 && c != 0x7f); });
+  };
+  const auto mesh = folder.write("a.obj", tubesObj({{"\x1b[31mred\x07", 0}}) + "o \x1b]0;title\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto made = runProgram({"convert", mesh, "-o", folder.path("a.vasa")});
+  REQUIRE_MESSAGE(made.exit == 0, made.err);
+  CHECK(contains(made.out, "\\x1b]0;title"));
+  const auto line = folder.write("a\nerror: forged.swc", "1 1 0 0 0 2 -1\n2 3 0 10 0 2 1\n");
+  REQUIRE(runProgram({"convert", line, "-o", folder.path("b.vasa")}).exit == 0);
+  for (const char* network : {"a.vasa", "b.vasa"}) {
+    const auto info = runProgram({"info", "--vessels", folder.path(network)});
+    CHECK(info.exit == 0);
+    CHECK(clean(info.out));
+    CHECK(!contains(info.out, "\nerror:"));
+    const auto same = runProgram({"compare", folder.path(network), folder.path(network)});
+    CHECK(clean(same.out));
+    CHECK(!contains(same.out, "\nerror:"));
+    CHECK(runProgram({"info", "--vessels", "--json", folder.path(network)}).json()["vessel"][0]["name"].is_string());
+  }
+  CHECK(runProgram({"info", "--vessels", "--json", folder.path("b.vasa")}).json()["vessel"][0]["name"] == "a\nerror: forged 1");
+  const auto absent = runProgram({"info", folder.path("no\nerror: \x1b[2J.vasa")});
+  CHECK(absent.exit == 6);
+  CHECK(clean(absent.err));
+  CHECK(std::ranges::count(absent.err, '\n') == 1);
 }
 
 TEST_CASE("convert stops on SIGINT without a file") {
