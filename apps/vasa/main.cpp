@@ -20,9 +20,9 @@ void addGlobals(CLI::App& app, Globals& globals) {
   app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
   app.add_flag("--verbose", globals.verbose, "Say more");
   app.add_flag("--no-cache", globals.noCache, "Compute everything anew and keep nothing (see vasa prepare)");
-  app.add_option("--threads", globals.threads, "Threads to use (default: one a core)");
+  app.add_option("--threads", globals.threads, "Threads to use (default: one a core)")->check(CLI::Range(1u, 1024u));
   app.add_option("--device", globals.device, "Vulkan device: its index or part of its name (see vasa devices)");
-  app.add_option("--seed", globals.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--seed", globals.seed, "Seed of everything random")->check(CLI::Range(0u, 4294967295u))->capture_default_str();
 }
 
 // Work leaves at a checkpoint once a signal has asked.

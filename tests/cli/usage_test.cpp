@@ -43,7 +43,8 @@ TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
         {"render", "--camera", "below", "-o", "x.png"}, {"render", "--body", "b.glb", "-o", "x.png"},
         {"render", "--video", "x.txt"}, {"render", "-o", "-", "--json"}, {"render", "--hide", "hair", "-o", "x.png"},
         {"render", "--clip", "walk", "-o", "same.png"}, {"render", "--clip", "walk", "--frames", "9:3", "-o", "{frame}.png"},
-        {"profile", "--quads", "fine"}, {"info", "notes.txt"}}) {
+        {"profile", "--quads", "fine"}, {"info", "notes.txt"}, {"info", "--threads", "0"}, {"info", "--threads", "1025"},
+        {"info", "--threads", "-1"}, {"info", "--threads", "two"}, {"info", "--seed", "4294967296"}}) {
     const auto outcome = runProgram(arguments);
     CHECK_MESSAGE(outcome.exit == 2, (arguments.empty() ? "" : arguments.back()) << ": " << outcome.err);
     CHECK(!outcome.err.empty());
