@@ -35,12 +35,31 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options) {
                  "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
 }
 
+namespace {
+
+// What a scene file names and is not there is the scene file's fault, unless something else is given in its place.
+Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
+  std::vector<std::filesystem::path> named;
+  if (options.body.empty()) named.push_back(scene.body);
+  if (options.networks.empty()) named.insert(named.end(), scene.networks.begin(), scene.networks.end());
+  if (options.clip.empty() && isMotionFile(scene.clip)) named.emplace_back(scene.clip);
+  if (options.jointMap.empty()) named.push_back(scene.jointMap);
+  std::error_code ignored;
+  for (const auto& file : named)
+    if (!file.empty() && !std::filesystem::exists(file, ignored))
+      return badInput(options.scene + ": names " + file.string() + ", which is not there; mend the name, relative to the scene file");
+  return {};
+}
+
+}  // namespace
+
 Result<SceneFile> chooseScene(const SceneOptions& options) {
   SceneFile scene;
   if (!options.scene.empty()) {
     auto read = readSceneFile(options.scene);
     if (!read) return read;
     scene = std::move(*read);
+    if (auto checked = checkNamed(scene, options); !checked) return checked.error();
   }
   if (!options.body.empty()) scene.body = options.body;
   if (!options.networks.empty()) scene.networks.assign(options.networks.begin(), options.networks.end());

@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
+
 #include "cli/program.h"
+#include "support/shared_data.h"
 
 using namespace vasa::test;
 
@@ -28,6 +31,22 @@ TEST_CASE("info on a body and on the built-in scene") {
   const auto text = runProgram({"info"});
   CHECK(text.exit == 0);
   CHECK(text.out.find("sweeps") != std::string::npos);
+}
+
+TEST_CASE("what a scene file names and is not there is bad input, what the command line names a file that cannot be read") {
+  const TemporaryFolder folder;
+  const auto scene = (folder.path() / "scene.json").string();
+  const auto write = [&](const std::string& body, const std::string& network) {
+    std::ofstream(scene) << nlohmann::json{{"body", body}, {"networks", {network}}};
+  };
+  write("absent.glb", humanVessels().string());
+  const auto absent = runProgram({"info", scene});
+  CHECK(absent.exit == 3);
+  CHECK(absent.err.find("absent.glb, which is not there") != std::string::npos);
+  write(humanBody().string(), "absent.vasa");
+  CHECK(runProgram({"info", scene}).exit == 3);
+  CHECK(runProgram({"check", scene, "--body", "/nowhere.glb"}).exit == 3);
+  CHECK(runProgram({"check", scene, "--network", "/nowhere.vasa"}).exit == 6);
 }
 
 TEST_CASE("info tells what is missing or broken") {
