@@ -14,6 +14,7 @@
 #include "scene/vessel_files.h"
 #include "scene_options.h"
 #include "viewer/app.h"
+#include "viewer/recording.h"
 #include "viewer/shortcuts.h"
 
 // vasa view: the interactive app (apps/viewer), from the command line.
@@ -23,7 +24,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   CapillaryOptions capillaries;
-  std::string look, size, script, record;
+  std::string look, size, script, record, out = ".";
   float uiScale = 0;
   bool validate = false;
 };
@@ -75,8 +76,15 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     if (!bytes) return bytes.error();
     auto script = viewer::parseScript({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.script);
     if (!script) return script.error();
+    for (viewer::ScriptStep& step : *script)
+      if (auto* save = std::get_if<viewer::SavePicture>(&step)) {
+        auto place = viewer::placeBelow(options.out, save->path);
+        if (!place) return badInput(options.script + ": " + place.error().message);
+        save->path = std::move(*place);
+      }
     view.script = std::move(*script);
   }
+  view.out = options.out;
   if (const auto folder = dataFolder()) view.rules = *folder / "growth";
   view.file = std::move(*choice);
   view.device = globals.device;
@@ -173,6 +181,7 @@ void addView(CLI::App& app, Command& command) {
   sub->add_option("--ui-scale", options->uiScale, "Size of panels and texts against those of an ordinary screen (default: as the screen says)")
       ->check(CLI::Range(0.5, 4.0));
   sub->add_option("--script", options->script, "Replay a recorded session instead of listening to mouse and keys, then quit");
+  sub->add_option("--out", options->out, "Folder that the session's pictures and videos go to; a script writes nowhere else")->capture_default_str();
   sub->add_option("--record-script", options->record, "Write this session down for --script");
   sub->add_flag("--validate", options->validate, "Run under Vulkan's validation layer; a message of it fails the run");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });

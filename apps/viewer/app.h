@@ -20,6 +20,7 @@ struct ViewOptions {
   float uiScale = 0;                    ///< pixels of panels and texts for one of an ordinary screen; 0: the screen's; scripts: 1
   gpu::Validation validation;
   std::optional<std::vector<ScriptStep>> script;  ///< replayed in place of a person; the window's own input counts for nothing
+  std::filesystem::path out = ".";  ///< folder of what the session writes: pictures, videos
   std::filesystem::path record;                   ///< a script of this session is written here; empty: none
   /// The scene that a dropped file means where `now` is shown. Called on the loading thread.
   std::function<Result<SceneFile>(const std::filesystem::path&, const SceneFile& now)> open;

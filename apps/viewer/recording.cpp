@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace vasa::viewer {
 
 Result<void> Recording::start(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {
@@ -27,10 +29,20 @@ Result<std::filesystem::path> Recording::finish() {
   return path_;
 }
 
-std::filesystem::path freeName(const std::string& extension) {
+std::filesystem::path freeName(const std::filesystem::path& folder, const std::string& extension) {
   std::error_code ignored;
   for (int i = 1;; ++i)
-    if (std::filesystem::path path = fmt::format("vasa_{:03}.{}", i, extension); !std::filesystem::exists(path, ignored)) return path;
+    if (std::filesystem::path path = folder / fmt::format("vasa_{:03}.{}", i, extension); !std::filesystem::exists(path, ignored)) return path;
+}
+
+Result<std::filesystem::path> placeBelow(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::error_code error;
+  const auto home = std::filesystem::weakly_canonical(std::filesystem::absolute(folder), error) / "";
+  const auto file = std::filesystem::weakly_canonical(home / name, error);
+  const auto [end, rest] = std::mismatch(home.begin(), std::prev(home.end()), file.begin(), file.end());
+  if (error || end != std::prev(home.end()) || rest == file.end())
+    return badInput(name.string() + ": a script writes below " + folder.string() + " only; name a file there, or another folder with --out");
+  return folder / name;
 }
 
 }  // namespace vasa::viewer

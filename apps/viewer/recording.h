@@ -24,7 +24,11 @@ class Recording {
   std::uint64_t frames_ = 0;
 };
 
-/// The first of vasa_001.ext, vasa_002.ext ... that does not exist yet, in the working folder.
-std::filesystem::path freeName(const std::string& extension);
+/// The first of vasa_001.ext, vasa_002.ext ... that does not exist yet in a folder.
+std::filesystem::path freeName(const std::filesystem::path& folder, const std::string& extension);
+
+/// Where a file of this name lies that may be written below a folder only; links count as where they lead.
+/// Fails with badInput where it lies elsewhere.
+Result<std::filesystem::path> placeBelow(const std::filesystem::path& folder, const std::filesystem::path& name);
 
 }  // namespace vasa::viewer

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "viewer/quoted.h"
+
 namespace vasa::viewer {
 namespace {
 
@@ -149,7 +151,9 @@ class LineReader {
     return text.empty() ? "type wants text" : "";
   }
   std::string readPath(const std::string& verb) {
-    const std::string path = rest();
+    const auto name = unquotedName(rest());
+    if (!name) return "quotes around a file's name are closed, and within them stand \\\\, \\\" and \\xHH";
+    const std::string& path = *name;
     if (path.empty()) return verb + " wants a file";
     if (verb == "drop") put(FileDropped{path});
     else steps_.emplace_back(SavePicture{path, verb == "window"});
@@ -177,9 +181,12 @@ struct EventWriter {
     const std::string name = nameOf(e.key);
     return name.empty() ? "" : (e.down ? "hold " : "let ") + name;
   }
-  std::string operator()(const TextTyped& e) const { return "type " + utf8Of(e.codepoint); }
+  std::string operator()(const TextTyped& e) const {
+    const bool control = e.codepoint < 0x20 || (e.codepoint >= 0x7f && e.codepoint < 0xa0);
+    return control ? "" : "type " + utf8Of(e.codepoint);  // a line end would begin a line of its own
+  }
   std::string operator()(const WindowResized& e) const { return e.width > 0 && e.height > 0 ? fmt::format("resize {} {}", e.width, e.height) : ""; }
-  std::string operator()(const FileDropped& e) const { return "drop " + e.path; }
+  std::string operator()(const FileDropped& e) const { return "drop " + quotedName(e.path); }
   std::string operator()(const CloseAsked&) const { return "close"; }
 };
 
@@ -189,7 +196,7 @@ struct StepWriter {
   std::string operator()(const GoLive& live) const { return fmt::format("live {:g}", live.seconds); }
   std::string operator()(const Settle&) const { return "settle"; }
   std::string operator()(const ResizeWindow& size) const { return fmt::format("resize {} {}", size.width, size.height); }
-  std::string operator()(const SavePicture& save) const { return (save.panels ? "window " : "picture ") + save.path.string(); }
+  std::string operator()(const SavePicture& save) const { return (save.panels ? "window " : "picture ") + quotedName(save.path.string()); }
 };
 
 }  // namespace

@@ -21,6 +21,7 @@
 //   window FILE.png     writes the window's picture, panels and all
 //   picture FILE.png    writes the scene's picture alone
 //   close
+// A FILE may stand in double quotes (viewer/quoted.h). What a script writes lies below the folder of ViewOptions::out.
 // `#` begins a comment. The session ends with its last line.
 namespace vasa::viewer {
 

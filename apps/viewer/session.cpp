@@ -127,7 +127,7 @@ void Session::follow() {
 void Session::meetWishes() {
   if (state_.wishQuit) ending_ = true;
   if (state_.wishCancel && loader_.busy()) cancelLoading();
-  if (state_.wishPicture && shown_) save({freeName("png"), false});
+  if (state_.wishPicture && shown_) save({freeName(options_.out, "png"), false});
   state_.wishPicture = state_.wishCancel = false;
   if (saving_) save(*std::exchange(saving_, std::nullopt));
 }

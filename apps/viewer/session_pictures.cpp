@@ -157,7 +157,7 @@ void Session::drawWindow() {
 // A picture of the video for every picture that is drawn.
 void Session::record() {
   if (state_.recording && !recording_.running() && shown_) {
-    if (const auto started = recording_.start(freeName("mp4"), shown_->width, shown_->height); !started) {
+    if (const auto started = recording_.start(freeName(options_.out, "mp4"), shown_->width, shown_->height); !started) {
       state_.recording = false;
       say(started.error().message);
     }

@@ -35,7 +35,7 @@ std::filesystem::path scriptIn(const std::filesystem::path& folder, std::string 
 }
 
 ProgramOptions on(const VirtualDisplay& display, const TemporaryFolder& home) {
-  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(), "XDG_CACHE_HOME=" + home.path().string()}};
+  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(), "XDG_CACHE_HOME=" + home.path().string()}, .folder = home.path().string()};
 }
 
 void checkPicture(const std::filesystem::path& found, const std::string& name) {
@@ -84,7 +84,6 @@ TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts
   text += "key space\nframes 4\nkey space\nsettle\nwindow OUT/changed.png\nresize 900 600\nframes 2\nresize 960 640\nsettle\nwindow OUT/anew.png\n";
   text += "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 252\npress left\nrelease left\nsettle\n";
   auto options = on(display, folder);
-  options.folder = folder.path().string();
   const auto outcome = runProgram({"view", "--clip", "walk", "--size", "960x640", "--validate", "--json", "--script", scriptIn(folder.path(), text)}, options);
   CHECK_MESSAGE(outcome.exit == 0, outcome.err);
   CHECK(outcome.err.empty());

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "support/shared_data.h"
+#include "viewer/recording.h"
+
 using namespace vasa;
 using namespace vasa::viewer;
 
@@ -26,6 +29,41 @@ TEST_CASE("a script is written as it was read") {
       "move 10.5 20\npress left\nrelease left\nscroll -2\nhold control\nlet control\nhold f12\nhold a\ntype é\nresize 800 600\n"
       "frames 3\nlive 2.5\nsettle\nwindow a b.png\npicture c.png\ndrop /x y.glb\nclose\n";
   CHECK(again(text) == text);
+}
+
+TEST_CASE("no name and no text of a recorded session becomes a line of its own") {
+  for (const std::string& name : {std::string("a\nwindow /b.png"), std::string("\"quoted\""), std::string(" a "), std::string("back\\slash\r\n"), std::string("\x01\x7f"),
+                                  std::string("plain \\ \xff.glb")}) {
+    CAPTURE(name);
+    const std::string line = scriptLine(InputEvent(FileDropped{name}));
+    CHECK(line.find('\n') == std::string::npos);
+    const auto steps = parsed(line + "\n");
+    REQUIRE(steps.size() == 1);
+    CHECK(std::get<FileDropped>(std::get<InputEvent>(steps[0])).path == name);
+  }
+  CHECK(scriptLine(InputEvent(TextTyped{'\n'})).empty());
+  CHECK(scriptLine(InputEvent(TextTyped{0x9b})).empty());
+  for (const char* wrong : {"drop \"open\n", "drop \"a\\n\"\n", "drop \"a\" b\"\n", "drop \"\\x1\"\n"}) CHECK_FALSE(parseScript(wrong, "s.txt"));
+}
+
+TEST_CASE("what a script writes lies below one folder") {
+  const test::TemporaryFolder folder;
+  const auto out = folder.path() / "out";
+  std::filesystem::create_directories(out / "inner");
+  std::filesystem::create_directory_symlink(folder.path(), out / "way");
+  std::filesystem::create_symlink(folder.path() / "elsewhere.png", out / "link.png");
+  for (const std::string& name : {std::string("a.png"), std::string("inner/a.png"), std::string("inner/../b.png"), (out / "c.png").string()}) {
+    CAPTURE(name);
+    CHECK(placeBelow(out, name));
+  }
+  for (const std::string& name : {std::string("../a.png"), std::string("/tmp/a.png"), std::string("inner/../../a.png"), std::string("way/a.png"), std::string("link.png"),
+                                  std::string("."), (folder.path() / "outer.png").string()}) {
+    CAPTURE(name);
+    const auto refused = placeBelow(out, name);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().fault == Fault::badInput);
+    CHECK(refused.error().message.find("--out") != std::string::npos);
+  }
 }
 
 TEST_CASE("comments, empty lines and short forms") {
