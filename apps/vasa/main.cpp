@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "endings.h"
 #include "help_command.h"
+#include "kept_folders.h"
 #include "scene_options.h"
 
 namespace vasa::cli {
@@ -40,10 +41,7 @@ int runCommand(Command& command) {
               : command.globals.verbose ? LogLevel::verbose
                                         : LogLevel::normal);
   setThreadCount(command.globals.threads);
-  if (!command.globals.noCache) {
-    const auto data = dataFolder();
-    setKeptFolders({data ? std::vector{*data / "kept"} : std::vector<std::filesystem::path>{}, cacheFolder()});
-  }
+  if (!command.globals.noCache) setKeptFolders(keptFolders(cacheFolder()));
   const Result<void> result = runStoppable(command);
   if (result.ok() && std::fflush(stdout) != 0) {
     logError("cannot write to standard output");

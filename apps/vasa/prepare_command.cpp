@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include "capillary_options.h"
 #include "commands.h"
 #include "core/kept.h"
 #include "core/log.h"
+#include "core/stage_log.h"
+#include "kept_folders.h"
+#include "loading_line.h"
 #include "render/mesh_levels.h"
 #include "report.h"
 #include "scene/frame.h"
@@ -17,6 +21,17 @@ struct Options {
   std::string output;
 };
 
+Result<void> makeAll(const Scene& scene, CapillaryChoice capillaries) {
+  StageLog stages("levels of detail");
+  bodyLevels(scene.body.meshes);
+  stages.next("room of capillaries");
+  capillaries.levels = 1;  // any
+  if (const auto growth = growthOf(scene, capillaries); !growth) return growth.error();
+  stages.next("distance fields of bones");
+  const FrameMaker frames(scene, {.avoid = true});
+  return keptAll();
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
   auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
@@ -25,11 +40,15 @@ Result<void> run(const Globals& globals, const Options& options) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return ioError(folder.string() + ": cannot make the folder: " + error.message() + "; choose one that you may write to");
-  setKeptFolders({{}, folder});
-  auto scene = loadScene(*choice);
+  KeptFolders folders = keptFolders(folder);
+  folders.shipped.clear();  // all of it in one place
+  setKeptFolders(folders);
+  std::optional<LoadingLine> line(std::in_place);
+  auto scene = loadScene(*choice, line->told());
   if (!scene) return scene.error();
-  bodyLevels(scene->body.meshes);
-  const FrameMaker frames(*scene, {.avoid = true});
+  (*line)("preparing");
+  if (const auto made = makeAll(*scene, choice->capillaries); !made) return made;
+  line.reset();
   std::uintmax_t bytes = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder, error))
     if (file.path().extension() == ".kept") bytes += file.file_size(error);
@@ -44,8 +63,10 @@ void addPrepare(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("prepare", "Make beforehand what takes long at a body's first use");
   sub->footer(
-      "Levels of detail of skin, bones and organs, and the distance fields of the bones. Commands that need them make\n"
-      "and keep them by themselves, in $XDG_CACHE_HOME/vasa (~/.cache/vasa), 512 MiB at most; --no-cache does without.\n\n"
+      "Levels of detail of skin, bones and organs, distance fields of the bones, how vessels hang on the body and where\n"
+      "they join, room for capillaries below the skin.\n"
+      "Commands that need them make and keep them by themselves, in $XDG_CACHE_HOME/vasa (~/.cache/vasa), 512 MiB at\n"
+      "most; --no-cache does without. Those of the built-in human come with the program.\n\n"
       "Examples:\n"
       "  vasa prepare --body body.glb --network body.vasa");
   addSceneOptions(*sub, options->scene);

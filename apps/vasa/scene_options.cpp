@@ -2,6 +2,9 @@
 
 #include <cstdlib>
 
+#include "engine_print.h"
+#include "kept_folders.h"
+
 // The built-in human is looked for in $VASA_DATA_DIR, then from the program's place: where it is installed
 // (../share/vasa) and where the build puts it (../data).
 namespace vasa::cli {
@@ -22,6 +25,13 @@ std::filesystem::path cacheFolder() {
   if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set == '/') return std::filesystem::path(set) / "vasa";
   if (const char* home = std::getenv("HOME"); home && *home == '/') return std::filesystem::path(home) / ".cache" / "vasa";
   return {};
+}
+
+KeptFolders keptFolders(std::filesystem::path own) {
+  const auto data = dataFolder();
+  return {.shipped = data ? std::vector{*data / "kept"} : std::vector<std::filesystem::path>{},
+          .own = std::move(own),
+          .engine = kEnginePrint};
 }
 
 void addSceneOptions(CLI::App& sub, SceneOptions& options) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <mutex>
 #include <string>
 
 #include "core/atomic_file.h"
 #include "core/bytes.h"
 #include "core/hash.h"
 #include "core/log.h"
-#include "engine_print.h"
 
 namespace fs = std::filesystem;
 
@@ -16,6 +16,8 @@ namespace vasa {
 namespace {
 
 KeptFolders folders;
+std::mutex failureMutex;
+std::optional<Error> failure;
 
 // Before what is kept; tells a whole file.
 struct Header {
@@ -25,19 +27,20 @@ struct Header {
 std::string nameOf(std::string_view kind, std::uint64_t key) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string name = std::string(kind) + '-';
-  for (const std::uint64_t number : {key, kEnginePrint})
+  for (const std::uint64_t number : {key, folders.engine})
     for (int shift = 60; shift >= 0; shift -= 4) name += kDigits[number >> shift & 15];
   return name + ".kept";
 }
 
 // By plain means: what is kept is no input (core/files_read.h).
 std::optional<std::vector<std::byte>> readWhole(const fs::path& path, std::uint64_t key) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return {};  // opening a pipe would hang
   std::ifstream file(path, std::ios::binary);
   Header header{};
   if (!file.read(reinterpret_cast<char*>(&header), sizeof(header))) return {};
-  std::error_code error;
-  if (header.engine != kEnginePrint || header.key != key) return {};
-  if (fs::file_size(path, error) != sizeof(header) + header.size || error) return {};
+  if (header.engine != folders.engine || header.key != key) return {};
+  if (fs::file_size(path, error) - sizeof(header) != header.size || error) return {};
   std::vector<std::byte> bytes(header.size);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()))) return {};
   if (hashBytes(bytes) != header.hash) return {};
@@ -64,16 +67,31 @@ void tidy(const fs::path& folder) {
   }
   std::ranges::sort(files, {}, &File::used);
   for (const File& file : files) {
-    if (sum <= kMostKept) break;
+    if (sum <= folders.most) break;
     fs::remove(file.path, error);
     sum -= file.size;
   }
+}
+
+Result<void> write(std::string_view kind, std::uint64_t key, std::span<const std::byte> bytes) {
+  const fs::path path = folders.own / nameOf(kind, key);
+  const std::uintmax_t size = sizeof(Header) + bytes.size();
+  if (size > folders.most)
+    return ioError(path.string() + ": " + std::to_string(size) + " bytes, more than the " + std::to_string(folders.most) +
+                   " that are kept in all");
+  std::error_code ignored;  // writing tells
+  fs::create_directories(folders.own, ignored);
+  ByteWriter file;
+  file.add(Header{folders.engine, key, hashBytes(bytes), bytes.size()});
+  file.addRaw(bytes);
+  return writeFileAtomically(path, file.bytes());
 }
 
 }  // namespace
 
 void setKeptFolders(KeptFolders given) {
   folders = std::move(given);
+  failure.reset();
 }
 
 std::optional<std::vector<std::byte>> findKept(std::string_view kind, std::uint64_t key) {
@@ -91,15 +109,18 @@ std::optional<std::vector<std::byte>> findKept(std::string_view kind, std::uint6
 
 void keep(std::string_view kind, std::uint64_t key, std::span<const std::byte> bytes) {
   if (folders.own.empty()) return;
-  std::error_code error;
-  fs::create_directories(folders.own, error);
-  ByteWriter file;
-  file.add(Header{kEnginePrint, key, hashBytes(bytes), bytes.size()});
-  file.addRaw(bytes);
-  const fs::path path = folders.own / nameOf(kind, key);
-  if (const auto written = writeFileAtomically(path, file.bytes()); !written)
-    return logDetail("not kept for later runs: " + written.error().message);
+  if (const auto written = write(kind, key, bytes); !written) {
+    logDetail("not kept for later runs: " + written.error().message);
+    const std::lock_guard lock(failureMutex);
+    if (!failure) failure = written.error();
+    return;
+  }
   tidy(folders.own);
+}
+
+Result<void> keptAll() {
+  const std::lock_guard lock(failureMutex);
+  return failure ? Result<void>(*failure) : Result<void>();
 }
 
 }  // namespace vasa

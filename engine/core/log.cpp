@@ -76,7 +76,8 @@ void ProgressLine::update(std::size_t done, std::size_t total) {
   if (state_->shown && done != total && now - state_->last < std::chrono::milliseconds(50)) return;
   state_->last = now;
   state_->shown = true;
-  std::fprintf(stderr, "\r\x1b[K%s %zu/%zu", state_->title.c_str(), done, total);
+  std::fprintf(stderr, "\r\x1b[K%s", state_->title.c_str());
+  if (total > 0) std::fprintf(stderr, " %zu/%zu", done, total);
   std::fflush(stderr);
 }
 

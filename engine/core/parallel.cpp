@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #ifdef __linux__
 #include <sys/resource.h>
@@ -12,6 +13,7 @@
 #include <thread>
 
 #include "core/cancellation.h"
+#include "core/isolated.h"
 
 namespace vasa {
 namespace {
@@ -43,6 +45,10 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
       body(i);
     }
   });
+}
+
+void isolated(const std::function<void()>& work) {
+  tbb::this_task_arena::isolate(work);
 }
 
 void giveWay() {

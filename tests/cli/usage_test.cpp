@@ -9,7 +9,7 @@ TEST_CASE("help and version succeed, on standard output") {
   CHECK(help.exit == 0);
   CHECK(help.out.find("render") != std::string::npos);
   CHECK(runProgram({"--version"}).out.starts_with("vasa "));
-  for (const char* command : {"convert", "render", "view", "info", "profile", "devices"}) {
+  for (const char* command : {"convert", "render", "view", "info", "prepare", "profile", "devices"}) {
     const auto own = runProgram({command, "--help"});
     CHECK(own.exit == 0);
     CHECK(own.out.find("Examples") != std::string::npos);
