@@ -7,6 +7,7 @@
 #include "core/bytes.h"
 #include "core/hash.h"
 #include "core/kept.h"
+#include "core/parallel.h"
 
 namespace vasa {
 namespace {
@@ -62,7 +63,9 @@ std::vector<DistanceField> SolidParts::fields() const {
   }
   if (fields.size() == parts_.size()) return fields;
   fields.clear();
-  for (const Part& part : parts_) fields.emplace_back(part.positions, part.triangles, DistanceField::Options{});
+  std::vector<std::optional<DistanceField>> made(parts_.size());
+  parallelFor(parts_.size(), 1, [&](std::size_t k) { made[k].emplace(parts_[k].positions, parts_[k].triangles, DistanceField::Options{}); });
+  for (auto& field : made) fields.push_back(std::move(*field));
   return fields;
 }
 

@@ -11,6 +11,7 @@
 #include "collide/obstacle.h"
 #include "core/bytes.h"
 #include "core/cancellation.h"
+#include "core/isolated.h"
 #include "mesh/weld.h"
 #include "mesh/winding_number.h"
 
@@ -32,9 +33,11 @@ struct DistanceField::Exact {
 
 const DistanceField::Exact& DistanceField::exact() const {
   std::call_once(exact_->once, [&] {
-    exact_->mesh = weld(exact_->mesh, 0);
-    exact_->surface = std::make_unique<Obstacle>(exact_->mesh.positions, exact_->mesh.triangles);
-    exact_->winding = std::make_unique<WindingNumber>(exact_->mesh.positions, exact_->mesh.triangles);
+    isolated([&] {
+      exact_->mesh = weld(exact_->mesh, 0);
+      exact_->surface = std::make_unique<Obstacle>(exact_->mesh.positions, exact_->mesh.triangles);
+      exact_->winding = std::make_unique<WindingNumber>(exact_->mesh.positions, exact_->mesh.triangles);
+    });
   });
   return *exact_;
 }
