@@ -42,15 +42,15 @@ Device::Device(const ForeignDevice& foreign)
 }
 
 void Device::createPipelineCache() {
-  VkPipelineCacheCreateInfo cacheInfo{};
-  cacheInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
-  VkPipelineCache cache = VK_NULL_HANDLE;
-  check(vkCreatePipelineCache(handle(), &cacheInfo, nullptr, &cache), "vkCreatePipelineCache");
-  pipelineCache_ = {handle(), cache};
-  setName(cache, "pipeline cache");
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  pipelines_ = PipelineStore(handle(), properties);
+  setName(pipelines_.handle(), "pipeline cache");
 }
 
-Device::~Device() = default;  // the queue waits
+Device::~Device() {  // the queue waits
+  pipelines_.keep();
+}
 
 Device::Owner::~Owner() {
   if (ours) vkDestroyDevice(device, nullptr);

@@ -10,6 +10,7 @@
 #include "gpu/address_map.h"
 #include "gpu/features.h"
 #include "gpu/instance.h"
+#include "gpu/pipeline_store.h"
 #include "gpu/queue.h"
 #include "gpu/unique.h"
 
@@ -54,7 +55,8 @@ class Device {
   VkInstance instance() const { return instance_.handle(); }
   VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return owner_.device; }
-  VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
+  /// Kept from run to run (gpu/pipeline_store.h), as it is when the device goes.
+  VkPipelineCache pipelineCache() const { return pipelines_.handle(); }
   const Adapter& adapter() const { return adapter_; }
   /// Draws with the processors that this program runs on.
   bool isCpu() const { return adapter_.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
@@ -118,7 +120,7 @@ class Device {
   PFN_vkCmdPushDescriptorSetKHR pushDescriptors_ = nullptr;
   Labels labels_;
   Owner owner_;
-  Unique<VkPipelineCache> pipelineCache_;
+  PipelineStore pipelines_;
   std::unique_ptr<Queue> queue_;
 };
 

@@ -1,6 +1,7 @@
 #include "gpu/driver_threads.h"
 
 #ifdef __linux__
+#include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@ namespace vasa::gpu {
 namespace {
 
 constexpr std::string_view kRasteriser = "llvmpipe-";
+constexpr const char* kMaker = "vasa-driver";
 
 std::vector<int> threadsOfProcess() {
   std::vector<int> threads;
@@ -31,10 +33,15 @@ std::vector<int> threadsOfProcess() {
   return threads;
 }
 
-bool isRasteriser(int thread) {
+std::string nameOf(int thread) {
   std::ifstream file("/proc/self/task/" + std::to_string(thread) + "/comm");
   std::string name;
-  return std::getline(file, name) && name.starts_with(kRasteriser);
+  std::getline(file, name);
+  return name;
+}
+
+bool isRasteriser(int thread) {
+  return nameOf(thread).starts_with(kRasteriser);
 }
 
 std::vector<int> processors() {
@@ -55,7 +62,14 @@ void keepOn(int thread, int processor) {
 
 }  // namespace
 
-DriverThreads::DriverThreads() : before_(threadsOfProcess()) {}
+DriverThreads::DriverThreads() : before_(threadsOfProcess()) {
+  pthread_getname_np(pthread_self(), name_.data(), name_.size());
+  pthread_setname_np(pthread_self(), kMaker);
+}
+
+DriverThreads::~DriverThreads() {
+  pthread_setname_np(pthread_self(), name_.data());
+}
 
 // The driver makes its rasterisers, then as many unnamed threads for compute shaders; ids grow in that order.
 void DriverThreads::spread() const {
@@ -63,12 +77,14 @@ void DriverThreads::spread() const {
   if (on.size() < 2) return;
   std::vector<int> made;
   std::ranges::set_difference(now, before_, std::back_inserter(made));
+  std::erase_if(made, [](int thread) { return nameOf(thread) != kMaker && !isRasteriser(thread); });
   const auto first = std::ranges::find_if(made, isRasteriser), last = std::find_if_not(first, made.end(), isRasteriser);
   const std::ptrdiff_t count = last - first;
   for (std::ptrdiff_t k = 0; k < 2 * count && k < made.end() - first; ++k) keepOn(first[k], on[std::size_t(k % count) % on.size()]);
 }
 #else
 DriverThreads::DriverThreads() = default;
+DriverThreads::~DriverThreads() = default;
 void DriverThreads::spread() const {}
 #endif
 

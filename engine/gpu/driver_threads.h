@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 namespace vasa::gpu {
@@ -9,12 +10,18 @@ namespace vasa::gpu {
 /// or with one processor.
 class DriverThreads {
  public:
-  DriverThreads();  ///< notes the threads that are there already
+  /// Notes the threads that are there already. While this lives the calling thread has another name, which threads that it
+  /// makes begin with: so they are told from those that other threads make meanwhile.
+  DriverThreads();
+  ~DriverThreads();
+  DriverThreads(const DriverThreads&) = delete;
+  DriverThreads& operator=(const DriverThreads&) = delete;
   /// Those made since. Call after the device was made.
   void spread() const;
 
  private:
   std::vector<int> before_;  // sorted
+  std::array<char, 16> name_{};
 };
 
 }  // namespace vasa::gpu
