@@ -130,10 +130,15 @@ bool isPartial(const Camera& camera, const Look& look) {
   return camera.cut || anyTranslucent(look);
 }
 
-SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target)
-    : whole_(make(device, target, false)), partial_(make(device, target, true)) {}
+SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) : device_(&device), target_(target) {}
 
-SurfacePass::Pipelines SurfacePass::make(gpu::Device& device, const gpu::TargetSpec& target, bool partial) const {
+const SurfacePass::Pipelines& SurfacePass::pipelines(const Look& look, bool partial) const {
+  std::optional<Pipelines>& made = made_[std::size_t(look.style)][partial];
+  if (!made) made.emplace(make(look.style, partial));
+  return *made;
+}
+
+SurfacePass::Pipelines SurfacePass::make(LookStyle style, bool partial) const {
   Pipelines made;
   const VertexLayout layout;
   gpu::GraphicsSpec common{
@@ -141,45 +146,43 @@ SurfacePass::Pipelines SurfacePass::make(gpu::Device& device, const gpu::TargetS
       .fragment = partial ? gpu::ShaderCode(spirv::partial_frag) : gpu::ShaderCode(spirv::opaque_frag),
       .pushBytes = sizeof(shared::DrawPush),
       .vertexInput = &layout.info,
-      .colour = target.colour,
-      .depth = target.depth,
-      .samples = target.samples,
+      .colour = target_.colour,
+      .depth = target_.depth,
+      .samples = target_.samples,
       .depthTest = VK_COMPARE_OP_GREATER,
   };
-  common.constants.set(1, partial ? std::uint32_t(target.samples) : 0u);
-  for (const LookStyle style : {LookStyle::atlas, LookStyle::clinical}) {
-    const std::size_t i = std::size_t(style);
-    gpu::GraphicsSpec spec = common;
-    spec.constants.set(0, std::uint32_t(style));
-    spec.name = "tubes";
-    if (partial) spec.cull = VK_CULL_MODE_NONE;  // cut open
-    made.tubes[i] = gpu::GraphicsPipeline(device, spec);
-    spec.name = "opaque meshes";
-    spec.cull = VK_CULL_MODE_BACK_BIT;
-    made.closed[i] = gpu::GraphicsPipeline(device, spec);
-    spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
-    made.opaque[i] = gpu::GraphicsPipeline(device, spec);
-    spec.name = "skin";
-    spec.cull = VK_CULL_MODE_BACK_BIT;
-    spec.fragment = spirv::skin_frag;
-    spec.depthTest = VK_COMPARE_OP_EQUAL;
-    spec.depthWrite = false;
-    spec.blend = gpu::Blend::premultiplied;
-    made.skinColour[i] = gpu::GraphicsPipeline(device, spec);
-  }
+  common.constants.set(1, partial ? std::uint32_t(target_.samples) : 0u);
   gpu::GraphicsSpec spec = common;
+  if (style == LookStyle::xray) {
+    spec.name = "x-ray";
+    spec.fragment = spirv::xray_frag;
+    spec.depthTest = VK_COMPARE_OP_ALWAYS;
+    spec.depthWrite = false;
+    spec.blend = gpu::Blend::add;
+    for (auto* pipeline : {&made.tubes, &made.opaque, &made.closed, &made.skinColour}) *pipeline = gpu::GraphicsPipeline(*device_, spec);
+    return made;
+  }
+  spec.constants.set(0, std::uint32_t(style));
+  spec.name = "tubes";
+  if (partial) spec.cull = VK_CULL_MODE_NONE;  // cut open
+  made.tubes = gpu::GraphicsPipeline(*device_, spec);
+  spec.name = "opaque meshes";
+  spec.cull = VK_CULL_MODE_BACK_BIT;
+  made.closed = gpu::GraphicsPipeline(*device_, spec);
+  spec.cull = VK_CULL_MODE_NONE;  // bones of scanned bodies have holes
+  made.opaque = gpu::GraphicsPipeline(*device_, spec);
+  spec.name = "skin";
+  spec.cull = VK_CULL_MODE_BACK_BIT;
+  spec.fragment = spirv::skin_frag;
+  spec.depthTest = VK_COMPARE_OP_EQUAL;
+  spec.depthWrite = false;
+  spec.blend = gpu::Blend::premultiplied;
+  made.skinColour = gpu::GraphicsPipeline(*device_, spec);
+  spec = common;
   spec.name = "skin depth";
   spec.fragment = partial ? gpu::ShaderCode(spirv::cut_frag) : gpu::ShaderCode{};
   spec.colourWrite = false;
-  made.skinDepth = gpu::GraphicsPipeline(device, spec);
-  spec.name = "x-ray";
-  spec.colourWrite = true;
-  spec.fragment = spirv::xray_frag;
-  spec.depthTest = VK_COMPARE_OP_ALWAYS;
-  spec.depthWrite = false;
-  spec.blend = gpu::Blend::add;
-  for (auto* pipelines : {&made.tubes, &made.opaque, &made.closed, &made.skinColour})
-    (*pipelines)[std::size_t(LookStyle::xray)] = gpu::GraphicsPipeline(device, spec);
+  made.skinDepth = gpu::GraphicsPipeline(*device_, spec);
   return made;
 }
 
@@ -188,7 +191,7 @@ void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push,
   push.colours = draws.colours.address();
   push.shiftAndOpacities = shiftAndOpacities(shared::kBlockShift, look.arteryOpacity, look.veinOpacity);
   push.opacity = kXrayVessels;
-  (partial ? partial_ : whole_).tubes[std::size_t(look.style)].bind(commands, push);
+  pipelines(look, partial).tubes.bind(commands, push);
   bindVertices(commands, draws.vertices, 0);
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
   // One by one: Vulkan 1.3 does not promise multiDrawIndirect, and a frame has few groups.
@@ -198,26 +201,24 @@ void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push,
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                                std::span<const MeshSet::Level> levels, const Look& look, bool partial) const {
-  const Pipelines& pipelines = partial ? partial_ : whole_;
+  const Pipelines& own = pipelines(look, partial);
   for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
     push.opacity = xrayLight(role);
     push.shiftAndOpacities = shiftAndOpacities(kWholePart, opacityOf(role, look));
-    drawParts(commands, push, meshes, levels, pipelines.opaque[std::size_t(look.style)],
-              pipelines.closed[std::size_t(look.style)], role);
+    drawParts(commands, push, meshes, levels, own.opaque, own.closed, role);
   }
 }
 
 void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                                     std::span<const MeshSet::Level> levels, const Look& look, bool partial) const {
-  const Pipelines& pipelines = partial ? partial_ : whole_;
+  const Pipelines& own = pipelines(look, partial);
   const bool xray = look.style == LookStyle::xray;
-  const gpu::GraphicsPipeline& colour = pipelines.skinColour[std::size_t(look.style)];
   push.shiftAndOpacities = shiftAndOpacities(kWholePart, 1);
   for (const MeshRole role : {MeshRole::organs, MeshRole::skin}) {
     const float opacity = role == MeshRole::skin ? look.skinOpacity : kOrganOpacity * look.otherOpacity;
     push.opacity = opacity * (xray ? xrayLight(role) : 1);
-    if (!xray) drawParts(commands, push, meshes, levels, pipelines.skinDepth, pipelines.skinDepth, role);
-    drawParts(commands, push, meshes, levels, colour, colour, role);
+    if (!xray) drawParts(commands, push, meshes, levels, own.skinDepth, own.skinDepth, role);
+    drawParts(commands, push, meshes, levels, own.skinColour, own.skinColour, role);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 
 #include "gpu/graphics_pipeline.h"
 #include "gpu/target.h"
@@ -29,7 +30,8 @@ VesselDraws drawsOf(const Template& filled);
 VesselDraws drawsOf(const PatchSet& patches);
 
 /// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
-/// reversed (clear to 0). `partial` is the frame's isPartial().
+/// reversed (clear to 0). `partial` is the frame's isPartial(). Pipelines of a style are made when it is first drawn in,
+/// those for partial frames likewise: most runs need a sixth of them. The device must outlive this.
 class SurfacePass {
  public:
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
@@ -46,12 +48,14 @@ class SurfacePass {
 
  private:
   struct Pipelines {
-    std::array<gpu::GraphicsPipeline, 3> tubes, opaque, closed, skinColour;  // one of each for every LookStyle
-    gpu::GraphicsPipeline skinDepth;
+    gpu::GraphicsPipeline tubes, opaque, closed, skinColour, skinDepth;
   };
-  Pipelines make(gpu::Device& device, const gpu::TargetSpec& target, bool partial) const;
+  const Pipelines& pipelines(const Look& look, bool partial) const;
+  Pipelines make(LookStyle style, bool partial) const;
 
-  Pipelines whole_, partial_;
+  gpu::Device* device_;
+  gpu::TargetSpec target_;
+  mutable std::array<std::array<std::optional<Pipelines>, 2>, 3> made_;  // for every LookStyle, whole and partial
 };
 
 }  // namespace vasa
