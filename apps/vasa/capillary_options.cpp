@@ -45,10 +45,15 @@ CapillaryWish wishOf(const CapillaryChoice& choice) {
 }
 
 Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice) {
+  return growthOf(scene, choice, choice.levels > 0 ? makeSweepTable(scene.network) : SweepTable{});
+}
+
+Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice, const SweepTable& table,
+                                              GrowthUse use) {
   if (choice.levels == 0) return std::unique_ptr<SceneGrowth>();
   const auto folder = rulesFolder(choice);
   if (!folder) return folder.error();
-  auto growth = loadGrowth(scene, *folder);
+  auto growth = loadGrowth(scene, *folder, table, use);
   if (!growth) return growth.error();
   return std::make_unique<SceneGrowth>(std::move(*growth));
 }

@@ -9,6 +9,8 @@
 #include "network/file.h"
 #include "network/measure.h"
 #include "report.h"
+#include "scene/make_scene.h"
+#include "scene/vessel_files.h"
 #include "scene_options.h"
 
 // vasa info: counts, sizes, lengths and volumes of a network, a body or a scene.
@@ -19,27 +21,6 @@ struct Options {
   std::string file;
   bool vessels = false;
 };
-
-Report networkReport(const Network& network, std::size_t fileBytes) {
-  const NetworkMeasures sum = measure(network, network.points());
-  std::size_t patchTriangles = 0;
-  for (const ForkPatch& patch : network.patches()) patchTriangles += patch.triangles.size();
-  return {{"kind", "network"},
-          {"vessels", network.vessels().size()},
-          {"arteries", sum.arteries},
-          {"veins", sum.veins},
-          {"sections", network.sectionCount()},
-          {"sweeps", network.sweepCount()},
-          {"junctions", network.junctionCount()},
-          {"components", network.componentCount()},
-          {"patches", network.patches().size()},
-          {"patch_triangles", patchTriangles},
-          {"length_m", sum.length},
-          {"volume_m3", sum.volume},
-          {"body_height_m", network.bodyHeight()},
-          {"file_bytes", fileBytes},
-          {"bytes_per_sweep", network.sweepCount() ? double(fileBytes) / network.sweepCount() : 0.0}};
-}
 
 Report vesselReport(const Network& network) {
   Report vessels = Report::array();
@@ -57,7 +38,30 @@ Report vesselReport(const Network& network) {
   return vessels;
 }
 
-Report bodyReport(const Body& body, std::size_t fileBytes) {
+Report networkReport(const Network& network, std::uintmax_t fileBytes, bool vessels) {
+  const NetworkMeasures sum = measure(network, network.points());
+  std::size_t patchTriangles = 0;
+  for (const ForkPatch& patch : network.patches()) patchTriangles += patch.triangles.size();
+  Report report{{"kind", "network"},
+          {"vessels", network.vessels().size()},
+          {"arteries", sum.arteries},
+          {"veins", sum.veins},
+          {"sections", network.sectionCount()},
+          {"sweeps", network.sweepCount()},
+          {"junctions", network.junctionCount()},
+          {"components", network.componentCount()},
+          {"patches", network.patches().size()},
+          {"patch_triangles", patchTriangles},
+          {"length_m", sum.length},
+          {"volume_m3", sum.volume},
+          {"body_height_m", network.bodyHeight()},
+          {"file_bytes", fileBytes},
+          {"bytes_per_sweep", network.sweepCount() ? double(fileBytes) / network.sweepCount() : 0.0}};
+  if (vessels) report["vessel"] = vesselReport(network);
+  return report;
+}
+
+Report bodyReport(const Body& body, std::uintmax_t fileBytes) {
   Report report{{"kind", "body"},
                 {"joints", body.skeleton.joints.size()},
                 {"body_height_m", body.height()},
@@ -98,31 +102,29 @@ std::string asText(const Report& report, const std::string& indent = "") {
   return text;
 }
 
-Result<Report> reportOf(const std::filesystem::path& file, bool vessels) {
+std::uintmax_t sizeOf(const std::filesystem::path& file) {
   std::error_code ignored;
-  const auto bytes = std::filesystem::file_size(file, ignored);
+  return std::filesystem::file_size(file, ignored);
+}
+
+Result<Report> reportOf(const std::filesystem::path& file, bool vessels) {
   if (file.extension() == ".vasa") {
     const auto network = readNetwork(file);
     if (!network) return network.error();
-    Report report = networkReport(*network, bytes);
-    if (vessels) report["vessel"] = vesselReport(*network);
-    return report;
+    return networkReport(*network, sizeOf(file), vessels);
   }
   if (file.extension() == ".glb" || file.extension() == ".gltf") {
     const auto body = readBody(file);
     if (!body) return body.error();
-    return bodyReport(*body, bytes);
+    return bodyReport(*body, sizeOf(file));
   }
   return Error{Fault::usage, file.string() + ": unknown kind of file; info reads .vasa, .glb, .gltf and scene .json files"};
 }
 
 // What would grow: nothing of it is stored.
-Result<Report> capillaryReport(const SceneFile& file) {
-  const auto scene = loadScene(file);
-  if (!scene) return scene.error();
-  CapillaryChoice choice = file.capillaries;
+Result<Report> capillaryReport(const Scene& scene, CapillaryChoice choice) {
   choice.levels = std::max(choice.levels, 3u);
-  const auto growth = growthOf(*scene, choice);
+  const auto growth = growthOf(scene, choice, makeSweepTable(scene.network), GrowthUse::counted);
   if (!growth) return growth.error();
   const SceneGrowth& grown = **growth;
   Report report{{"trees", curveCount(grown.rules.tables, grown.sites, 1)}};
@@ -138,20 +140,26 @@ Result<Report> capillaryReport(const SceneFile& file) {
   return report;
 }
 
-Result<Report> sceneReport(const SceneFile& scene, bool vessels) {
+Result<Report> sceneReport(const SceneFile& file, bool vessels) {
   Report report{{"kind", "scene"}};
-  auto body = reportOf(scene.body, vessels);
-  if (!body) return body;
-  report["body"] = std::move(*body);
+  auto body = loadBody(file);
+  if (!body) return body.error();
+  report["body"] = bodyReport(*body, sizeOf(file.body));
   report["networks"] = Report::array();
-  for (const auto& path : scene.networks) {
-    auto network = reportOf(path, vessels);
-    if (!network) return network;
+  std::vector<Network> networks;
+  std::string names;
+  for (const auto& path : file.networks) {
+    auto network = readVessels(path, body->height());
+    if (!network) return network.error();
     Report named{{"name", path.filename().string()}};
-    named.update(*network);
+    named.update(networkReport(*network, sizeOf(path), vessels));
     report["networks"].push_back(std::move(named));
+    names += (names.empty() ? "" : ", ") + path.filename().string();
+    networks.push_back(std::move(*network));
   }
-  auto capillaries = capillaryReport(scene);
+  const auto scene = makeScene(std::move(*body), std::move(networks), names);
+  if (!scene) return scene.error();
+  auto capillaries = capillaryReport(*scene, file.capillaries);
   if (!capillaries) return capillaries;
   report["capillaries"] = std::move(*capillaries);
   return report;

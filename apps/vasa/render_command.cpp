@@ -14,11 +14,14 @@
 #include "core/hash.h"
 #include "core/log.h"
 #include "endings.h"
+#include "core/parallel.h"
+#include "core/stage_log.h"
 #include "frame_output.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
 #include "io/png.h"
 #include "io/video.h"
+#include "loading_line.h"
 #include "render/renderer.h"
 #include "report.h"
 #include "scene_options.h"
@@ -50,6 +53,7 @@ struct Job {
   CameraMan camera;
   Look look;
   RenderOptions render;
+  SweepTable table;
   std::unique_ptr<SceneGrowth> growth;  // none without capillaries
   FrameRange range;
   Shard shard;
@@ -135,10 +139,16 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!lookNamed(job.choice.look.preset))
     return Error{Fault::usage, "--look " + job.choice.look.preset + ": choose atlas, clinical or xray"};
   if (auto hidden = hide(options.hide, job.choice.look); !hidden) return hidden.error();
-  auto scene = loadScene(job.choice);
+  LoadingLine line;
+  auto scene = loadScene(job.choice, line.told());
   if (!scene) return scene.error();
   job.scene = std::move(*scene);
-  auto growth = growthOf(job.scene, job.choice.capillaries);
+  line("planning where vessels join");
+  StageLog stages("planning where vessels join");
+  job.table = makeSweepTable(job.scene.network);
+  if (job.choice.capillaries.levels > 0) stages.next("preparing capillaries"), line("preparing capillaries");
+  auto growth = growthOf(job.scene, job.choice.capillaries, job.table);
+  stages.end();
   if (!growth) return growth.error();
   job.growth = std::move(*growth);
   if (!job.choice.clip.empty()) {
@@ -172,10 +182,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
 class Film {
  public:
   Film(const Job& job, const Options& options, const FrameOptions& frame, gpu::Device& device)
-      : job_(job),
-        options_(options),
-        maker_(job.scene, frame),
-        renderer_(device, job.scene.network, job.scene.body.meshes, job.render) {}
+      : job_(job), options_(options), making_(beside([&job, frame] { return makerOf(job, frame); })), renderer_(rendererOf(job, device)), maker_(making_.get()) {}
 
   Result<void> run() {
     ProgressLine progress("rendering");
@@ -215,15 +222,15 @@ class Film {
         return video_->write(*picture);
       }
     }
-    maker_.make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
+    maker_->make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
     noteStep(frame);
     if (options_.highlightContacts) highlightContacts();
-    renderer_.draw({.points = maker_.points(),
-                    .knotFrames = maker_.knotFrames(),
-                    .jointMatrices = maker_.jointMatrices(),
-                    .camera = job_.camera.at(job_.scene, maker_.pose(), maker_.points()),
+    renderer_.draw({.points = maker_->points(),
+                    .knotFrames = maker_->knotFrames(),
+                    .jointMatrices = maker_->jointMatrices(),
+                    .camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points()),
                     .look = job_.look,
-                    .heartScale = maker_.heartScale()});
+                    .heartScale = maker_->heartScale()});
     ++drawn;
     if (auto written = finishWriting(); !written) return written;
     writing_ = std::async(std::launch::async, [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
@@ -232,8 +239,8 @@ class Film {
 
   // Grey vessels; yellow where they ran through one another, red where they still do.
   void highlightContacts() {
-    maker_.lookAtPosed();
-    const Avoider& avoider = *maker_.avoider();
+    maker_->lookAtPosed();
+    const Avoider& avoider = *maker_->avoider();
     std::vector<std::uint32_t> colours(job_.scene.network.sweepCount(), packColour({0.5f, 0.5f, 0.55f, 1}));
     const auto paint = [&](std::span<const Interference::Place> places, vec4 colour) {
       for (const Interference::Place& place : places)
@@ -270,7 +277,7 @@ class Film {
   Result<void> finishWriting() { return writing_.valid() ? writing_.get() : Result<void>(); }
 
   void noteStep(std::uint32_t frame) {
-    const auto points = maker_.points();
+    const auto points = maker_->points();
     if (!previous_.empty() && frame == previousFrame_ + 1) {
       ++steps;
       for (std::size_t i = 0; i < points.size(); ++i) {
@@ -278,17 +285,36 @@ class Film {
         if (step > largestStep) largestStep = step, largestStepFrame = frame;
       }
       for (std::size_t j = 0; j < previousPose_.world.size(); ++j)
-        largestJointStep = std::max(largestJointStep, glm::distance(vec3(maker_.pose().world[j][3]), vec3(previousPose_.world[j][3])));
+        largestJointStep = std::max(largestJointStep, glm::distance(vec3(maker_->pose().world[j][3]), vec3(previousPose_.world[j][3])));
     }
     previous_.assign(points.begin(), points.end());
-    previousPose_ = maker_.pose();
+    previousPose_ = maker_->pose();
     previousFrame_ = frame;
+  }
+
+  // Work beside the caller's, unless one thread is to do everything.
+  template <class Work>
+  static auto beside(Work work) {
+    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, std::move(work));
+  }
+
+  static std::unique_ptr<FrameMaker> makerOf(const Job& job, const FrameOptions& frame) {
+    const StageLog stage("preparing how vessels move");
+    return std::make_unique<FrameMaker>(job.scene, frame);
+  }
+
+  static Renderer rendererOf(const Job& job, gpu::Device& device) {
+    const StageLog stage("preparing to draw");
+    RenderOptions options = job.render;
+    options.table = &job.table;
+    return Renderer(device, job.scene.network, job.scene.body.meshes, options);
   }
 
   const Job& job_;
   const Options& options_;
-  FrameMaker maker_;
+  std::future<std::unique_ptr<FrameMaker>> making_;
   Renderer renderer_;
+  std::unique_ptr<FrameMaker> maker_;
   std::optional<VideoWriter> video_;
   std::future<Result<void>> writing_;
   std::vector<vec4> previous_;
@@ -342,12 +368,17 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (options.output.empty() && options.video.empty()) return makeTrack(globals, options, *job);
   const auto start = std::chrono::steady_clock::now();
   const auto film = gpu::attempt([&]() -> Result<Report> {
+    StageLog stages("opening the device");
     gpu::Device device({.choice = globals.device});
+    stages.end();
     logDetail("device: " + device.adapter().name);
     FrameOptions frame = frameOptions(options);
     const auto track = TrackFile::open(options.track, job->scene, job->clip, frame);
     if (!track) return track.error();
+    std::optional<LoadingLine> line(std::in_place);
+    (*line)("preparing to draw");
     Film work(*job, options, frame, device);
+    line.reset();
     const auto done = work.run();
     // A run that is stopped keeps what it solved, too.
     if (auto saved = track->save(); !saved) return saved.error();

@@ -7,6 +7,7 @@
 
 #include "body/arcs.h"
 #include "body/belonging.h"
+#include "body/kept_binding.h"
 #include "body/stillness.h"
 #include "body/ties.h"
 #include "core/cancellation.h"
@@ -140,10 +141,7 @@ void appendRecords(std::span<const LimbShare> limbs, std::vector<BindingRecord>&
   }
 }
 
-}  // namespace
-
-Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
-                           std::span<const Tie> ties) {
+Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::string_view name, std::span<const Tie> ties) {
   Result<SpineSet> spines = deriveSpines(body.skeleton, body.name);
   if (!spines) return spines.error();
   if (points.empty()) return badInput(fmt::format("{}: there are no vessels to bind to {}", name, body.name));
@@ -164,15 +162,34 @@ Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::
     if (i % Binding::kBlock == 0) binding.firstRecord.push_back(std::uint32_t(binding.records.size()));
     appendRecords(binder.bind(i), binding.records);
   }
-  if (const float behind = shareLeftBehind(body, binding, points); behind > kMostLeftBehind)
+  const float behind = shareLeftBehind(body, binding, points);
+  return Bound{std::move(binding), behind};
+}
+
+Binding warned(Bound bound, const Body& body, std::string_view name) {
+  if (bound.behind > kMostLeftBehind)
     logWarning(fmt::format("{}: {:.0f} % of these vessels stay in the rest pose while {} moves; bind its skin's vertices "
                            "to the joints that move it, or leave out meshes that follow other joints",
-                           name, 100 * behind, body.name));
-  return binding;
+                           name, 100 * bound.behind, body.name));
+  return std::move(bound.binding);
+}
+
+}  // namespace
+
+Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
+                           std::span<const Tie> ties) {
+  auto made = bindAnew(body, points, name, ties);
+  if (!made) return made.error();
+  return warned(std::move(*made), body, name);
 }
 
 Result<Binding> bind(const Body& body, const Network& network, std::string_view name) {
-  return bindPoints(body, network.points(), name, tiesOf(network));
+  const std::uint64_t key = boundKey(body, network);
+  if (auto kept = findBound(key, body)) return warned(std::move(*kept), body, name);
+  auto made = bindAnew(body, network.points(), name, tiesOf(network));
+  if (!made) return made.error();
+  keepBound(key, *made);
+  return warned(std::move(*made), body, name);
 }
 
 }  // namespace vasa

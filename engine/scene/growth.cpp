@@ -86,7 +86,8 @@ void findPartners(const Network& network, const PosedNetwork& rest, float farthe
 
 }  // namespace
 
-CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions, const SweepTable& table) {
+CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions, const SweepTable& table,
+                           GrowthUse use) {
   const Network& network = scene.network;
   const SpineSet& spines = scene.binding.spines;
   std::vector<quat> frames(table.knotCount);
@@ -94,7 +95,6 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
   const PosedNetwork rest{table, network.points(), frames};
   const std::vector<Station> stations = mainStations(scene.binding);
   const float scale = scene.body.height() / kTableHeight;
-  const GrowthRoom room(scene.body, kMostReach * scale);
   const std::vector<bool> drawn = drawnSpans(table);
   const std::vector<vec2> shown = shownStretches(network, table);
   CapillarySites sites{.spans = wholeSpans(network), .sites = {}, .freeEnds = {}, .region = {}};
@@ -126,7 +126,6 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     shared::GrowthSite& site = sites.sites[i];
     site.hub = glm::transpose(axes) * (hub - section.centre);
     site.axis = glm::transpose(axes) * limb.axis;
-    room.measure(rest, span, site);
     site.system = region->system | (points.front().w < points.back().w ? 0x100u : 0u);
     site.stretch = stretch;
     site.key = keyOf(span.vessel, span.point - span.firstPoint);
@@ -136,6 +135,11 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     // What is left of a tree over the whole ones grows in as many spans as its share says.
     site.sprouts = std::uint32_t(std::min(length / (region->spacing * scale) + unitFloat(scramble(keyOf(7, site.key))), 4000.0f));
   });
+  if (use == GrowthUse::drawn) {
+    std::vector<std::uint8_t> grows(count);
+    for (std::size_t i = 0; i < count; ++i) grows[i] = sites.region[i] != 255;
+    measureRooms(scene.body, kMostReach * scale, rest, sites.spans, grows, sites.sites);
+  }
   findPartners(network, rest, kPartnerFar * scale, sites);
   return sites;
 }
@@ -144,7 +148,13 @@ Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& 
   return loadGrowth(scene, folder, makeSweepTable(scene.network));
 }
 
-Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder, const SweepTable& table) {
+Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder, const SweepTable& table, GrowthUse use) {
+  auto growth = readGrowth(scene, folder);
+  if (growth) settleGrowth(*growth, scene, table, use);
+  return growth;
+}
+
+Result<SceneGrowth> readGrowth(const Scene& scene, const std::filesystem::path& folder) {
   SceneGrowth growth;
   auto rules = readGrowthRules(folder / "capillaries.lsys");
   if (!rules) return rules.error();
@@ -154,8 +164,11 @@ Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& 
   growth.regions = std::move(*regions);
   const float scale = scene.body.height() / kTableHeight;
   for (shared::GrowthSystem& system : growth.rules.tables.system) system.mostRadius *= scale;
-  growth.sites = growthSites(scene, growth.rules, growth.regions, table);
   return growth;
+}
+
+void settleGrowth(SceneGrowth& growth, const Scene& scene, const SweepTable& table, GrowthUse use) {
+  growth.sites = growthSites(scene, growth.rules, growth.regions, table, use);
 }
 
 }  // namespace vasa

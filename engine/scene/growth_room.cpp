@@ -5,6 +5,10 @@
 
 #include "body/point_tree.h"
 #include "body/skin_field.h"
+#include "core/bytes.h"
+#include "core/hash.h"
+#include "core/kept.h"
+#include "core/parallel.h"
 
 namespace vasa {
 namespace {
@@ -13,6 +17,46 @@ constexpr float kBelowSkin = 0.8f;  // share of the way to a vertex of the skin 
 constexpr float kFacing = 0.3f;     // least cosine between the skin's normal and the way to it
 constexpr float kBehind = 0.95f;    // vertices beyond this share of that way are the same wall's
 constexpr std::array<float, 5> kProbes{0, 0.25f, 0.5f, 0.75f, 1};  // places on the span
+constexpr const char* kKind = "rooms";
+
+// What is kept of a site.
+struct Room {
+  float reach;
+  std::array<vec4, shared::kGrowthWalls> wall;
+};
+
+std::uint64_t keyOf(const Body& body, float most, const PosedNetwork& rest, std::span<const shared::SweepRecord> spans,
+                    std::span<const std::uint8_t> grows) {
+  std::uint64_t key = hashOf(std::span<const float>(&most, 1));
+  if (const SkinnedMesh* skin = skinOf(body)) key = hashOf(std::span(skin->mesh.triangles), hashOf(std::span(skin->mesh.positions), key));
+  return hashOf(grows, hashOf(spans, hashOf(rest.knotFrames, hashOf(rest.points, key))));
+}
+
+bool restore(std::span<const std::byte> bytes, std::span<const std::uint8_t> grows, std::span<shared::GrowthSite> sites) {
+  ByteReader in(bytes);
+  std::vector<Room> rooms;
+  if (!in.takeAll(rooms) || rooms.size() != std::size_t(std::ranges::count_if(grows, [](std::uint8_t own) { return own != 0; })))
+    return false;
+  auto room = rooms.begin();
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (!grows[i]) continue;
+    sites[i].reach = room->reach;
+    std::ranges::copy(room->wall, sites[i].wall);
+    ++room;
+  }
+  return true;
+}
+
+void keepRooms(std::uint64_t key, std::span<const std::uint8_t> grows, std::span<const shared::GrowthSite> sites) {
+  std::vector<Room> rooms;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (!grows[i]) continue;
+    std::ranges::copy(sites[i].wall, rooms.emplace_back(Room{sites[i].reach, {}}).wall.begin());
+  }
+  ByteWriter out;
+  out.addAll(std::span<const Room>(rooms));
+  keep(kKind, key, out.bytes());
+}
 
 }  // namespace
 
@@ -67,6 +111,18 @@ void GrowthRoom::measure(const PosedNetwork& rest, const shared::SweepRecord& sp
     std::erase_if(skin, [&](const Place& p) { return glm::dot(normal, p.at) >= kBehind * offset; });
   }
   if (const auto found = nearest(); found != skin.end()) site.reach = std::min(most_, kBelowSkin * glm::length(found->at));
+}
+
+void measureRooms(const Body& body, float most, const PosedNetwork& rest, std::span<const shared::SweepRecord> spans,
+                  std::span<const std::uint8_t> grows, std::span<shared::GrowthSite> sites) {
+  const std::uint64_t key = keyOf(body, most, rest, spans, grows);
+  if (const auto kept = findKept(kKind, key))
+    if (restore(*kept, grows, sites)) return;
+  const GrowthRoom room(body, most);
+  parallelFor(sites.size(), 16, [&](std::size_t i) {
+    if (grows[i]) room.measure(rest, spans[i], sites[i]);
+  });
+  keepRooms(key, grows, sites);
 }
 
 }  // namespace vasa

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 
 #include "body/body.h"
 #include "shared/growth.h"
@@ -24,5 +25,11 @@ class GrowthRoom {
   std::unique_ptr<Skin> skin_;
   float most_;
 };
+
+/// measure() for all spans whose sites are to have trees, several at a time, or what an earlier run kept of it (core/kept.h).
+/// @param grows  one a span
+/// @param sites  one a span; reach and walls are set where it grows
+void measureRooms(const Body& body, float most, const PosedNetwork& rest, std::span<const shared::SweepRecord> spans,
+                  std::span<const std::uint8_t> grows, std::span<shared::GrowthSite> sites);
 
 }  // namespace vasa

@@ -4,10 +4,12 @@
 
 #include "body/retarget.h"
 #include "core/cancellation.h"
+#include "core/stage_log.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
 #include "network/measure.h"
 #include "network/merge.h"
+#include "scene/make_scene.h"
 #include "scene/vessel_files.h"
 
 namespace vasa {
@@ -72,8 +74,10 @@ Result<Body> loadBody(const SceneFile& file) {
 }
 
 Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
+  StageLog stages;
   const auto tell = [&](const char* what) {
     checkpoint();
+    stages.next(what);
     if (told) told(what, 0, 0);
   };
   tell("reading the body");
@@ -86,14 +90,18 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
     if (!network) return network.error();
     networks.push_back(std::move(*network));
   }
-  auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
-  if (!network) return network.error();
   tell("binding vessels to the body");
   std::string names;
   for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
-  auto binding = vasa::bind(*body, *network, names);
+  return makeScene(std::move(*body), std::move(networks), names);
+}
+
+Result<Scene> makeScene(Body body, std::vector<Network> networks, std::string_view names) {
+  auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
+  if (!network) return network.error();
+  auto binding = vasa::bind(body, *network, names);
   if (!binding) return binding.error();
-  return Scene{std::move(*body), std::move(*network), std::move(*binding)};
+  return Scene{std::move(body), std::move(*network), std::move(*binding)};
 }
 
 Result<const Clip*> findClip(const Body& body, std::string_view name) {

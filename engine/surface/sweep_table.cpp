@@ -5,7 +5,9 @@
 
 #include "core/parallel.h"
 #include "curve/frame.h"
+#include "network/network_key.h"
 #include "surface/fork_record.h"
+#include "surface/kept_table.h"
 
 namespace vasa {
 namespace {
@@ -35,10 +37,13 @@ void addTube(const Network& network, const TubeStretch& tube, std::uint32_t span
 }  // namespace
 
 SweepTable makeSweepTable(const Network& network) {
+  const std::uint64_t key = networkKey(network);
+  if (auto kept = findTable(key)) return std::move(*kept);
   ForkPlan plan = planForks(network);
   PatchTable patches = takePatches(network, plan);
   SweepTable table = makeSweepTable(network, std::move(plan));
   table.patches = std::move(patches);
+  keepTable(key, table);
   return table;
 }
 

@@ -1,0 +1,12 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vasa {
+
+/// The second half of loadScene(): merges vessels and binds them to the body. @param names  of their files, for messages
+Result<Scene> makeScene(Body body, std::vector<Network> networks, std::string_view names);
+
+}  // namespace vasa
