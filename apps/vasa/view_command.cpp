@@ -29,6 +29,8 @@ struct Options {
   bool validate = false;
 };
 
+const auto kStart = std::chrono::steady_clock::now();  // before main()
+
 constexpr const char* kDroppable = "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh)";
 
 // What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file with a
@@ -94,6 +96,7 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   view.record = options.record;
   view.open = sceneOf;
   view.stopped = [] { return stopRequested(); };
+  view.start = kStart;
   return view;
 }
 
@@ -114,6 +117,8 @@ Report asReport(const viewer::ViewReport& view) {
   return {{"frames", view.frames},
           {"pictures", view.pictures},
           {"shapes", view.shapes},
+          {"first_picture_ms", view.firstPictureMs},
+          {"first_solved_ms", view.firstSolvedMs},
           {"shown_ms", view.frameMs},
           {"fps", view.frameMs > 0 ? 1000 / view.frameMs : 0},
           {"shape_ms", view.shapeMs},

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -25,6 +26,7 @@ struct ViewOptions {
   /// The scene that a dropped file means where `now` is shown. Called on the loading thread.
   std::function<Result<SceneFile>(const std::filesystem::path&, const SceneFile& now)> open;
   std::function<bool()> stopped;  ///< by a signal
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  ///< of the program
 };
 
 /// What loading something was like for the person before the window.
@@ -38,6 +40,8 @@ struct LoadReport {
 /// What a session was like.
 struct ViewReport {
   std::uint64_t frames = 0, pictures = 0, shapes = 0;
+  double firstPictureMs = 0;  ///< from the program's start until a picture of the body and its vessels was shown
+  double firstSolvedMs = 0;   ///< ... in which vessels are moved apart, too
   double frameMs = 0;  ///< median between pictures shown while things moved
   double shapeMs = 0, pictureMs = 0;
   std::vector<std::pair<std::string, double>> stages;  ///< medians [ms], as the timing panel has them

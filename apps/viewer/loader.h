@@ -21,7 +21,6 @@ class Loader {
     std::string title;
     SceneChoice scene;
     std::filesystem::path rules;  ///< as loadDocument()
-    Forces forces;
   };
   /// Starts; cancels what is being loaded. @param changed  called from the loading thread at every step and at the end
   void start(Wanted wanted, std::function<void()> changed);

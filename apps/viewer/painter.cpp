@@ -32,7 +32,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                         .occlusion = shot.fine,
                         .seed = seed_,
                         .timed = timed_};
-  options.growth = document_->growth.get();
+  if (detail_.capillaries > 0) options.growth = document_->growth.get();
   options.capillaries = {.levels = unsigned(detail_.capillaries),
                          .edges = document_->file.capillaries.edges,
                          .budget = document_->file.capillaries.budget,

@@ -4,6 +4,7 @@
 
 #include "core/clock.h"
 #include "core/parallel.h"
+#include "core/stage_log.h"
 
 namespace vasa::viewer {
 namespace {
@@ -38,12 +39,9 @@ bool PoseOrder::operator==(const PoseOrder& other) const {
 struct PoseWorker::Maker {
   explicit Maker(const PoseOrder& like)
       : order(like),
-        frames(!like.contacts && like.forces == like.document->forces
-                   ? like.document->maker
-                   : std::make_shared<FrameMaker>(like.document->scene, frameOptions(like.forces, like.contacts))),
-        maker(*frames) {}
+        maker(like.document->scene, frameOptions(like.forces, like.contacts)) {}
 
-  std::shared_ptr<const PosedBody> make(const PoseOrder& wanted) {
+  std::shared_ptr<PosedBody> make(const PoseOrder& wanted) {
     const auto start = Clock::now();
     const Body& body = wanted.document->scene.body;
     const Clip* clip = wanted.clip >= 0 ? &body.clips[std::size_t(wanted.clip)] : nullptr;
@@ -79,10 +77,19 @@ struct PoseWorker::Maker {
     return done;
   }
 
+  // What takes little to set up.
+  static std::shared_ptr<const PosedBody> provisional(const PoseOrder& order) {
+    PoseOrder quick = order;
+    quick.forces.avoid = quick.contacts = quick.measures = false;
+    auto made = Maker(quick).make(quick);
+    made->order = order;
+    made->provisional = true;
+    return made;
+  }
+
   PoseOrder order;  // keeps the document alive
   bool live = false;  // something is on the screen: what is posed by hand goes on from there
-  std::shared_ptr<FrameMaker> frames;
-  FrameMaker& maker;
+  FrameMaker maker;
   std::optional<VesselMeter> meter;
 };
 
@@ -137,10 +144,21 @@ std::shared_ptr<const PosedBody> PoseWorker::make(const PoseOrder& order) {
     std::rotate(found, found + 1, makers_.end());
   } else {
     std::erase_if(makers_, [&](const auto& maker) { return maker->order.document != order.document; });
+    if (makers_.empty() && (order.forces.avoid || order.contacts)) show(Maker::provisional(order));
+    const StageLog stage("behind the picture: preparing how vessels move");
     if (makers_.size() == kMostMakers) makers_.erase(makers_.begin());
     makers_.push_back(std::make_unique<Maker>(order));
   }
   return makers_.back()->make(order);
+}
+
+void PoseWorker::show(std::shared_ptr<const PosedBody> made) {
+  {
+    const std::lock_guard lock(mutex_);
+    latest_ = std::move(made);
+  }
+  changed_.notify_all();
+  done_();
 }
 
 void PoseWorker::work() {

@@ -7,6 +7,7 @@
 
 #include "core/cancellation.h"
 #include "viewer/document.h"
+#include "viewer/forces.h"
 #include "viewer/posing.h"
 #include "scene/frame.h"
 #include "scene/measurements.h"
@@ -39,9 +40,11 @@ struct PosedBody {
   std::uint32_t contactsBefore = 0;              ///< pairs of tubes that ran through one another; only with contacts
   std::vector<VesselMeasures> measures;          ///< one a vessel; empty unless ordered
   double ms = 0;                                 ///< all of it but the measures
+  bool provisional = false;  ///< as the pose alone has it, for a document's first pictures: the order is being made
 };
 
-/// Makes shapes on a thread of its own while earlier ones are drawn. Of orders that come in faster than they are done
+/// Makes shapes on a thread of its own while earlier ones are drawn. Before a document's first, for which more has to be
+/// set up, comes a provisional one. Of orders that come in faster than they are done
 /// only the latest is; one for another document cancels what is being done, and so does the end.
 class PoseWorker {
  public:
@@ -63,6 +66,7 @@ class PoseWorker {
   struct Maker;
   void work();
   std::shared_ptr<const PosedBody> make(const PoseOrder& order);
+  void show(std::shared_ptr<const PosedBody> made);
 
   std::function<void()> done_;
   mutable std::mutex mutex_;

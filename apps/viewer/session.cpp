@@ -2,11 +2,12 @@
 
 #include "core/atomic_file.h"
 #include "core/log.h"
+#include "core/stage_log.h"
 #include "gpu/error.h"
 
 namespace vasa::viewer {
 
-Session::Session(const ViewOptions& options, const Settings& settings, Window& window)
+Session::Session(const ViewOptions& options, const Settings& settings, Window& window, Loader& loader)
     : options_(options),
       window_(window),
       ui_(options.uiScale > 0 ? options.uiScale : options.script ? 1.0f : window.scale()),
@@ -21,13 +22,14 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       state_(settings.state),
       pointer_(ui_.scale()),
       poseTool_(ui_.scale()),
+      loader_(loader),
       worker_([] { Window::wake(); }, device_.isCpu()),
       width_(window.width()),
       height_(window.height()) {
   ui_.useClipboard(window);
-  dropped_ = options.dropped;
-  if (dropped_.empty()) open(titleOf(options.file), [file = options.file] { return file; });
-  else openDropped();
+  report_.loads.push_back({.title = loader_.title(), .outcome = "loading"});
+  loadStart_ = options.start;
+  lastWatched_ = Clock::now();
 }
 
 Result<ViewReport> Session::run() {
@@ -103,7 +105,7 @@ void Session::orderShape() {
                   .forces = state_.forces,
                   .contacts = state_.contacts,
                   .measures = state_.selected && !state_.playback.playing};
-  const bool done = body_ && body_->order == order;
+  const bool done = body_ && !body_->provisional && body_->order == order;
   // While a shape is being made only a person's wishes go before it, not the next moment of a clip.
   if (!done && !worker_.busy()) worker_.order(std::move(order));
   if (steady() && (recording_.running() || body_ || settling_)) worker_.wait();
@@ -113,9 +115,10 @@ void Session::takeShape() {
   const auto latest = worker_.latest();
   if (!latest || latest == body_ || latest->order.document != document_) return;
   body_ = latest;
+  follow();
+  if (body_->provisional) return;
   ++report_.shapes;
   timings_.addShape(body_->report, body_->ms);
-  follow();
 }
 
 void Session::follow() {
@@ -176,9 +179,15 @@ Result<ViewReport> view(const ViewOptions& options) {
   Settings settings;
   if (!options.script) loadSettings(settings);
   if (options.width > 0) settings.width = options.width, settings.height = options.height;
+  StageLog stages("opening the window");
   auto window = Window::open("vasa", settings.width, settings.height);
   if (!window) return window.error();
-  Session session(options, settings, *window);
+  // What is shown first is loaded while the device is made ready.
+  Loader loader;
+  loader.start(firstWanted(options), [] { Window::wake(); });
+  stages.next("opening the device and the panels");
+  Session session(options, settings, *window, loader);
+  stages.end();
   return session.run();
 }
 

@@ -21,6 +21,9 @@ namespace vasa::viewer {
 constexpr double kScriptFrame = 1.0 / 30, kFrame = 1.0 / 60;  ///< [s] of a script's frames, least of a person's
 constexpr int kRestingFrames = 3;  ///< pictures of the panels until they have come to rest
 
+/// What a session opens first.
+Loader::Wanted firstWanted(const ViewOptions& options);
+
 /// A window's surface; goes before the device.
 class Surface {
  public:
@@ -40,7 +43,8 @@ class Surface {
 /// frame and shapes are waited for, so that the same script gives the same pictures.
 class Session {
  public:
-  Session(const ViewOptions& options, const Settings& settings, Window& window);
+  /// @param loader  loads firstWanted() already
+  Session(const ViewOptions& options, const Settings& settings, Window& window, Loader& loader);
   Result<ViewReport> run();
 
  private:
@@ -59,7 +63,6 @@ class Session {
 
   // time and shapes
   double pass();
-  void open(std::string title, SceneChoice choice);
   void openDropped();
   void adopt();
   void cancelLoading();
@@ -80,6 +83,7 @@ class Session {
   void moveCamera();
   bool drawScene();
   void drawWindow();
+  void noteFirst();
   void meetWishes();
   void record();
   void profile();
@@ -101,7 +105,7 @@ class Session {
   PoseTool poseTool_;
   Recording recording_;
   std::unique_ptr<Profiler> profiler_;
-  Loader loader_;
+  Loader& loader_;
   PoseWorker worker_;
   std::shared_ptr<const Document> document_;
   std::shared_ptr<const PosedBody> body_;

@@ -3,20 +3,13 @@
 // How a session comes by what it shows: loaded beside the window, adopted when all of it is there.
 namespace vasa::viewer {
 
-void Session::open(std::string title, SceneChoice choice) {
-  if (loader_.busy()) cancelLoading();
-  report_.loads.push_back({.title = title, .outcome = "loading"});
-  loadStart_ = lastWatched_ = Clock::now();
-  loader_.start({std::move(title), std::move(choice), options_.rules, state_.forces}, [] { Window::wake(); });
-  panelFrames_ = kRestingFrames;
-}
+namespace {
 
 // What is dropped together belongs together: a body and its vessels.
-void Session::openDropped() {
+Loader::Wanted wantedOf(const ViewOptions& options, std::vector<std::filesystem::path> files, const SceneFile& shown) {
   std::string title;
-  for (const auto& file : dropped_) title += (title.empty() ? "" : ", ") + file.filename().string();
-  const SceneFile& shown = document_ ? document_->file : options_.file;
-  open(title, [open = options_.open, files = std::exchange(dropped_, {}), shown]() -> Result<SceneFile> {
+  for (const auto& file : files) title += (title.empty() ? "" : ", ") + file.filename().string();
+  const auto choice = [open = options.open, files = std::move(files), shown]() -> Result<SceneFile> {
     SceneFile scene = shown;
     for (const auto& file : files) {
       auto next = open(file, scene);
@@ -24,7 +17,24 @@ void Session::openDropped() {
       scene = std::move(*next);
     }
     return scene;
-  });
+  };
+  return {std::move(title), choice, options.rules};
+}
+
+}  // namespace
+
+Loader::Wanted firstWanted(const ViewOptions& options) {
+  if (!options.dropped.empty()) return wantedOf(options, options.dropped, options.file);
+  return {titleOf(options.file), [file = options.file] { return file; }, options.rules};
+}
+
+void Session::openDropped() {
+  if (loader_.busy()) cancelLoading();
+  auto wanted = wantedOf(options_, std::exchange(dropped_, {}), document_ ? document_->file : options_.file);
+  report_.loads.push_back({.title = wanted.title, .outcome = "loading"});
+  loadStart_ = lastWatched_ = Clock::now();
+  loader_.start(std::move(wanted), [] { Window::wake(); });
+  panelFrames_ = kRestingFrames;
 }
 
 void Session::cancelLoading() {

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <array>
 
+#include "core/log.h"
 #include "curve/bspline.h"
 #include "io/png.h"
 #include "viewer/paint.h"
@@ -152,6 +155,20 @@ void Session::drawWindow() {
   timings_.addWindow(msBetween(start, declared), msBetween(declared, drawn), msBetween(drawn, Clock::now()));
   if (panelFrames_ > 0) --panelFrames_;
   ++report_.frames;
+  noteFirst();
+}
+
+// How long a person waited.
+void Session::noteFirst() {
+  if (!shown_ || report_.firstSolvedMs > 0) return;
+  const double ms = msBetween(options_.start, Clock::now());
+  if (report_.firstPictureMs == 0) {
+    report_.firstPictureMs = ms;
+    logDetail(fmt::format("{:7.1f} ms  from the start to the first picture", ms));
+  }
+  if (shown_->body->provisional) return;
+  report_.firstSolvedMs = ms;
+  logDetail(fmt::format("{:7.1f} ms  from the start to the first picture with vessels moved apart", ms));
 }
 
 // A picture of the video for every picture that is drawn.

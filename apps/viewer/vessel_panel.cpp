@@ -21,7 +21,7 @@ void showVesselSection(const PanelInput& in) {
       detail.along = quads[1];
     }
   }
-  if (in.document && in.document->growth) {
+  if (in.document && in.document->growth.any()) {
     ImGui::SetNextItemWidth(-90 * in.scale);
     ImGui::SliderInt("Capillaries", &detail.capillaries, 0, int(shared::kMostGrowthLevels), detail.capillaries ? "%d generations" : "none",
                      ImGuiSliderFlags_AlwaysClamp);

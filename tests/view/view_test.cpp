@@ -35,7 +35,8 @@ std::filesystem::path scriptIn(const std::filesystem::path& folder, std::string 
 }
 
 ProgramOptions on(const VirtualDisplay& display, const TemporaryFolder& home) {
-  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(), "XDG_CACHE_HOME=" + home.path().string()}, .folder = home.path().string()};
+  static const TemporaryFolder cache;  // the driver compiles shaders once for all sessions
+  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(), "XDG_CACHE_HOME=" + cache.path().string()}, .folder = home.path().string()};
 }
 
 void checkPicture(const std::filesystem::path& found, const std::string& name) {
