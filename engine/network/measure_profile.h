@@ -1,0 +1,27 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "math/types.h"
+
+namespace vasa {
+
+/// A place along a vessel and what is measured there.
+struct Station {
+  float along = 0;      ///< [m] of arc from the vessel's start
+  float parameter = 0;  ///< u in [0, spans]
+  vec3 centre{0};       ///< [m]
+  vec3 tangent{0};      ///< unit
+  float radius = 0;     ///< [m]
+  float curvature = 0;  ///< [1/m] of the centre line
+
+  float area() const { return kPi * radius * radius; }  ///< [m²] of the lumen, at right angles to the centre line
+};
+
+/// Stations along one vessel at equal distances, both ends included.
+/// @param points  de Boor points of one vessel
+/// @param step    [m] > 0: they are no farther apart
+/// O(spans + stations)
+std::vector<Station> stationsOf(std::span<const vec4> points, float step);
+
+}  // namespace vasa
