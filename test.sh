@@ -59,7 +59,7 @@ if [[ "$preset" = faults || "$preset" = soak ]]; then
 fi
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
-  readers=(swc vtp bvh obj stl gltf map rules scene vasa)
+  readers=(swc vtp bvh obj stl gltf map rules scene vasa vedit)
   cmake --build --preset fuzz --target "${readers[@]/#/fuzz_}"
   mkdir -p build/fuzz/found
   # As many at a time as there are cores.
@@ -74,7 +74,7 @@ fi
 select=()
 targets=()
 case "$preset" in
-  asan) wanted='core math curve mesh network convert body io collide fuzz' ;;
+  asan) wanted='core math curve mesh network edit convert body io collide fuzz' ;;
   tsan) wanted='core convert collide' ;;
   *) wanted='' ;;
 esac

@@ -8,6 +8,7 @@
 #include "body/retarget.h"
 #include "core/hash.h"
 #include "core/log.h"
+#include "edit/replay.h"
 #include "growth/growth_rules.h"
 #include "growth/regions.h"
 #include "io/bvh.h"
@@ -16,6 +17,7 @@
 #include "io/stl.h"
 #include "io/swc.h"
 #include "io/vtp.h"
+#include "network/builder.h"
 #include "network/file.h"
 #include "scene/scene_file.h"
 
@@ -81,6 +83,20 @@ const Body& doll() {
     return made;
   }();
   return body;
+}
+
+// Two vessels to edit, one on the other.
+const Network& limb() {
+  static const Network network = [] {
+    NetworkBuilder builder;
+    std::vector<vec4> trunk, branch;
+    for (int i = 0; i < 9; ++i) trunk.emplace_back(0, 0, 0.02f * float(i), 0.004f);
+    for (int i = 0; i < 5; ++i) branch.emplace_back(0.015f * float(i), 0, 0.08f, 0.002f);
+    const VesselId host = builder.addVessel({"a", "", VesselKind::artery}, trunk);
+    builder.joinToSide({builder.addVessel({"v", "", VesselKind::artery}, branch), false}, {host, 3});
+    return std::move(*builder.build(1.7f));
+  }();
+  return network;
 }
 
 }  // namespace
@@ -195,8 +211,24 @@ void vasa(Bytes bytes) {
   must(again->patches().size() == network->patches().size());
 }
 
+void vedit(Bytes bytes) {
+  const auto edits = parseJournal(textOf(bytes), "f");
+  messageNames(edits);
+  if (!edits) return;
+  std::string lines;
+  for (const Edit& edit : *edits) lines += journalLine(edit.operation) + "\n";
+  const auto again = parseJournal(lines, "f");
+  must(again.ok() && again->size() == edits->size());
+  for (std::size_t i = 0; i < edits->size(); ++i) must(journalLine((*again)[i].operation) == journalLine((*edits)[i].operation));
+  if (edits->size() > 3) return;
+  const Replay replay = replayEdits(limb(), *edits);
+  for (const vec4& p : replay.network.points()) must(p.w > 0);
+  must(replay.rows.size() == edits->size());
+}
+
 std::span<const Target> targets() {
-  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"gltf", gltf}, {"map", map}, {"rules", rules}, {"scene", scene}, {"vasa", vasa}};
+  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"gltf", gltf}, {"map", map}, {"rules", rules}, {"scene", scene}, {"vasa", vasa},
+                                   {"vedit", vedit}};
   return all;
 }
 

@@ -19,6 +19,7 @@ void map(Bytes bytes);    ///< pairs of joints
 void rules(Bytes bytes);  ///< of growth; behind a line `---` their regions
 void scene(Bytes bytes);  ///< a scene's JSON
 void vasa(Bytes bytes);   ///< a network's chunks: header and checksum are made to fit
+void vedit(Bytes bytes);  ///< a journal of edits
 
 struct Target {
   const char* name;  ///< also of its folder in corpus/
