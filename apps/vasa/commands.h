@@ -31,6 +31,7 @@ void addCheck(CLI::App& app, Command& command);
 void addCompare(CLI::App& app, Command& command);
 void addConvert(CLI::App& app, Command& command);
 void addDevices(CLI::App& app, Command& command);
+void addEdit(CLI::App& app, Command& command);
 void addExport(CLI::App& app, Command& command);
 void addFit(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);

@@ -5,6 +5,8 @@
 #include "body/body.h"
 #include "capillary_options.h"
 #include "commands.h"
+#include "core/atomic_file.h"
+#include "edit/replay.h"
 #include "io/gltf.h"
 #include "network/file.h"
 #include "network/measure.h"
@@ -12,31 +14,17 @@
 #include "scene/make_scene.h"
 #include "scene/vessel_files.h"
 #include "scene_options.h"
+#include "vessel_report.h"
 
 // vasa info: counts, sizes, lengths and volumes of a network, a body or a scene.
 namespace vasa::cli {
 namespace {
 
 struct Options {
-  std::string file;
+  std::string file, profile, output;
   bool vessels = false;
+  float stepMm = 1;
 };
-
-Report vesselReport(const Network& network) {
-  Report vessels = Report::array();
-  for (const Vessel& vessel : network.vessels()) {
-    const auto points = network.pointsOf(vessel);
-    vessels.push_back({{"name", vessel.name},
-                       {"kind", kindName(vessel.kind)},
-                       {"id", vessel.ontologyId},
-                       {"sweeps", vessel.spanCount()},
-                       {"length_m", lengthOf(points)},
-                       {"volume_m3", volumeOf(points)},
-                       {"radius_start_m", points.front().w},
-                       {"radius_end_m", points.back().w}});
-  }
-  return vessels;
-}
 
 Report networkReport(const Network& network, std::uintmax_t fileBytes, bool vessels) {
   const NetworkMeasures sum = measure(network, network.points());
@@ -57,7 +45,7 @@ Report networkReport(const Network& network, std::uintmax_t fileBytes, bool vess
           {"body_height_m", network.bodyHeight()},
           {"file_bytes", fileBytes},
           {"bytes_per_sweep", network.sweepCount() ? double(fileBytes) / network.sweepCount() : 0.0}};
-  if (vessels) report["vessel"] = vesselReport(network);
+  if (vessels) report["vessel"] = vesselReport(network), report["fork"] = forkReport(network);
   return report;
 }
 
@@ -165,17 +153,51 @@ Result<Report> sceneReport(const SceneFile& file, bool vessels) {
   return report;
 }
 
+bool isScene(const Options& options) {
+  return options.file.empty() || std::filesystem::path(options.file).extension() == ".json";
+}
+
+// A vessel's stations. A bare .vasa file is read without its scene's body.
+Result<void> printProfile(const Options& options) {
+  const auto network = [&]() -> Result<Network> {
+    if (!isScene(options)) return readNetwork(options.file);
+    const auto sources = chooseScene({.scene = options.file});
+    if (!sources) return sources.error();
+    auto scene = loadScene(*sources);
+    if (!scene) return scene.error();
+    return std::move(scene->network);
+  }();
+  if (!network) return network.error();
+  const auto vessel = findVessel(*network, options.profile);
+  if (!vessel) return badInput("--profile \"" + options.profile + "\": " + vessel.error().message);
+  const std::string csv = profileCsv(network->pointsOf(network->vessel(*vessel)), 1e-3f * options.stepMm);
+  return options.output.empty() ? printText(csv) : writeFileAtomically(options.output, csv);
+}
+
+// What is long goes into tables below the rest.
+std::string withTables(Report report) {
+  std::string tables;
+  const auto takeOut = [&](Report& from) {
+    if (from.contains("vessel")) tables += "\n" + vesselTable(from["vessel"]) + "\n" + forkTable(from["fork"]);
+    from.erase("vessel"), from.erase("fork");
+  };
+  takeOut(report);
+  if (report.contains("networks"))
+    for (Report& network : report["networks"]) takeOut(network);
+  return asText(report) + tables;
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
-  const std::filesystem::path file = options.file;
-  const bool scene = options.file.empty() || file.extension() == ".json";
+  if (!options.profile.empty()) return printProfile(options);
+  if (!options.output.empty()) return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
   auto report = [&]() -> Result<Report> {
-    if (!scene) return reportOf(file, options.vessels);
+    if (!isScene(options)) return reportOf(options.file, options.vessels);
     const auto sources = chooseScene({.scene = options.file});
     if (!sources) return sources.error();
     return sceneReport(*sources, options.vessels);
   }();
   if (!report) return report.error();
-  return globals.json ? printJson(*report) : printText(asText(*report));
+  return globals.json ? printJson(*report) : printText(withTables(std::move(*report)));
 }
 
 }  // namespace
@@ -183,9 +205,18 @@ Result<void> run(const Globals& globals, const Options& options) {
 void addInfo(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body or scene");
-  sub->footer("Examples:\n  vasa info body.vasa --json\n  vasa info body.glb\n  vasa info            (the built-in human)");
+  sub->footer(
+      "Examples:\n"
+      "  vasa info body.vasa --json\n"
+      "  vasa info body.glb\n"
+      "  vasa info            (the built-in human)\n"
+      "  vasa info --vessels  (a table: sizes, stenoses, aneurysms, how they wind)\n"
+      "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv");
   sub->add_option("FILE", options->file, "A .vasa network, a glTF body or a scene; nothing: the built-in human");
-  sub->add_flag("--vessels", options->vessels, "List each vessel with its length, volume and radii");
+  sub->add_flag("--vessels", options->vessels, "List each vessel with its sizes, stenosis, aneurysm and course, and each fork");
+  sub->add_option("--profile", options->profile, "Print one vessel's radius and area along its way, as CSV");
+  sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")->capture_default_str()->check(CLI::Range(0.01, 1000.0));
+  sub->add_option("-o,--output", options->output, "Of a profile: the file to write (.csv); none: standard output");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 

@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
   addRender(app, command);
   addConvert(app, command);
   addFit(app, command);
+  addEdit(app, command);
   addExport(app, command);
   addPrepare(app, command);
   addInfo(app, command);

@@ -1,0 +1,21 @@
+#pragma once
+#include <optional>
+
+#include "network/network.h"
+#include "report.h"
+
+namespace vasa::cli {
+
+/// Each vessel with what is measured of it: sizes, stenosis, aneurysm, course. Keys end in their unit; null: there is none.
+Report vesselReport(const Network& network);
+/// Each fork: trunk, arms with their angles, Murray's exponent.
+Report forkReport(const Network& network);
+
+/// The two as tables for people, in millimetres, degrees and per cent.
+std::string vesselTable(const Report& vessels);
+std::string forkTable(const Report& forks);
+
+/// A row a station along a vessel, as CSV. @param step  [m] between stations
+std::string profileCsv(std::span<const vec4> points, float step);
+
+}  // namespace vasa::cli
