@@ -30,7 +30,7 @@ struct Options {
   double scale = 1;
   float bodyHeight = 0;
   float tolerance = 0;
-  bool exact = false, quantise = false, noBridges = false, keepPatches = false;
+  bool exact = false, quantise = false, noBridges = false, keepPatches = false, interpolate = false;
 };
 
 const std::map<std::string, VesselKind> kKinds{{"artery", VesselKind::artery},
@@ -64,6 +64,7 @@ ConvertOptions convertOptions(const Options& options) {
     for (FitTolerance* part : {&settings.fit.position, &settings.fit.radius})
       *part = {part->share, std::min(part->least, tolerance), tolerance};
   }
+  settings.fit.interpolate = options.interpolate;
   return settings;
 }
 
@@ -116,6 +117,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   ConvertOptions settings = convertOptions(options);
   const bool lines = holdsCentrelines(options.meshes.front());
+  if (lines && options.interpolate)
+    return Error{Fault::usage, options.meshes.front() + ": centre lines are followed as they are told; leave out --interpolate"};
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
   const auto sources = lines ? Result(std::vector<SourceElement>()) : readSources(options);
   if (!sources) return sources.error();
@@ -159,6 +162,7 @@ void addConvert(CLI::App& app, Command& command) {
       "  vasa convert brain.swc --scale 0.001 --kind artery -o brain.vasa\n"
       "  vasa convert centerlines.vtp --scale 0.001 -o aorta.vasa\n"
       "  vasa convert arteries.glb -o arteries.vasa --keep-patches\n"
+      "  vasa convert arteries.glb -o arteries.vasa --interpolate --json\n"
       "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
       "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
@@ -175,8 +179,12 @@ void addConvert(CLI::App& app, Command& command) {
       ->capture_default_str();
   sub->add_option("--body-height", options->bodyHeight, "Height of the body [m] (default: of the input)")
       ->check(CLI::PositiveNumber);
-  sub->add_option("--tolerance", options->tolerance, "Largest distance of a sweep from the sections it fits [mm]")
+  auto* tolerance = sub->add_option("--tolerance", options->tolerance, "Largest distance of a sweep from the sections it fits [mm]")
       ->check(CLI::PositiveNumber);
+  sub->add_flag("--interpolate", options->interpolate,
+                "A sweep between every two sections that were found, through both, as the source paper does, instead of the fewest "
+                "that come near enough")
+      ->excludes(tolerance);
   sub->add_flag("--no-bridges", options->noBridges, "Do not join vessels of one name across long gaps");
   sub->add_flag("--keep-patches", options->keepPatches,
                 "Keep the source's own wall around forks where it has one; it is drawn in their place and moves with them");

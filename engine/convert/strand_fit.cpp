@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curve/interpolate.h"
+
 namespace vasa {
 namespace {
 
@@ -28,6 +30,7 @@ FitTolerance scaled(const FitTolerance& tolerance, float factor) {
 }  // namespace
 
 std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& options) {
+  if (options.interpolate) return interpolateSamples(sections).points;
   double radius = 0;
   for (const vec4& section : sections) radius += section.w;
   radius /= double(sections.size());

@@ -74,6 +74,26 @@ TEST_CASE("convert writes a network and reports with the keys that tools rely on
   CHECK(network->bodyHeight() == doctest::Approx(0.2f));
 }
 
+TEST_CASE("convert --interpolate puts a sweep between every two sections, for surfaces alone") {
+  const Folder folder;
+  const auto mesh = folder.write("arteries.obj", tubesObj({{"one", 0}}));
+  const auto sweeps = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"convert", mesh, "-o", folder.path("out.vasa"), "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto outcome = runProgram(arguments);
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    CHECK(outcome.json()["summary"]["error_mm"]["max"].get<double>() < 0.5);
+    return outcome.json()["summary"]["sweeps"].get<int>();
+  };
+  CHECK(sweeps({"--interpolate"}) == 20);  // 21 rings
+  CHECK(sweeps({}) < 20);
+  CHECK(runProgram({"convert", mesh, "--interpolate", "--tolerance", "1", "-o", folder.path("out.vasa")}).exit == 2);
+  const auto lines = folder.write("line.swc", "1 2 0 0 0 1 -1\n2 2 0 10 0 1 1\n");
+  const auto refused = runProgram({"convert", lines, "--interpolate", "-o", folder.path("lines.vasa")});
+  CHECK(refused.exit == 2);
+  CHECK(contains(refused.err, "leave out --interpolate"));
+}
+
 TEST_CASE("convert: units, axis, kind, height, exact numbers") {
   const Folder folder;
   const auto mesh = folder.write("tube.obj", tubesObj({{"tube", 0}}));

@@ -44,3 +44,19 @@ TEST_CASE("a slanted end loses its taper, a whole one nothing") {
   trimTaper(whole, false);
   CHECK(whole.size() == 51);
 }
+
+TEST_CASE("the paper's way goes through every section, a span between two") {
+  Sections sections;
+  for (int i = 0; i <= 24; ++i) {
+    const float t = 0.2f * float(i);
+    sections.push_back(vec4(0.05f * std::cos(t), 0.01f * t, 0.05f * std::sin(t), 0.003f + 0.0005f * std::sin(3 * t)));
+  }
+  const auto through = fitStrand(sections, {.interpolate = true}), fitted = fitStrand(sections);
+  REQUIRE(spanCount(through) == 24);
+  CHECK(spanCount(fitted) < 24);
+  for (std::uint32_t i = 0; i <= 24; ++i) {
+    const vec4 at = evaluate(through, float(i));
+    CHECK(glm::distance(vec3(at), vec3(sections[i])) < 1e-6f);
+    CHECK(at.w == doctest::Approx(sections[i].w).epsilon(1e-4));
+  }
+}
