@@ -10,6 +10,7 @@
 #include "frame_output.h"
 #include "network/kinks.h"
 #include "network/measure.h"
+#include "paper_look.h"
 #include "report.h"
 #include "scene/correction_step.h"
 #include "scene/frame.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct Options {
   SceneOptions scene;
-  std::string frames, track;
+  std::string frames, track, method = "exact";
   double fps = 0;
   bool noVolume = false, places = false, skinWall = false;
 };
@@ -134,6 +135,7 @@ struct Looks {
   CorrectionChange change;
   CorrectionSteps steps;
   SideCheck sides;
+  std::optional<PaperLook> paper;  // with --method paper
 };
 
 // Nothing for the first frame, which follows on none.
@@ -212,6 +214,7 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
              {"solve_ms", avoid.solveMs},
              {"certify_ms", avoid.certifyMs}};
   addSteps(scene.network, looks.steps.next(maker.posedPoints(), maker.points()), row);
+  if (looks.paper) addPaperLook(looks.paper->at(maker.posedPoints()), looks.paper->at(maker.points()), row);
   if (options.places) addPlaces(scene, *maker.avoider(), looks.sides.changed(), row);
   return row;
 }
@@ -269,13 +272,18 @@ Report certificateReport(const Avoider& avoider) {
 }
 
 std::string asText(const Report& report) {
-  const auto columns = {"frame", "contacts_before", "contacts_after", "depth_after_m", "moved_max_m", "volume_error", "kinks", "narrow_spans", "solve_ms"};
+  const bool byPaper = report["frames"].front().contains("paper_pairs_before");
+  std::vector<const char*> columns{"frame", "contacts_before", "contacts_after", "depth_after_m", "moved_max_m", "volume_error", "kinks", "narrow_spans", "solve_ms"};
+  if (byPaper)
+    columns = {"frame", "exact_pairs_before", "paper_pairs_before", "paper_false_pairs_before", "exact_pairs_after",
+               "paper_pairs_after", "exact_detect_ms", "paper_detect_ms"};
+  const int width = byPaper ? 26 : 17;
   std::string text;
-  for (const char* name : columns) text += fmt::format("{:>17}", name);
+  for (const char* name : columns) text += fmt::format("{:>{}}", name, width);
   text += "\n";
   for (const Report& frame : report["frames"]) {
     for (const char* name : columns)
-      text += frame[name].is_number_float() ? fmt::format("{:>17.6f}", frame[name].get<double>()) : fmt::format("{:>17}", frame[name].dump());
+      text += frame[name].is_number_float() ? fmt::format("{:>{}.6f}", frame[name].get<double>(), width) : fmt::format("{:>{}}", frame[name].dump(), width);
     text += "\n";
   }
   text += "\n";
@@ -295,6 +303,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   ProgressLine progress("checking");
   const auto [first, last] = setting->range;
   Looks looks(setting->scene.network);
+  if (options.method == "paper") looks.paper.emplace(setting->scene.network);
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     checkpoint();
     maker.make(setting->clip, setting->timeOf(frame));
@@ -322,6 +331,7 @@ void addCheck(CLI::App& app, Command& command) {
       "  vasa check --clip walk --json\n"
       "  vasa check --body b.glb --network b.vasa --clip fist --frames 20:40\n"
       "  vasa check --clip walk --fps 120 --json\n"
+      "  vasa check --clip twist --method paper --threads 1\n"
       "A pair of tubes that overlaps at rest may stay as deep as it is there: rest_pairs counts these.\n"
       "obstacle_contacts: tubes in a bone or the heart that were not in it at rest; obstacle_deeper: those that were, and\n"
       "lie deeper now; obstacle_rest_contacts counts the latter at rest.\n"
@@ -332,12 +342,18 @@ void addCheck(CLI::App& app, Command& command) {
       "correction_step: how far the correction of a place of a vessel (two a span) is from what it was in the frame\n"
       "before. More than 1.5 mm, and more than the body alone moves any vessel near by (50 mm along each axis), looks\n"
       "like a jump: correction_step_excess counts such places, in the summary over all frames, and\n"
-      "correction_step_worst is the one farthest beyond its bound.");
+      "correction_step_worst is the one farthest beyond its bound.\n"
+      "--method paper looks at each frame's shapes, before and after vessels are moved apart, by the source paper's detection,\n"
+      "too (a tree of spheres over line-swept spheres, tolerance 1e-3 of the body height, one thread): the pairs that it\n"
+      "reports, those of them that do not intersect (paper_false_pairs), and its time beside the exact detection's.");
   addSceneOptions(*sub, options->scene);
   addTrackOption(*sub, options->track);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_option("--fps", options->fps, "Frames a second to check and to number (default: the clip's own)")
       ->check(CLI::Range(0.1, 1000.0));
+  sub->add_option("--method", options->method, "exact, or paper: the source paper's detection beside it")
+      ->check(CLI::IsMember({"exact", "paper"}))
+      ->capture_default_str();
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too; without it skin_contacts are 0");
   sub->add_flag("--places", options->places, "Name the vessels that still interfere, have changed sides or are in bones in each frame");

@@ -47,6 +47,23 @@ TEST_CASE("check tells how far corrections step from frame to frame, at the rate
   CHECK(!own["summary"].contains("correction_step_excess"));
 }
 
+TEST_CASE("check --method paper looks by the paper's detection, too, which misses nothing and reports more") {
+  const auto frame = runProgram({"check", "--clip", "twist", "--frames", "20", "--method", "paper", "--json"}).json()["frames"][0];
+  CHECK(frame["exact_pairs_before"] == frame["contacts_before"]);
+  CHECK(frame["exact_pairs_before"] > 0);
+  CHECK(frame["paper_missed_pairs"] == 0);
+  for (const std::string when : {"before", "after"}) {
+    const auto count = [&](const char* what) { return frame[std::string(what) + when].get<int>(); };
+    CHECK(count("paper_pairs_") == count("exact_pairs_") + count("paper_false_pairs_"));
+  }
+  CHECK(frame["paper_false_pairs_before"] > 0);
+  CHECK(frame["paper_detect_ms"] > 0);
+  CHECK(frame["exact_detect_ms"] > 0);
+  const auto text = runProgram({"check", "--clip", "twist", "--frames", "20", "--method", "paper"});
+  CHECK(text.out.find("paper_false_pairs_before") != std::string::npos);
+  CHECK(runProgram({"check", "--method", "boxes"}).exit == 2);
+}
+
 TEST_CASE("check refuses a clip and frames that do not exist") {
   CHECK(runProgram({"check", "--clip", "no such clip"}).exit == 3);
   CHECK(runProgram({"check", "--clip", "walk", "--frames", "9000"}).exit == 2);
