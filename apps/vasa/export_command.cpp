@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collide/network_tubes.h"
+#include "collide/tube_list.h"
 #include "commands.h"
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
@@ -45,7 +47,7 @@ std::string extensionOf(const std::string& file) {
 // Formats that hold one shape get the first frame where none is named and the file's name has no place for it.
 std::string framesOf(const Options& options) {
   const std::string extension = extensionOf(options.output);
-  const bool holdsMotion = extension == ".glb" || extension == ".csv";
+  const bool holdsMotion = extension == ".glb" || extension == ".csv" || extension == ".tubes";
   if (!options.frames.empty() || holdsMotion || options.output.find('{') != std::string::npos) return options.frames;
   return "0";
 }
@@ -187,6 +189,26 @@ Result<Report> exportMeasurements(const Options& options, const Job& job) {
   return Report{{"rows", (job.range.last - job.range.first + 1) * job.scene.network.vessels().size()}, {"file_bytes", text.size()}};
 }
 
+// The first frame as pose 0, the last as pose 1; tubes near one another along the network are left out, as check does.
+Result<Report> exportTubes(const Options& options, const Job& job) {
+  const NetworkTubes layout(job.scene.network);
+  FrameMaker maker(job.scene, job.frame);
+  TubeList list;
+  const std::uint32_t frames[] = {job.range.first, job.range.last};
+  for (const int pose : {0, 1}) {
+    if (stopRequested()) return stopError();
+    maker.make(job.clip, job.clip ? job.clip->timeOfFrame(frames[pose]) : 0);
+    list.poses[std::size_t(pose)].resize(layout.count());
+    layout.shape(maker.points(), list.poses[std::size_t(pose)]);
+  }
+  for (const NeighbourPair& pair : layout.neighbours().pairs()) list.excluded.push_back(pair.tubes);
+  if (auto written = writeTubeList(options.output, list); !written) return written.error();
+  return Report{{"tubes", layout.count()},
+                {"excluded", list.excluded.size()},
+                {"poses", {frames[0], frames[1]}},
+                {"file_bytes", std::filesystem::file_size(options.output)}};
+}
+
 Result<Report> exportAs(const Options& options, const std::string& extension) {
   auto job = prepare(options);
   if (!job) return job.error();
@@ -195,7 +217,8 @@ Result<Report> exportAs(const Options& options, const std::string& extension) {
   auto report = extension == ".glb"   ? exportGlb(options, *job)
                 : extension == ".obj" ? exportObj(options, *job)
                 : extension == ".csv" ? exportMeasurements(options, *job)
-                                      : exportLines(options, *job, extension == ".vtp");
+                : extension == ".tubes" ? exportTubes(options, *job)
+                                        : exportLines(options, *job, extension == ".vtp");
   if (!report) return report;
   if (auto saved = track->save(); !saved) return saved.error();
   Report full{{"file", options.output},
@@ -208,8 +231,9 @@ Result<Report> exportAs(const Options& options, const std::string& extension) {
 
 Result<void> run(const Globals& globals, const Options& options) {
   const std::string extension = extensionOf(options.output);
-  if (extension != ".glb" && extension != ".obj" && extension != ".vtp" && extension != ".swc" && extension != ".csv")
-    return Error{Fault::usage, options.output + ": unknown kind of file; export writes .glb, .obj, .vtp, .swc and .csv"};
+  constexpr std::string_view kinds[] = {".glb", ".obj", ".vtp", ".swc", ".csv", ".tubes"};
+  if (std::ranges::find(kinds, extension) == std::end(kinds))
+    return Error{Fault::usage, options.output + ": unknown kind of file; export writes .glb, .obj, .vtp, .swc, .csv and .tubes"};
   const auto report = exportAs(options, extension);
   if (!report) return report.error();
   if (globals.json) return printJson(*report);
@@ -229,15 +253,17 @@ void addExport(CLI::App& app, Command& command) {
       "  vasa export --clip squat --frames 40 -o squat.obj --quads 12x6\n"
       "  vasa export --clip fist --frames 0:74 -o 'lines/{frame:03}.vtp'\n"
       "  vasa export --clip walk -o walk.csv\n"
+      "  vasa export --clip twist --frames 20:40 --no-avoid -o twist.tubes\n"
       ".glb: the vessels as one mesh with a material a kind; the motion as morph targets, so that any viewer plays what\n"
       "is drawn here: a key a frame (or --fps) and more where motion is curved, each vertex within --tolerance at every key;\n"
       "between_error_mm tells how far off it is between keys. The mesh's extras name the vessels, the vertex\n"
       "attribute _VESSEL numbers them. Without --quads, as fine as --budget allows.\n"
       ".obj: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
+      ".tubes: the first and the last frame as the two poses of a tube list for vasa bench collide.\n"
       "Formats of one frame write the first where none is named.");
   addSceneOptions(*sub, options->scene);
   addTrackOption(*sub, options->track);
-  sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .vtp, .swc or .csv")->required();
+  sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .vtp, .swc, .csv or .tubes")->required();
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN");
   sub->add_option("--budget", options->budgetMegabytes, "Largest .glb file [MB]")->check(CLI::Range(0.01, 4000.0))->capture_default_str();

@@ -118,6 +118,29 @@ TEST_CASE("export: a row a frame and vessel") {
   CHECK(rows == 2 * report["vessels"].get<int>());
 }
 
+TEST_CASE("export: a tube list in which bench collide finds the pairs that check finds") {
+  const TemporaryFolder folder;
+  const auto file = (folder.path() / "twist.tubes").string();
+  const auto report = exported({"--clip", "twist", "--frames", "15:20", "--no-avoid", "-o", file});
+  const auto frames = runProgram({"check", "--clip", "twist", "--frames", "15:20", "--method", "paper", "--json"}).json()["frames"];
+  const double height = runProgram({"info", "--json"}).json()["body_height_m"];
+  for (const int pose : {0, 1}) {
+    const auto& frame = frames[pose ? 5 : 0];
+    const auto pairsBy = [&](const std::string& method) {
+      const auto bench = runProgram({"bench", "collide", "--tubes", file, "--pose", std::to_string(pose), "--runs", "1", "--method", method,
+                                     "--tolerance", std::to_string(1e-3 * height), "--json"}).json();
+      CHECK(bench["tubes"] == report["tubes"]);
+      CHECK(bench["excluded"] == report["excluded"]);
+      return bench["pairs"];
+    };
+    CHECK(pairsBy("exact") == frame["contacts_before"]);
+    CHECK(pairsBy("paper") == frame["paper_pairs_before"]);
+  }
+  CHECK(frames[5]["contacts_before"] > 0);
+  exported({"-o", file});  // at rest nothing touches
+  CHECK(runProgram({"bench", "collide", "--tubes", file, "--runs", "1", "--json"}).json()["pairs"] == 0);
+}
+
 TEST_CASE("export tells what is wrong") {
   const TemporaryFolder folder;
   const auto expect = [&](std::vector<std::string> arguments, int exit, const char* message) {
