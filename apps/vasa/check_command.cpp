@@ -138,6 +138,13 @@ struct Looks {
   std::optional<PaperLook> paper;  // with --method paper
 };
 
+// As the body alone moves the network, before vessels were moved apart.
+std::vector<vec4> unmoved(const Network& network, const FrameMaker& maker, bool keepVolume) {
+  std::vector<vec4> points(maker.posedPoints().begin(), maker.posedPoints().end());
+  if (keepVolume) VolumeKeeper(network).run(points);
+  return points;
+}
+
 // Nothing for the first frame, which follows on none.
 void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps>& steps, Report& row) {
   if (!steps) return;
@@ -214,7 +221,10 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
              {"solve_ms", avoid.solveMs},
              {"certify_ms", avoid.certifyMs}};
   addSteps(scene.network, looks.steps.next(maker.posedPoints(), maker.points()), row);
-  if (looks.paper) addPaperLook(looks.paper->at(maker.posedPoints()), looks.paper->at(maker.points()), row);
+  if (looks.paper) {
+    const PaperLook::Pairs before = looks.paper->at(unmoved(scene.network, maker, !options.noVolume));
+    addPaperLook(before, looks.paper->at(maker.points()), row);
+  }
   if (options.places) addPlaces(scene, *maker.avoider(), looks.sides.changed(), row);
   return row;
 }
