@@ -35,6 +35,7 @@ void addEdit(CLI::App& app, Command& command);
 void addExport(CLI::App& app, Command& command);
 void addFit(CLI::App& app, Command& command);
 void addInfo(CLI::App& app, Command& command);
+void addPaper(CLI::App& app, Command& command);
 void addPrepare(CLI::App& app, Command& command);
 void addProfile(CLI::App& app, Command& command);
 void addRender(CLI::App& app, Command& command);

@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   addCheck(app, command);
   addCompare(app, command);
   addProfile(app, command);
+  addPaper(app, command);
   addBench(app, command);
   addDevices(app, command);
   addHelp(app, command);
