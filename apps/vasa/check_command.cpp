@@ -222,8 +222,8 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
              {"certify_ms", avoid.certifyMs}};
   addSteps(scene.network, looks.steps.next(maker.posedPoints(), maker.points()), row);
   if (looks.paper) {
-    const PaperLook::Pairs before = looks.paper->at(unmoved(scene.network, maker, !options.noVolume));
-    addPaperLook(before, looks.paper->at(maker.points()), row);
+    const PaperLook::Pairs posed = looks.paper->at(unmoved(scene.network, maker, !options.noVolume));
+    addPaperLook(posed, looks.paper->at(maker.points()), row);
   }
   if (options.places) addPlaces(scene, *maker.avoider(), looks.sides.changed(), row);
   return row;
