@@ -84,7 +84,7 @@ Report notes(const PaperStudy& study) {
                                          "Totals hold vessels of other kinds, too."},
           {"table2", "One thread; medians over poses of the motion before vessels are moved apart; pairs that run through one another, of all poses together, neighbours along the "
                      "network left out. Hierarchies of boxes are binary trees of single precision down to one triangle, without the mesh; refit is without tessellation. Triangles of "
-                     "4x4 to 8x10 tubes cross a little less often than round tubes meet, and the sphere tree's method reports pairs that miss by up to its tolerance. The paper's "
+                     "4x4 to 8x10 tubes cross less often than round tubes meet, those of the mesh, as long as a sweep, cut across bends, and the sphere tree's method reports pairs that miss by up to its tolerance. The paper's "
                      "figures are PQP's, of which those of the original mesh are given in its text."},
           {"table3", "render: a picture; collision: keeping volumes, detection, moving apart, certifying; total: a frame from pose to picture, one stage after the other; "
                      "frames/s: from picture to picture, the next pose being solved beside the drawing. Medians. Every triangle: drawn as the paper does, without leaving out what cannot be seen."}};

@@ -33,6 +33,15 @@ Still farthestFrame(const Scene& scene, const Clip& clip) {
   return still;
 }
 
+// Of vessels and joints, with the flesh around them.
+Aabb boundsOf(const FrameMaker& maker) {
+  constexpr float kFlesh = 0.05f;  // [m]
+  Aabb box;
+  for (const vec4& point : maker.points()) box.add(vec3(point), kFlesh);
+  for (const mat4& joint : maker.pose().world) box.add(vec3(joint[3]), kFlesh);
+  return box;
+}
+
 }  // namespace
 
 Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device) {
@@ -57,10 +66,7 @@ Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device) {
       maker.make(still.clip, still.clip->timeOfFrame(frame));
       progress.update(figure.panels.size() * 100 + 100 * frame / (still.frame + 1), count * 100);
     }
-    Aabb box = motionBounds(scene, still.clip);
-    const vec3 way = wayOverFloor(scene, maker.pose());
-    box.low += way, box.high += way;
-    const Camera camera = cameraOn(box, {0.45f, 0.1f, 1}, aspect);
+    const Camera camera = cameraOn(boundsOf(maker), {0.45f, 0.1f, 1}, aspect);
     renderer.draw({.points = maker.points(), .knotFrames = maker.knotFrames(), .jointMatrices = maker.jointMatrices(), .camera = camera, .look = pageLook(), .heartScale = maker.heartScale()});
     figure.panels.push_back({fmt::format("{}, frame {}", still.clip->name, still.frame), renderer.readBack()});
   }
