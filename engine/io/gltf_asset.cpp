@@ -31,7 +31,7 @@ Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path)
   asset.file = std::move(bytes);
   {
     const Container container = openContainer(asset.file, path);
-    const json document = parseJson(container.json);
+    json document = parseJson(container.json);
     const JsonView root(document);
     checkStructure(root);
     if (container.isGlb && !container.binary && countOf(root, "buffers") > 0 &&
@@ -40,7 +40,7 @@ Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path)
     asset.buffers = loadBuffers(root, container.binary, path.parent_path());
     asset.bytes = asset.file.size() + asset.buffers.bytesBeside;
     checkAmounts(root, asset.bytes);
-    asset.model = modelOf(root);
+    asset.model = modelOf(std::move(document));
   }
   checkData(asset);
   return asset;

@@ -1,109 +1,175 @@
 #include "io/gltf_model.h"
 
 #include <algorithm>
-#include <limits>
+#include <nlohmann/json.hpp>
 
-// Everything has been checked: indices refer to something, numbers are numbers and in range.
+#include "io/gltf_rule.h"
+#include "io/gltf_tinygltf.h"
+
+// tinygltf gets a document that has been checked and reduced to what is used here: integers are written as such, extras and
+// extensions are taken out, and buffers stand for themselves with one byte, as their bytes are views elsewhere
+// (io/gltf_buffers.h). It refuses indices that are all zeros or sparse (no buffer view), which are valid, so those are put in
+// afterwards. Everything has been checked: indices refer to something, numbers are numbers and in range.
 namespace vasa::gltf {
 namespace {
 
-constexpr std::int64_t kAny = std::int64_t(1) << 52;
+using nlohmann::json;
 
-std::size_t sizeIn(const JsonView& object, std::string_view key) {
+// While a list grows, its old and its new room: at most three times what it holds.
+constexpr std::size_t kGrowing = 3;
+constexpr std::size_t kAnAttribute = 96;  // a node of a tree with a short name
+
+// What tinygltf is not given, in the order of the document.
+struct Aside {
+  std::vector<int> indices, vertices;  // of every primitive of every mesh
+  std::map<int, Model::Labels> nodeLabels, meshLabels;
+};
+
+int integerIn(const json& object, const char* key, int otherwise) {
   const auto value = object.find(key);
-  return value ? std::size_t(value->integer(0, kAny)) : 0;
+  return value == object.end() ? otherwise : int(value->get<double>());
 }
 
-int indexIn(const JsonView& object, std::string_view key) {
-  const auto value = object.find(key);
-  return value ? int(value->integer(0, std::numeric_limits<int>::max())) : -1;
+const json& listIn(const json& object, const char* key) {
+  static const json none = json::array();
+  const auto list = object.find(key);
+  return list == object.end() ? none : *list;
 }
 
-int numberIn(const JsonView& object, std::string_view key, int otherwise) {
-  const auto value = object.find(key);
-  return value ? int(value->integer(0, std::numeric_limits<int>::max())) : otherwise;
+std::string labelIn(const json& extras, const char* key) {
+  const auto value = extras.find(key);
+  return value != extras.end() && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-std::string textIn(const JsonView& object, std::string_view key) {
-  const auto value = object.find(key);
-  return value ? value->text() : std::string();
+void addLabels(const json& object, int number, std::map<int, Model::Labels>& labels) {
+  const auto extras = object.find("extras");
+  if (extras == object.end() || !extras->is_object()) return;
+  Model::Labels found{labelIn(*extras, "category"), labelIn(*extras, "fma")};
+  if (!found.category.empty() || !found.ontologyId.empty()) labels.emplace(number, std::move(found));
 }
 
-std::vector<double> numbersIn(const JsonView& object, std::string_view key) {
-  const auto values = object.find(key);
-  return values ? values->numbers(values->size()) : std::vector<double>{};
+Aside takeAside(const json& document) {
+  Aside aside;
+  const json& accessors = listIn(document, "accessors");
+  int number = 0;
+  for (const json& node : listIn(document, "nodes")) addLabels(node, number++, aside.nodeLabels);
+  number = 0;
+  for (const json& mesh : listIn(document, "meshes")) {
+    addLabels(mesh, number++, aside.meshLabels);
+    for (const json& primitive : mesh.at("primitives")) {
+      aside.indices.push_back(integerIn(primitive, "indices", -1));
+      const auto first = std::size_t(primitive.at("attributes").begin()->get<double>());
+      aside.vertices.push_back(integerIn(accessors.at(first), "count", 0));
+    }
+  }
+  return aside;
 }
 
-std::vector<int> indicesIn(const JsonView& object, std::string_view key) {
-  std::vector<int> out;
-  const auto items = object.items(key);
-  out.reserve(items.size());
-  for (const JsonView& item : items) out.push_back(int(item.integer(0, std::numeric_limits<int>::max())));
-  return out;
+// Numbers such as 3.0 become 3, which some exporters write and glTF allows; at most 64 deep: checked before parsing.
+void prune(json& value) {
+  if (value.is_object()) value.erase("extras"), value.erase("extensions");
+  if (value.is_structured()) {
+    for (json& child : value) prune(child);
+  } else if (value.is_number_float()) {
+    const double number = value.get<double>();
+    if (number == std::int64_t(number)) value = std::int64_t(number);
+  }
 }
 
-Model::BufferView viewOf(const JsonView& view) {
-  return {indexIn(view, "buffer"), sizeIn(view, "byteOffset"), sizeIn(view, "byteLength"), sizeIn(view, "byteStride")};
+std::string reducedText(json document) {
+  json reduced = json::object();
+  for (const char* key : {"asset", "accessors", "bufferViews", "meshes", "nodes", "scenes", "scene", "skins", "materials", "animations"})
+    if (const auto it = document.find(key); it != document.end()) reduced[key] = std::move(*it);
+  for (std::size_t i = 0; i < listIn(document, "buffers").size(); ++i) reduced["buffers"].push_back({{"uri", "byte"}, {"byteLength", 1}});
+  if (const auto meshes = reduced.find("meshes"); meshes != reduced.end())
+    for (json& mesh : *meshes)
+      for (json& primitive : mesh["primitives"])
+        for (const char* key : {"indices", "targets"}) primitive.erase(key);
+  prune(reduced);
+  return reduced.dump();
 }
 
-Model::Sparse sparseOf(const JsonView& sparse) {
-  const JsonView indices = sparse.at("indices"), values = sparse.at("values");
-  return {sizeIn(sparse, "count"),       indexIn(indices, "bufferView"), indexIn(indices, "componentType"),
-          indexIn(values, "bufferView"), sizeIn(indices, "byteOffset"),  sizeIn(values, "byteOffset")};
+tinygltf::FsCallbacks oneByteForEach() {
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return true; };
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string&, void*) {
+    out->assign(1, 0);
+    return true;
+  };
+  return callbacks;
 }
 
-Model::Accessor accessorOf(const JsonView& accessor) {
-  Model::Accessor out;
-  out.bufferView = indexIn(accessor, "bufferView");
-  out.componentType = indexIn(accessor, "componentType");
-  if (const auto normalised = accessor.find("normalized")) out.normalised = normalised->boolean();
-  out.type = textIn(accessor, "type");
-  out.byteOffset = sizeIn(accessor, "byteOffset");
-  out.count = sizeIn(accessor, "count");
-  out.least = numbersIn(accessor, "min");
-  out.most = numbersIn(accessor, "max");
-  if (const auto sparse = accessor.find("sparse")) out.sparse = sparseOf(*sparse);
-  return out;
+tinygltf::Model parse(const std::string& text) {
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks(oneByteForEach());
+  tinygltf::Model model;
+  std::string error, warning;
+  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), ""))
+    breaks("JSON", error.substr(0, error.find('\n')), kExportAgain);
+  return model;
 }
 
-Model::Primitive primitiveOf(const JsonView& primitive, const std::vector<Model::Accessor>& accessors) {
+Model::BufferView viewOf(const tinygltf::BufferView& view) {
+  return {view.buffer, view.byteOffset, view.byteLength, view.byteStride};
+}
+
+Model::Sparse sparseOf(const tinygltf::Accessor& accessor) {
+  const auto& sparse = accessor.sparse;
+  if (!sparse.isSparse) return {};
+  return {std::size_t(sparse.count),   sparse.indices.bufferView,               sparse.indices.componentType,
+          sparse.values.bufferView,    std::size_t(sparse.indices.byteOffset), std::size_t(sparse.values.byteOffset)};
+}
+
+std::string typeName(int type) {
+  switch (type) {
+    case TINYGLTF_TYPE_SCALAR: return "SCALAR";
+    case TINYGLTF_TYPE_VEC2: return "VEC2";
+    case TINYGLTF_TYPE_VEC3: return "VEC3";
+    case TINYGLTF_TYPE_VEC4: return "VEC4";
+    case TINYGLTF_TYPE_MAT2: return "MAT2";
+    case TINYGLTF_TYPE_MAT3: return "MAT3";
+    default: return "MAT4";
+  }
+}
+
+Model::Accessor accessorOf(const tinygltf::Accessor& accessor) {
+  return {accessor.bufferView,    accessor.componentType, accessor.normalized, typeName(accessor.type), accessor.byteOffset,
+          accessor.count,         accessor.minValues,     accessor.maxValues,  sparseOf(accessor)};
+}
+
+Model::Primitive primitiveOf(const tinygltf::Primitive& primitive, int indices, int vertices) {
+  const auto named = [&](const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+  };
   Model::Primitive out;
-  const JsonView attributes = primitive.at("attributes");
-  out.position = indexIn(attributes, "POSITION");
-  out.normal = indexIn(attributes, "NORMAL");
-  out.indices = indexIn(primitive, "indices");
-  out.material = indexIn(primitive, "material");
-  out.mode = numberIn(primitive, "mode", kTriangles);
-  out.vertices = accessors[attributes.members().front().second.index(accessors.size(), "accessors")].count;
-  for (std::size_t set = 0; attributes.has("JOINTS_" + std::to_string(set)); ++set) {
-    out.joints.push_back(indexIn(attributes, "JOINTS_" + std::to_string(set)));
-    out.weights.push_back(indexIn(attributes, "WEIGHTS_" + std::to_string(set)));
+  out.position = named("POSITION");
+  out.normal = named("NORMAL");
+  out.indices = indices;
+  out.material = primitive.material;
+  out.mode = primitive.mode < 0 ? int(kTriangles) : primitive.mode;
+  out.vertices = std::size_t(vertices);
+  for (std::size_t set = 0; named("JOINTS_" + std::to_string(set)) >= 0; ++set) {
+    out.joints.push_back(named("JOINTS_" + std::to_string(set)));
+    out.weights.push_back(named("WEIGHTS_" + std::to_string(set)));
   }
   return out;
 }
 
-Model::Node nodeOf(const JsonView& node) {
-  Model::Node out;
-  out.name = textIn(node, "name");
-  out.mesh = indexIn(node, "mesh");
-  out.skin = indexIn(node, "skin");
-  if (const auto t = numbersIn(node, "translation"); !t.empty()) out.transform.translation = vec3(dvec3(t[0], t[1], t[2]));
-  if (const auto s = numbersIn(node, "scale"); !s.empty()) out.transform.scale = vec3(dvec3(s[0], s[1], s[2]));
-  if (const auto q = numbersIn(node, "rotation"); !q.empty())
+Model::Node nodeOf(const tinygltf::Node& node) {
+  Model::Node out{node.name, node.mesh, node.skin, {}, {node.matrix.begin(), node.matrix.end()}, node.children};
+  if (const auto& t = node.translation; !t.empty()) out.transform.translation = vec3(dvec3(t[0], t[1], t[2]));
+  if (const auto& s = node.scale; !s.empty()) out.transform.scale = vec3(dvec3(s[0], s[1], s[2]));
+  if (const auto& q = node.rotation; !q.empty())
     out.transform.rotation = glm::normalize(quat(float(q[3]), float(q[0]), float(q[1]), float(q[2])));
-  for (const double value : numbersIn(node, "matrix")) out.matrix.push_back(float(value));
-  out.children = indicesIn(node, "children");
   return out;
 }
 
-Model::Material materialOf(const JsonView& material) {
-  Model::Material out;
-  out.name = textIn(material, "name");
-  out.blends = textIn(material, "alphaMode") == "BLEND";
-  if (const auto pbr = material.find("pbrMetallicRoughness")) {
-    const auto factor = numbersIn(*pbr, "baseColorFactor");
-    for (std::size_t i = 0; i < factor.size(); ++i) out.baseColour[int(i)] = float(factor[i]);
-  }
+Model::Material materialOf(const tinygltf::Material& material) {
+  Model::Material out{material.name, vec4(1), material.alphaMode == "BLEND"};
+  const auto& factor = material.pbrMetallicRoughness.baseColorFactor;
+  for (std::size_t i = 0; i < factor.size(); ++i) out.baseColour[int(i)] = float(factor[i]);
   return out;
 }
 
@@ -118,58 +184,73 @@ Model::Path pathNamed(const std::string& name) {
   return name == "scale" ? Model::Path::scale : Model::Path::other;
 }
 
-Model::Animation animationOf(const JsonView& animation) {
-  Model::Animation out{textIn(animation, "name"), {}, {}};
-  for (const JsonView& sampler : animation.items("samplers"))
-    out.samplers.push_back({indexIn(sampler, "input"), indexIn(sampler, "output"), interpolationNamed(textIn(sampler, "interpolation"))});
-  for (const JsonView& channel : animation.items("channels")) {
-    const JsonView target = channel.at("target");
-    out.channels.push_back({indexIn(channel, "sampler"), indexIn(target, "node"), pathNamed(textIn(target, "path"))});
-  }
+Model::Animation animationOf(const tinygltf::Animation& animation) {
+  Model::Animation out{animation.name, {}, {}};
+  for (const auto& sampler : animation.samplers)
+    out.samplers.push_back({sampler.input, sampler.output, interpolationNamed(sampler.interpolation)});
+  for (const auto& channel : animation.channels)
+    out.channels.push_back({channel.sampler, channel.target_node, pathNamed(channel.target_path)});
   return out;
 }
 
-void addLabels(const JsonView& object, int number, std::map<int, Model::Labels>& labels) {
-  const auto extras = object.find("extras");
-  if (!extras || !extras->isObject()) return;
-  Model::Labels found;
-  if (const auto value = extras->find("category"); value && value->isText()) found.category = value->text();
-  if (const auto value = extras->find("fma"); value && value->isText()) found.ontologyId = value->text();
-  if (!found.category.empty() || !found.ontologyId.empty()) labels.emplace(number, std::move(found));
-}
-
-template <class T, class Maker>
-void fill(std::vector<T>& out, const JsonView& root, const char* array, Maker make) {
-  const auto items = root.items(array);
-  out.reserve(items.size());
-  for (const JsonView& item : items) out.push_back(make(item));
+// Each item makes room for the next: what has been turned into a Model is no longer needed.
+template <class From, class To, class Maker>
+void fill(std::vector<From>& from, std::vector<To>& out, Maker make) {
+  out.reserve(from.size());
+  for (const From& item : from) out.push_back(make(item));
+  from = {};
 }
 
 }  // namespace
 
-Model modelOf(const JsonView& root) {
+std::size_t modelMemory(const JsonView& root) {
+  using namespace tinygltf;
+  std::size_t bytes = 0;
+  const auto add = [&](std::size_t count, std::size_t each, std::size_t ours) { bytes += count * (kGrowing * each + ours); };
+  add(countOf(root, "bufferViews"), sizeof(BufferView), sizeof(Model::BufferView));
+  add(countOf(root, "accessors"), sizeof(Accessor), sizeof(Model::Accessor));
+  add(countOf(root, "nodes"), sizeof(Node), sizeof(Model::Node));
+  add(countOf(root, "skins"), sizeof(Skin), sizeof(Model::Skin));
+  add(countOf(root, "materials"), sizeof(Material), sizeof(Model::Material));
+  add(countOf(root, "scenes"), sizeof(Scene), 0);
+  add(countOf(root, "buffers"), sizeof(Buffer), 0);
+  for (const JsonView& mesh : root.items("meshes")) {
+    add(1, sizeof(Mesh), sizeof(Model::Mesh));
+    for (const JsonView& primitive : mesh.items("primitives"))
+      add(1, sizeof(Primitive) + kAnAttribute * primitive.at("attributes").members().size(), sizeof(Model::Primitive));
+  }
+  for (const JsonView& animation : root.items("animations")) {
+    add(1, sizeof(Animation), sizeof(Model::Animation));
+    add(countOf(animation, "samplers"), sizeof(AnimationSampler), sizeof(Model::Sampler));
+    add(countOf(animation, "channels"), sizeof(AnimationChannel), sizeof(Model::Channel));
+  }
+  return bytes;
+}
+
+Model modelOf(json document) {
+  Aside aside = takeAside(document);
+  tinygltf::Model read = parse(reducedText(std::move(document)));
   Model model;
-  fill(model.bufferViews, root, "bufferViews", viewOf);
-  fill(model.accessors, root, "accessors", accessorOf);
-  fill(model.meshes, root, "meshes", [&](const JsonView& mesh) {
-    addLabels(mesh, int(model.meshes.size()), model.meshLabels);
-    Model::Mesh out{textIn(mesh, "name"), {}};
-    fill(out.primitives, mesh, "primitives", [&](const JsonView& primitive) { return primitiveOf(primitive, model.accessors); });
+  fill(read.bufferViews, model.bufferViews, viewOf);
+  fill(read.accessors, model.accessors, accessorOf);
+  std::size_t primitive = 0;
+  fill(read.meshes, model.meshes, [&](const tinygltf::Mesh& mesh) {
+    Model::Mesh out{mesh.name, {}};
+    out.primitives.reserve(mesh.primitives.size());
+    for (const auto& part : mesh.primitives) {
+      out.primitives.push_back(primitiveOf(part, aside.indices[primitive], aside.vertices[primitive]));
+      ++primitive;
+    }
     return out;
   });
-  fill(model.nodes, root, "nodes", [&](const JsonView& node) {
-    addLabels(node, int(model.nodes.size()), model.nodeLabels);
-    return nodeOf(node);
-  });
-  fill(model.skins, root, "skins", [](const JsonView& skin) {
-    return Model::Skin{indicesIn(skin, "joints"), indexIn(skin, "inverseBindMatrices")};
-  });
-  fill(model.materials, root, "materials", materialOf);
-  fill(model.animations, root, "animations", animationOf);
-  if (const auto scenes = root.items("scenes"); !scenes.empty()) {
-    model.hasScenes = true;
-    model.sceneNodes = indicesIn(scenes[sizeIn(root, "scene")], "nodes");
-  }
+  fill(read.nodes, model.nodes, nodeOf);
+  fill(read.skins, model.skins, [](const tinygltf::Skin& skin) { return Model::Skin{skin.joints, skin.inverseBindMatrices}; });
+  fill(read.materials, model.materials, materialOf);
+  fill(read.animations, model.animations, animationOf);
+  model.hasScenes = !read.scenes.empty();
+  if (model.hasScenes) model.sceneNodes = read.scenes[std::size_t(std::max(read.defaultScene, 0))].nodes;
+  model.nodeLabels = std::move(aside.nodeLabels);
+  model.meshLabels = std::move(aside.meshLabels);
   return model;
 }
 

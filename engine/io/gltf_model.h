@@ -88,7 +88,11 @@ struct Model {
   std::map<int, Labels> nodeLabels, meshLabels;  // of those that have any
 };
 
+/// Memory that modelOf() takes at its peak, without the document and its text [bytes].
 /// @param root  has passed checkStructure
-Model modelOf(const JsonView& root);
+std::size_t modelMemory(const JsonView& root);
+
+/// Read by tinygltf. Throws BrokenRule. @param document  has passed checkStructure and checkAmounts; used up
+Model modelOf(nlohmann::json document);
 
 }  // namespace vasa::gltf
