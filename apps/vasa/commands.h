@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "endings.h"
 
 // The command line: one file a subcommand. add...() declares a subcommand's options on the app and stores
 // in `run` what is to be done once parsing has succeeded.
