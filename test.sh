@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs the tests.
 #   ./test.sh           the release build, all tests
-#   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan
+#   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan, leaks too
+#   ./test.sh asan-all  every engine folder, those that draw too; the driver's own leaks are in tests/support/leaks.supp
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
+#   ./test.sh tsan-all  what draws, too; of memory that only a driver's threads touch nothing is told
+#   ./test.sh coverage  lines of engine/ that the tests run, by folder; fails below 85 %
 #   ./test.sh compilers everything builds with gcc and clang, in release, debug and under the sanitizers (hours)
 #   ./test.sh drivers   shaders, pictures and validation on a second driver, SwiftShader of Debian's chromium-common
 #   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, some 1,500 in all, a second or two each
+#   ./test.sh interrupted [N]  N signals and N memory limits (40) in the middle of each command
 #   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app (tests/soak/drift.py)
 #   ./test.sh slurm     a film on a Slurm cluster of this machine, with a task that is killed; installs Slurm
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
@@ -47,6 +51,25 @@ if [ "$preset" = slurm ]; then
   tests/slurm/film_test.sh build/release/bin/vasa build/slurm
   exit 0
 fi
+if [ "$preset" = coverage ]; then
+  scripts/install-dependencies.sh gcovr
+  cmake --preset debug -B build/coverage -DVASA_BUILD_TESTS=ON -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=atomic -O1" > /dev/null
+  cmake --build build/coverage
+  find build/coverage -name '*.gcda' -delete
+  failed=0
+  ctest --test-dir build/coverage --output-on-failure -E '^(package|faults|fuzz)' "$@" || failed=1
+  gcovr --root . --object-directory build/coverage --filter engine/ --json-summary build/coverage/lines.json build/coverage > /dev/null
+  scripts/coverage.py build/coverage/lines.json 85
+  exit $failed
+fi
+if [ "$preset" = interrupted ]; then
+  cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
+  cmake --build --preset release --target vasa human
+  for what in signals memory; do
+    tests/soak/interrupted.py $what build/release/bin/vasa build/release/data/human.glb build/release/data/human.vasa "${1:-40}"
+  done
+  exit 0
+fi
 if [[ "$preset" = faults || "$preset" = soak ]]; then
   cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
   cmake --build --preset release --target vasa human test_faults
@@ -57,6 +80,8 @@ if [[ "$preset" = faults || "$preset" = soak ]]; then
   fi
   exit 0
 fi
+folders=$preset
+preset=${preset%-all}
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
   readers=(swc vtp bvh obj stl gltf map rules scene vasa vedit)
@@ -71,11 +96,18 @@ if [ "$preset" = fuzz ]; then
     echo "fuzz {}: $(grep -E "number_of_executed_units" build/fuzz/{}.log | tr -s " " | cut -d" " -f2) runs, nothing found"' sh "${1:-30}"
   exit 0
 fi
+if [ "$folders" != "$preset" ]; then
+  export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks.supp:print_suppressions=0
+  # Drivers and layers are not instrumented: what they do to memory and locks among themselves looks like races.
+  export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+fi
 select=()
 targets=()
-case "$preset" in
+case "$folders" in
   asan) wanted='core math curve mesh network edit convert body io collide fuzz' ;;
+  asan-all) wanted='core math curve mesh network edit convert body io collide avoid growth surface scene gpu render golden viewer fuzz' ;;
   tsan) wanted='core convert collide' ;;
+  tsan-all) wanted='core convert body collide avoid growth scene gpu render viewer' ;;
   *) wanted='' ;;
 esac
 for name in $wanted; do
