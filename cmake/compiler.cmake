@@ -19,6 +19,8 @@ target_compile_options(vasa_compiler INTERFACE -Wall -Wextra -Wshadow -Wnon-virt
 if(VASA_WERROR)
   target_compile_options(vasa_compiler INTERFACE -Werror)
 endif()
+# Files come from anywhere: what a missed check would overwrite is guarded. Tables of functions are read-only once loaded.
+target_link_options(vasa_compiler INTERFACE -Wl,-z,relro -Wl,-z,now)
 if(VASA_SANITIZE)
   target_compile_options(vasa_compiler INTERFACE -fsanitize=${VASA_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(vasa_compiler INTERFACE -fsanitize=${VASA_SANITIZE})

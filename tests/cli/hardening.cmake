@@ -1,0 +1,11 @@
+# What the linker wrote into PROGRAM of cmake/compiler.cmake's guards, as readelf tells it.
+function(has file what pattern)
+  execute_process(COMMAND readelf --wide ${ARGN} "${file}" OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT text MATCHES "${pattern}")
+    message(SEND_ERROR "${file}: ${what} is missing")
+  endif()
+endfunction()
+has("${PROGRAM}" "a table of functions that is read-only once loaded (RELRO)" "GNU_RELRO" --program-headers)
+has("${PROGRAM}" "a stack without code" "GNU_STACK[^\n]* RW " --program-headers)
+has("${PROGRAM}" "binding at the start (BIND_NOW)" "BIND_NOW" --dynamic)
+has("${PROGRAM}" "an address that changes (PIE)" "Flags:[^\n]*PIE" --dynamic)
