@@ -109,7 +109,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto network = readNetwork(inputs->network);
   if (!network) return network.error();
   Replay replay = replayEdits(*network, inputs->edits);
-  if (stopRequested()) return stopError();
+  checkpoint();
   std::string refusals;
   for (const ReplayRow& row : replay.rows)
     if (!row.applied()) refusals += (refusals.empty() ? "" : "\n") + row.refusal;
@@ -123,7 +123,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (refused > 0) logWarning(refusals);
   const RestRepair before = overlapsAtRest(*network);
   RestRepair after = options.part ? separateAtRest(replay.network) : overlapsAtRest(replay.network);
-  if (stopRequested()) return stopError();
+  checkpoint();
   const auto bytes = writeResult(options, *inputs, after.network);
   if (!bytes) return bytes.error();
   const NetworkMeasures sum = measure(after.network, after.network.points());

@@ -196,7 +196,7 @@ Result<Report> exportTubes(const Options& options, const Job& job) {
   TubeList list;
   const std::uint32_t frames[] = {job.range.first, job.range.last};
   for (const int pose : {0, 1}) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     maker.make(job.clip, job.clip ? job.clip->timeOfFrame(frames[pose]) : 0);
     list.poses[std::size_t(pose)].resize(layout.count());
     layout.shape(maker.points(), list.poses[std::size_t(pose)]);

@@ -165,11 +165,9 @@ Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& devic
   const std::vector<SourceElement> group = groupOf(study);
   ConvertOptions options;
   options.bodyHeight = study.scene.network.bodyHeight();
-  options.stopRequested = stopRequested;
   const auto fitted = convertElements(group, options);
   options.fit.interpolate = true;
   const auto interpolated = convertElements(group, options);
-  if (stopRequested()) return stopError();
   if (!fitted) return fitted.error();
   if (!interpolated) return interpolated.error();
   const Network& sweeps = interpolated->network;
@@ -188,7 +186,6 @@ Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& devic
   vessels.drawOther = false;
   figure.panels.push_back({"(b) sweeps", easel.draw(camera, vessels)});
   const std::vector<SkinnedMesh> bands = colouredByDistance(group, sweeps);
-  if (stopRequested()) return stopError();
   Easel coloured(study, device, {.network = sweeps, .meshes = bands}, size);
   figure.panels.push_back({"(c) distance", coloured.draw(camera, meshLook())});
   figure.facts = {{"elements", group.size()}, {"triangles", triangles}, {"interpolated", errorsOf(interpolated->report)}, {"fitted", errorsOf(fitted->report)}};

@@ -61,7 +61,7 @@ Result<PaperFigure> wholeBodyFigure(const PaperStudy& study, gpu::Device& device
   const Aabb box = boundsOf(network, everySpan(network));
   std::uint64_t curves = 0;
   for (const std::uint32_t levels : {kLevels, 0u}) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     Easel easel(study, device, {.network = network, .table = &study.table, .growth = levels ? &study.growth : nullptr, .capillaryLevels = levels}, {420, 860});
     figure.panels.push_back({levels ? "(a)" : "(b)", easel.draw(cameraOn(box, {0, 0, 1}, easel.aspect()), pageLook())});
     curves += easel.capillaries();
@@ -81,7 +81,7 @@ Result<PaperFigure> brainFigure(const PaperStudy& study, gpu::Device& device) {
   const std::vector<char> shown = wholeVessels(network, spans);
   Report curves = Report::array();
   for (std::uint32_t levels = 1; levels <= kLevels; ++levels) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     Easel easel(study, device, {.network = network, .table = &study.table, .growth = &study.growth, .capillaryLevels = levels}, {420, 420});
     easel.showOnly(shown);
     figure.panels.push_back({fmt::format("{} of 3", levels), easel.draw(cameraOn(boundsOf(network, spans), {0.9f, 0.25f, 0.45f}, easel.aspect()), pageLook())});
@@ -105,7 +105,7 @@ Result<PaperFigure> capillaryFigure(const PaperStudy& study, gpu::Device& device
   const Network& network = study.scene.network;
   Easel easel(study, device, {.network = network, .table = &study.table, .growth = &study.growth, .capillaryLevels = kLevels}, {320, 320});
   for (const Place& place : places) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     std::vector<char> spans = spansOfRegion(study, place.region);
     if (place.oneSide) spans = onTheLeft(network, std::move(spans));
     if (!hasAny(spans)) {

@@ -55,8 +55,10 @@ Result<Report> frameRateTable(const PaperStudy& study, gpu::Device& device) {
   for (const bool cull : {true, false}) {
     Profiler profiler(device, settingOf(study, cull), quads);
     ProgressLine progress(cull ? "table III" : "table III, every triangle");
-    while (!stopRequested() && profiler.step()) progress.update(profiler.done(), profiler.total());
-    if (stopRequested()) return stopError();
+    while (profiler.step()) {
+      progress.update(profiler.done(), profiler.total());
+      checkpoint();
+    }
     measured[cull] = profiler.rows();
   }
   Report rows = Report::array();

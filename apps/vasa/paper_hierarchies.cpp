@@ -124,7 +124,7 @@ Result<Report> hierarchyTable(const PaperStudy& study) {
   Report rows = Report::array();
   for (const Resolution& resolution : kResolutions) {
     for (const bool oriented : {false, true}) {
-      if (stopRequested()) return stopError();
+      checkpoint();
       // PQP's boxes are oriented; the paper says nothing of others.
       rows.push_back(oriented ? boxRow<OrientedBox>(poses, resolution, "oriented boxes", {{"bytes", resolution.paperBytes}})
                               : boxRow<AlignedBox>(poses, resolution, "aligned boxes", nullptr));

@@ -123,7 +123,7 @@ Result<PaperFigure> junctionFigure(const PaperStudy& study, gpu::Device& device)
   const Network& network = study.scene.network;
   Easel easel(study, device, {.network = network, .table = &study.table}, {360, 360});
   for (const auto& [kind, name] : {std::pair{Kind::y, "(a) Y"}, {Kind::t, "(b) T"}, {Kind::crossing, "(c) crossing"}}) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     const auto fork = choose(network, kind);
     if (!fork) {
       figure.note += fmt::format("The network has no {}. ", name);

@@ -62,7 +62,7 @@ Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device) {
   for (const Still& still : stills) {
     FrameMaker maker(scene, {.avoid = true});
     for (std::uint32_t frame = 0; frame <= still.frame; ++frame) {  // so that a signal is heard between two
-      if (stopRequested()) return stopError();
+      checkpoint();
       maker.make(still.clip, still.clip->timeOfFrame(frame));
       progress.update(figure.panels.size() * 100 + 100 * frame / (still.frame + 1), count * 100);
     }

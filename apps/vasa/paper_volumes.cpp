@@ -166,7 +166,7 @@ Result<PaperFigure> hierarchyFigure(const PaperStudy& study, gpu::Device& device
   // Both pictures of spheres, and all of swept spheres, are of one size.
   const Aabb wide = boundsOf(all[1].meshes), close = boundsOf(all[2].meshes);
   for (const Volumes& volumes : all) {
-    if (stopRequested()) return stopError();
+    checkpoint();
     Easel easel(study, device, {.network = network, .table = &study.table, .points = shape.points, .meshes = volumes.meshes}, {300, 340});
     easel.showOnly(volumes.spans);
     const bool isWide = &volumes < all + 2;

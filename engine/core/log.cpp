@@ -25,7 +25,7 @@ bool colourful() {
 void write(const char* colour, std::string_view label, std::string_view message) {
   const std::lock_guard lock(outputMutex);
   const bool paint = colourful() && *colour;
-  const std::string text = visible(message);  // names of files, and of what is in them, are others' words
+  const std::string text = visibleLines(message);  // names of files, and of what is in them, are others' words
   std::fprintf(stderr, "%s%.*s%s%s\n", paint ? colour : "", int(label.size()), label.data(),
                paint ? "\x1b[0m" : "", text.c_str());
 }
