@@ -37,37 +37,45 @@ class Clipper {
       after_.push_back((i + 1) % count_);
     }
     inward_.resize(count_);
+    gone_.resize(count_);
     for (std::uint32_t i = 0; i < count_; ++i)
       if (look(i)) turned_.push_back(i);
   }
 
   void run(std::vector<uvec3>& triangles) {
-    std::vector<std::uint32_t> ears;
-    for (std::uint32_t i = count_; i-- > 0;)
-      if (isEar(i)) ears.push_back(i);
-    std::vector<bool> gone(count_);
     std::uint32_t left = count_, any = 0;
-    while (left > 3) {
-      std::uint32_t ear = any;
-      while (!ears.empty() && gone[ears.back()]) ears.pop_back();
-      if (!ears.empty() && isEar(ears.back())) ear = ears.back();  // else a corner is cut off all the same
-      if (!ears.empty()) ears.pop_back();
-      const std::uint32_t a = before_[ear], c = after_[ear];
+    for (refill(); left > 3; --left) {
+      const std::uint32_t ear = nextEar(any), a = before_[ear], c = after_[ear];
       triangles.emplace_back(a, ear, c);
-      gone[ear] = true;
-      inward_[ear] = false;
+      gone_[ear] = 1, inward_[ear] = 0;
       after_[a] = c, before_[c] = a;
       any = c;
-      --left;
       for (const std::uint32_t i : {c, a}) {
         look(i);
-        if (isEar(i)) ears.push_back(i);
+        if (isEar(i)) ears_.push_back(i);
       }
     }
     triangles.emplace_back(before_[any], any, after_[any]);
   }
 
  private:
+  void refill() {
+    for (std::uint32_t i = count_; i-- > 0;)
+      if (!gone_[i] && isEar(i)) ears_.push_back(i);
+  }
+  // Cutting one ear may free another elsewhere, which a few looks at all corners find. Where nothing is an ear, a corner is
+  // cut off all the same.
+  std::uint32_t nextEar(std::uint32_t otherwise) {
+    while (true) {
+      while (!ears_.empty()) {
+        const std::uint32_t ear = ears_.back();
+        ears_.pop_back();
+        if (!gone_[ear] && isEar(ear)) return ear;
+      }
+      if (refills_++ >= kMostRefills) return otherwise;
+      refill();
+    }
+  }
   bool look(std::uint32_t i) {
     inward_[i] = turn(at_[before_[i]], at_[i], at_[after_[i]]) < 0;
     return inward_[i];
@@ -86,8 +94,10 @@ class Clipper {
 
   std::uint32_t count_;
   std::vector<dvec2> at_;
-  std::vector<std::uint32_t> before_, after_, turned_;
-  std::vector<char> inward_;
+  std::vector<std::uint32_t> before_, after_, turned_, ears_;
+  std::vector<char> inward_, gone_;
+  static constexpr int kMostRefills = 4;
+  int refills_ = 0;
 };
 
 }  // namespace
