@@ -70,9 +70,36 @@ ForkShape shapeOf(ForkRecord fork) {
   return shape;
 }
 
-void writeVertices(uint block, uint count, uint blocks, uint colour) {
+// Vertices that the triangles need, a bit each, and how many lie before every word of them.
+const uint kVertexWords = (kMostForkVertices + 31) / 32;
+uint needed[kVertexWords], firsts[kVertexWords];
+
+// @return how many
+uint chooseVertices(uint all) {
+  for (uint w = 0; w < kVertexWords; ++w) needed[w] = 0;
+  for (uint i = 0; i < triangles && push.keepAll == 0; ++i) {
+    uvec3 t = triangleAt(i);
+    needed[t.x >> 5] |= 1u << (t.x & 31u);
+    needed[t.y >> 5] |= 1u << (t.y & 31u);
+    needed[t.z >> 5] |= 1u << (t.z & 31u);
+  }
+  for (uint k = 0; k < all && push.keepAll != 0; ++k) needed[k >> 5] |= 1u << (k & 31u);
+  uint count = 0;
+  for (uint w = 0; w < kVertexWords; ++w) {
+    firsts[w] = count;
+    count += uint(bitCount(needed[w]));
+  }
+  return count;
+}
+
+uint placeOfVertex(uint k) { return firsts[k >> 5] + uint(bitCount(needed[k >> 5] & ((1u << (k & 31u)) - 1u))); }
+
+void writeVertices(uint block, uint blocks, uint colour) {
   Vertices vertices = push.vertices;
-  for (uint k = 0; k < count; ++k) vertices.vertex[(block << kBlockShift) + k] = packVertex(corners[k]);
+  uint vertex = block << kBlockShift;
+  for (uint w = 0; w < kVertexWords; ++w)
+    for (uint bits = needed[w]; bits != 0; bits &= bits - 1)
+      vertices.vertex[vertex++] = packVertex(corners[32 * w + uint(findLSB(bits))]);
   UintsOut colours = push.blockColours;
   for (uint k = 0; k < blocks; ++k) colours.value[block + k] = colour;
 }
@@ -80,10 +107,10 @@ void writeVertices(uint block, uint count, uint blocks, uint colour) {
 void writeTriangles(uint vertex, uint target) {
   UintsOut indices = UintsOut(push.vertices);
   for (uint i = 0; i < triangles; ++i) {
-    uvec3 corner = vertex + triangleAt(i);
-    indices.value[target++] = corner.x;
-    indices.value[target++] = corner.y;
-    indices.value[target++] = corner.z;
+    uvec3 t = triangleAt(i);
+    indices.value[target++] = vertex + placeOfVertex(t.x);
+    indices.value[target++] = vertex + placeOfVertex(t.y);
+    indices.value[target++] = vertex + placeOfVertex(t.z);
   }
 }
 
@@ -108,6 +135,7 @@ void main() {
   uint begin = push.filling.state.firstFork + group * kGroupThreads, item = begin + local;
   bool first = group == 0 && push.filling.state.firstTube == push.filling.state.tubeEnd;  // of the round
   triangles = 0;
+  for (uint w = 0; w < kVertexWords; ++w) needed[w] = 0;
   if (begin < undoneFork() && item < push.filling.state.forkEnd) {
     colour = push.colours.value[item];
     view = viewAt(push.view);
@@ -116,7 +144,7 @@ void main() {
       ForkShape shape = shapeOf(fork);
       Ring a = ringAt(fork.a), b = ringAt(fork.b);
       if (push.keepAll != 0 || !outOfView(fork, a, b)) build(fork, shape, a, b);
-      if (triangles != 0) vertices = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
+      if (triangles != 0) vertices = chooseVertices(rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows));
     }
   }
   uint blocks = (vertices + kBlockVertices - 1) >> kBlockShift, last = kGroupThreads - 1;
@@ -129,7 +157,7 @@ void main() {
   uint block = groupBlock;
   if (block == kNoRoom) return;
   uint firstIndex = (block + groupVertexBlocks) * kBlockWords;
-  writeVertices(block + blocksBefore, vertices, blocks, colour);
+  writeVertices(block + blocksBefore, blocks, colour);
   writeTriangles(blocksBefore << kBlockShift, firstIndex + 3 * before);
   if (local == last)
     push.draws.draw[push.firstDraw + group] = DrawCommand(3 * (before + triangles), 1, firstIndex, int(block << kBlockShift), 0);

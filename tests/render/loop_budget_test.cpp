@@ -33,7 +33,7 @@ std::map<std::string, unsigned> mostLoops() {
       // a ring search, m vertices and their directions a row, quads found and vertices smoothed, triangles written, sums over
       // the group
       {"forks.comp", 4 * kMostForkVertices + forkTries * (kMostForkTriangles / 2 + 2 * kMostForkVertices) +
-                         kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks},
+                         2 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks + 2 * kMostForkVertices / 32 + kMostForkVertices},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
       {"patch_triangles.comp", 2 * kThreadTriangles + kPatchThreads},
       // patches, their pairs of rings
