@@ -69,7 +69,7 @@ Result<void> prepare(const Globals& globals, const Options& options, PaperStudy&
   study.table = makeSweepTable(study.scene.network);
   CapillaryChoice capillaries = choice->capillaries;
   capillaries.levels = std::max(1u, capillaries.levels);
-  auto growth = growthOf(study.scene, capillaries);
+  auto growth = growthOf(study.scene, capillaries, study.table);
   if (!growth) return growth.error();
   study.growth = std::move(**growth);
   auto camera = CameraMan::create(choice->camera, study.scene, study.clip, float(size->width) / float(size->height));

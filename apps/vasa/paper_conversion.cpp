@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "commands.h"
+#include "core/cancellation.h"
 #include "convert/convert.h"
 #include "paper_easel.h"
 
@@ -168,6 +168,7 @@ Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& devic
   const auto fitted = convertElements(group, options);
   options.fit.interpolate = true;
   const auto interpolated = convertElements(group, options);
+  checkpoint();
   if (!fitted) return fitted.error();
   if (!interpolated) return interpolated.error();
   const Network& sweeps = interpolated->network;
@@ -186,6 +187,7 @@ Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& devic
   vessels.drawOther = false;
   figure.panels.push_back({"(b) sweeps", easel.draw(camera, vessels)});
   const std::vector<SkinnedMesh> bands = colouredByDistance(group, sweeps);
+  checkpoint();
   Easel coloured(study, device, {.network = sweeps, .meshes = bands}, size);
   figure.panels.push_back({"(c) distance", coloured.draw(camera, meshLook())});
   figure.facts = {{"elements", group.size()}, {"triangles", triangles}, {"interpolated", errorsOf(interpolated->report)}, {"fitted", errorsOf(fitted->report)}};

@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-#include "commands.h"
+#include "core/cancellation.h"
 #include "paper_easel.h"
 
 // Figures 1, 3, 5 and 7: the whole body, the brain, kinds of capillaries, and stills.

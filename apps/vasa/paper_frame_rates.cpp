@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "commands.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "paper_study.h"
 #include "render/profiler.h"
@@ -56,8 +56,8 @@ Result<Report> frameRateTable(const PaperStudy& study, gpu::Device& device) {
     Profiler profiler(device, settingOf(study, cull), quads);
     ProgressLine progress(cull ? "table III" : "table III, every triangle");
     while (profiler.step()) {
-      progress.update(profiler.done(), profiler.total());
       checkpoint();
+      progress.update(profiler.done(), profiler.total());
     }
     measured[cull] = profiler.rows();
   }

@@ -4,7 +4,7 @@
 #include "collide/network_tubes.h"
 #include "collide/paper_detector.h"
 #include "collide/tube_detector.h"
-#include "commands.h"
+#include "core/cancellation.h"
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "paper_study.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "commands.h"
+#include "core/cancellation.h"
 #include "paper_easel.h"
 
 // Figure 4: a Y, a T and a crossing, the thickest of the network. Only the vessels that meet there are shown.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/base64.h"
 #include "io/png.h"
 
 namespace vasa::cli {
@@ -43,18 +44,6 @@ std::string escaped(std::string_view text) {
     else if (c == '<') out += "&lt;";
     else if (c == '>') out += "&gt;";
     else out += c;
-  }
-  return out;
-}
-
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0);
-    for (int k = 3; k >= 0; --k) out += int(bytes.size() - i) + 1 > 3 - k ? kDigits[word >> (6 * k) & 63] : '=';
   }
   return out;
 }
@@ -154,7 +143,7 @@ Result<std::string> figureHtml(std::size_t number, const PaperFigure& figure) {
   for (const PaperFigure::Panel& panel : figure.panels) {
     const auto png = encodePng(panel.picture, {.compression = 9});
     if (!png) return png.error();
-    out += fmt::format("<div style=\"flex:0 1 {1}px\"><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" src=\"data:image/png;base64,{3}\">{0}</div>\n", escaped(panel.caption), panel.picture.width, panel.picture.height, base64(*png));
+    out += fmt::format("<div style=\"flex:0 1 {1}px\"><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" src=\"data:image/png;base64,{3}\">{0}</div>\n", escaped(panel.caption), panel.picture.width, panel.picture.height, encodeBase64(*png));
   }
   return out + fmt::format("</div><figcaption><b>Figure {}.</b> {}{}</figcaption></figure>\n", number, figure.caption, figure.note.empty() ? "" : fmt::format("<br><small>{}</small>", figure.note));
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "commands.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "paper_easel.h"
 #include "scene/frame.h"

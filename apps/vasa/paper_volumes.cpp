@@ -7,7 +7,7 @@
 #include "collide/network_tubes.h"
 #include "collide/sphere_tree.h"
 #include "collide/tube_detector.h"
-#include "commands.h"
+#include "core/cancellation.h"
 #include "curve/bounds.h"
 #include "paper_easel.h"
 #include "scene/frame.h"
