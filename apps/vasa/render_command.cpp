@@ -182,7 +182,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
 class Film {
  public:
   Film(const Job& job, const Options& options, const FrameOptions& frame, gpu::Device& device)
-      : job_(job), options_(options), making_(beside([&job, frame] { return makerOf(job, frame); })), renderer_(rendererOf(job, device)), maker_(making_.get()) {}
+      : job_(job), options_(options), making_(makerBeside(job, frame)), renderer_(rendererOf(job, device)), maker_(making_.get()) {}
 
   Result<void> run() {
     ProgressLine progress("rendering");
@@ -292,15 +292,12 @@ class Film {
     previousFrame_ = frame;
   }
 
-  // Work beside the caller's, unless one thread is to do everything.
-  template <class Work>
-  static auto beside(Work work) {
-    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, std::move(work));
-  }
-
-  static std::unique_ptr<FrameMaker> makerOf(const Job& job, const FrameOptions& frame) {
-    const StageLog stage("preparing how vessels move");
-    return std::make_unique<FrameMaker>(job.scene, frame);
+  // Made on a thread of its own, unless one is to do everything.
+  static std::future<std::unique_ptr<FrameMaker>> makerBeside(const Job& job, const FrameOptions& frame) {
+    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, [&job, frame] {
+      const StageLog stage("preparing how vessels move");
+      return std::make_unique<FrameMaker>(job.scene, frame);
+    });
   }
 
   static Renderer rendererOf(const Job& job, gpu::Device& device) {
