@@ -47,6 +47,12 @@ std::optional<std::vector<std::byte>> readWhole(const fs::path& path, std::uint6
   return bytes;
 }
 
+// By the clock that is read here: a file system's own may lag behind it, and what is new would seem the oldest.
+void markUsed(const fs::path& path) {
+  std::error_code ignored;
+  fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+}
+
 // The oldest go until the rest has room.
 void tidy(const fs::path& folder) {
   struct File {
@@ -84,7 +90,9 @@ Result<void> write(std::string_view kind, std::uint64_t key, std::span<const std
   ByteWriter file;
   file.add(Header{folders.engine, key, hashBytes(bytes), bytes.size()});
   file.addRaw(bytes);
-  return writeFileAtomically(path, file.bytes());
+  auto written = writeFileAtomically(path, file.bytes());
+  if (written) markUsed(path);
+  return written;
 }
 
 }  // namespace
@@ -98,8 +106,7 @@ std::optional<std::vector<std::byte>> findKept(std::string_view kind, std::uint6
   const std::string name = nameOf(kind, key);
   if (!folders.own.empty())
     if (auto found = readWhole(folders.own / name, key)) {
-      std::error_code ignored;
-      fs::last_write_time(folders.own / name, fs::file_time_type::clock::now(), ignored);
+      markUsed(folders.own / name);
       return found;
     }
   for (const fs::path& folder : folders.shipped)
