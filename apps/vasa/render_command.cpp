@@ -294,7 +294,8 @@ class Film {
 
   // Made on a thread of its own, unless one is to do everything.
   static std::future<std::unique_ptr<FrameMaker>> makerBeside(const Job& job, const FrameOptions& frame) {
-    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, [&job, frame] {
+    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, [&job, frame, asked = CancellationScope::current()] {
+      const CancellationScope scope(asked);
       const StageLog stage("preparing how vessels move");
       return std::make_unique<FrameMaker>(job.scene, frame);
     });
