@@ -22,6 +22,7 @@ namespace {
 
 struct Options {
   std::string file, profile, output;
+  std::vector<std::string> edits;
   bool vessels = false;
   float stepMm = 1;
 };
@@ -140,13 +141,17 @@ Result<Report> sceneReport(const SceneFile& file, bool vessels) {
     auto network = readVessels(path, body->height());
     if (!network) return network.error();
     Report named{{"name", path.filename().string()}};
-    named.update(networkReport(*network, sizeOf(path), vessels));
+    named.update(networkReport(*network, sizeOf(path), vessels && file.edits.empty()));
     report["networks"].push_back(std::move(named));
     names += (names.empty() ? "" : ", ") + path.filename().string();
     networks.push_back(std::move(*network));
   }
-  const auto scene = makeScene(std::move(*body), std::move(networks), names);
+  const auto scene = makeScene(std::move(*body), std::move(networks), file.edits, names);
   if (!scene) return scene.error();
+  if (!file.edits.empty()) {
+    report["edited"] = networkReport(scene->network, 0, vessels);
+    report["edited"].erase("file_bytes"), report["edited"].erase("bytes_per_sweep");
+  }
   auto capillaries = capillaryReport(*scene, file.capillaries);
   if (!capillaries) return capillaries;
   report["capillaries"] = std::move(*capillaries);
@@ -161,7 +166,7 @@ bool isScene(const Options& options) {
 Result<void> printProfile(const Options& options) {
   const auto network = [&]() -> Result<Network> {
     if (!isScene(options)) return readNetwork(options.file);
-    const auto sources = chooseScene({.scene = options.file});
+    const auto sources = chooseScene({.scene = options.file, .edits = options.edits});
     if (!sources) return sources.error();
     auto scene = loadScene(*sources);
     if (!scene) return scene.error();
@@ -184,15 +189,18 @@ std::string withTables(Report report) {
   takeOut(report);
   if (report.contains("networks"))
     for (Report& network : report["networks"]) takeOut(network);
+  if (report.contains("edited")) takeOut(report["edited"]);
   return asText(report) + tables;
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (!options.edits.empty() && !isScene(options))
+    return Error{Fault::usage, "--edits belongs to a scene or the built-in human; vasa edit writes an edited network, which info reads"};
   if (!options.profile.empty()) return printProfile(options);
   if (!options.output.empty()) return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
   auto report = [&]() -> Result<Report> {
     if (!isScene(options)) return reportOf(options.file, options.vessels);
-    const auto sources = chooseScene({.scene = options.file});
+    const auto sources = chooseScene({.scene = options.file, .edits = options.edits});
     if (!sources) return sources.error();
     return sceneReport(*sources, options.vessels);
   }();
@@ -214,6 +222,7 @@ void addInfo(CLI::App& app, Command& command) {
       "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv");
   sub->add_option("FILE", options->file, "A .vasa network, a glTF body or a scene; nothing: the built-in human");
   sub->add_flag("--vessels", options->vessels, "List each vessel with its sizes, stenosis, aneurysm and course, and each fork");
+  sub->add_option("--edits", options->edits, "Journal of edits to a scene's vessels (.vedit); may be given several times")->take_all()->allow_extra_args(false);
   sub->add_option("--profile", options->profile, "Print one vessel's radius and area along its way, as CSV");
   sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")->capture_default_str()->check(CLI::Range(0.01, 1000.0));
   sub->add_option("-o,--output", options->output, "Of a profile: the file to write (.csv); none: standard output");

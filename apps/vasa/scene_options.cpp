@@ -40,6 +40,9 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option("--network", options.networks, "Vessels (.vasa, or anything that convert reads); may be given several times")
       ->take_all()
       ->allow_extra_args(false);
+  sub.add_option("--edits", options.edits, "Journal of edits to the vessels (.vedit, see vasa help edits); may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
   sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it, or a .bvh file");
   sub.add_option("--joint-map", options.jointMap,
                  "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
@@ -52,6 +55,7 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
   std::vector<std::filesystem::path> named;
   if (options.body.empty()) named.push_back(scene.body);
   if (options.networks.empty()) named.insert(named.end(), scene.networks.begin(), scene.networks.end());
+  if (options.edits.empty()) named.insert(named.end(), scene.edits.begin(), scene.edits.end());
   if (options.clip.empty() && isMotionFile(scene.clip)) named.emplace_back(scene.clip);
   if (options.jointMap.empty()) named.push_back(scene.jointMap);
   std::error_code ignored;
@@ -73,6 +77,7 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
   }
   if (!options.body.empty()) scene.body = options.body;
   if (!options.networks.empty()) scene.networks.assign(options.networks.begin(), options.networks.end());
+  if (!options.edits.empty()) scene.edits.assign(options.edits.begin(), options.edits.end());
   if (!options.clip.empty()) scene.clip = options.clip;
   if (!options.jointMap.empty()) scene.jointMap = options.jointMap;
   if (!scene.jointMap.empty() && !isMotionFile(scene.clip))

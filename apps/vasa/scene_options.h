@@ -15,6 +15,7 @@ struct SceneOptions {
   std::vector<std::string> networks;
   std::string clip;
   std::string jointMap;
+  std::vector<std::string> edits;
 };
 
 /// The folder of what ships with the program: the built-in human, the rules of growth.
@@ -23,7 +24,7 @@ Result<std::filesystem::path> dataFolder();
 /// Where results are kept between runs (core/kept.h): $XDG_CACHE_HOME/vasa or ~/.cache/vasa; empty without either.
 std::filesystem::path cacheFolder();
 
-/// Declares SCENE, --body, --network, --clip and --joint-map.
+/// Declares SCENE, --body, --network, --edits, --clip and --joint-map.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 
 /// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes from the

@@ -1,9 +1,11 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "body/retarget.h"
 #include "core/cancellation.h"
+#include "edit/replay.h"
 #include "core/stage_log.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
@@ -64,6 +66,16 @@ Result<void> addMotion(const SceneFile& file, Body& body) {
   return {};
 }
 
+Result<Network> replayJournals(const Network& network, std::span<const std::filesystem::path> journals) {
+  std::vector<Edit> edits;
+  for (const auto& path : journals) {
+    auto read = readJournal(path);
+    if (!read) return read.error();
+    std::ranges::move(*read, std::back_inserter(edits));
+  }
+  return editNetwork(network, edits);
+}
+
 }  // namespace
 
 Result<Body> loadBody(const SceneFile& file) {
@@ -93,11 +105,12 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
   tell("binding vessels to the body");
   std::string names;
   for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
-  return makeScene(std::move(*body), std::move(networks), names);
+  return makeScene(std::move(*body), std::move(networks), file.edits, names);
 }
 
-Result<Scene> makeScene(Body body, std::vector<Network> networks, std::string_view names) {
+Result<Scene> makeScene(Body body, std::vector<Network> networks, std::span<const std::filesystem::path> edits, std::string_view names) {
   auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
+  if (network && !edits.empty()) network = replayJournals(*network, edits);
   if (!network) return network.error();
   auto binding = vasa::bind(body, *network, names);
   if (!binding) return binding.error();

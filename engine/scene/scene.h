@@ -17,8 +17,8 @@ struct Scene {
 /// The body alone; where the clip is a .bvh file, with that motion carried to it (body/retarget.h) among its clips.
 Result<Body> loadBody(const SceneFile& file);
 
-/// Reads what a scene file names, converts vessels that are no .vasa file (scene/vessel_files.h) and binds them to the
-/// body. Fails as readers, conversion, merging and binding do; vessels that do not lie in the body are refused. Can be
+/// Reads what a scene file names, converts vessels that are no .vasa file (scene/vessel_files.h), replays the journals of
+/// edits (edit/replay.h) and binds what they make to the body. Fails as readers, conversion, merging, editing and binding do; vessels that do not lie in the body are refused. Can be
 /// cancelled (core/cancellation.h).
 Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told = {});
 

@@ -167,6 +167,7 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
   reader.object(json, "",
                 {{"body", reader.path(scene.body)},
                  {"networks", reader.paths(scene.networks)},
+                 {"edits", reader.paths(scene.edits)},
                  {"clip", reader.text(scene.clip)},
                  {"joint_map", reader.path(scene.jointMap)},
                  {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},

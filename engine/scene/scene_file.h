@@ -37,7 +37,8 @@ struct CapillaryChoice {
 };
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
-///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
+///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
+///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
 ///               "skin_opacity": 0.3 },
@@ -45,6 +46,7 @@ struct CapillaryChoice {
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
+  std::vector<std::filesystem::path> edits;  ///< journals (edit/journal.h), replayed in order onto all networks together
   std::string clip;                ///< a clip's name or the beginning of it, or a .bvh file
   std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
   CameraChoice camera;

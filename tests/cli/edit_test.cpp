@@ -100,5 +100,24 @@ TEST_CASE("refused edits are told with line, vessel, place and rule, and nothing
   CHECK(runProgram({"edit", (folder.path() / "none.vedit").string(), "-o", out}).exit == 6);
   CHECK(runProgram({"edit", bad}).exit == 2);
   CHECK(runProgram({"info", humanVessels().string(), "--profile", "spleen artery"}).exit == 3);
+  CHECK(runProgram({"info", humanVessels().string(), "--edits", bad}).exit == 2);
   CHECK(runProgram({"help", "edits"}).out.find("stenosis V s length_mm percent") != std::string::npos);
+}
+
+TEST_CASE("scenes and commands take journals; a graft from the femoral to the popliteal artery walks certified") {
+  const TemporaryFolder folder;
+  const auto edits = journal(folder, "bypass.vedit",
+                             "occlude \"left femoral artery\" 0.6\ngraft \"left femoral artery\" 0.1 \"left popliteal artery\" 0.3 2.5 bypass\n");
+  const auto scene = journal(folder, "s.json", "{\"edits\": [\"bypass.vedit\"]}");
+  const auto outcome = runProgram({"check", scene, "--clip", "walk", "--frames", "0:12", "--json"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  for (const auto& frame : outcome.json()["frames"]) CHECK(frame["certified"] == true);
+  const auto plain = runProgram({"check", "--clip", "walk", "--frames", "0", "--json"}).json()["summary"];
+  CHECK(outcome.json()["summary"]["excluded_pairs"].get<int>() <= plain["excluded_pairs"].get<int>());
+  const auto measured = runProgram({"info", "--edits", edits, "--vessels", "--json"}).json();
+  const auto graft = vesselOf(measured["edited"], "bypass");
+  CHECK(graft["length_m"].get<double>() > 0.2);
+  CHECK(graft["radius_times_curvature"].get<double>() < 1);
+  const auto bad = journal(folder, "bad.vedit", "occlude nobody 0.5\n");
+  CHECK(runProgram({"check", "--edits", bad, "--frames", "0"}).exit == 3);
 }

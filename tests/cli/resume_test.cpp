@@ -139,3 +139,10 @@ TEST_CASE("--resume goes on in another place, with other files of the same conte
   REQUIRE_MESSAGE(moved.exit == 0, moved.err);
   CHECK(moved.json()["frames_kept"] == 1);
 }
+
+TEST_CASE("--resume sees that a journal of edits changed") {
+  const TemporaryFolder folder;
+  const auto journal = folder.path() / "lesions.vedit";
+  write(journal, "occlude \"left femoral artery\" 0.5\n");
+  checkHeld(folder.path(), {"--edits", journal.string()}, [&] { write(journal, "occlude \"left femoral artery\" 0.6\n"); });
+}

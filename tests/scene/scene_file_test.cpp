@@ -21,7 +21,7 @@ std::string messageOf(const std::string& text) {
 TEST_CASE("a full scene is read, paths relative to the file") {
   test::TemporaryFolder folder;
   const auto path = folder.path() / "scene.json";
-  REQUIRE(writeFileAtomically(path, std::string(R"({"body": "b.glb", "networks": ["a.vasa", "/abs/v.vasa"], "clip": "walk",
+  REQUIRE(writeFileAtomically(path, std::string(R"({"body": "b.glb", "networks": ["a.vasa", "/abs/v.vasa"], "edits": ["l.vedit"], "clip": "walk",
     "camera": {"position": [1, 2, 3], "target": [0, 1, 0], "angle": 20, "focus": "aorta"},
     "look": {"background": [1, 1, 1, 0], "skin": false, "skin_opacity": 0.5}})")).ok());
   const auto scene = readSceneFile(path);
@@ -29,6 +29,7 @@ TEST_CASE("a full scene is read, paths relative to the file") {
   CHECK(scene->body == folder.path() / "b.glb");
   CHECK(scene->networks[0] == folder.path() / "a.vasa");
   CHECK(scene->networks[1] == "/abs/v.vasa");
+  CHECK(scene->edits == std::vector{folder.path() / "l.vedit"});
   CHECK(scene->clip == "walk");
   CHECK(scene->camera.position == vec3(1, 2, 3));
   CHECK(scene->camera.focus == "aorta");
@@ -69,7 +70,7 @@ TEST_CASE("an empty scene is the default one") {
 TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("{").find("x.json: is not valid JSON") == 0);
   CHECK(messageOf("[1]") == "x.json: / must be an object");
-  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, capillaries, clip, joint_map, look, networks");
+  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, capillaries, clip, edits, joint_map, look, networks");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");
