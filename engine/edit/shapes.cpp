@@ -227,7 +227,7 @@ Result<std::string> apply(const StentEdit& edit, Draft& draft) {
   if (narrowest >= floor)
     return badInput(fmt::format("the vessel is nowhere narrower there than radius_mm {:.2f}; a stent would hang loose in it", edit.radiusMm));
   const float before = std::min(from, 2 * floor), after = std::min(length - to, 2 * floor);
-  Redrawing redrawing{from - before, to + after, std::min(floor, (to - from) / 4)};
+  Redrawing redrawing{from - before, to + after, std::min(0.5f * floor, (to - from) / 8)};
   redrawing.shape = [&](float along, vec4 was) {
     const float share = along < from ? smoothStep(1 - (from - along) / before) : along > to ? smoothStep(1 - (along - to) / after) : 1.0f;
     const float lack = floor - was.w, slack = kStentSlack * floor;

@@ -101,7 +101,7 @@ TEST_CASE("shapes that can not be are refused with line, vessel, place and rule"
   CHECK(refusalOf(tree, "aneurysm side 0.5 10 3") ==
         "t.vedit:1: aneurysm of \"side\" at 0.5: diameter_mm 3.0 is no more than the 4.0 mm that the vessel has there");
   CHECK(refusalOf(tree, "aneurysm side 0.5 10 8 left").find("runs to that side itself") != std::string::npos);
-  CHECK(refusalOf(tree, "aneurysm trunk 0.7 15 60 left").find("the wall would fold over itself at") != std::string::npos);
+  CHECK(refusalOf(tree, "aneurysm trunk 0.7 40 40 left").find("the wall would fold over itself at") != std::string::npos);
   CHECK(refusalOf(tree, "stent side 0.1 0.9 1").find("nowhere narrower there than radius_mm 1.00") != std::string::npos);
   CHECK(refusalOf(tree, "move side 0 0 5 0").find("too near to be moved by 5.0 mm") != std::string::npos);
   CHECK(refusalOf(tree, "move side 0.5 0 5 0 3").find("too near to be moved by 5.0 mm") != std::string::npos);
