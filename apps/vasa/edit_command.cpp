@@ -6,6 +6,7 @@
 #include "avoid/rest_repair.h"
 #include "commands.h"
 #include "core/atomic_file.h"
+#include "core/cancellation.h"
 #include "core/log.h"
 #include "edit/replay.h"
 #include "network/file.h"
@@ -84,13 +85,13 @@ std::string asText(const Report& report) {
   std::string text;
   for (const Report& row : report["rows"])
     if (row["applied"].get<bool>())
-      text += fmt::format("{}: {} of \"{}\": {}\n", row["line"].get<std::string>(), row["operation"].get<std::string>(), row["vessel"].get<std::string>(),
-                          row["change"].get<std::string>());
+      text += fmt::format("{}: {} of \"{}\": {}\n", plainText(row["line"]), plainText(row["operation"]), plainText(row["vessel"]),
+                          plainText(row["change"]));
   text += fmt::format("{} of {} edits applied: {} vessels, {:.2f} m, {:.1f} ml\n", report["applied"].get<std::size_t>(), report["edits"].get<std::size_t>(),
                       report["vessels"].get<std::size_t>(), report["length_m"].get<double>(), 1e6 * report["volume_m3"].get<double>());
   for (const Report& overlap : report["overlaps"])
-    text += fmt::format("in the way: \"{}\" and \"{}\" overlap by {:.1f} mm; --part moves them apart\n", overlap["vessels"][0].get<std::string>(),
-                        overlap["vessels"][1].get<std::string>(), overlap["depth_mm"].get<double>());
+    text += fmt::format("in the way: \"{}\" and \"{}\" overlap by {:.1f} mm; --part moves them apart\n", plainText(overlap["vessels"][0]),
+                        plainText(overlap["vessels"][1]), overlap["depth_mm"].get<double>());
   return text;
 }
 

@@ -97,7 +97,7 @@ std::string vesselTable(const Report& vessels) {
   for (const Report& vessel : vessels) {
     const bool narrow = vessel["ecst"].get<double>() >= kShownStenosis, wide = vessel["aneurysm_ratio"].get<double>() >= kShownAneurysm;
     text += fmt::format(
-        "{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", vessel["name"].get<std::string>(), vessel["kind"].get<std::string>(),
+        "{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", plainText(vessel["name"]), plainText(vessel["kind"]),
         cell(vessel["length_m"], 1e3, 1),
         cell(vessel["radius_least_m"], 2e3, 1) + " to " + cell(vessel["radius_greatest_m"], 2e3, 1), narrow ? cell(vessel["nascet"], 100, 1) : "",
         narrow ? cell(vessel["ecst"], 100, 1) : "", wide ? cell(vessel["aneurysm_diameter_m"], 1e3, 1) : "", cell(vessel["tortuosity"], 1, 2),
@@ -113,7 +113,7 @@ std::string forkTable(const Report& forks) {
     bool first = true;
     for (const Report& arm : fork["arms"]) {
       if (arm["goes_on"].get<bool>()) continue;
-      text += fmt::format("{:<44} {:<44} {:>8} {:>7}\n", first ? fork["name"].get<std::string>() : "", arm["name"].get<std::string>(),
+      text += fmt::format("{:<44} {:<44} {:>8} {:>7}\n", first ? plainText(fork["name"]) : "", plainText(arm["name"]),
                           cell(arm["radius_m"], 2e3, 1), cell(arm["angle_deg"], 1, 0));
       first = false;
     }
