@@ -124,7 +124,7 @@ class Loader {
     // What the asset names and lacks is the asset's fault; what is there and cannot be read is the disk's.
     std::error_code ignored;
     const auto status = std::filesystem::status(file, ignored);
-    const std::string name = "\"" + file.filename().string() + "\"";
+    const std::string name = '"' + file.filename().string() + '"';
     if (!std::filesystem::exists(status)) uri.fail(name + " is missing", "keep all files of the asset in one folder");
     if (!std::filesystem::is_regular_file(status)) uri.fail(name + " is not a regular file");
     auto bytes = readFile(file, kMaximumFileBytes);
