@@ -37,14 +37,18 @@ unsigned threadCount() {
 void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
   const std::atomic<bool>* const asked = CancellationScope::current();
   const bool behindOthers = wayGiven;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain ? grain : 1), [&](const auto& range) {
+  tbb::task_group_context context;
+  const auto rounds = [&](const auto& range) {
     const CancellationScope scope(asked);
     if (behindOthers) giveWay();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       checkpoint();
       body(i);
     }
-  });
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain ? grain : 1), rounds, context);
+  // A loop around this one that failed on another thread ends this one early, without a word.
+  if (context.is_group_execution_cancelled()) throw Cancelled();
 }
 
 void isolated(const std::function<void()>& work) {

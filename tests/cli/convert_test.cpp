@@ -167,7 +167,7 @@ TEST_CASE("names from files steer no terminal and forge no line, on standard out
   const auto clean = [](const std::string& text) {
     return std::ranges::all_of(text, [](unsigned char c) { return c == '\n' || c == '\t' || (c >= 0x20 && c != 0x7f); });
   };
-  const auto mesh = folder.write("a.obj", tubesObj({{"\x1b[31mred\x07", 0}}) + "o \x1b]0;title\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto mesh = folder.write("a.obj", tubesObj({{"\x1b[31mred\x07", 0}}) + "o \x1b]0;title\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n");
   const auto made = runProgram({"convert", mesh, "-o", folder.path("a.vasa")});
   REQUIRE_MESSAGE(made.exit == 0, made.err);
   CHECK(contains(made.out, "\\x1b]0;title"));

@@ -123,7 +123,7 @@ TEST_CASE("export: a tube list in which bench collide finds the pairs that check
   const auto file = (folder.path() / "twist.tubes").string();
   const auto report = exported({"--clip", "twist", "--frames", "15:20", "--no-avoid", "-o", file});
   const auto frames = runProgram({"check", "--clip", "twist", "--frames", "15:20", "--method", "paper", "--json"}).json()["frames"];
-  const double height = runProgram({"info", "--json"}).json()["body_height_m"];
+  const double height = runProgram({"info", "--json"}).json()["body"]["body_height_m"];
   for (const int pose : {0, 1}) {
     const auto& frame = frames[pose ? 5 : 0];
     const auto pairsBy = [&](const std::string& method) {
