@@ -34,7 +34,7 @@ Report oneVessel(const Vessel& vessel, std::span<const vec4> points) {
   for (const vec4& p : points) thinnest = std::min(thinnest, p.w);
   const float step = std::max(std::min(kStationsOfRadius * thinnest, course.arc / kFewestStations), kFinestStation);
   const auto stations = stationsOf(points, step);
-  const auto [least, greatest] = std::ranges::minmax(stations, {}, &Station::radius);
+  const auto [least, greatest] = std::ranges::minmax(stations, {}, &ProfileStation::radius);
   const auto stenosis = worstStenosis(stations);
   const auto aneurysm = widestAneurysm(stations);
   const auto share = [&](float along) { return course.arc > 0 ? along / course.arc : 0.0f; };
@@ -124,7 +124,7 @@ std::string forkTable(const Report& forks) {
 std::string profileCsv(std::span<const vec4> points, float step) {
   std::string text = "along_mm,share,x_mm,y_mm,z_mm,radius_mm,area_mm2,curvature_per_mm\n";
   const auto stations = stationsOf(points, step);
-  for (const Station& station : stations)
+  for (const ProfileStation& station : stations)
     text += fmt::format("{:.3f},{:.5f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.6f}\n", 1e3 * double(station.along),
                         double(station.along) / std::max(double(stations.back().along), 1e-12), 1e3 * double(station.centre.x), 1e3 * double(station.centre.y),
                         1e3 * double(station.centre.z), 1e3 * double(station.radius), 1e6 * double(station.area()), 1e-3 * double(station.curvature));

@@ -9,7 +9,7 @@ namespace {
 constexpr float kParallel = 1;  // radii of way without a change, after which a wall counts as healthy
 
 // The shoulder of a lesion at `from`, seen in one direction; sign 1: where the radius is largest, -1: least.
-std::size_t shoulder(std::span<const Station> stations, std::size_t from, int direction, float sign) {
+std::size_t shoulder(std::span<const ProfileStation> stations, std::size_t from, int direction, float sign) {
   std::size_t best = from;
   float bestValue = sign * stations[from].radius;
   for (std::size_t i = from; direction > 0 ? i + 1 < stations.size() : i > 0;) {
@@ -23,7 +23,7 @@ std::size_t shoulder(std::span<const Station> stations, std::size_t from, int di
 
 // The lesion around an extreme station.
 template <class Kind>
-std::optional<Kind> lesionAt(std::span<const Station> stations, std::size_t at, float sign) {
+std::optional<Kind> lesionAt(std::span<const ProfileStation> stations, std::size_t at, float sign) {
   const std::size_t before = shoulder(stations, at, -1, sign), after = shoulder(stations, at, 1, sign);
   if (after == at || before == at) return std::nullopt;
   Kind lesion;
@@ -41,7 +41,7 @@ std::optional<Kind> lesionAt(std::span<const Station> stations, std::size_t at, 
 }
 
 template <class Kind>
-std::optional<Kind> worst(std::span<const Station> stations, float sign) {
+std::optional<Kind> worst(std::span<const ProfileStation> stations, float sign) {
   std::optional<Kind> found;
   const auto severity = [&](const Lesion& lesion) { return sign * (1 - lesion.radius / lesion.reference); };
   for (std::size_t i = 1; i + 1 < stations.size(); ++i) {
@@ -55,11 +55,11 @@ std::optional<Kind> worst(std::span<const Station> stations, float sign) {
 
 }  // namespace
 
-std::optional<Stenosis> worstStenosis(std::span<const Station> stations) {
+std::optional<Stenosis> worstStenosis(std::span<const ProfileStation> stations) {
   return worst<Stenosis>(stations, 1);
 }
 
-std::optional<Aneurysm> widestAneurysm(std::span<const Station> stations) {
+std::optional<Aneurysm> widestAneurysm(std::span<const ProfileStation> stations) {
   return worst<Aneurysm>(stations, -1);
 }
 

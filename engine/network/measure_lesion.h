@@ -32,7 +32,7 @@ struct Stenosis : Lesion {
   /// 1 - least area / area that the vessel would have there.
   float area() const { return 1 - (radius * radius) / (reference * reference); }
 };
-std::optional<Stenosis> worstStenosis(std::span<const Station> stations);
+std::optional<Stenosis> worstStenosis(std::span<const ProfileStation> stations);
 
 /// The widening of most diameter beyond what the vessel would measure there; none where the radius has no inner maximum.
 struct Aneurysm : Lesion {
@@ -40,6 +40,6 @@ struct Aneurysm : Lesion {
   float ratio() const { return radius / reference; }
   float saccularIndex() const { return diameter() / length(); }
 };
-std::optional<Aneurysm> widestAneurysm(std::span<const Station> stations);
+std::optional<Aneurysm> widestAneurysm(std::span<const ProfileStation> stations);
 
 }  // namespace vasa

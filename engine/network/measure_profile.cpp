@@ -8,13 +8,13 @@
 
 namespace vasa {
 
-std::vector<Station> stationsOf(std::span<const vec4> points, float step) {
+std::vector<ProfileStation> stationsOf(std::span<const vec4> points, float step) {
   constexpr float kMost = 1e6f;  // stations
   const ArcLength arc(points);
   const auto count = std::uint32_t(std::clamp(std::ceil(arc.length() / step), 1.0f, kMost));
-  std::vector<Station> stations;
+  std::vector<ProfileStation> stations;
   for (std::uint32_t i = 0; i <= count; ++i) {
-    Station station;
+    ProfileStation station;
     station.along = arc.length() * float(i) / float(count);
     station.parameter = i == count ? float(spanCount(points)) : arc.parameterAt(station.along);
     const auto [span, t] = locate(station.parameter, spanCount(points));

@@ -7,7 +7,7 @@
 namespace vasa {
 
 /// A place along a vessel and what is measured there.
-struct Station {
+struct ProfileStation {
   float along = 0;      ///< [m] of arc from the vessel's start
   float parameter = 0;  ///< u in [0, spans]
   vec3 centre{0};       ///< [m]
@@ -22,6 +22,6 @@ struct Station {
 /// @param points  de Boor points of one vessel
 /// @param step    [m] > 0: they are no farther apart
 /// O(spans + stations)
-std::vector<Station> stationsOf(std::span<const vec4> points, float step);
+std::vector<ProfileStation> stationsOf(std::span<const vec4> points, float step);
 
 }  // namespace vasa

@@ -21,7 +21,7 @@ std::vector<vec4> drawn(int count, At at) {
 
 // 100 mm along z with a radius told by place [mm].
 template <class Radius>
-std::vector<Station> straightWith(Radius radius) {
+std::vector<ProfileStation> straightWith(Radius radius) {
   return stationsOf(drawn(200, [&](double s) { return vec4(0, 0, 0.1 * s, 1e-3 * radius(100 * s)); }), 2.5e-4f);
 }
 
