@@ -105,7 +105,7 @@ void writeVertices(uint block, uint blocks, uint colour) {
 }
 
 void writeTriangles(uint vertex, uint target) {
-  UintsOut indices = UintsOut(push.vertices);
+  UintsOut indices = push.indices;
   for (uint i = 0; i < triangles; ++i) {
     uvec3 t = triangleAt(i);
     indices.value[target++] = vertex + placeOfVertex(t.x);

@@ -84,7 +84,7 @@ void writeVertices(Item it, SweepCurve curve, uint vertex) {
 }
 
 void writeTriangles(Item it, uint vertex, uint target) {
-  UintsOut indices = UintsOut(push.vertices);
+  UintsOut indices = push.indices;
   uint mask = 0, strips = seenStrips;
   RingVertices first, second;
   while (mask != 0 || strips != 0) {

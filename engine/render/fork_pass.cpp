@@ -21,6 +21,7 @@ void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
                                                .colours = forks.colours(),
                                                .around = input.detail.around(),
                                                .vertices = input.into.pool.address(),
+                                               .indices = input.into.pool.address(),
                                                .blockColours = input.into.colours.address(),
                                                .draws = input.into.draws.address(),
                                                .filling = input.filling.state().address(),

@@ -20,6 +20,7 @@ void TubePass::record(VkCommandBuffer commands, const Input& input) const {
                                                .around = input.detail.around(),
                                                .colours = tubes.colours(),
                                                .vertices = input.into.pool.address(),
+                                               .indices = input.into.pool.address(),
                                                .blockColours = input.into.colours.address(),
                                                .draws = input.into.draws.address(),
                                                .filling = input.filling.state().address(),

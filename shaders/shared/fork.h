@@ -77,7 +77,8 @@ struct ForksPush {
   VASA_ADDRESS(View) view;
   VASA_ADDRESS(Uints) colours;       // of each fork, kind in the highest 8 bits
   VASA_ADDRESS(Uints) around;        // m of each vessel
-  VASA_ADDRESS(Vertices) vertices;   // of a template; indices lie among them
+  VASA_ADDRESS(Vertices) vertices;   // of a template
+  VASA_ADDRESS(UintsOut) indices;    // the same memory: they lie among the vertices
   VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its fork's
   VASA_ADDRESS(Draws) draws;
   VASA_ADDRESS(Fill) filling;
@@ -88,7 +89,7 @@ struct ForksPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 112);
+static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 120);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

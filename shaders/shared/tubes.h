@@ -95,7 +95,8 @@ struct TubesPush {
   VASA_ADDRESS(Uints) along;         // n of each sweep, 0: not drawn
   VASA_ADDRESS(Uints) around;        // m of each vessel
   VASA_ADDRESS(Uints) colours;       // of each sweep
-  VASA_ADDRESS(Vertices) vertices;   // of a template; indices lie among them
+  VASA_ADDRESS(Vertices) vertices;   // of a template
+  VASA_ADDRESS(UintsOut) indices;    // the same memory: they lie among the vertices
   VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its sweep's
   VASA_ADDRESS(Draws) draws;
   VASA_ADDRESS(Fill) filling;
@@ -115,7 +116,7 @@ struct PlanPush {
 static_assert(sizeof(PlanPush) == 40);
 static_assert(offsetof(TubeTables, polar) == 8 * (8 * kSpanClasses + 2 * (kMaxAround + 1)));
 static_assert(sizeof(TubeTables) == 64 * 9 + 20 * 17 + 8 * 4 && sizeof(DrawCommand) == 20);
-static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 104);
+static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 112);
 }  // namespace vasa::shared
 #endif
 #undef VASA_ADDRESS
