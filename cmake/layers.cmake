@@ -1,7 +1,7 @@
 # The one direction of dependencies: which engine folders a folder may include (besides itself and
 # everything those may include). The libraries link by this table and a test greps the includes
 # against it, so an arrow is added here or nowhere.
-set(VASA_LAYERS core math curve mesh network edit surface convert body collide avoid growth scene io gpu render)
+set(VASA_LAYERS core math curve mesh network edit surface convert body collide avoid growth scene realism io gpu render)
 set(VASA_MAY_INCLUDE_core)
 set(VASA_MAY_INCLUDE_math core)
 set(VASA_MAY_INCLUDE_curve math)
@@ -16,5 +16,6 @@ set(VASA_MAY_INCLUDE_surface network)
 set(VASA_MAY_INCLUDE_growth surface)
 set(VASA_MAY_INCLUDE_io core mesh network body)
 set(VASA_MAY_INCLUDE_scene io edit convert body avoid surface growth)
+set(VASA_MAY_INCLUDE_realism scene)
 set(VASA_MAY_INCLUDE_gpu core)
 set(VASA_MAY_INCLUDE_render gpu scene surface growth)

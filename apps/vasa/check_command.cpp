@@ -25,7 +25,7 @@ struct Options {
   SceneOptions scene;
   std::string frames, track, method = "exact";
   double fps = 0;
-  bool noVolume = false, places = false, skinWall = false;
+  bool noVolume = false, noSlide = false, places = false, skinWall = false;
 };
 
 struct Setting {
@@ -305,7 +305,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
   FrameOptions frameOptions{
-      .keepVolume = !options.noVolume, .avoid = true, .avoidance = {.skinWall = options.skinWall}};
+      .keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = true, .avoidance = {.skinWall = options.skinWall}};
   const auto track = TrackFile::open(options.track, setting->scene, setting->clip, frameOptions);
   if (!track) return track.error();
   FrameMaker maker(setting->scene, frameOptions);
@@ -365,6 +365,7 @@ void addCheck(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"exact", "paper"}))
       ->capture_default_str();
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
+  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too; without it skin_contacts are 0");
   sub->add_flag("--places", options->places, "Name the vessels that still interfere, have changed sides or are in bones in each frame");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });

@@ -28,7 +28,7 @@ struct Options {
   std::string output, frames, quads, track, unit = "mm";
   double fps = 0, budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1, clearanceMillimetres = 5;
   std::uint32_t samples = 2;
-  bool noVolume = false, avoid = true, flat = false;
+  bool noVolume = false, noSlide = false, avoid = true, flat = false;
 };
 
 struct Job {
@@ -57,7 +57,7 @@ Result<Job> prepare(const Options& options) {
   if (!choice) return choice.error();
   auto scene = loadScene(*choice);
   if (!scene) return scene.error();
-  Job job{std::move(*scene), nullptr, {}, {.keepVolume = !options.noVolume, .avoid = options.avoid}};
+  Job job{std::move(*scene), nullptr, {}, {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = options.avoid}};
   if (!choice->clip.empty()) {
     const auto clip = findClip(job.scene.body, choice->clip);
     if (!clip) return clip.error();
@@ -280,6 +280,7 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_flag("--flat", options->flat, "Leave normals out of a .glb: half the size, shaded facet by facet");
   sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart that run through one another or through bones (the default)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
+  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
   sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 

@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   Command command;
   addGlobals(app, command.globals);
   addView(app, command);
+  addRealism(app, command);
   addRender(app, command);
   addConvert(app, command);
   addFit(app, command);

@@ -42,7 +42,7 @@ struct Options {
   std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
   bool beat = false;
-  bool resume = false, transparent = false, noVolume = false, avoid = true, highlightContacts = false, skinWall = false;
+  bool resume = false, transparent = false, noVolume = false, noSlide = false, avoid = true, highlightContacts = false, skinWall = false;
 };
 
 // What is to be drawn, settled before the first frame.
@@ -88,7 +88,7 @@ Look lookOf(const LookChoice& choice, bool transparent) {
 }
 
 FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume,
+  FrameOptions frame{.keepVolume = !options.noVolume, .slide = !options.noSlide,
                      .avoid = options.avoid || options.highlightContacts,
                      .beat = options.beat};
   frame.avoidance.skinWall = options.skinWall;
@@ -441,6 +441,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
+  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
   sub->callback([options, &command, sub] {
     options->settings = settingsOf(*sub);
     command.run = [options, &command] { return run(command.globals, *options); };

@@ -35,6 +35,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
     : scene_(&scene),
       options_(options),
       deformer_(scene.binding),
+      slider_(scene.network),
       kinks_(scene.network),
       volume_(scene.network),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
@@ -110,6 +111,7 @@ void FrameMaker::deform(const Pose& pose, float time) {
   {
     StageClock clock(report_.deformMs);
     deformer_.run(scene_->network, pose, posedPoints_);
+    if (options_.slide) slider_.run(posedPoints_);
     beat_.apply(heartScale_, jointMatrices_, posedPoints_);
     deformer_.rotations(rotations_);
   }

@@ -4,6 +4,7 @@
 
 #include "avoid/solver.h"
 #include "body/deform.h"
+#include "body/sliding.h"
 #include "body/volume.h"
 #include "network/kinks.h"
 #include "scene/beat.h"
@@ -15,7 +16,7 @@ namespace vasa {
 /// What a frame's stages did and how long they took.
 struct FrameReport {
   double poseMs = 0;    ///< clip to joints (by the caller's clock where a pose is given)
-  double deformMs = 0;  ///< joints to control points
+  double deformMs = 0;  ///< joints to control points, and vessels along their beds
   double kinksMs = 0;   ///< straightening kinks
   double volumeMs = 0;  ///< radii
   double framesMs = 0;  ///< knot frames
@@ -27,6 +28,7 @@ struct FrameReport {
 
 struct FrameOptions {
   bool keepVolume = true;
+  bool slide = true;         ///< vessels slide in their beds (body/sliding.h)
   bool avoid = false;        ///< move vessels apart that run through one another
   bool beat = false;         ///< the heart beats (scene/beat.h)
   AvoidOptions avoidance;    ///< budgets; no rounds and lumen rounds: only look
@@ -84,6 +86,7 @@ class FrameMaker {
   const Scene* scene_;
   FrameOptions options_;
   Deformer deformer_;
+  VesselSlider slider_;
   KinkRelaxer kinks_;
   VolumeKeeper volume_;
   HeartBeat beat_;

@@ -34,8 +34,12 @@ TEST_CASE("thirty frames with everything switched on under validation, GPU-assis
   const bool assisted = rig.device().features().core.features.shaderInt64;  // what the layer writes addresses with
   gpu::Device device({.choice = {}, .validation = {.synchronization = !assisted, .gpuAssisted = assisted}, .instanceExtensions = {}, .deviceExtensions = {}});
   test::Everything scene(9);
+  // Every access to memory is looked up: a few pixels and curves take every path that many do.
+  RenderOptions options = scene.options(1);
+  options.width = options.height = 40;
+  options.capillaries.budget = 2'000;
   {
-    Renderer renderer(device, scene.grown.network, scene.meshes, scene.options(1));
+    Renderer renderer(device, scene.grown.network, scene.meshes, options);
     for (unsigned i = 0; i < 30; ++i) renderer.draw(scene.turned(0.2f * float(i), i));
   }
   CHECK_MESSAGE(device.validationMessages().empty(), test::joined(device.validationMessages()));

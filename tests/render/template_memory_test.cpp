@@ -79,12 +79,12 @@ TEST_CASE("tubes, caps and forks take less than 2 MiB of the device, however man
 
 TEST_CASE("what a round has no room for comes in later ones, in the same order: the picture is that of one large template") {
   VASA_REQUIRE_GPU(rig);
-  const Network network = test::branchingNetwork(150, 3);
-  for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{8, 10}, SweepShape{16, 20}}) {
+  const Network network = test::branchingNetwork(60, 3);
+  for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{8, 10}}) {
     RenderOptions options = small(shape, 0);
     options.templateBytes = 1u << 26;
     const DrawnFrame once = drawn(rig, network, options);
-    for (const std::uint32_t bytes : {1u, 300'000u, 1'000'000u}) {
+    for (const std::uint32_t bytes : {1u, 300'000u}) {
       options.templateBytes = bytes;
       CHECK(drawn(rig, network, options).picture == once.picture);
     }

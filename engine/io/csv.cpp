@@ -1,11 +1,11 @@
-#include "make_human/table.h"
+#include "io/csv.h"
 
 #include <charconv>
 #include <cmath>
 
 #include "core/atomic_file.h"
 
-namespace vasa::human {
+namespace vasa::csv {
 
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -90,4 +90,4 @@ void Table::fault(std::size_t row, const std::string& what) {
   if (state_.ok()) state_ = badInput(name_ + ":" + std::to_string(rows_[row].line) + ": " + what);
 }
 
-}  // namespace vasa::human
+}  // namespace vasa::csv

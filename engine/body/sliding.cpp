@@ -1,0 +1,284 @@
+#include "body/sliding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+// Control points are shifted by what the curve at their Greville abscissae is. These are all thirds of a span, so that a
+// course sampled six times a span has each of them among its samples.
+namespace vasa {
+namespace {
+
+// The superficial femoral artery (3 mm) shortens by a third of what a knee's flexion takes from it and the popliteal artery
+// together, two hand's breadths above the joint (Klein 2009): 0.13 m gives that. The wall's stiffness grows with r², the bed's
+// hold with r. Shorter, and strain gathers at the joints; longer, and branches are drawn along that bones hold in life.
+constexpr float kSlidingLength = 0.13f, kOfRadius = 3e-3f;
+// Over so much of its arc a branch gives way to the shift of what it hangs on: what is shorter comes along.
+constexpr float kCarried = 0.12f;      // [m] of 0.06 to 0.2 the one with which no clip jumps
+constexpr std::uint32_t kSamples = 6;  // a span
+constexpr float kUnstrained = 2e-4f;   // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
+
+struct Sampled {
+  std::vector<vec3> places;
+  std::vector<float> along;         // [m]
+  std::vector<std::uint32_t> own;   // of each point, its sample
+};
+
+// Three times the Greville abscissa of point j.
+std::uint32_t grevilleThirds(std::uint32_t j, std::uint32_t spans) {
+  const auto knot = [&](std::uint32_t k) { return std::clamp<std::int64_t>(std::int64_t(k) - 3, 0, spans); };
+  return std::uint32_t(knot(j + 1) + knot(j + 2) + knot(j + 3));
+}
+
+float smooth(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+template <class Pieces>
+Sampled sample(const Network& network, const Pieces& pieces, std::span<const vec4> points) {
+  Sampled course;
+  for (const auto& piece : pieces) {
+    const Vessel& vessel = network.vessel(piece.vessel);
+    const auto own = Network::pointsOf(vessel, points);
+    const std::uint32_t spans = vessel.spanCount(), count = kSamples * spans;
+    const bool joined = !course.places.empty();
+    const auto first = std::uint32_t(joined ? course.places.size() - 1 : 0);
+    std::vector<vec3> places;
+    places.reserve(count + 1);
+    for (std::uint32_t span = 0; span < spans; ++span) {
+      const Bezier segment = bezierOfSpan(own, span);
+      for (std::uint32_t k = 0; k < kSamples; ++k) places.push_back(vec3(segment.at(float(k) / kSamples)));
+    }
+    places.push_back(vec3(own.back()));
+    if (piece.backwards) std::reverse(places.begin(), places.end());
+    course.places.insert(course.places.end(), places.begin() + joined, places.end());
+    for (std::uint32_t j = 0; j < vessel.pointCount; ++j)  // symmetric: the same from either end
+      course.own.push_back(first + kSamples / 3 * grevilleThirds(j, spans));
+  }
+  course.along.push_back(0);
+  for (std::size_t i = 1; i < course.places.size(); ++i)
+    course.along.push_back(course.along.back() + glm::distance(course.places[i - 1], course.places[i]));
+  return course;
+}
+
+vec3 placeAt(const Sampled& course, float along, std::size_t from) {
+  from = std::min(from, course.along.size() - 2);
+  while (from > 0 && course.along[from] > along) --from;
+  while (from + 2 < course.along.size() && course.along[from + 1] <= along) ++from;
+  const float step = course.along[from + 1] - course.along[from];
+  const float share = step > 0 ? std::clamp((along - course.along[from]) / step, 0.0f, 1.0f) : 0;
+  return glm::mix(course.places[from], course.places[from + 1], share);
+}
+
+}  // namespace
+
+float VesselSlider::slidingLength(float radius) {
+  return kSlidingLength * std::sqrt(radius / kOfRadius);
+}
+
+VesselSlider::VesselSlider(const Network& network) : network_(&network) {
+  const auto nodeOf = [&](VesselEnd end) {
+    const Vessel& vessel = network.vessel(end.vessel);
+    return end.last ? vessel.end : vessel.start;
+  };
+  // The end that a vessel's end goes on in.
+  const auto onward = [&](VesselEnd end) -> std::optional<VesselEnd> {
+    const NodeId node = nodeOf(end);
+    if (!node.valid() || network.node(node).host || network.node(node).endCount != 2) return std::nullopt;
+    const auto ends = network.ends(network.node(node));
+    const VesselEnd other = ends[ends[0] == end ? 1 : 0];
+    return other.vessel == end.vessel ? std::nullopt : std::optional(other);
+  };
+  std::vector<char> taken(network.vessels().size(), 0);
+  const auto follow = [&](VesselEnd start) {
+    Course course;
+    for (std::optional<VesselEnd> at = start; at && !taken[at->vessel.value];) {
+      taken[at->vessel.value] = 1;
+      course.pieces.push_back({at->vessel, at->last});
+      at = onward({at->vessel, !at->last});
+    }
+    courses_.push_back(std::move(course));
+  };
+  for (std::uint32_t v = 0; v < taken.size(); ++v)
+    for (const bool last : {false, true})
+      if (!taken[v] && !onward({{v}, last})) follow({{v}, last});
+  for (std::uint32_t v = 0; v < taken.size(); ++v)
+    if (!taken[v]) follow({{v}, false});  // rings
+  for (Course& course : courses_) {
+    const Sampled rest = sample(network, course.pieces, network.points());
+    std::size_t k = 0;
+    for (const Piece& piece : course.pieces) {
+      const Vessel& vessel = network.vessel(piece.vessel);
+      for (std::uint32_t j = 0; j < vessel.pointCount; ++j, ++k) {
+        const std::uint32_t point = vessel.firstPoint + (piece.backwards ? vessel.pointCount - 1 - j : j);
+        const float length = slidingLength(network.points()[point].w);
+        course.points.push_back(point);
+        course.along.push_back(rest.along[rest.own[k]]);
+        course.tether.push_back(1 / (length * length));
+      }
+    }
+  }
+  settleOrder();
+}
+
+// Sets what each course's ends hang on, and sorts.
+void VesselSlider::settleOrder() {
+  const Network& network = *network_;
+  std::vector<std::uint32_t> courseOf(network.vessels().size());
+  for (std::uint32_t c = 0; c < courses_.size(); ++c)
+    for (const Piece& piece : courses_[c].pieces) courseOf[piece.vessel.value] = c;
+  const auto radiusOf = [&](VesselEnd end) {
+    const auto own = network.pointsOf(network.vessel(end.vessel));
+    return end.last ? own.back().w : own.front().w;
+  };
+  const auto holdOf = [&](VesselEnd end) -> Hold {
+    const Vessel& vessel = network.vessel(end.vessel);
+    const NodeId id = end.last ? vessel.end : vessel.start;
+    if (!id.valid()) return {};
+    const Node& node = network.node(id);
+    if (node.host) return {true, node.host, std::nullopt};
+    const auto ends = network.ends(node);
+    const VesselEnd thickest = *std::ranges::max_element(ends, {}, radiusOf);
+    return {true, std::nullopt, thickest == end ? std::nullopt : std::optional(thickest)};
+  };
+  std::vector<std::vector<std::uint32_t>> hanging(courses_.size());
+  std::vector<std::uint32_t> waiting(courses_.size(), 0);
+  for (std::uint32_t c = 0; c < courses_.size(); ++c) {
+    Course& course = courses_[c];
+    course.start = holdOf({course.pieces.front().vessel, course.pieces.front().backwards});
+    course.finish = holdOf({course.pieces.back().vessel, !course.pieces.back().backwards});
+    for (const Hold* hold : {&course.start, &course.finish})
+      if (hold->host || hold->end) {
+        hanging[courseOf[(hold->host ? hold->host->vessel : hold->end->vessel).value]].push_back(c);
+        ++waiting[c];
+      }
+  }
+  std::vector<std::uint32_t> order;
+  std::vector<char> settled(courses_.size(), 0);
+  const auto settle = [&](std::uint32_t first) {
+    std::vector<std::uint32_t> ready{first};
+    while (!ready.empty()) {
+      const std::uint32_t c = ready.back();
+      ready.pop_back();
+      if (settled[c]) continue;
+      settled[c] = 1;
+      order.push_back(c);
+      for (const std::uint32_t next : hanging[c])
+        if (--waiting[next] == 0) ready.push_back(next);
+    }
+  };
+  for (std::uint32_t c = 0; c < courses_.size(); ++c)
+    if (waiting[c] == 0) settle(c);
+  for (std::uint32_t c = 0; c < courses_.size(); ++c) settle(c);  // those that hang on one another in a circle
+  std::vector<Course> sorted;
+  for (const std::uint32_t c : order) sorted.push_back(std::move(courses_[c]));
+  courses_ = std::move(sorted);
+}
+
+void VesselSlider::run(std::span<vec4> points) const {
+  parallelFor(courses_.size(), 16, [&](std::size_t c) { slide(courses_[c], points); });
+  for (const Course& course : courses_) carry(course, points);
+  pinEnds(*network_, points);
+}
+
+// (1/h_before + 1/h_after + m/ℓ²) a_i - a_{i-1}/h_before - a_{i+1}/h_after = λ_after - λ_before, a tridiagonal system solved by
+// elimination; a = 0 at an end that holds. A free end draws back where its course is stretched and stays where it is squeezed:
+// beyond it there is no course to follow. Where vessels join, their common point is there twice, h = 0 between: it counts once.
+void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
+  if (isUnstrained(course, points)) return;
+  const Sampled posed = sample(*network_, course.pieces, points);
+  std::vector<std::uint32_t> row{0};  // of points that count
+  for (std::uint32_t i = 1; i < course.points.size(); ++i)
+    if (course.along[i] > course.along[row.back()]) row.push_back(i);
+  if (row.size() < 3) return;
+  const std::size_t n = row.size();
+  std::vector<double> step(n + 1, 0), stretch(n + 1, 1), factor(n, 0), shift(n, 0);  // step and stretch: before each row
+  for (std::size_t k = 1; k < n; ++k) {
+    step[k] = double(course.along[row[k]]) - course.along[row[k - 1]];
+    stretch[k] = (double(posed.along[posed.own[row[k]]]) - posed.along[posed.own[row[k - 1]]]) / step[k];
+  }
+  bool holdsFirst = course.start.holds, holdsLast = course.finish.holds;
+  for (;;) {
+    for (std::size_t k = 0; k < n; ++k) {
+      factor[k] = shift[k] = 0;
+      if ((k == 0 && holdsFirst) || (k + 1 == n && holdsLast)) continue;
+      const double before = k > 0 ? 1 / step[k] : 0, after = k + 1 < n ? 1 / step[k + 1] : 0;
+      const double pivot = before + after + 0.5 * (step[k] + step[k + 1]) * double(course.tether[row[k]]) - (k > 0 ? before * factor[k - 1] : 0);
+      factor[k] = after / pivot;
+      shift[k] = (stretch[k + 1] - stretch[k] + (k > 0 ? before * shift[k - 1] : 0)) / pivot;
+    }
+    for (std::size_t k = n - 1; k-- > 0;) shift[k] += factor[k] * shift[k + 1];
+    const bool outFirst = !holdsFirst && shift.front() < 0, outLast = !holdsLast && shift.back() > 0;
+    if (!outFirst && !outLast) break;
+    holdsFirst |= outFirst, holdsLast |= outLast;
+  }
+  // A control point stands off its curve, across it, by h²/6 of the curve's bend, h being the way between control points: so that the course
+  // stays, it takes over the distance of those about its new place, by the square of how much farther apart they come to lie.
+  std::vector<float> was(n), is(n);
+  std::vector<vec3> off(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::uint32_t own = posed.own[row[k]];
+    was[k] = posed.along[own], is[k] = was[k] + float(shift[k]);
+    off[k] = vec3(points[course.points[row[k]]]) - posed.places[own];
+  }
+  const auto apart = [n](std::span<const float> along, std::size_t k) {
+    return along[std::min(k + 1, n - 1)] - along[k > 0 ? k - 1 : 0];
+  };
+  std::vector<vec3> moved(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t j = std::min(k, n - 2);
+    while (j > 0 && was[j] > is[k]) --j;
+    while (j + 2 < n && was[j + 1] <= is[k]) ++j;
+    const float gap = was[j + 1] - was[j], share = gap > 0 ? std::clamp((is[k] - was[j]) / gap, 0.0f, 1.0f) : 0;
+    const float before = glm::mix(apart(was, j), apart(was, j + 1), share);
+    const float wider = before > 0 ? std::clamp(apart(is, k) / before, 0.0f, 2.0f) : 1;
+    const std::uint32_t own = posed.own[row[k]];
+    const vec3 along = posed.places[std::min<std::size_t>(own + 1, posed.places.size() - 1)] - posed.places[own > 0 ? own - 1 : 0];
+    vec3 aside = wider * wider * glm::mix(off[j], off[j + 1], share) - off[k];
+    if (const float square = glm::dot(along, along); square > 0) aside -= along * (glm::dot(aside, along) / square);
+    moved[k] = placeAt(posed, is[k], own) - posed.places[own] + aside;
+  }
+  for (std::size_t i = 0, k = 0; i < course.points.size(); ++i) {
+    while (k + 1 < n && course.along[row[k]] < course.along[i]) ++k;
+    vec4& point = points[course.points[i]];
+    point = vec4(vec3(point) + moved[k], point.w);
+  }
+}
+
+// Whether its control polygon is as long as at rest, leg by leg: most courses in most poses, and much cheaper to tell.
+bool VesselSlider::isUnstrained(const Course& course, std::span<const vec4> points) const {
+  for (std::size_t i = 1; i < course.points.size(); ++i) {
+    const std::uint32_t a = course.points[i - 1], b = course.points[i];
+    const float rest = glm::distance(vec3(network_->points()[a]), vec3(network_->points()[b]));
+    if (std::abs(glm::distance(vec3(points[a]), vec3(points[b])) - rest) > kUnstrained * rest) return false;
+  }
+  return true;
+}
+
+// Ends go where what they hang on went, and the course with them.
+void VesselSlider::carry(const Course& course, std::span<vec4> points) const {
+  const auto shiftOf = [&](const Hold& hold, std::uint32_t point) {
+    vec3 place(points[point]);
+    if (hold.host) place = vec3(evaluate(Network::pointsOf(network_->vessel(hold.host->vessel), std::span<const vec4>(points)), hold.host->parameter));
+    if (hold.end) {
+      const Vessel& vessel = network_->vessel(hold.end->vessel);
+      place = vec3(points[vessel.firstPoint + (hold.end->last ? vessel.pointCount - 1 : 0)]);
+    }
+    return place - vec3(points[point]);
+  };
+  const vec3 start = shiftOf(course.start, course.points.front()), finish = shiftOf(course.finish, course.points.back());
+  if (start == vec3(0) && finish == vec3(0)) return;
+  const float whole = course.along.back();
+  const bool hangs[]{course.start.host || course.start.end, course.finish.host || course.finish.end};
+  // Between two holds the shares of both add up to one at most.
+  const float reach = hangs[0] && hangs[1] ? std::min(kCarried, whole) : kCarried;
+  for (std::size_t i = 0; i < course.points.size(); ++i) {
+    const vec3 moved = start * (1 - smooth(course.along[i] / reach)) + finish * (1 - smooth((whole - course.along[i]) / reach));
+    vec4& point = points[course.points[i]];
+    point = vec4(vec3(point) + moved, point.w);
+  }
+}
+
+}  // namespace vasa
