@@ -1,14 +1,14 @@
 #version 460
-// A thread grows one capillary and writes its ribbon. CPU reference: engine/growth/capillary.h and ribbon.h.
+// An invocation grows one capillary and writes its ribbon or thread. CPU reference: engine/growth/capillary.h and ribbon.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/growth.glsl"
-#include "lib/octahedral.glsl"
 #include "lib/records.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, std430) uniform Push { CapillaryPush push; };
+#include "lib/ribbon.glsl"
 
 GrowthJob jobOf(uint curve) {
   uint low = 0, high = push.jobCount - 1;
@@ -18,14 +18,6 @@ GrowthJob jobOf(uint curve) {
     else high = middle - 1;
   }
   return push.jobs.job[low];
-}
-
-// A CapillaryVertex.
-void writeVertex(uint i, vec4 clip, uint colour, uint across) {
-  uvec4 bits = floatBitsToUint(clip);
-  push.vertices.word[3 * i] = wordOf(bits.xy);
-  push.vertices.word[3 * i + 1] = wordOf(bits.zw);
-  push.vertices.word[3 * i + 2] = wordOf(uvec2(colour, across));
 }
 
 // sectionOn of engine/surface/tessellate.cpp.
@@ -91,44 +83,16 @@ void join(GrowthSite site, uint sprout, uint levels, inout Capillary capillary) 
   capillary.farPhase = phaseAt(target.phase, 1);
 }
 
-const float kOverlap = 0.5, kPoint = 0.3;
-
-void writeRibbon(Capillary capillary, uint rootColour, uint farColour, uint target) {
-  GrowthView view = push.view.view;
-  vec3 root = unpackUnorm4x8(rootColour).rgb, bed = unpackUnorm4x8(view.capillary).rgb;
-  vec3 from = mix(root, bed, capillary.phase);
-  vec3 to = capillary.joined ? mix(unpackUnorm4x8(farColour).rgb, bed, capillary.farPhase) : mix(root, bed, phaseAt(capillary.phase, 1));
-  for (uint i = 0; i <= push.edges; ++i) {
-    float t = float(i) / float(push.edges);
-    vec4 point = pointAt(capillary.curve, t);
-    vec3 along = derivativeAt(capillary.curve, t).xyz;
-    float speed = sqrt(dotOf(along, along)), beyond = i == 0 ? -kOverlap : i == push.edges ? kOverlap : 0;
-    point.xyz += (speed > 0 ? beyond * point.w / speed : 0) * along;
-    if (capillary.leaf && !capillary.joined && i == push.edges) point.w *= kPoint;
-    vec3 toEye = view.perspective * (view.eye - point.xyz) + (1 - view.perspective) * view.eye;
-    vec3 side = crossOf(along, toEye);
-    float length2 = dotOf(side, side);
-    side = length2 > 1e-20 ? side / sqrt(length2) : view.right;
-    float depth = max(dotOf(view.depth.xyz, point.xyz) + view.depth.w, 1e-6);
-    float radius = max(point.w, 0.5 * view.thinnest * (depth / view.focal));
-    uint packed = packUnorm4x8(vec4(mix(from, to, t), point.w / radius));
-    vec2 across = vec2(dotOf(side, view.right), dotOf(side, view.up));
-    writeVertex(target + 2 * i, view.viewProjection * vec4(point.xyz + radius * side, 1), packed,
-                toSnorm16(across.x) | toSnorm16(across.y) << 16);
-    writeVertex(target + 2 * i + 1, view.viewProjection * vec4(point.xyz - radius * side, 1), packed,
-                toSnorm16(-across.x) | toSnorm16(-across.y) << 16);
-  }
-}
-
 void main() {
   uint curve = gl_GlobalInvocationID.x;
   if (curve >= push.curveCount) return;
   GrowthJob job = jobOf(curve);
   GrowthSite site = siteOf(job.span);
   uint size = treeSize(site, job.levels);
-  uint target = curve * 2 * (push.edges + 1), colour = push.colours.colour[job.span];
+  uint vertices = push.edges == kThreads ? kThreadVertices : 2 * (push.edges + 1);
+  uint target = curve * vertices, colour = push.colours.colour[job.span];
   if ((push.hiddenKinds >> (colour >> 24) & 1u) != 0u) {
-    for (uint i = 0; i < 2 * (push.edges + 1); ++i)
+    for (uint i = 0; i < vertices; ++i)
       writeVertex(target + i, vec4(2, 2, 2, 1), 0, 0);  // outside the picture
     return;
   }
@@ -136,5 +100,5 @@ void main() {
   Capillary capillary = treeCurve(job.span, site, sprout, job.levels, within % size);
   bool joins = job.levels > 1 && job.levels == push.view.view.joinLevels && site.partner != kNoPartner;
   if (capillary.leaf && joins) join(site, sprout, job.levels, capillary);
-  writeRibbon(capillary, colour, capillary.joined ? push.colours.colour[site.partner] : colour, target);
+  writeCurve(capillary, colour, capillary.joined ? push.colours.colour[site.partner] : colour, target);
 }

@@ -26,7 +26,8 @@ void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options) {
                  fmt::format("Most capillaries in a picture; beyond it all vessels have fewer trees (default {})", usual.budget))
       ->check(CLI::Range(1u, 64'000'000u));
   sub.add_option("--capillary-detail", options.smallest,
-                 fmt::format("Leave out generations shorter than this in pixels; 0: draw them all (default {})", usual.smallest))
+                 fmt::format("Leave out generations shorter than this in pixels, draw thin ones with fewer triangles; 0: neither (default {})",
+                             usual.smallest))
       ->check(CLI::Range(0.0f, 1000.0f));
   sub.add_option("--growth", options.rules, "Folder with capillaries.lsys and regions.csv (default: the program's own)");
 }

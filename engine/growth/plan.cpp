@@ -60,12 +60,16 @@ std::array<Plane, 5> planesOf(const mat4& m) {
 // A span's trees as this picture sees them.
 struct Seen {
   float distance;  // the farthest come first
-  std::uint32_t span, levels, edges, size;
+  std::uint32_t span, levels, edges, size, trees;
 };
 
 // By the size of the longest stem of all systems, so that trees side by side share a batch.
 std::uint32_t edgesFor(float pixels) {
   return pixels < 40 ? 3 : pixels < 80 ? 5 : pixels < 200 ? 8 : 10;
+}
+
+std::uint32_t endsIn(std::uint8_t bits) {
+  return (bits & 1u) + (bits >> 1 & 1u);
 }
 
 class Planner {
@@ -75,6 +79,7 @@ class Planner {
     for (std::size_t s = 0; s < sizes_.size(); ++s) {
       sizes_[s] = sizesOf(in_.tables, in_.tables.system[s]);
       longestStem_ = std::max(longestStem_, in_.tables.system[s].mostRadius * sizes_[s].longest[0]);
+      thickestStem_ = std::max(thickestStem_, 2 * in_.tables.system[s].mostRadius);
     }
   }
 
@@ -100,22 +105,53 @@ class Planner {
     while (levels > 1 && root * sizes.longest[levels - 1] * pixels < wish_.smallest) --levels;
     if (root * sizes.longest[0] * pixels < wish_.smallest) return false;
     const float distance = in_.view.perspective > 0 ? depth : -glm::dot(in_.view.eye, centre);
-    const std::uint32_t edges = wish_.edges ? wish_.edges : edgesFor(longestStem_ * in_.view.focal / std::max(depth, 0.01f));
-    seen = {distance, span, levels, edges, in_.tables.symbol[system.axiom].treeSize[levels]};
+    seen = {distance, span, levels, edgesAt(in_.view.focal / std::max(depth, 0.01f)), 0, treesOn(span)};
+    seen.size = sizeOf(seen);
     return true;
+  }
+
+  // Curves of a tree.
+  std::uint32_t sizeOf(const Seen& seen) const {
+    return in_.tables.symbol[in_.tables.system[in_.sites.sites[seen.span].system & 0xffu].axiom].treeSize[seen.levels];
   }
 
   std::uint32_t tipsOf(std::uint32_t span) const {
     return in_.tables.system[in_.sites.sites[span].system & 0xffu].tips;
   }
+  std::uint32_t treesOn(std::uint32_t span) const {
+    return in_.sites.sites[span].sprouts + tipsOf(span) * endsIn(in_.sites.freeEnds[span]);
+  }
 
  private:
+  // Where a metre is so many pixels.
+  std::uint32_t edgesAt(float pixels) const {
+    if (wish_.edges) return wish_.edges;
+    const std::uint32_t edges = edgesFor(longestStem_ * pixels);
+    const bool thin = wish_.smallest > 0 && thickestStem_ * pixels < in_.view.thinnest;
+    return thin && edges == shared::kThreadEdges ? shared::kThreads : edges;
+  }
+
   const PlanInput& in_;
   const CapillaryWish& wish_;
   std::array<Plane, 5> planes_;
   std::array<Sizes, shared::kMostGrowthSystems> sizes_;
-  float longestStem_ = 0;
+  float longestStem_ = 0, thickestStem_ = 0;  // of all systems
 };
+
+// Takes generations from the deepest trees until all keep to the budget or are stems. Returns how many curves that leaves.
+std::uint64_t curvesWithin(std::uint32_t budget, const Planner& planner, std::vector<Seen>& seen) {
+  std::uint64_t curves = 0;
+  for (std::uint32_t most = shared::kMostGrowthLevels; most > 0; --most) {
+    curves = 0;
+    for (Seen& one : seen) {
+      one.levels = std::min(one.levels, most);
+      one.size = planner.sizeOf(one);
+      curves += std::uint64_t(one.trees) * one.size;
+    }
+    if (curves <= budget) break;
+  }
+  return curves;
+}
 
 // Fills batches with whole trees.
 class BatchWriter {
@@ -142,10 +178,6 @@ class BatchWriter {
   std::uint32_t room() const { return shared::kRingCurves - plan_.batches.back().curves; }
   CapillaryPlan& plan_;
 };
-
-std::uint32_t endsIn(std::uint8_t bits) {
-  return (bits & 1u) + (bits >> 1 & 1u);
-}
 
 }  // namespace
 
@@ -183,13 +215,13 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
     Seen one;
     if (input.sites.sites[span].sprouts + input.sites.freeEnds[span] == 0 || !planner.see(span, one)) continue;
     seen.push_back(one);
-    const std::uint32_t trees = input.sites.sites[span].sprouts + planner.tipsOf(span) * endsIn(input.sites.freeEnds[span]);
-    plan.wishedCurves += std::uint64_t(trees) * one.size;
+    plan.wishedCurves += std::uint64_t(one.trees) * one.size;
   }
+  const std::uint64_t curves = wish.fewerLevels ? curvesWithin(wish.budget, planner, seen) : plan.wishedCurves;
   std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
     return a.distance != b.distance ? a.distance > b.distance : a.span < b.span;
   });
-  const double share = plan.wishedCurves > wish.budget ? double(wish.budget) / double(plan.wishedCurves) : 1;
+  const double share = curves > wish.budget ? double(wish.budget) / double(curves) : 1;
   BatchWriter writer(plan);
   for (const Seen& one : seen) {
     const auto granted = [&](std::uint32_t wished) {

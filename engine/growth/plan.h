@@ -27,13 +27,16 @@ struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
   std::uint32_t edges = 0;   ///< of every curve's polyline: 3, 5, 8 or 10; 0: by its size in the picture
   std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every span has fewer trees
-  float smallest = 0.5f;     ///< [pixels] generations with shorter curves are left out; 0: none is
+  /// [pixels] generations with shorter curves are left out, and trees thinner than a pixel are drawn as threads (ribbon.h)
+  /// where `edges` is 0. 0: none is left out, all are ribbons.
+  float smallest = 0.5f;
+  bool fewerLevels = false;  ///< beyond the budget all trees lose generations before there are fewer trees
 };
 
 /// Curves that are grown into the ring of vertices and drawn together.
 struct CapillaryBatch {
   std::uint32_t firstJob = 0, jobCount = 0;
-  std::uint32_t curves = 0, edges = 0;
+  std::uint32_t curves = 0, edges = 0;  ///< edges: of ribbons, or shared::kThreads
 };
 
 /// What one picture draws of the capillaries, the farthest first.

@@ -13,7 +13,18 @@ namespace vasa {
 void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t far, std::uint32_t edges,
                  std::span<shared::CapillaryVertex> vertices);
 
-/// Pairs of triangles of `copies` ribbons, one behind the other.
+/// A curve thinner than a pixel as a strip of four triangles where its ribbon of three edges has six: the vertices in
+/// between lie on the right and left of the curve by turns. Leaves, which most curves are, have two of them: their ends
+/// come to points, and they fade as much less.
+/// @param vertices  shared::kThreadVertices
+void writeThread(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t far,
+                 std::span<shared::CapillaryVertex> vertices);
+
+/// Vertices and triangles of `copies` ribbons, one behind the other; of threads where edges are shared::kThreads.
+constexpr std::uint32_t ribbonVertices(std::uint32_t edges) {
+  return edges == shared::kThreads ? shared::kThreadVertices : 2 * (edges + 1);
+}
+constexpr std::uint32_t ribbonTriangles(std::uint32_t edges) { return ribbonVertices(edges) - 2; }
 std::vector<std::uint32_t> ribbonIndices(std::uint32_t edges, std::uint32_t copies);
 
 }  // namespace vasa

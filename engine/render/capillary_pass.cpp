@@ -14,7 +14,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::array<std::uint32_t, 4> kEdges{3, 5, 8, shared::kMostCapillaryEdges};
+constexpr std::array<std::uint32_t, 5> kEdges{shared::kThreads, 3, 5, 8, shared::kMostCapillaryEdges};
 constexpr float kThinnest = 0.85f;  // [pixels]
 constexpr vec4 kBedColour{0.62f, 0.15f, 0.36f, 1};
 
@@ -159,7 +159,7 @@ void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
   vkCmdBindIndexBuffer(commands, indices_[edgesIndex(batch.edges)].handle(), 0, VK_INDEX_TYPE_UINT32);
-  vkCmdDrawIndexed(commands, 6 * batch.edges * batch.curves, 1, 0, 0, 0);
+  vkCmdDrawIndexed(commands, 3 * ribbonTriangles(batch.edges) * batch.curves, 1, 0, 0, 0);
 }
 
 std::uint64_t CapillaryPass::ringBytes() const {

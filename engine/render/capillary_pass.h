@@ -58,7 +58,7 @@ class CapillaryPass {
   gpu::ComputePipeline grow_;
   std::array<gpu::GraphicsPipeline, 3> draw_, partial_;  // one a LookStyle
   std::array<gpu::Buffer, 2> rings_;
-  std::array<gpu::Buffer, 4> indices_;  // of 3, 5, 8 and 10 edges
+  std::array<gpu::Buffer, 5> indices_;  // of threads, and of ribbons of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, siteBuffer_, spans_, colours_, host_, frame_;
 };
 

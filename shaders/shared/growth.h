@@ -16,6 +16,8 @@ VASA_CONSTANT uint kMostGrowthSystems = 16;
 VASA_CONSTANT uint kMostGrowthSymbols = 48;  // of all systems
 VASA_CONSTANT uint kMostGrowthChildren = 256;
 VASA_CONSTANT uint kMostCapillaryEdges = 10;
+/// CapillaryPush::edges of curves that are drawn as threads, and what those have (engine/growth/ribbon.h).
+VASA_CONSTANT uint kThreads = 0, kThreadEdges = 3, kThreadVertices = 6;
 /// Curves drawn at a time: with kMostCapillaryEdges, what the ring of vertices holds.
 VASA_CONSTANT uint kRingCurves = 8192;
 /// GrowthJob::firstSprout of the sprouts at a vessel's free end; the second bit: at its last section.
@@ -136,7 +138,7 @@ struct CapillaryPush {
   VASA_ADDRESS(Ribbons) vertices;
   uint jobCount;
   uint curveCount;
-  uint edges;
+  uint edges;                     // or kThreads
   uint hiddenKinds;
 };
 

@@ -105,6 +105,37 @@ TEST_CASE("polylines have as many edges as was said, or more where they are larg
   CHECK(planOf(grown, viewOf(500, vec3(0.5f)), wish).batches.front().edges == 3);
 }
 
+TEST_CASE("trees thinner than a pixel are threads, unless all is to be drawn or edges are said") {
+  const test::GrownNetwork grown(test::windingNetwork(20, 6));
+  CapillaryWish wish{.levels = 3};
+  const auto edgesAt = [&](float width) { return planOf(grown, viewOf(width, vec3(0.5f)), wish).batches.front().edges; };
+  CHECK(edgesAt(0.5f) == 10);
+  CHECK(edgesAt(100) == shared::kThreads);
+  wish.edges = 3;
+  CHECK(edgesAt(100) == 3);
+  wish.edges = 0;
+  wish.smallest = 0;
+  CHECK(edgesAt(100) == 3);
+}
+
+TEST_CASE("beyond the budget generations may go first, so that every vessel keeps its stems") {
+  const test::GrownNetwork grown(test::windingNetwork(100, 6));
+  const auto view = viewOf(10, vec3(0.5f));
+  const auto all = planOf(grown, view, kAll);
+  CapillaryWish wish = kAll;
+  wish.fewerLevels = true;
+  for (const std::uint32_t levels : {3u, 2u, 1u}) {
+    wish.budget = std::uint32_t(curveCount(grown.rules.tables, grown.sites, levels));
+    const auto plan = planOf(grown, view, wish);
+    CHECK(plan.curves == wish.budget);
+    CHECK(plan.trees == all.trees);
+    CHECK(plan.wishedCurves == all.curves);
+  }
+  wish.budget /= 2;
+  CHECK(planOf(grown, view, wish).curves <= wish.budget);
+  CHECK(planOf(grown, view, wish).curves > wish.budget * 0.8);
+}
+
 TEST_CASE("the farthest trees come first, and the plan is the same again") {
   const test::GrownNetwork grown(test::windingNetwork(80, 8));
   const auto view = viewOf(10, vec3(0.5f));

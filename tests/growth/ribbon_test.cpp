@@ -84,3 +84,46 @@ TEST_CASE("the triangles of a ribbon cover it once") {
   CHECK(*std::max_element(indices.begin(), indices.end()) == 3 * 12 - 1);
   CHECK(indices[30] == 12);
 }
+
+namespace {
+
+// Of a strip's triangles, in the picture.
+float areaOf(const std::vector<shared::CapillaryVertex>& vertices) {
+  float sum = 0;
+  for (std::size_t i = 0; i + 2 < vertices.size(); ++i) {
+    const vec4 a = vertices[i + 1].clip - vertices[i].clip, b = vertices[i + 2].clip - vertices[i].clip;
+    sum += 0.5f * std::abs(a.x * b.y - a.y * b.x);
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a thread covers what its ribbon does with two thirds of the triangles") {
+  Scene scene;
+  scene.view.focal = 10;  // a tenth of a unit a pixel: thinner than that
+  std::vector<shared::CapillaryVertex> ribbon(8), thread(shared::kThreadVertices);
+  writeRibbon(scene.capillary, scene.view, 0xffff0000, 0xff00ff00, shared::kThreadEdges, ribbon);
+  writeThread(scene.capillary, scene.view, 0xffff0000, 0xff00ff00, thread);
+  CHECK(3 * ribbonTriangles(shared::kThreads) == 2 * ribbonTriangles(shared::kThreadEdges));
+  CHECK(areaOf(thread) == doctest::Approx(areaOf(ribbon)).epsilon(1e-4));
+  CHECK(thread[0].clip == ribbon[0].clip);
+  CHECK(thread[1].clip == ribbon[1].clip);
+  CHECK(thread[2].clip == ribbon[2].clip);
+  CHECK(thread[3].clip == ribbon[5].clip);
+  CHECK(thread[5].colour == ribbon[7].colour);
+  CHECK(ribbonIndices(shared::kThreads, 3).size() == 3 * 4 * 3);
+}
+
+TEST_CASE("a leaf's thread has two triangles, between the same corners, and fades less") {
+  Scene scene;
+  scene.view.focal = 10;
+  scene.capillary.leaf = true;
+  std::vector<shared::CapillaryVertex> ribbon(8), thread(shared::kThreadVertices);
+  writeRibbon(scene.capillary, scene.view, 0xffff0000, 0xff00ff00, shared::kThreadEdges, ribbon);
+  writeThread(scene.capillary, scene.view, 0xffff0000, 0xff00ff00, thread);
+  CHECK(thread[0].clip == thread[1].clip);
+  CHECK(thread[4].clip == thread[5].clip);
+  CHECK(areaOf(thread) == doctest::Approx(areaOf(ribbon) * 2 / 3).epsilon(0.01));
+  CHECK(float(thread[1].colour >> 24) / float(ribbon[1].colour >> 24) == doctest::Approx(1.25f).epsilon(0.02));
+}
