@@ -26,7 +26,7 @@
 //   template k; barrier
 //   stretch: patches, if the network has some, which were posed with round 0
 //   ambient occlusion of what is there
-//   batch by batch: capillaries
+//   batch by batch: capillaries; between two of them a picture that is made in slices rests
 //   picture, last stretch: skin; resolve
 // Stretches with nothing between them are one. One barrier a round keeps both templates apart: whatever wrote or read one
 // of them before it is finished after it. Between two barriers a device may write one template while it draws the other.
@@ -88,7 +88,10 @@ struct Renderer::State {
   State(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> skinned,
         const RenderOptions& chosen);
 
-  void record(VkCommandBuffer commands, const RenderInput& input);
+  /// Everything, or what comes before the capillaries where they are left to recordSlice().
+  void record(VkCommandBuffer commands, const RenderInput& input, bool slices);
+  void drawFirst(const RenderInput& input, bool slices);
+  void recordSlice(VkCommandBuffer commands);
   bool settleRounds(const Look& look);
   double timeStatic(const StaticTubes& tubes, const RenderInput& input);
   shared::DetailView viewOf(const RenderInput& input) const;
@@ -127,21 +130,24 @@ struct Renderer::State {
   bool transparent = false;
   bool partial = false, cull = true;  // of this frame
 
- private:
   struct Frame {
     shared::DrawPush push;
-    const Look& look;
+    Look look;
     std::vector<MeshSet::Level> levels;
     std::uint32_t rounds;  // of tubes and forks
     bool wholeEnd;         // nothing comes between the last round and what is translucent
   };
+  std::optional<Frame> begun;    // a picture in slices
+  std::size_t drawnBatches = 0;  // of its capillaries
+
+ private:
   void recordFill(VkCommandBuffer commands, std::uint32_t round);
   void recordOpaque(VkCommandBuffer commands, const Frame& frame);
   void recordRounds(VkCommandBuffer commands, const Frame& frame);
   void recordEnd(VkCommandBuffer commands, const Frame& frame);
   void recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look);
   void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
-  void recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look);
+  void recordCapillaries(VkCommandBuffer commands, const Frame& frame, std::size_t from, std::size_t to);
 };
 
 Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
@@ -243,15 +249,14 @@ void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInpu
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
-void Renderer::State::recordCapillaries(VkCommandBuffer commands, shared::DrawPush push, const Look& look) {
-  push.opacity = look.capillaryOpacity;
-  const auto scope = timer->scope(commands, kCapillaries);
-  const CapillaryPass::Input input{upload.points(), upload.knots(), push, look.style, partial};
-  capillaries->recordUpload(commands);
-  for (std::size_t batch = 0; batch < capillaries->batches(); ++batch) {
-    if (batch == 0) capillaries->recordGrowth(commands, input, batch);
+void Renderer::State::recordCapillaries(VkCommandBuffer commands, const Frame& frame, std::size_t from, std::size_t to) {
+  CapillaryPass::Input input{upload.points(), upload.knots(), frame.push, frame.look.style, partial};
+  input.draw.opacity = frame.look.capillaryOpacity;
+  if (from == 0) capillaries->recordUpload(commands);
+  for (std::size_t batch = from; batch < to; ++batch) {
+    if (batch == from) capillaries->recordGrowth(commands, input, batch);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
-    if (batch + 1 < capillaries->batches()) capillaries->recordGrowth(commands, input, batch + 1);
+    if (batch + 1 < to) capillaries->recordGrowth(commands, input, batch + 1);
     target.begin(commands, {}, 0, gpu::Stretch::middle);
     capillaries->recordDraw(commands, input, batch);
     target.pause(commands);
@@ -264,7 +269,7 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
                     detailSnap(device, target.spec().size));
 }
 
-void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
+void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input, bool slices) {
   if (rounds > 1 && !second) second.emplace(device, filling.room());
   if (options.timed && timerRounds < rounds) timer.emplace(device, kScopes + kScopesOfRound * (timerRounds = rounds));
   const bool any = anyVessels(input.look);
@@ -274,12 +279,12 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   // Depth of what is translucent is grain.
   const bool occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) && input.look.style != LookStyle::xray;
   const bool grows = capillaries && any && input.look.capillaryOpacity > 0, patched = any && patchPass;
-  const Frame frame{.push = drawConstants(input.camera, input.look, target.spec().size),
-                    .look = input.look,
-                    .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
-                                               meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
-                    .rounds = any ? rounds : 0,
-                    .wholeEnd = !(options.timed || patched || occludes || grows)};
+  Frame frame{.push = drawConstants(input.camera, input.look, target.spec().size),
+              .look = input.look,
+              .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
+                                         meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
+              .rounds = any ? rounds : 0,
+              .wholeEnd = !(options.timed || patched || occludes || grows)};
   timer->begin(commands);
   upload.record(commands);
   if (any) {
@@ -302,10 +307,26 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   if (frame.wholeEnd) return;
   if (patched) recordPatches(commands, frame.push, input.look);
   if (occludes) recordOcclusion(commands, input);
-  if (grows) recordCapillaries(commands, frame.push, input.look);
+  if (grows && slices && capillaries->batches() > 0) {
+    begun = std::move(frame);
+    return;
+  }
+  if (grows) {
+    const auto scope = timer->scope(commands, kCapillaries);
+    recordCapillaries(commands, frame, 0, capillaries->batches());
+  }
   const auto scope = timer->scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
   recordEnd(commands, frame);
+}
+
+// The next batch of the picture's capillaries, and with the last one what comes behind them.
+void Renderer::State::recordSlice(VkCommandBuffer commands) {
+  recordCapillaries(commands, *begun, drawnBatches, drawnBatches + 1);
+  if (++drawnBatches < capillaries->batches()) return;
+  target.begin(commands, {}, 0, gpu::Stretch::last);
+  recordEnd(commands, *begun);
+  begun.reset();
 }
 
 // Whether the frame's rounds did for all of its vessels; says how many the next one gets, with an eighth to spare.
@@ -356,35 +377,57 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
+  state_->begun.reset();
   state_->setColours(colours);
 }
 
-void Renderer::draw(const RenderInput& input) {
-  State& s = *state_;
+void Renderer::State::drawFirst(const RenderInput& input, bool slices) {
   const auto start = Clock::now();
-  s.upload.write(input.points, input.knotFrames, input.jointMatrices);
-  if (s.capillaries) s.capillaries->prepare(input.points, growthView(input.camera, s.target.spec().size, s.options.seed));
-  s.times = {.upload = msSince(start)};
-  s.transparent = input.look.transparent;
+  begun.reset();
+  drawnBatches = 0;
+  upload.write(input.points, input.knotFrames, input.jointMatrices);
+  if (capillaries) capillaries->prepare(input.points, growthView(input.camera, target.spec().size, options.seed));
+  times = {.upload = msSince(start)};
+  transparent = input.look.transparent;
   do {
-    gpu::Commands commands = s.device.queue().begin("frame");
-    s.record(commands, input);
-    s.device.queue().wait(s.device.queue().submit(std::move(commands)));
-  } while (!s.settleRounds(input.look));
-  s.times.total = msSince(start);
-  for (const auto& [name, ms] : s.timer->results()) {
+    gpu::Commands commands = device.queue().begin("frame");
+    record(commands, input, slices);
+    device.queue().wait(device.queue().submit(std::move(commands)));
+  } while (!settleRounds(input.look));
+  times.total = msSince(start);
+  for (const auto& [name, ms] : timer->results()) {
     const std::string_view stage(name);
-    (stage == kTessellate    ? s.times.tessellate
-     : stage == kForks       ? s.times.forks
-     : stage == kDraw        ? s.times.draw
-     : stage == kCapillaries ? s.times.capillaries
-                             : s.times.meshes) += ms;
+    (stage == kTessellate    ? times.tessellate
+     : stage == kForks       ? times.forks
+     : stage == kDraw        ? times.draw
+     : stage == kCapillaries ? times.capillaries
+                             : times.meshes) += ms;
   }
+}
+
+void Renderer::draw(const RenderInput& input) {
+  state_->drawFirst(input, false);
+}
+
+void Renderer::begin(const RenderInput& input) {
+  state_->drawFirst(input, true);
+}
+
+bool Renderer::step() {
+  State& s = *state_;
+  if (!s.begun) return false;
+  const auto start = Clock::now();
+  gpu::Commands commands = s.device.queue().begin("slice");
+  s.recordSlice(commands);
+  s.device.queue().wait(s.device.queue().submit(std::move(commands)));
+  s.times.total += msSince(start);
+  return s.begun.has_value();
 }
 
 void Renderer::resize(std::uint32_t width, std::uint32_t height) {
   State& s = *state_;
   if (width == s.options.width && height == s.options.height) return;
+  s.begun.reset();
   s.options.width = width;
   s.options.height = height;
   s.target = gpu::Target(s.device, targetSpec(s.options));

@@ -106,6 +106,12 @@ class Renderer {
   /// Draws and waits until the picture is done.
   void draw(const RenderInput& input);
 
+  /// The same picture in slices, so that a program can do something else between them: begin() draws what comes before the
+  /// capillaries, each step() some thousands of those. False: the picture is whole. Until then there is none; draw(),
+  /// begin(), resize() or setSweepColours() leaves it as it is.
+  void begin(const RenderInput& input);
+  bool step();
+
   /// Pictures of another size from the next frame on. Network, meshes and pipelines stay.
   void resize(std::uint32_t width, std::uint32_t height);
 

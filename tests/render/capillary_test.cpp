@@ -31,7 +31,7 @@ struct Difference {
   float place = 0;   // in the picture's half widths
   int colour = 0;    // of 255
   float across = 0;  // of 1
-  std::uint64_t curves = 0, joined = 0;
+  std::uint64_t curves = 0, joined = 0, threads = 0;
 };
 
 int byteDifference(std::uint32_t a, std::uint32_t b) {
@@ -68,7 +68,7 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
     });
     const auto found = rig.download<shared::CapillaryVertex>(pass.ring(b));
     const CapillaryBatch& batch = pass.plan().batches[b];
-    const std::uint32_t each = 2 * (batch.edges + 1);
+    const std::uint32_t each = ribbonVertices(batch.edges);
     std::vector<shared::CapillaryVertex> wanted(each);
     for (std::uint32_t j = 0; j < batch.jobCount; ++j) {
       const shared::GrowthJob& job = pass.plan().jobs[batch.firstJob + j];
@@ -80,7 +80,10 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
         const Capillary capillary = capillaryAt(scene, {job.span, job.firstSprout + within / size}, job.levels, within % size);
         const std::uint32_t partner = grown.sites.sites[job.span].partner;
         const auto far = partner == shared::kNoPartner ? kind : grown.network.vessels()[grown.sites.spans[partner].vessel].kind;
-        writeRibbon(capillary, view, packColour(colourOf(kind)), packColour(colourOf(far)), batch.edges, wanted);
+        const std::uint32_t root = packColour(colourOf(kind)), farRoot = packColour(colourOf(far));
+        if (batch.edges == shared::kThreads) writeThread(capillary, view, root, farRoot, wanted);
+        else writeRibbon(capillary, view, root, farRoot, batch.edges, wanted);
+        worst.threads += batch.edges == shared::kThreads;
         worst.joined += capillary.joined;
         for (std::uint32_t v = 0; v < each; ++v) compare(worst, found[std::size_t(curve) * each + v], wanted[v]);
         ++worst.curves;
@@ -131,12 +134,14 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
   struct Case {
     std::uint32_t levels, edges, seed;
     bool perspective;
+    float distance = 2;
   };
-  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true}}) {
+  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true}, Case{3, 0, 7, true, 20}, Case{2, 0, 7, false, 6}}) {
     CAPTURE(c.levels);
     CAPTURE(c.edges);
-    const CapillaryWish wish{.levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = 0};
-    const Difference worst = deviceAgainstSpecification(rig, grown, lookingAt(grown, 2, c.perspective), wish, c.seed);
+    const CapillaryWish wish{.levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.edges ? 0 : 1e-6f};
+    const Difference worst = deviceAgainstSpecification(rig, grown, lookingAt(grown, c.distance, c.perspective), wish, c.seed);
+    CHECK(worst.threads == (c.edges ? 0 : worst.curves));
     CHECK(worst.curves > 200);
     CHECK((worst.joined > 0) == (c.levels > 1));
     CHECK(worst.place <= 1e-4f);
@@ -207,4 +212,60 @@ TEST_CASE("more generations cover more of the picture; hidden vessels have none"
   renderer.setSweepColours(std::vector<std::uint32_t>(renderer.sweepCount(), 0));  // alpha 0 hides
   renderer.draw(input);
   CHECK(covered(renderer.readBack()) == 0);
+}
+
+TEST_CASE("a picture made in slices is the same to the bit, and one that is left half done leaves nothing behind") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork grown(test::windingNetwork(60, 5));
+  const Growth growth = growthOf(grown);
+  RenderOptions options{.width = 120, .height = 90, .growth = &growth, .capillaries = {.levels = 3, .edges = 10, .smallest = 0}};
+  options.timed = false;
+  Renderer renderer(rig.device(), grown.network, {}, options);
+  const RenderInput input{grown.points, grown.frames, {}, lookingAt(grown, 2, true), {}};
+  const RenderInput other{grown.points, grown.frames, {}, lookingAt(grown, 1, true), {}};
+  renderer.draw(input);
+  const std::uint64_t wanted = hashOfPicture(renderer.readBack());
+  renderer.draw(other);
+  const std::uint64_t otherWanted = hashOfPicture(renderer.readBack());
+  CHECK(wanted != otherWanted);
+  std::size_t slices = 1;
+  renderer.begin(input);
+  while (renderer.step()) ++slices;
+  CHECK(slices > 2);  // several of them capillaries'
+  CHECK(hashOfPicture(renderer.readBack()) == wanted);
+  renderer.begin(input);
+  for (std::size_t i = 0; i + 1 < slices; ++i) CHECK(renderer.step());
+  renderer.draw(other);
+  CHECK(!renderer.step());
+  CHECK(hashOfPicture(renderer.readBack()) == otherWanted);
+  renderer.begin(other);
+  CHECK(renderer.step());
+  renderer.begin(input);
+  while (renderer.step()) {
+  }
+  CHECK(hashOfPicture(renderer.readBack()) == wanted);
+  RenderInput bare = input;
+  bare.look.capillaryOpacity = 0;
+  renderer.begin(bare);
+  CHECK(!renderer.step());  // nothing to wait for
+}
+
+TEST_CASE("threads look as ribbons do") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork grown(test::windingNetwork(10, 5));
+  const Camera camera = lookingAt(grown, 20, true);
+  const auto opacityOf = [](const Image& image) {
+    double sum = 0;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
+    return sum;
+  };
+  RenderOptions options;
+  const double none = opacityOf(pictureOf(rig, grown, camera, options).image);
+  options.capillaries = {.levels = 3, .smallest = 0};
+  const double ribbons = opacityOf(pictureOf(rig, grown, camera, options).image) - none;
+  options.capillaries.smallest = 1e-6f;
+  const double threads = opacityOf(pictureOf(rig, grown, camera, options).image) - none;
+  REQUIRE(ribbons > 0.3 * none);
+  CHECK(threads != ribbons);
+  CHECK(threads / ribbons == doctest::Approx(1).epsilon(0.1));
 }
