@@ -42,6 +42,8 @@ struct ViewReport {
   std::uint64_t frames = 0, pictures = 0, shapes = 0;
   double firstPictureMs = 0;  ///< from the program's start until a picture of the body and its vessels was shown
   double firstSolvedMs = 0;   ///< ... in which vessels are moved apart, too
+  std::uint64_t slices = 0, stillsGivenUp = 0;  ///< of finer stills: slices made, and stills left half done
+  double longestSliceMs = 0;
   double frameMs = 0;  ///< median between pictures shown while things moved
   double shapeMs = 0, pictureMs = 0;
   std::vector<std::pair<std::string, double>> stages;  ///< medians [ms], as the timing panel has them

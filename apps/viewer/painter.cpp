@@ -1,10 +1,23 @@
 #include "viewer/painter.h"
 
+#include <algorithm>
+
 namespace vasa::viewer {
 namespace {
 
 // Of vessels in a picture that the next one follows at once: less than what a sample a pixel gets wrong.
 constexpr float kMovingPixelError = 1;
+// Capillaries of such a picture: they take a CPU about as long as all else that moves.
+constexpr std::uint32_t kMovingCapillaries = 8'000;
+
+RenderInput inputOf(const Shot& shot) {
+  return {.points = shot.body->points,
+          .knotFrames = shot.body->knotFrames,
+          .jointMatrices = shot.body->jointMatrices,
+          .camera = shot.camera,
+          .look = shot.look,
+          .heartScale = shot.body->heartScale};
+}
 
 }  // namespace
 
@@ -33,29 +46,42 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                         .seed = seed_,
                         .timed = timed_};
   if (detail_.capillaries > 0) options.growth = document_->growth.get();
+  const CapillaryChoice& choice = document_->file.capillaries;
   options.capillaries = {.levels = unsigned(detail_.capillaries),
-                         .edges = document_->file.capillaries.edges,
-                         .budget = document_->file.capillaries.budget,
-                         .smallest = document_->file.capillaries.smallest};
+                         .edges = choice.edges,
+                         .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
+                         .smallest = choice.smallest,
+                         .fewerLevels = !shot.fine};
   brush.renderer = std::make_unique<Renderer>(device_, document_->scene.network, document_->scene.body.meshes, options);
   return brush;
 }
 
-void Painter::draw(const Shot& shot) {
+Renderer& Painter::prepared(const Shot& shot) {
   Brush& chosen = brush(shot);
-  Renderer& renderer = *chosen.renderer;
-  renderer.resize(shot.width, shot.height);
+  chosen.renderer->resize(shot.width, shot.height);
   if (chosen.colours != shot.colours) {
-    renderer.setSweepColours(shot.colours);
+    chosen.renderer->setSweepColours(shot.colours);
     chosen.colours = shot.colours;
   }
-  renderer.draw({.points = shot.body->points,
-                 .knotFrames = shot.body->knotFrames,
-                 .jointMatrices = shot.body->jointMatrices,
-                 .camera = shot.camera,
-                 .look = shot.look,
-                 .heartScale = shot.body->heartScale});
+  return *chosen.renderer;
+}
+
+void Painter::draw(const Shot& shot) {
+  Renderer& renderer = prepared(shot);
+  renderer.draw(inputOf(shot));
   last_ = &renderer;
+}
+
+void Painter::begin(const Shot& shot) {
+  Renderer& renderer = prepared(shot);
+  if (last_ == &renderer) last_ = nullptr;  // what it shows goes
+  renderer.begin(inputOf(shot));
+}
+
+bool Painter::step() {
+  if (still_.renderer->step()) return true;
+  last_ = still_.renderer.get();
+  return false;
 }
 
 }  // namespace vasa::viewer

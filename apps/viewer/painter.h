@@ -19,8 +19,8 @@ struct Shot {
   bool fine = false;                    ///< a still: 4 samples a pixel and ambient occlusion
 };
 
-/// Draws a document's pictures with two renderers: a fast one for what moves, and one for stills. They are made when they
-/// are first needed and when the detail changes.
+/// Draws a document's pictures with two renderers: a fast one for what moves, with few capillaries, and one for stills, which
+/// are made in slices. They are made when they are first needed and when the detail changes.
 class Painter {
  public:
   Painter(gpu::Device& device, std::uint32_t seed) : device_(device), seed_(seed) {}
@@ -30,6 +30,9 @@ class Painter {
 
   /// Draws and waits. The shot's body must be of the chosen document.
   void draw(const Shot& shot);
+  /// The same in slices: Renderer::begin() and step(). Until step() returns false picture() is the one before.
+  void begin(const Shot& shot);
+  bool step();
   /// The latest picture, null before the first.
   const gpu::Image* picture() const { return last_ ? &last_->picture() : nullptr; }
   Image readBack() { return last_->readBack(); }
@@ -44,6 +47,7 @@ class Painter {
     std::vector<std::uint32_t> colours;
   };
   Brush& brush(const Shot& shot);
+  Renderer& prepared(const Shot& shot);
 
   gpu::Device& device_;
   std::uint32_t seed_;

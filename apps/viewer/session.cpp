@@ -78,6 +78,7 @@ Result<ViewReport> Session::go() {
   if (const auto written = keepScript(); !written) return written.error();
   state_.recording = false;
   record();
+  leaveStill();
   loader_.stop();
   report_.stopMs = loader_.takeStopTimes();
   if (!options_.script)
@@ -156,6 +157,10 @@ void Session::rest(double drawn) {
   }
   const bool moving = state_.playback.playing || pointer_.dragging() || profiling_ || recording_.running();
   const bool due = panelFrames_ > 0 || !events_.empty();
+  if (making_) {
+    window_.wait(0);
+    return;
+  }
   const bool waiting = worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
   const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0) : moving || due ? std::max(kFrame - drawn, 0.0) : waiting ? 0.05 : 1.0;
   window_.wait(longest);

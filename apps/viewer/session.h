@@ -82,6 +82,8 @@ class Session {
   Shot shotNow() const;
   void moveCamera();
   bool drawScene();
+  bool makeStill(const Shot& fine);
+  void leaveStill();
   void drawWindow();
   void noteFirst();
   void meetWishes();
@@ -118,7 +120,8 @@ class Session {
   bool settling_ = false;
   std::optional<Clock::time_point> liveUntil_;
   std::optional<SavePicture> saving_;
-  std::optional<Shot> shown_;
+  std::optional<Shot> shown_, making_;  // the latter: a still, slice by slice
+  Detail detail_;                       // of both
   vec3 way_{0};
   double now_ = 0, still_ = 0;      // [s]
   Clock::time_point last_ = Clock::now();

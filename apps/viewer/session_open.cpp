@@ -73,6 +73,7 @@ void Session::adopt() {
   arriving_ = true;
   body_.reset();
   shown_.reset();
+  leaveStill();
   timings_.clear();
   state_.selected.reset();
   state_.turns.clear();

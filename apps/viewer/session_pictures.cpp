@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/log.h"
 #include "curve/bspline.h"
@@ -99,8 +101,12 @@ void Session::moveCamera() {
 bool Session::drawScene() {
   if (!document_ || !body_) return false;
   moveCamera();
-  painter_.choose(document_, state_.detail, state_.timing);
-  if (!painter_.picture()) shown_.reset();
+  const Detail before = detail_;
+  painter_.choose(document_, detail_ = state_.detail, state_.timing);
+  if (!painter_.picture() || before != detail_) {
+    shown_.reset();
+    leaveStill();
+  }
   Shot shot = shotNow();
   Shot fine = shot;
   fine.fine = true;
@@ -108,24 +114,48 @@ bool Session::drawScene() {
   if (shown_ && shown_->fine && same(*shown_, fine)) return false;
   if (shown_ && !shown_->fine && same(*shown_, shot)) {
     const bool moving = state_.playback.playing || worker_.busy() || pointer_.dragging();
-    if (!state_.fineStills || moving || still_ < kStillAfter) return false;
-    shot = fine;
-  } else {
-    still_ = 0;
+    if (state_.fineStills && !moving && still_ >= kStillAfter) return makeStill(fine);
+    leaveStill();
+    return false;
   }
+  still_ = 0;
+  leaveStill();
   const auto start = Clock::now();
   painter_.draw(shot);
   const auto end = Clock::now();
   ++report_.pictures;
-  if (!shot.fine) {
-    timings_.addPicture(painter_.times(), msBetween(start, end));
-    if (lastShown_ && state_.playback.playing) timings_.addShown(msBetween(*lastShown_, end));
-    lastShown_ = end;
-  } else {
-    lastShown_.reset();
-  }
+  timings_.addPicture(painter_.times(), msBetween(start, end));
+  if (lastShown_ && state_.playback.playing) timings_.addShown(msBetween(*lastShown_, end));
+  lastShown_ = end;
   shown_ = std::move(shot);
   return true;
+}
+
+// A slice of a finer still, so that whoever sits before the window is answered between two of them; all of them where time
+// goes on in steps. True with the last one.
+bool Session::makeStill(const Shot& fine) {
+  for (bool more = true; more;) {
+    const auto start = Clock::now();
+    if (making_ && same(*making_, fine)) {
+      more = painter_.step();
+    } else {
+      leaveStill();
+      painter_.begin(fine);
+      making_ = fine;
+    }
+    ++report_.slices;
+    report_.longestSliceMs = std::max(report_.longestSliceMs, msBetween(start, Clock::now()));
+    if (more && !steady()) return false;
+  }
+  ++report_.pictures;
+  lastShown_.reset();
+  shown_ = std::exchange(making_, std::nullopt);
+  return true;
+}
+
+void Session::leaveStill() {
+  if (making_) ++report_.stillsGivenUp;
+  making_.reset();
 }
 
 void Session::drawWindow() {

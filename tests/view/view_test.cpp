@@ -125,6 +125,21 @@ TEST_CASE("opening goes on beside a living window, and Esc ends it within a step
   CHECK(load["longest_ms"].get<double>() < 1000);
 }
 
+TEST_CASE("a still with many capillaries is made in slices, and a window that closes meanwhile does not wait for it") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto scene = folder.path() / "scene.json";
+  std::ofstream(scene) << R"({"body": ")" + humanBody().string() + R"(", "networks": [")" + humanVessels().string() +
+                              R"("], "capillaries": {"levels": 3, "budget": 60000}})";
+  const std::string text = "settle\nkey 3\nlive 0.5\n";  // the last still is likely to be under way
+  const auto outcome = runProgram({"view", scene.string(), "--size", "320x240", "--json", "--script", scriptIn(folder.path(), text)}, on(display, folder));
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  const auto report = outcome.json();
+  CHECK(report["still_slices"].get<int>() > 7);  // 8,192 curves at most in each
+  CHECK(report["stills_given_up"].get<int>() <= 1);
+  MESSAGE("the longest slice took " << report["longest_slice_ms"] << " ms");
+}
+
 TEST_CASE("on a high-DPI screen window, panels and texts are as large as on an ordinary one") {
   const TemporaryFolder folder;
   const std::string text = "settle\nwindow OUT/large.png\n";
