@@ -83,7 +83,8 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
   Aabb bounds;
   for (const SpineJoint& joint : spines.joints) bounds.add(joint.centre);
   for (const SkinnedMesh& mesh : body.meshes) {
-    if (!movesByRigidParts(mesh) || roleNamed(mesh.name) == MeshRole::organs) continue;
+    const MeshRole role = roleNamed(mesh.name);
+    if (!movesByRigidParts(mesh) || role == MeshRole::organs || role == MeshRole::skin) continue;
     fromMeshes_ = true;
     for (std::size_t v = 0; v < mesh.influences.size(); ++v) {
       const SkinInfluence& influence = mesh.influences[v];

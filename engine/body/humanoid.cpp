@@ -5,6 +5,8 @@
 #include <cctype>
 #include <span>
 
+#include "body/humanoid_words.h"
+
 namespace vasa {
 namespace {
 
@@ -78,6 +80,20 @@ const std::vector<Part>& parts() {
 
 }  // namespace
 
+std::string_view humanoidPart(std::string_view name) {
+  const auto found = std::ranges::find(parts(), name, &Part::name);
+  return found == parts().end() ? std::string_view{} : std::string_view(found->name);
+}
+
+int humanoidKeys(std::span<const std::string_view> of) {
+  constexpr std::array<std::string_view, 6> kLimbs{"UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"};
+  const auto has = [&](std::string_view part) { return std::ranges::find(of, part) != of.end(); };
+  int count = int(has("hips")) + int(has("neck") || has("head"));
+  for (const std::string side : {"left", "right"})
+    for (const std::string_view limb : kLimbs) count += has(side + std::string(limb));
+  return count;
+}
+
 std::string plainName(std::string_view name) {
   if (const std::size_t colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
   std::string plain;
@@ -106,6 +122,8 @@ HumanoidNames humanoidNames(const std::vector<std::string>& joints) {
     most = count;
     best = {kFamilyNames[f], std::move(known)};
   }
+  // A convention that knows less of the limbs than plain words do is not the one.
+  if (auto words = humanoidWords(joints); humanoidKeys(words) > std::max(humanoidKeys(best.of), kLeastKnown - 1)) best = {"words", std::move(words)};
   return best;
 }
 

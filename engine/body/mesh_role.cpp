@@ -15,6 +15,7 @@ MeshRole roleNamed(std::string_view name) {
   const auto hasAny = [&](std::initializer_list<std::string_view> parts) {
     return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return lower.find(part) != std::string::npos; });
   };
+  if (lower.starts_with("skin")) return MeshRole::skin;
   if (hasAny({"bone", "skelet"})) return MeshRole::bones;
   if (hasAny({"heart"})) return MeshRole::heart;
   if (hasAny({"skin", "body"})) return MeshRole::skin;

@@ -1,10 +1,16 @@
 #include "body/retarget.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
-// Rotations are kept relative to rest, in world axes: Q = world · rest⁻¹. A joint that follows has
-// Q_body = Q_motion · A, with A the constant turn that brings its rest pose to the motion's.
+#include "body/humanoid_shape.h"
+#include "body/motion_rest.h"
+
+// Rotations are kept relative to a pose in which the motion's skeleton stands (its zero pose, as a rule), in world
+// axes: Q = world · standing⁻¹. A joint that follows has Q_body = Q_motion · A, with A the constant turn that brings the
+// body's rest pose to the motion's standing one.
 namespace vasa {
 namespace {
 
@@ -13,6 +19,11 @@ constexpr float kKneeCapShare = 0.6f;
 constexpr float kLeastBend = 0.1f;  // sine of an elbow's bend
 constexpr float kMostHingeTurn = 1.0f;
 constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower than the floor, a little
+constexpr float kFacingDoubt = 0.87f;  // cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant
+constexpr std::uint32_t kFramesCompared = 12;
+constexpr float kAlike = 0.25f;        // the share by which the bones of both sides may differ
+constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
+constexpr float kGoodAngle = 10, kLostAngle = 60;      // [degrees] between limbs: as good as right, and wrong
 const quat kIdentity(1, 0, 0, 0);
 
 vec3 unit(vec3 v) {
@@ -49,15 +60,22 @@ struct Rig {
   }
 };
 
+// Names first; where these tell little, the skeleton's shape.
+void nameParts(Rig& rig) {
+  rig.parts = humanoidNames(rig.names);
+  if (humanoidKeys(rig.parts.of) >= kHumanoidKeys / 2) return;
+  auto shape = humanoidShape(rig.parents, rig.centres, rig.tips);
+  if (humanoidKeys(shape) > humanoidKeys(rig.parts.of)) rig.parts = {"shape", std::move(shape)};
+}
+
+void placeIn(Rig& rig, const MotionPose& pose) { rig.centres = pose.places, rig.tips = pose.tips; }
+
+// In the first frame: a zero pose may have all bones along one line.
 Rig rigOf(const Motion& motion) {
   Rig rig;
-  for (const Motion::Joint& joint : motion.joints) {
-    rig.names.push_back(joint.name);
-    rig.parents.push_back(joint.parent.value);
-    rig.centres.push_back((joint.parent.valid() ? rig.centres[joint.parent.value] : vec3(0)) + joint.offset);
-    rig.tips.push_back(rig.centres.back() + joint.endOffset);
-  }
-  rig.parts = humanoidNames(rig.names);
+  for (const Motion::Joint& joint : motion.joints) rig.names.push_back(joint.name), rig.parents.push_back(joint.parent.value);
+  placeIn(rig, motionPose(motion, 0));
+  nameParts(rig);
   return rig;
 }
 
@@ -69,7 +87,7 @@ Rig rigOf(const Skeleton& skeleton) {
     rig.centres.push_back(vec3(joint.restWorld[3]));
   }
   rig.tips = rig.centres;
-  rig.parts = humanoidNames(rig.names);
+  nameParts(rig);
   return rig;
 }
 
@@ -88,7 +106,8 @@ Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& bod
     source[std::size_t(b - body.names.begin())] = std::uint32_t(a - motion.names.begin());
     taken[std::size_t(b - body.names.begin())] = true;
   }
-  const bool sameFamily = motion.parts.family == body.parts.family;
+  // Shapes have no names in common that mean the same.
+  const bool sameFamily = motion.parts.family == body.parts.family && motion.parts.family != "shape";
   for (std::uint32_t j = 0; j < body.names.size(); ++j) {
     if (taken[j]) continue;
     for (std::uint32_t s = 0; s < motion.names.size() && source[j] == kNone; ++s) {
@@ -100,34 +119,112 @@ Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& bod
   return source;
 }
 
+// Left, up and forward of a trunk: up from the hips, left as these pairs of joints lie.
+std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_view> pairs) {
+  const std::uint32_t from = rig.partNamed("hips");
+  std::uint32_t to = kNone;
+  for (const char* part : {"neck", "head", "upperChest", "chest"})
+    if (to == kNone) to = rig.partNamed(part);
+  vec3 left(0);
+  for (const std::string_view pair : pairs) {
+    const std::uint32_t a = rig.partNamed("left" + std::string(pair)), b = rig.partNamed("right" + std::string(pair));
+    if (a != kNone && b != kNone) left += rig.centres[a] - rig.centres[b];
+  }
+  if (from == kNone || to == kNone) return std::nullopt;
+  const vec3 up = unit(rig.centres[to] - rig.centres[from]), side = unit(left - glm::dot(left, up) * up);
+  if (up == vec3(0) || side == vec3(0)) return std::nullopt;
+  return mat3(side, up, glm::cross(side, up));
+}
+
+std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<mat3>& to) {
+  if (!from || !to) return std::nullopt;
+  return glm::normalize(glm::quat_cast(*to * glm::transpose(*from)));
+}
+
+// The share of what must hold between the parts of a person that does: lower bones behind upper ones, both sides alike,
+// legs away from the trunk. Names alone may mean anything.
+float plausibility(const Rig& rig) {
+  int held = 0, asked = 0;
+  const auto ask = [&](bool holds) { ++asked, held += holds; };
+  const auto below = [&](std::uint32_t joint, std::uint32_t above) {
+    while (joint != kNone && joint != above) joint = rig.parents[joint];
+    return joint == above;
+  };
+  const auto part = [&](const char* side, const char* name) { return rig.partNamed(std::string(side) + name); };
+  const std::uint32_t hips = rig.partNamed("hips"), top = rig.partNamed(rig.partNamed("neck") == kNone ? "head" : "neck");
+  for (const auto& limb : {std::array{"UpperArm", "LowerArm", "Hand"}, std::array{"UpperLeg", "LowerLeg", "Foot"}}) {
+    std::array<float, 2> lengths[2] = {{0, 0}, {0, 0}};
+    for (int s = 0; s < 2; ++s)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const char* side = s ? "right" : "left";
+        const std::uint32_t a = part(side, limb[k]), b = part(side, limb[k + 1]);
+        if (a == kNone || b == kNone) continue;
+        ask(below(b, a) && a != b);
+        const vec3 bone = rig.centres[b] - rig.centres[a];
+        lengths[k][std::size_t(s)] = glm::length(bone);
+        if (limb[0] == std::string_view("UpperLeg") && hips != kNone && top != kNone)
+          ask(glm::dot(bone, rig.centres[top] - rig.centres[hips]) < 0);
+      }
+    for (const auto& [left, right] : {std::pair(lengths[0][0], lengths[0][1]), std::pair(lengths[1][0], lengths[1][1])})
+      if (left > 0 && right > 0) ask(std::abs(left - right) < kAlike * std::max(left, right));
+    const std::uint32_t l = part("left", limb[0]), r = part("right", limb[0]);
+    if (l != kNone && r != kNone) ask(!below(l, r) && !below(r, l));
+  }
+  return asked > 0 ? float(held) / float(asked) : 1.0f;
+}
+
 class Retargeter {
  public:
-  Retargeter(const Motion& motion, const Body& body) : motion_(motion), body_(body), from_(rigOf(motion)), to_(rigOf(body.skeleton)) {}
+  Retargeter(const Motion& motion, const Body& body) : given_(motion), body_(body), from_(rigOf(motion)), to_(rigOf(body.skeleton)) {}
 
-  Result<Clip> run(const JointMap& map) {
-    auto matched = matchJoints(from_, to_, map, motion_.name, body_.name);
+  Result<Retargeting> run(const JointMap& map) {
+    auto matched = matchJoints(from_, to_, map, given_.name, body_.name);
     if (!matched) return matched.error();
     source_ = std::move(*matched);
     const auto count = std::size_t(std::ranges::count_if(source_, [](std::uint32_t s) { return s != kNone; }));
     hips_ = hipsOf();
-    const std::string remedy = "; pair the joints in a file and give it with --joint-map";
+    const std::string remedy = "; `vasa map BODY MOTION -o map.txt` writes the pairs that it finds, to be mended and given with --joint-map";
     if (count < kLeastJoints)
-      return badInput(body_.name + " and " + motion_.name + " have " + std::to_string(count) + " joints in common, fewer than " +
+      return badInput(body_.name + " and " + given_.name + " have " + std::to_string(count) + " joints in common, fewer than " +
                       std::to_string(kLeastJoints) + remedy);
-    if (hips_ == kNone) return badInput(body_.name + " has no joint that follows the hips of " + motion_.name + remedy);
+    if (hips_ == kNone) return badInput(body_.name + " has no joint that follows the hips of " + given_.name + remedy);
     partsFromSource();
+    stand();
     align();
     measureScale();
-    return makeClip();
+    Retargeting out;
+    out.clip = makeClip();
+    out.source = source_;
+    describe(out, !map.empty());
+    if (map.empty() && out.sureness < kLeastSureness)
+      return badInput(given_.name + " does not fit " + body_.name + ": " + describeMatch(out) + ", less than the " +
+                      std::to_string(int(std::lround(100 * kLeastSureness))) + " % that is asked for" + remedy);
+    return out;
   }
 
  private:
+  // Turns the motion upright and finds the pose in which it stands.
+  void stand() {
+    up_ = upOf(given_, from_.parts.of);
+    if (up_ != vec3(0, 1, 0)) turned_ = withUp(given_, up_);
+    standing_ = standingPose(motion(), from_.parts.of);
+    const MotionPose pose = motionPose(motion(), standing_);
+    placeIn(from_, pose);
+    standingTurns_ = pose.world;
+    const auto hips = turnOf(trunkOf(to_, {"UpperLeg", "UpperArm"}), trunkOf(from_, {"UpperLeg", "UpperArm"}));
+    const auto chest = turnOf(trunkOf(to_, {"UpperArm"}), trunkOf(from_, {"UpperArm"}));
+    if (!hips || (standing_ == MotionPose::kZero && hips->w > 0 && 2 * hips->w * hips->w - 1 > kFacingDoubt)) return;
+    hipsTurn_ = *hips;
+    chestTurn_ = standing_ != MotionPose::kZero && chest ? *chest : *hips;
+  }
+  const Motion& motion() const { return turned_ ? *turned_ : given_; }
+
   // The hips, or the first joint that follows one which moves.
   std::uint32_t hipsOf() const {
     for (std::uint32_t j = 0; j < source_.size(); ++j)
       if (source_[j] != kNone && (to_.parts.of[j] == "hips" || from_.parts.of[source_[j]] == "hips")) return j;
     for (std::uint32_t j = 0; j < source_.size(); ++j)
-      if (source_[j] != kNone && (motion_.joints[source_[j]].moves || from_.parents[source_[j]] == kNone)) return j;
+      if (source_[j] != kNone && (given_.joints[source_[j]].moves || from_.parents[source_[j]] == kNone)) return j;
     return kNone;
   }
 
@@ -149,6 +246,10 @@ class Retargeter {
     return end == kNone ? vec3(0) : rig.centres[end] - rig.centres[joint];
   }
 
+  static std::uint32_t toesOf(const Rig& rig, std::uint32_t foot) {
+    return rig.partNamed(std::string(rig.parts.of[foot].starts_with("left") ? "left" : "right") + "Toes");
+  }
+
   // Along the fingers and towards the thumb; nothing where a hand has neither.
   static std::optional<mat3> handOf(const Rig& rig, std::uint32_t hand) {
     vec3 fingers(0), thumb(0);
@@ -168,6 +269,7 @@ class Retargeter {
     const std::uint32_t s = source_[j];
     const std::string_view part = to_.parts.of[j];
     if (s == kNone || part.empty()) return above;
+    const quat trunk = part == "hips" || part == "spine" ? hipsTurn_ : chestTurn_;
     if (endsWith(part, "Hand")) {
       const auto own = handOf(to_, j), wanted = handOf(from_, s);
       return own && wanted ? glm::normalize(glm::quat_cast(*wanted * glm::transpose(*own))) : above;
@@ -178,7 +280,13 @@ class Retargeter {
       return endsWith(part, "UpperArm") ? hingeTurn(j, turn) * turn : turn;
     }
     const bool finger = part.find("Proximal") != part.npos || endsWith(part, "Toes");
-    return finger ? above : kIdentity;
+    if (finger) return above;
+    if (standing_ == MotionPose::kZero) return trunk;
+    // In a frame of the motion feet need not be flat: they are as their toes tell, else as the shin has them.
+    if (!endsWith(part, "Foot")) return trunk;
+    const std::uint32_t ownToes = toesOf(to_, j), toes = toesOf(from_, s);
+    if (ownToes == kNone || toes == kNone) return above;
+    return turnBetween(above * (to_.centres[ownToes] - to_.centres[j]), from_.centres[toes] - from_.centres[s]) * above;
   }
 
   // The turn about an upper arm that makes the elbow bend about the axis it is bent about at rest: no direction
@@ -190,9 +298,14 @@ class Retargeter {
     const vec3 along = unit(boneOf(to_, upper, side + "UpperArm")), on = unit(boneOf(to_, lower, side + "LowerArm"));
     const vec3 sourceAlong = unit(boneOf(from_, source_[upper], side + "UpperArm")), sourceOn = unit(boneOf(from_, source_[lower], side + "LowerArm"));
     vec3 bends(0);
-    for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame)
-      bends += glm::cross(sourceAlong, motion_.rotation(frame, source_[lower]) * sourceOn);
-    const vec3 own = glm::cross(along, on), wanted = bends / float(motion_.frameCount);
+    const std::uint32_t foreArm = source_[lower], arm = source_[upper];
+    const quat toForeArm = glm::conjugate(standingTurns_[arm]) * standingTurns_[foreArm];
+    for (std::uint32_t frame = 0; frame < motion().frameCount; ++frame) {
+      // The forearm's turn beyond its standing one, seen from the arm as it stands.
+      const quat bend = standingTurns_[arm] * motion().rotation(frame, foreArm) * glm::conjugate(toForeArm) * glm::conjugate(standingTurns_[arm]);
+      bends += glm::cross(sourceAlong, bend * sourceOn);
+    }
+    const vec3 own = glm::cross(along, on), wanted = bends / float(motion().frameCount);
     if (glm::length(own) < kLeastBend || glm::length(wanted) < kLeastBend) return kIdentity;
     const vec3 a = unit(turn * own), b = unit(wanted - glm::dot(wanted, sourceAlong) * sourceAlong);
     const float angle = std::atan2(glm::dot(glm::cross(a, b), sourceAlong), glm::dot(a, b));
@@ -202,7 +315,7 @@ class Retargeter {
   void align() {
     alignment_.assign(source_.size(), kIdentity);
     for (std::uint32_t j = 0; j < source_.size(); ++j)
-      alignment_[j] = alignmentOf(j, to_.parents[j] == kNone ? kIdentity : alignment_[to_.parents[j]]);
+      alignment_[j] = alignmentOf(j, to_.parents[j] == kNone ? hipsTurn_ : alignment_[to_.parents[j]]);
   }
 
   static float legOf(const Rig& rig) {
@@ -226,26 +339,11 @@ class Retargeter {
     else if (extentOf(from_) > 0) scale_ = extentOf(to_) / extentOf(from_);
   }
 
-  struct SourceFrame {
-    std::vector<quat> world;
-    std::vector<vec3> places;
-  };
-  SourceFrame sourceFrame(std::uint32_t frame) const {
-    SourceFrame out;
-    for (std::size_t i = 0; i < motion_.joints.size(); ++i) {
-      const std::uint32_t parent = from_.parents[i];
-      const quat above = parent == kNone ? kIdentity : out.world[parent];
-      out.world.push_back(glm::normalize(above * motion_.rotation(frame, i)));
-      out.places.push_back((parent == kNone ? vec3(0) : out.places[parent]) + above * motion_.translation(frame, i));
-    }
-    return out;
-  }
-
   // Turns relative to rest of all of the body's joints.
-  std::vector<quat> bodyTurns(const SourceFrame& frame) const {
+  std::vector<quat> bodyTurns(const MotionPose& frame) const {
     std::vector<quat> turns(source_.size(), kIdentity);
     for (std::uint32_t j = 0; j < source_.size(); ++j) {
-      if (source_[j] != kNone) turns[j] = glm::normalize(frame.world[source_[j]] * alignment_[j]);
+      if (source_[j] != kNone) turns[j] = glm::normalize(frame.world[source_[j]] * glm::conjugate(standingTurns_[source_[j]]) * alignment_[j]);
       else if (to_.parents[j] != kNone) turns[j] = turns[to_.parents[j]];
     }
     for (std::uint32_t j = 0; j < source_.size(); ++j)
@@ -270,10 +368,10 @@ class Retargeter {
     }
   }
 
-  Result<Clip> makeClip() {
+  Clip makeClip() {
     Clip clip;
-    clip.name = motion_.name;
-    clip.framesPerSecond = motion_.framesPerSecond;
+    clip.name = given_.name;
+    clip.framesPerSecond = given_.framesPerSecond;
     std::vector<JointTracks> tracks(source_.size());
     for (std::uint32_t j = 0; j < source_.size(); ++j) {
       tracks[j].joint = {j};
@@ -281,8 +379,8 @@ class Retargeter {
     }
     std::vector<vec3> hips;
     std::vector<float> lowest;
-    for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame) {
-      const SourceFrame source = sourceFrame(frame);
+    for (std::uint32_t frame = 0; frame < given_.frameCount; ++frame) {
+      const MotionPose source = motionPose(motion(), frame);
       const std::vector<quat> turns = bodyTurns(source);
       for (std::uint32_t j = 0; j < source_.size(); ++j) {
         const quat above = to_.parents[j] == kNone ? rotationOf(body_.skeleton.rootTransform) : turns[to_.parents[j]] * restRotations_[to_.parents[j]];
@@ -296,7 +394,7 @@ class Retargeter {
     }
     placeHips(hips, lowest, tracks[hips_].translation);
     std::vector<float> times;
-    for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame) times.push_back(float(double(frame) / double(motion_.framesPerSecond)));
+    for (std::uint32_t frame = 0; frame < given_.frameCount; ++frame) times.push_back(float(double(frame) / double(given_.framesPerSecond)));
     clip.end = times.back();
     tracks[hips_].translation.times = times;
     for (JointTracks& track : tracks) {
@@ -331,9 +429,56 @@ class Retargeter {
     for (const vec3& place : hips) track.values.push_back(vec3(toLocal * vec4(place + shift, 1)));
   }
 
-  const Motion& motion_;
+  // How much of a person follows, and how far the limbs that do are from where the motion has them.
+  void describe(Retargeting& out, bool told) const {
+    out.motionNames = from_.parts.family, out.bodyNames = to_.parts.family;
+    out.motionParts.assign(from_.parts.of.begin(), from_.parts.of.end());
+    out.standingFrame = standing_;
+    out.up = up_;
+    std::vector<std::string_view> followed;
+    for (std::uint32_t j = 0; j < source_.size(); ++j)
+      if (source_[j] != kNone) followed.push_back(to_.parts.of[j]), ++out.joints;
+    out.keys = humanoidKeys(followed);
+    double sum = 0;
+    int measured = 0;
+    for (const std::uint32_t frame : sampledFrames(motion(), kFramesCompared)) {
+      const MotionPose source = motionPose(motion(), frame);
+      const Pose pose = samplePose(body_.skeleton, out.clip, out.clip.timeOfFrame(frame));
+      for (std::uint32_t j = 0; j < source_.size(); ++j) {
+        const auto end = nextOf(to_, j), sourceEnd = source_[j] == kNone ? kNone : nextOf(from_, source_[j]);
+        if (end == kNone || sourceEnd == kNone) continue;
+        const vec3 own = unit(vec3(pose.world[end][3]) - vec3(pose.world[j][3])), wanted = unit(source.places[sourceEnd] - source.places[source_[j]]);
+        const float angle = std::acos(std::clamp(glm::dot(own, wanted), -1.0f, 1.0f)) * 180 / kPi;
+        out.worstAngle = std::max(out.worstAngle, angle);
+        sum += double(angle), ++measured;
+      }
+    }
+    out.meanAngle = measured > 0 ? float(sum / measured) : 0;
+    const auto sure = [](std::string_view family) { return family == "shape" ? kShapeSure : family == "words" ? kWordsSure : 1.0f; };
+    const int most = std::max(std::min(humanoidKeys(from_.parts.of), humanoidKeys(to_.parts.of)), 1);
+    const float names = told ? 1.0f : std::min(sure(out.motionNames), sure(out.bodyNames));
+    out.sureness = names * std::min(1.0f, float(out.keys) / float(most));
+    const float plausible = plausibility(from_) * plausibility(to_);
+    if (!told) out.sureness *= plausible * plausible;
+    out.sureness *= 1 - std::clamp((out.meanAngle - kGoodAngle) / (kLostAngle - kGoodAngle), 0.0f, 1.0f);
+  }
+
+  // The joint at which a limb's bone ends.
+  static std::uint32_t nextOf(const Rig& rig, std::uint32_t joint) {
+    const std::string_view part = rig.parts.of[joint];
+    for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"}, {"LowerArm", "Hand"}, {"UpperLeg", "LowerLeg"}, {"LowerLeg", "Foot"}})
+      if (endsWith(part, own)) return rig.partNamed(std::string(part.starts_with("left") ? "left" : "right") + behind);
+    return kNone;
+  }
+
+  const Motion& given_;
   const Body& body_;
+  std::optional<Motion> turned_;  // upright, where the given one is not
   Rig from_, to_;
+  vec3 up_{0, 1, 0};
+  std::uint32_t standing_ = MotionPose::kZero;
+  std::vector<quat> standingTurns_;  // of the motion's joints, in the pose that they stand in
+  quat hipsTurn_ = kIdentity, chestTurn_ = kIdentity;  // from the body's trunk to the motion's
   std::vector<std::uint32_t> source_;  // motion's joint that each of the body's follows
   std::vector<quat> alignment_, restRotations_;
   std::uint32_t hips_ = kNone;
@@ -346,9 +491,27 @@ Result<std::vector<std::uint32_t>> matchedJoints(const Motion& motion, const Bod
   return matchJoints(rigOf(motion), rigOf(body.skeleton), map, motion.name, body.name);
 }
 
-Result<Clip> retarget(const Motion& motion, const Body& body, const JointMap& map) {
+std::string describeMatch(const Retargeting& done) {
+  std::string text = std::to_string(done.joints) + " joints matched, " + std::to_string(done.keys) + " of the " + std::to_string(kHumanoidKeys) +
+                     " that make a person move (names: motion " + (done.motionNames.empty() ? "unknown" : std::string(done.motionNames)) + ", body " +
+                     (done.bodyNames.empty() ? "unknown" : std::string(done.bodyNames)) + "), " + std::to_string(int(std::lround(100 * done.sureness))) + " % sure";
+  if (done.up != vec3(0, 1, 0)) text += ", up is " + std::string(done.up.x + done.up.y + done.up.z < 0 ? "-" : "+") + (done.up.x != 0 ? "X" : done.up.y != 0 ? "Y" : "Z");
+  if (done.standingFrame != Retargeting::kZeroPose) text += ", compared with rest in frame " + std::to_string(done.standingFrame);
+  return text;
+}
+
+Result<Retargeting> retargeted(const Motion& motion, const Body& body, const JointMap& map) {
   if (motion.frameCount == 0 || motion.joints.empty()) return badInput(motion.name + " has no frames");
   return Retargeter(motion, body).run(map);
 }
+
+Result<Clip> retarget(const Motion& motion, const Body& body, const JointMap& map) {
+  auto done = retargeted(motion, body, map);
+  if (!done) return done.error();
+  return std::move(done->clip);
+}
+
+HumanoidNames partsOf(const Motion& motion) { return rigOf(motion).parts; }
+HumanoidNames partsOf(const Skeleton& skeleton) { return rigOf(skeleton).parts; }
 
 }  // namespace vasa

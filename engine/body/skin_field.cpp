@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "body/bone_field.h"
+#include "body/mesh_role.h"
 #include "body/point_tree.h"
 
 namespace vasa {
@@ -43,12 +44,13 @@ struct SkinField::Vertices {
 
 const SkinnedMesh* skinOf(const Body& body) {
   const SkinnedMesh* skin = nullptr;
-  float largest = 0;
+  std::pair<bool, float> largest{false, 0.0f};  // named before others, then by size
   for (const SkinnedMesh& mesh : body.meshes) {
+    if (mesh.mesh.empty()) continue;
     const vec3 extent = mesh.mesh.bounds().extent();
-    const float size = extent.x * extent.y * extent.z;
-    if (movesByRigidParts(mesh) || mesh.mesh.empty() || !(size > largest)) continue;
-    largest = size;
+    const std::pair own(roleNamed(mesh.name) == MeshRole::skin, extent.x * extent.y * extent.z);
+    if (!(own > largest) || (movesByRigidParts(mesh) && !mesh.name.starts_with("skin:"))) continue;
+    largest = own;
     skin = &mesh;
   }
   return skin;

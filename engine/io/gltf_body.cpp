@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "body/skin_recognition.h"
 #include "core/log.h"
 #include "io/gltf_clips.h"
 #include "io/gltf_rule.h"
@@ -38,9 +39,10 @@ bool canCarry(const Skeleton::Joint& joint) {
 }
 
 // Bound with full weight to one joint, so that at rest it is where the file puts it.
-SkinnedMesh onJoint(Geometry geometry, JointId carrier, const Skeleton& skeleton, const mat4& restWorld) {
-  const auto& joint = skeleton.joints[carrier.value];
-  transform(geometry, glm::inverse(joint.restWorld * joint.inverseBind) * restWorld);
+SkinnedMesh onJoint(Geometry geometry, JointId carrier, const BodySkeleton& joints, const mat4& fileWorld) {
+  const auto& joint = joints.skeleton.joints[carrier.value];
+  const mat4 toRest = joints.fileToRest.empty() ? mat4(1) : joints.fileToRest[carrier.value];
+  transform(geometry, glm::inverse(joint.restWorld * joint.inverseBind) * toRest * fileWorld);
   SkinnedMesh out;
   out.influences.assign(geometry.mesh.positions.size(),
                         SkinInfluence{{std::uint16_t(carrier.value), 0, 0, 0}, vec4(1, 0, 0, 0)});
@@ -91,7 +93,7 @@ void addMeshesOfNode(const Source& from, int index, std::vector<SkinnedMesh>& me
     warnOfMending(from.asset, name, geometry);
     SkinnedMesh mesh = node.skin >= 0 ? onSkin(std::move(geometry), from.joints.skins[std::size_t(node.skin)])
                                       : onJoint(std::move(geometry), from.carrier[std::size_t(index)],
-                                                from.joints.skeleton, from.tree.world[std::size_t(index)]);
+                                                from.joints, from.tree.world[std::size_t(index)]);
     const bool parted = byMaterial.size() > 1 && material >= 0;
     mesh.name = parted ? name + "/" + model.materials[std::size_t(material)].name : name;
     mesh.colour = colourOf(model, material);
@@ -164,11 +166,13 @@ Body bodyOf(const Asset& asset) {
     if (asset.model.nodes[std::size_t(node)].mesh >= 0 && tree.inScene[std::size_t(node)])
       addMeshesOfNode(from, node, body.meshes);
   body.clips = readClips(asset, joints.jointOfNode);
+  if (!joints.fileRest.empty()) holdFilePose(body.clips, joints.skeleton, joints.fileRest);
   body.skeleton = std::move(joints.skeleton);
   for (const auto& joint : body.skeleton.joints)
     if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))
       breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
              kExportAgain);
+  recogniseSkin(body);
   return body;
 }
 

@@ -130,4 +130,25 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
   return clips;
 }
 
+void holdFilePose(std::vector<Clip>& clips, const Skeleton& skeleton, const std::vector<JointTransform>& filePose) {
+  const auto hold = [](auto& track, const auto& value, const auto& rest, float time) {
+    if (track.times.empty() && value != rest) track.times = {time}, track.values = {value};
+  };
+  for (Clip& clip : clips) {
+    std::vector<JointTracks> all(skeleton.joints.size());
+    for (std::uint32_t j = 0; j < all.size(); ++j) all[j].joint = {j};
+    for (JointTracks& own : clip.tracks) all[own.joint.value] = std::move(own);
+    clip.tracks.clear();
+    for (JointTracks& own : all) {
+      if (own.joint.value >= filePose.size()) continue;  // the double of a joint goes with it
+      const JointTransform &told = filePose[own.joint.value], &rest = skeleton.joints[own.joint.value].rest;
+      hold(own.translation, told.translation, rest.translation, clip.start);
+      hold(own.rotation, told.rotation, rest.rotation, clip.start);
+      hold(own.scale, told.scale, rest.scale, clip.start);
+      if (!own.translation.times.empty() || !own.rotation.times.empty() || !own.scale.times.empty())
+        clip.tracks.push_back(std::move(own));
+    }
+  }
+}
+
 }  // namespace vasa::gltf

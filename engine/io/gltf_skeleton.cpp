@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/gltf_accessor.h"
+#include "io/gltf_binding.h"
 #include "io/gltf_rule.h"
 
 namespace vasa::gltf {
@@ -229,12 +230,20 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     skeleton.joints.push_back(std::move(joint));
   }
   checkJointCount(skeleton.joints.size());
-  Binder binder(skeleton);
+  std::vector<BoundSkin> bound;
   for (const auto& skin : model.skins) {
-    std::vector<JointId> joints;
-    for (const int node : skin.joints) joints.push_back(out.jointOfNode[std::size_t(node)]);
-    out.skins.push_back(binder.bind(std::move(joints), inverseBinds(asset, skin)));
+    bound.push_back({{}, inverseBinds(asset, skin)});
+    for (const int node : skin.joints) bound.back().joints.push_back(out.jointOfNode[std::size_t(node)]);
   }
+  const Skeleton asFile = skeleton;
+  if (restAtBinding(skeleton, bound))
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+      const mat4& before = asFile.joints[j].restWorld;
+      out.fileRest.push_back(asFile.joints[j].rest);
+      out.fileToRest.push_back(invertible(before) ? skeleton.joints[j].restWorld * glm::inverse(before) : mat4(1));
+    }
+  Binder binder(skeleton);
+  for (BoundSkin& skin : bound) out.skins.push_back(binder.bind(std::move(skin.joints), skin.inverseBinds));
   binder.bindTheRest();
   return out;
 }

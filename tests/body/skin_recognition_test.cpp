@@ -1,0 +1,86 @@
+#include "body/skin_recognition.h"
+
+#include <doctest/doctest.h>
+
+#include "body/bone_field.h"
+#include "body/doll.h"
+#include "body/mesh_role.h"
+#include "body/skin_field.h"
+#include "support/meshes.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+// A box around a bone that bends with its two joints.
+SkinnedMesh sleeve(const Body& body, const std::string& name, std::initializer_list<const char*> parts, float thick) {
+  Aabb box;
+  std::vector<std::uint16_t> joints;
+  for (const char* part : parts) {
+    const JointId joint = body.skeleton.find(part);
+    box.add(vec3(body.skeleton.joints[joint.value].restWorld[3]));
+    joints.push_back(std::uint16_t(joint.value));
+  }
+  SkinnedMesh mesh = boxMesh(name, box.low - thick, box.high + thick);
+  for (SkinInfluence& influence : mesh.influences) influence = {{joints.front(), joints.back(), 0, 0}, vec4(0.5f, 0.5f, 0, 0)};
+  return mesh;
+}
+
+SkinnedMesh whole(const Body& body, const std::string& name, float thick) {
+  SkinnedMesh mesh = sleeve(body, name, {"leftToes", "rightHand"}, thick);
+  Aabb box;
+  for (const auto& joint : body.skeleton.joints) box.add(vec3(joint.restWorld[3]));
+  SkinnedMesh all = boxMesh(name, box.low - thick, box.high + thick);
+  for (SkinInfluence& influence : all.influences) influence = {{0, 1, 0, 0}, vec4(0.5f, 0.5f, 0, 0)};
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a skin is known by enclosing the skeleton, whatever it is called; what lies within stays what it is") {
+  Body body = dollBody("vrm");
+  body.meshes = {whole(body, "Object_7", 0.1f), sleeve(body, "Object_8", {"neck", "head"}, 0.02f), whole(body, "Coat", 0.15f)};
+  recogniseSkin(body);
+  REQUIRE(body.meshes.size() == 2);
+  CHECK(roleNamed(body.meshes[0].name) == MeshRole::skin);
+  CHECK(body.meshes[0].name.find("Coat") != std::string::npos);
+  CHECK(body.meshes[0].name.find("Object_7") != std::string::npos);
+  CHECK(body.meshes[1].name == "Object_8");
+  CHECK(skinOf(body) == &body.meshes[0]);
+  CHECK(body.meshes[0].mesh.positions.size() == body.meshes[0].influences.size());
+}
+
+TEST_CASE("a skin in pieces is one") {
+  Body body = dollBody("vrm");
+  for (const auto& [name, parts] : std::vector<std::pair<std::string, std::initializer_list<const char*>>>{
+           {"torso", {"hips", "neck"}}, {"a", {"leftUpperArm", "leftHand"}}, {"b", {"rightUpperArm", "rightHand"}}, {"c", {"leftUpperLeg", "leftFoot"}}, {"d", {"rightUpperLeg", "rightFoot"}}})
+    body.meshes.push_back(sleeve(body, name, parts, 0.06f));
+  recogniseSkin(body);
+  REQUIRE(body.meshes.size() == 1);
+  CHECK(roleNamed(body.meshes[0].name) == MeshRole::skin);
+}
+
+TEST_CASE("a skin of rigid parts is no bone that vessels are kept out of") {
+  Body body = dollBody("vrm");
+  SkinnedMesh shell = whole(body, "robot", 0.1f);
+  for (SkinInfluence& influence : shell.influences) influence = {{1, 0, 0, 0}, vec4(1, 0, 0, 0)};
+  body.meshes = {shell};
+  CHECK(isSolid(body.meshes[0]));
+  recogniseSkin(body);
+  CHECK(!isSolid(body.meshes[0]));
+  CHECK(skinOf(body) == &body.meshes[0]);
+}
+
+TEST_CASE("named skins, bones and what encloses nothing are left alone") {
+  Body body = dollBody("vrm");
+  SkinnedMesh bones = sleeve(body, "bones", {"hips", "neck"}, 0.01f);
+  for (SkinInfluence& influence : bones.influences) influence = {{1, 0, 0, 0}, vec4(1, 0, 0, 0)};
+  body.meshes = {whole(body, "body", 0.1f), bones};
+  recogniseSkin(body);
+  CHECK(body.meshes[0].name == "body");
+  CHECK(body.meshes[1].name == "bones");
+  body.meshes = {sleeve(body, "Hat", {"neck", "head"}, 0.02f)};
+  recogniseSkin(body);
+  CHECK(body.meshes[0].name == "Hat");
+}
