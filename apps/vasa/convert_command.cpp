@@ -12,6 +12,7 @@
 #include "convert_report.h"
 #include "core/log.h"
 #include "network/file.h"
+#include "network/join_lines.h"
 #include "rest_report.h"
 #include "scene/vessel_files.h"
 
@@ -27,7 +28,8 @@ struct Options {
   std::string output;
   std::string kind;
   std::string up = "y";
-  double scale = 1;
+  std::string unit;
+  double scale = 0;  // 0: as --unit says, else the likely one
   float bodyHeight = 0;
   float tolerance = 0;
   bool exact = false, quantise = false, noBridges = false, keepPatches = false, interpolate = false;
@@ -39,20 +41,43 @@ const std::map<std::string, VesselKind> kKinds{{"artery", VesselKind::artery},
                                                {"lymphatic", VesselKind::lymphatic},
                                                {"other", VesselKind::other}};
 
-VesselImport importOf(const Options& options) {
-  VesselImport import{{options.scale, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y}, {}};
+VesselImport importOf(const Options& options, double metresPerUnit) {
+  VesselImport import{{metresPerUnit, options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y}, {}};
   if (!options.kind.empty()) import.kind = kKinds.at(options.kind);
   return import;
 }
 
-Result<std::vector<SourceElement>> readSources(const Options& options) {
+bool isGltf(const std::string& file) { return file.ends_with(".glb") || file.ends_with(".gltf"); }
+
+Result<std::vector<SourceElement>> readSources(const Options& options, double metresPerUnit) {
   std::vector<SourceElement> sources;
   for (const std::string& file : options.meshes) {
-    auto read = readSurfaces(file, importOf(options));
+    auto read = readSurfaces(file, importOf(options, metresPerUnit));
     if (!read) return read.error();
+    // Metres by definition, but not in every exporter's hands.
+    if (isGltf(file) && !options.unit.empty())
+      for (SourceElement& source : *read)
+        for (vec3& p : source.element.mesh.positions) p *= float(metresPerUnit);
     std::ranges::move(*read, std::back_inserter(sources));
   }
   return sources;
+}
+
+// As told, else all files in the likely unit, and that is said.
+template <class Read>
+auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
+  if (options.scale > 0) return read(options.scale);
+  if (!options.unit.empty()) return read(metresOfUnit(options.unit));
+  auto found = read(1.0);
+  if (!found) return found;
+  const vec3 extent = extentOf(*found);
+  if (likelyUnit(extent) == 1) return found;
+  if (std::ranges::all_of(options.meshes, isGltf)) {
+    logWarning(fmt::format("the vessels are {:.0f} m large, and glTF is in metres; --unit mm reads it as millimetres", std::max({extent.x, extent.y, extent.z})));
+    return found;
+  }
+  logInfo(fmt::format("read as millimetres, as the vessels would be {:.0f} m large in metres; --unit says otherwise", std::max({extent.x, extent.y, extent.z})));
+  return read(likelyUnit(extent));
 }
 
 ConvertOptions convertOptions(const Options& options) {
@@ -94,22 +119,27 @@ Result<PatchReport> addPatches(Conversion& conversion, std::span<const SourceEle
   return std::move(kept.report);
 }
 
-// All lines of all files, in one network.
-Result<Conversion> convertCentrelines(const Options& options) {
+Result<Centrelines> readLines(const Options& options, double metresPerUnit) {
   Centrelines all;
   for (const std::string& file : options.meshes) {
     if (!holdsCentrelines(file))
       return Error{Fault::usage, file + ": surfaces and centre lines are converted apart; write two networks and give both to --network"};
-    auto lines = readCentrelines(file, importOf(options));
+    auto lines = readCentrelines(file, importOf(options, metresPerUnit));
     if (!lines) return lines.error();
     if (lines->lines.empty()) return badInput(file + ": the file holds no line of two places or more");
     all.append(std::move(*lines));
   }
-  auto made = networkOfCentrelines(all, options.bodyHeight);
+  if (options.meshes.size() > 1) joinTouchingLines(all);  // a file a trace
+  return all;
+}
+
+// All lines of all files, in one network.
+Result<Conversion> convertCentrelines(const Options& options) {
+  const auto all = readInUnit(options, [&](double metresPerUnit) { return readLines(options, metresPerUnit); });
+  if (!all) return all.error();
+  auto made = networkOfCentrelines(*all, options.bodyHeight);
   if (!made) return badInput(options.meshes.front() + ": " + made.error().message);
-  if (options.bodyHeight == 0 && made->network.bodyHeight() > kTallestBody)
-    logWarning("the lines are " + std::to_string(int(made->network.bodyHeight())) + " m tall; --scale 0.001 reads millimetres");
-  ConvertReport report = reportOfCentrelines(all, *made);
+  ConvertReport report = reportOfCentrelines(*all, *made);
   return Conversion{std::move(made->network), std::move(report), {}};
 }
 
@@ -120,7 +150,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (lines && options.interpolate)
     return Error{Fault::usage, options.meshes.front() + ": centre lines are followed as they are told; leave out --interpolate"};
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
-  const auto sources = lines ? Result(std::vector<SourceElement>()) : readSources(options);
+  const auto sources = lines ? Result(std::vector<SourceElement>())
+                             : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
   if (!sources) return sources.error();
   RestRepair repair;
   settings.mend = [&](const Network& network) {
@@ -163,17 +194,20 @@ void addConvert(CLI::App& app, Command& command) {
       "  vasa convert centerlines.vtp --scale 0.001 -o aorta.vasa\n"
       "  vasa convert arteries.glb -o arteries.vasa --keep-patches\n"
       "  vasa convert arteries.glb -o arteries.vasa --interpolate --json\n"
-      "The kind of vessel comes from the file's extras, else from the file's name, else from the element's name.\n"
+      "The kind of vessel comes from the file's extras, else from an FMA or UBERON number, else from the element's name, else\n"
+      "from the file's, else from the names around it (mesh, collection, material), else from its colour.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
       "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
       "of --json names those that stay, with the reason).");
-  sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl; or centre lines with radii: .swc, .vtp")->required();
+  sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk")->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--kind", options->kind, "Kind of every vessel: artery, vein, portal, lymphatic or other")
       ->check(CLI::IsMember({"artery", "vein", "portal", "lymphatic", "other"}));
-  sub->add_option("--scale", options->scale, "Metres a unit of all but glTF files (0.001: millimetres)")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  auto* scale = sub->add_option("--scale", options->scale, "Metres a unit of all but glTF files (0.001: millimetres)")->check(CLI::PositiveNumber);
+  sub->add_option("--unit", options->unit,
+                  "The unit of all files, glTF too: m, cm, mm, in or um (default: glTF metres; others metres, or millimetres where they would be taller than 4 m)")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in", "um"}))
+      ->excludes(scale);
   sub->add_option("--up", options->up, "The axis that points up in all but glTF files")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();

@@ -68,6 +68,7 @@ Report convertJson(const ConvertReport& report, const ConvertOutput& output) {
             {"ok", s.ok},
             {"partial", s.partial},
             {"failed", s.failed},
+            {"doubtful", s.doubtful},
             {"duplicates", s.duplicates},
             {"vessels", s.vessels},
             {"sweeps", s.sweeps},
@@ -100,8 +101,8 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
     text += fmt::format("{:<8} {:<60} {}\n", statusName(element.status), visible(element.name.substr(0, 60)), visible(element.reason));
   }
   if (poor > listed) text += fmt::format("... and {} more; --json lists them all\n", poor - listed);
-  text += fmt::format("{:<22} {}: {} ok, {} partial, {} failed; {} repeat others\n", "elements", s.elements, s.ok,
-                      s.partial, s.failed, s.duplicates);
+  text += fmt::format("{:<22} {}: {} ok, {} partial, {} failed, {} doubtful; {} repeat others\n", "elements", s.elements, s.ok,
+                      s.partial, s.failed, s.doubtful, s.duplicates);
   text += fmt::format("{:<22} {} vessels, {} sweeps, {} junctions, {} connected parts\n", "network", s.vessels,
                       s.sweeps, s.junctions, s.components);
   text += fmt::format("{:<22} {} end to side, {} end to end; {} across a gap\n", "joins", s.joins.endToSide,

@@ -3,10 +3,13 @@
 #include <filesystem>
 
 #include "body/body.h"
+#include "body/motion_rest.h"
+#include "body/retarget.h"
 #include "capillary_options.h"
 #include "commands.h"
 #include "core/atomic_file.h"
 #include "edit/replay.h"
+#include "io/bvh.h"
 #include "io/gltf.h"
 #include "network/file.h"
 #include "network/measure.h"
@@ -23,7 +26,7 @@ namespace {
 struct Options {
   std::string file, profile, output;
   std::vector<std::string> edits;
-  bool vessels = false;
+  bool vessels = false, joints = false;
   float stepMm = 1;
 };
 
@@ -50,9 +53,57 @@ Report networkReport(const Network& network, std::uintmax_t fileBytes, bool vess
   return report;
 }
 
-Report bodyReport(const Body& body, std::uintmax_t fileBytes) {
+// A row a joint; depth is for the tree that a person reads.
+template <class NameOf, class ParentOf>
+Report jointReport(std::size_t count, const HumanoidNames& parts, const NameOf& nameOf, const ParentOf& parentOf) {
+  Report list = Report::array();
+  std::vector<int> depth(count, 0);
+  for (std::size_t j = 0; j < count; ++j) {
+    const JointId parent = parentOf(j);
+    if (parent.valid()) depth[j] = depth[parent.value] + 1;
+    list.push_back({{"name", nameOf(j)}, {"parent", parent.valid() ? nameOf(parent.value) : std::string{}}, {"part", parts.of[j]}, {"depth", depth[j]}});
+  }
+  return list;
+}
+
+std::string jointTree(const Report& joints) {
+  std::string text;
+  for (const Report& joint : joints)
+    text += fmt::format("{:<48} {}\n", std::string(2 * joint["depth"].get<std::size_t>(), ' ') + plainText(joint["name"]), plainText(joint["part"]));
+  return text;
+}
+
+std::string axisName(vec3 up) { return std::string(up.x + up.y + up.z < 0 ? "-" : "+") + (up.x != 0 ? "X" : up.y != 0 ? "Y" : "Z"); }
+
+Report motionReport(const Motion& motion, std::uintmax_t fileBytes, bool joints) {
+  const HumanoidNames parts = partsOf(motion);
+  const vec3 up = upOf(motion, parts.of);
+  const std::uint32_t standing = standingPose(withUp(motion, up), parts.of);
+  const double unit = metresAUnit(motion, parts.of);
+  Report report{{"kind", "motion"},
+                {"joints", motion.joints.size()},
+                {"frames", motion.frameCount},
+                {"frames_per_second", motion.framesPerSecond},
+                {"seconds", float(motion.frameCount - 1) / motion.framesPerSecond},
+                {"names", parts.family.empty() ? "unknown" : std::string(parts.family)},
+                {"parts_known", humanoidKeys(parts.of)},
+                {"parts_of_a_person", kHumanoidKeys},
+                {"up", axisName(up)},
+                {"metres_a_unit", unit},
+                {"stands_in", standing == MotionPose::kZero ? std::string("the zero pose") : "frame " + std::to_string(standing)},
+                {"file_bytes", fileBytes}};
+  if (joints)
+    report["joint"] = jointReport(motion.joints.size(), parts, [&](std::size_t j) { return motion.joints[j].name; }, [&](std::size_t j) { return motion.joints[j].parent; });
+  return report;
+}
+
+Report bodyReport(const Body& body, std::uintmax_t fileBytes, bool joints = false) {
+  const HumanoidNames parts = partsOf(body.skeleton);
   Report report{{"kind", "body"},
                 {"joints", body.skeleton.joints.size()},
+                {"names", parts.family.empty() ? "unknown" : std::string(parts.family)},
+                {"parts_known", humanoidKeys(parts.of)},
+                {"parts_of_a_person", kHumanoidKeys},
                 {"body_height_m", body.height()},
                 {"file_bytes", fileBytes}};
   report["meshes"] = Report::array();
@@ -66,6 +117,8 @@ Report bodyReport(const Body& body, std::uintmax_t fileBytes) {
                                {"frames", clip.frameCount()},
                                {"seconds", clip.end - clip.start},
                                {"frames_per_second", clip.framesPerSecond}});
+  const auto& all = body.skeleton.joints;
+  if (joints) report["joint"] = jointReport(all.size(), parts, [&](std::size_t j) { return all[j].name; }, [&](std::size_t j) { return all[j].parent; });
   return report;
 }
 
@@ -96,18 +149,23 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
   return std::filesystem::file_size(file, ignored);
 }
 
-Result<Report> reportOf(const std::filesystem::path& file, bool vessels) {
+Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool joints) {
+  if (isMotionFile(file.string())) {
+    const auto motion = readBvh(file);
+    if (!motion) return motion.error();
+    return motionReport(*motion, sizeOf(file), joints);
+  }
   if (file.extension() == ".vasa") {
     const auto network = readNetwork(file);
     if (!network) return network.error();
     return networkReport(*network, sizeOf(file), vessels);
   }
-  if (file.extension() == ".glb" || file.extension() == ".gltf") {
+  if (file.extension() == ".glb" || file.extension() == ".gltf" || file.extension() == ".vrm") {
     const auto body = readBody(file);
     if (!body) return body.error();
-    return bodyReport(*body, sizeOf(file));
+    return bodyReport(*body, sizeOf(file), joints);
   }
-  return Error{Fault::usage, file.string() + ": unknown kind of file; info reads .vasa, .glb, .gltf and scene .json files"};
+  return Error{Fault::usage, file.string() + ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .bvh and scene .json files"};
 }
 
 // What would grow: nothing of it is stored.
@@ -129,11 +187,11 @@ Result<Report> capillaryReport(const Scene& scene, CapillaryChoice choice) {
   return report;
 }
 
-Result<Report> sceneReport(const SceneFile& file, bool vessels) {
+Result<Report> sceneReport(const SceneFile& file, bool vessels, bool joints) {
   Report report{{"kind", "scene"}};
   auto body = loadBody(file);
   if (!body) return body.error();
-  report["body"] = bodyReport(*body, sizeOf(file.body));
+  report["body"] = bodyReport(*body, sizeOf(file.body), joints);
   report["networks"] = Report::array();
   std::vector<Network> networks;
   std::string names;
@@ -184,9 +242,11 @@ std::string withTables(Report report) {
   std::string tables;
   const auto takeOut = [&](Report& from) {
     if (from.contains("vessel")) tables += "\n" + vesselTable(from["vessel"]) + "\n" + forkTable(from["fork"]);
-    from.erase("vessel"), from.erase("fork");
+    if (from.contains("joint")) tables += '\n' + jointTree(from["joint"]);
+    from.erase("vessel"), from.erase("fork"), from.erase("joint");
   };
   takeOut(report);
+  if (report.contains("body")) takeOut(report["body"]);
   if (report.contains("networks"))
     for (Report& network : report["networks"]) takeOut(network);
   if (report.contains("edited")) takeOut(report["edited"]);
@@ -199,10 +259,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!options.profile.empty()) return printProfile(options);
   if (!options.output.empty()) return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
   auto report = [&]() -> Result<Report> {
-    if (!isScene(options)) return reportOf(options.file, options.vessels);
+    if (!isScene(options)) return reportOf(options.file, options.vessels, options.joints);
     const auto sources = chooseScene({.scene = options.file, .edits = options.edits});
     if (!sources) return sources.error();
-    return sceneReport(*sources, options.vessels);
+    return sceneReport(*sources, options.vessels, options.joints);
   }();
   if (!report) return report.error();
   return globals.json ? printJson(*report) : printText(withTables(std::move(*report)));
@@ -212,16 +272,18 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addInfo(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body or scene");
+  CLI::App* sub = app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body, motion or scene");
   sub->footer(
       "Examples:\n"
       "  vasa info body.vasa --json\n"
-      "  vasa info body.glb\n"
+      "  vasa info body.glb --joints\n"
+      "  vasa info walk.bvh   (what a motion file holds, and how its joints are understood)\n"
       "  vasa info            (the built-in human)\n"
       "  vasa info --vessels  (a table: sizes, stenoses, aneurysms, how they wind)\n"
       "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv");
-  sub->add_option("FILE", options->file, "A .vasa network, a glTF body or a scene; nothing: the built-in human");
+  sub->add_option("FILE", options->file, "A .vasa network, a glTF body, a .bvh motion or a scene; nothing: the built-in human");
   sub->add_flag("--vessels", options->vessels, "List each vessel with its sizes, stenosis, aneurysm and course, and each fork");
+  sub->add_flag("--joints", options->joints, "List each joint of a body or motion, below its parent, with the part of a person that it is taken for");
   sub->add_option("--edits", options->edits, "Journal of edits to a scene's vessels (.vedit); may be given several times")->take_all()->allow_extra_args(false);
   sub->add_option("--profile", options->profile, "Print one vessel's radius and area along its way, as CSV");
   sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")->capture_default_str()->check(CLI::Range(0.01, 1000.0));

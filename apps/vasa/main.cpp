@@ -69,10 +69,12 @@ int run(int argc, char** argv) {
   addRender(app, command);
   addConvert(app, command);
   addFit(app, command);
+  addPlace(app, command);
   addEdit(app, command);
   addExport(app, command);
   addPrepare(app, command);
   addInfo(app, command);
+  addMap(app, command);
   addCheck(app, command);
   addCompare(app, command);
   addProfile(app, command);

@@ -16,23 +16,6 @@ namespace {
 
 constexpr std::uint32_t kNone = JointId::kNone;
 
-// A body standing still, as a motion: retargeting it poses the other body the same way.
-Motion standingStill(const Body& body) {
-  Motion motion;
-  motion.name = body.name;
-  const auto& joints = body.skeleton.joints;
-  for (const auto& joint : joints) {
-    Motion::Joint still{joint.name, joint.parent, vec3(joint.restWorld[3])};
-    if (joint.parent.valid()) still.offset -= vec3(joints[joint.parent.value].restWorld[3]);
-    still.moves = !joint.parent.valid();
-    motion.joints.push_back(still);
-    motion.rotations.push_back(quat(1, 0, 0, 0));
-    motion.translations.push_back(still.offset);
-  }
-  motion.frameCount = 1;
-  return motion;
-}
-
 // In a hand with more fingers than the other body's, single fingers would be drawn aside: they go with the palm.
 void releaseLonely(const Skeleton& skeleton, std::vector<std::uint32_t>& match) {
   // Branches that end without a match are what counts: a free joint on the way to matched ones is no finger.

@@ -455,7 +455,7 @@ class Retargeter {
     }
     out.meanAngle = measured > 0 ? float(sum / measured) : 0;
     const auto sure = [](std::string_view family) { return family == "shape" ? kShapeSure : family == "words" ? kWordsSure : 1.0f; };
-    const int most = std::max(std::min(humanoidKeys(from_.parts.of), humanoidKeys(to_.parts.of)), 1);
+    const int most = std::max({humanoidKeys(from_.parts.of), humanoidKeys(to_.parts.of), 1});
     const float names = told ? 1.0f : std::min(sure(out.motionNames), sure(out.bodyNames));
     out.sureness = names * std::min(1.0f, float(out.keys) / float(most));
     const float plausible = plausibility(from_) * plausibility(to_);
@@ -509,6 +509,22 @@ Result<Clip> retarget(const Motion& motion, const Body& body, const JointMap& ma
   auto done = retargeted(motion, body, map);
   if (!done) return done.error();
   return std::move(done->clip);
+}
+
+Motion standingStill(const Body& body) {
+  Motion motion;
+  motion.name = body.name;
+  const auto& joints = body.skeleton.joints;
+  for (const auto& joint : joints) {
+    Motion::Joint still{joint.name, joint.parent, vec3(joint.restWorld[3])};
+    if (joint.parent.valid()) still.offset -= vec3(joints[joint.parent.value].restWorld[3]);
+    still.moves = !joint.parent.valid();
+    motion.joints.push_back(still);
+    motion.rotations.push_back(quat(1, 0, 0, 0));
+    motion.translations.push_back(still.offset);
+  }
+  motion.frameCount = 1;
+  return motion;
 }
 
 HumanoidNames partsOf(const Motion& motion) { return rigOf(motion).parts; }

@@ -36,7 +36,7 @@ constexpr float kLeastSureness = 0.5f;
 /// The hips go as the motion's do, times the legs' lengths against one another, from where the body stands,
 /// raised or lowered once for the whole clip so that the feet meet the floor they stand on at rest.
 ///
-/// Sureness is the share of the fourteen parts that make a person move (of those that both have), times 0.95 where
+/// Sureness is the share of the fourteen parts that make a person move (of those that either has), times 0.95 where
 /// only words and 0.8 where only the shape told them, times the square of the share of what must hold between them that
 /// does (shins behind thighs, both sides alike, legs away from the trunk), less where limbs end up more than 10 degrees
 /// from the motion's.
@@ -51,6 +51,9 @@ Result<Clip> retarget(const Motion& motion, const Body& body, const JointMap& ma
 
 /// "23 joints matched, 14 of the 14 that make a person move (names: motion biovision, body cmu), 100 % sure"
 std::string describeMatch(const Retargeting& done);
+
+/// A body at rest as a motion of one frame: retargeting it poses another body the same way.
+Motion standingStill(const Body& body);
 
 /// What the joints are, by name or by shape.
 HumanoidNames partsOf(const Motion& motion);

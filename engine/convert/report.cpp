@@ -31,6 +31,20 @@ void judge(ElementReport& report, float meanRadius) {
   else append(report.reason, "5 % of the surface lie more than " + std::to_string(1000 * report.error.p95).substr(0, 4) + " mm off");
 }
 
+// The radius of a tube of the same area and the length of the element's vessels.
+float meanRadius(const Assembly& assembly, std::uint32_t element, double area) {
+  double length = 0;
+  for (const std::uint32_t v : assembly.vesselsOf[element]) length += lengthOf(assembly.network.pointsOf(assembly.network.vessels()[v]));
+  return length > 0 ? float(area / (2 * double(kPi) * length)) : 0.0f;
+}
+
+void doubt(ElementReport& report, float radius) {
+  if (report.status == ElementStatus::failed || report.vessels == 0 || (radius >= kThinnestVessel && radius <= kWidestVessel)) return;
+  report.status = ElementStatus::doubtful;
+  append(report.reason, radius > kWidestVessel ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) + " mm is that of no vessel: a solid or a chamber, or another unit (--scale)"
+                                               : "it is thinner than any vessel that a mesh shows: another unit? (--scale)");
+}
+
 ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,
                             std::span<const SourceElement> elements, const ElementOutcome& outcome,
                             const ElementError& error) {
@@ -52,6 +66,7 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   report.error = statisticsOf(std::span(&error.forward, 1));
   report.backError = statisticsOf(std::span(&error.backward, 1));
   judge(report, roughRadius(source.element.mesh));
+  if (!source.element.mesh.empty()) doubt(report, meanRadius(assembly, index, error.area));
   return report;
 }
 
@@ -72,7 +87,8 @@ void addLengths(const Network& network, ConvertSummary& summary) {
 }  // namespace
 
 std::string_view statusName(ElementStatus status) {
-  return status == ElementStatus::ok ? "ok" : status == ElementStatus::partial ? "partial" : "failed";
+  constexpr std::string_view kNames[] = {"ok", "partial", "failed", "doubtful"};
+  return kNames[std::size_t(status)];
 }
 
 ConvertReport makeReport(const Assembly& assembly, std::span<const SourceElement> elements,
@@ -88,6 +104,7 @@ ConvertReport makeReport(const Assembly& assembly, std::span<const SourceElement
     summary.ok += own.status == ElementStatus::ok;
     summary.partial += own.status == ElementStatus::partial;
     summary.failed += own.status == ElementStatus::failed;
+    summary.doubtful += own.status == ElementStatus::doubtful;
     summary.duplicates += own.duplicate;
     summary.meshBytes += elements[e].element.mesh.bytes();
     area += own.area, covered += own.area * own.coverage;

@@ -8,8 +8,11 @@
 namespace vasa {
 
 /// ok: at least kOkCoverage of the mesh's area is covered and 95 % of it lies within kOkError, or within half
-/// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest.
-enum class ElementStatus { ok, partial, failed };
+/// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest. doubtful: what
+/// would be ok or partial and is no human vessel by its size: wider than kWidestVessel, or thinner than any that a mesh
+/// shows (another unit, a solid, a heart's chamber).
+enum class ElementStatus { ok, partial, failed, doubtful };
+constexpr float kWidestVessel = 0.03f, kThinnestVessel = 2e-5f;  ///< [m] mean radius: a large aneurysm of the aorta, an arteriole
 constexpr double kOkCoverage = 0.9, kPartialCoverage = 0.25;
 constexpr float kOkError = 0.002f;  ///< [m]
 std::string_view statusName(ElementStatus status);
@@ -28,7 +31,7 @@ struct ElementReport {
 };
 
 struct ConvertSummary {
-  std::uint32_t elements = 0, ok = 0, partial = 0, failed = 0, duplicates = 0;
+  std::uint32_t elements = 0, ok = 0, partial = 0, failed = 0, doubtful = 0, duplicates = 0;
   std::uint32_t vessels = 0, sweeps = 0, junctions = 0, components = 0;
   double coverage = 0;               ///< share of the area of all elements, failed ones included
   ErrorStatistics error, backError;  ///< over all elements that were measured

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "body/skinning.h"
@@ -6,6 +7,8 @@
 
 namespace vasa::gltf {
 namespace {
+
+constexpr int kNodesAbove = 8;  // collections are not nested deeper, and chains of nodes may be long
 
 // A skinned node's place comes from its joints; its own transform counts for nothing.
 struct RestPose {
@@ -38,6 +41,27 @@ Model::Labels labelsOf(const Model& model, int node) {
   return labels;
 }
 
+// From near to far; what is said of the element itself first.
+std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree, int node) {
+  std::vector<std::string> names;
+  const auto& mesh = model.meshes[std::size_t(model.nodes[std::size_t(node)].mesh)];
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  add(mesh.name);
+  for (const auto& primitive : mesh.primitives)
+    if (primitive.material >= 0) add(model.materials[std::size_t(primitive.material)].name);
+  for (int at = tree.parent[std::size_t(node)], depth = 0; at >= 0 && depth < kNodesAbove; at = tree.parent[std::size_t(at)], ++depth)
+    add(model.nodes[std::size_t(at)].name);
+  return names;
+}
+
+std::optional<vec3> colourOf(const Model& model, int node) {
+  for (const auto& primitive : model.meshes[std::size_t(model.nodes[std::size_t(node)].mesh)].primitives)
+    if (primitive.material >= 0) return vec3(model.materials[std::size_t(primitive.material)].baseColour);
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<MeshElement> elementsOf(const Asset& asset) {
@@ -59,6 +83,8 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     elements.push_back(
         {nameOf(node.name, mesh.name, int(i)), std::move(labels.category), std::move(labels.ontologyId),
          node.skin < 0 ? std::move(geometry.mesh) : atRest(std::move(geometry), node.skin, *rest)});
+    elements.back().surroundings = surroundingsOf(asset.model, tree, int(i));
+    elements.back().colour = colourOf(asset.model, int(i));
     mustBeFinite(elements.back().mesh.positions, int(i));
   }
   if (elements.empty()) breaks("/nodes", "no node of the scene has a mesh", "export the meshes too");

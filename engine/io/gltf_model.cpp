@@ -23,6 +23,7 @@ constexpr std::size_t kAnAttribute = 96;  // a node of a tree with a short name
 struct Aside {
   std::vector<int> indices, vertices;  // of every primitive of every mesh
   std::map<int, Model::Labels> nodeLabels, meshLabels;
+  std::map<int, std::string> humanoid;
 };
 
 int integerIn(const json& object, const char* key, int otherwise) {
@@ -48,8 +49,35 @@ void addLabels(const json& object, int number, std::map<int, Model::Labels>& lab
   if (!found.category.empty() || !found.ontologyId.empty()) labels.emplace(number, std::move(found));
 }
 
+const json& memberOf(const json& object, const char* key) {
+  static const json none;
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return object.is_object() && found != object.end() ? *found : none;
+}
+
+// VRM's humanoid: a list of {bone, node} in its version 0, an object bone -> {node} in version 1. Not part of what is
+// checked: what is no such table is passed over.
+std::map<int, std::string> humanoidOf(const json& document) {
+  std::map<int, std::string> bones;
+  const std::size_t nodes = listIn(document, "nodes").size();
+  const auto add = [&](const std::string& bone, const json& node) {
+    if (!node.is_number_integer() || node.get<double>() < 0 || node.get<double>() >= double(nodes) || bone.size() > 40) return;
+    bones.emplace(node.get<int>(), bone);
+  };
+  const json& extensions = memberOf(document, "extensions");
+  const json& list = memberOf(memberOf(memberOf(extensions, "VRM"), "humanoid"), "humanBones");
+  if (list.is_array())
+    for (const json& entry : list)
+      if (memberOf(entry, "bone").is_string()) add(entry.at("bone").get<std::string>(), memberOf(entry, "node"));
+  const json& table = memberOf(memberOf(memberOf(extensions, "VRMC_vrm"), "humanoid"), "humanBones");
+  if (table.is_object())
+    for (const auto& [bone, entry] : table.items()) add(bone, memberOf(entry, "node"));
+  return bones;
+}
+
 Aside takeAside(const json& document) {
   Aside aside;
+  aside.humanoid = humanoidOf(document);
   const json& accessors = listIn(document, "accessors");
   int number = 0;
   for (const json& node : listIn(document, "nodes")) addLabels(node, number++, aside.nodeLabels);
@@ -251,6 +279,7 @@ Model modelOf(json document) {
   if (model.hasScenes) model.sceneNodes = read.scenes[std::size_t(std::max(read.defaultScene, 0))].nodes;
   model.nodeLabels = std::move(aside.nodeLabels);
   model.meshLabels = std::move(aside.meshLabels);
+  model.humanoid = std::move(aside.humanoid);
   return model;
 }
 

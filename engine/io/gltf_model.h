@@ -86,6 +86,7 @@ struct Model {
   bool hasScenes = false;
   std::vector<int> sceneNodes;                // roots of the default scene
   std::map<int, Labels> nodeLabels, meshLabels;  // of those that have any
+  std::map<int, std::string> humanoid;           // nodes that VRM's table says are a human's bones, and which
 };
 
 /// Memory that modelOf() takes at its peak, without the document and its text [bytes].

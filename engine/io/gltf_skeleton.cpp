@@ -217,6 +217,8 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     const auto i = std::size_t(node);
     Skeleton::Joint joint;
     joint.name = model.nodes[i].name.empty() ? "node " + std::to_string(node) : model.nodes[i].name;
+    // Its table says what a joint is, whatever it is called.
+    if (const auto bone = model.humanoid.find(node); bone != model.humanoid.end()) joint.name = bone->second;
     if (tree.parent[i] >= 0) joint.parent = out.jointOfNode[std::size_t(tree.parent[i])];
     joint.rest = restOf(model.nodes[i], tree.local[i], node);
     const vec3 scale = glm::abs(joint.rest.scale);

@@ -21,7 +21,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMaximumBytes = std::size_t(1) << 28;
 constexpr std::int64_t kMostItems = 1 << 26;
-constexpr std::size_t kMostCellArrays = 100;
+constexpr std::size_t kMostCellArrays = 100, kMostCorners = 512;
 constexpr const char* kExportAgain = "; write the file again";
 
 // The first rule that reading finds broken.
@@ -93,22 +93,68 @@ class Reader {
   }
 
   VtpLines run() {
-    const XMLElement* root = document_.RootElement();
-    if (!root || std::strcmp(root->Name(), "VTKFile") != 0) breaks("/", "is no VTK XML file");
-    readEncoding(*root);
-    const XMLElement* data = root->FirstChildElement("PolyData");
-    if (!data) breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) + ", not PolyData; save it as .vtp");
-    if (const XMLElement* fields = data->FirstChildElement("FieldData")) readNames(*fields);
+    const XMLElement& data = polyData();
+    if (const XMLElement* fields = data.FirstChildElement("FieldData")) readNames(*fields);
     int number = 0;
-    for (const XMLElement* piece = data->FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
+    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
       readPiece(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]");
     if (out_.lines.empty()) breaks("/VTKFile/PolyData", "has no lines of two points or more; give centre lines");
     mendRadii();
     return std::move(out_);
   }
+  TriangleMesh surface() {
+    TriangleMesh mesh;
+    int number = 0;
+    const XMLElement& data = polyData();
+    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
+      readFaces(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]", mesh);
+    return mesh;
+  }
   std::size_t mended = 0;
 
  private:
+  const XMLElement& polyData() {
+    const XMLElement* root = document_.RootElement();
+    if (!root || std::strcmp(root->Name(), "VTKFile") != 0) breaks("/", "is no VTK XML file");
+    readEncoding(*root);
+    const XMLElement* data = root->FirstChildElement("PolyData");
+    if (!data) breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) + ", not PolyData; extract its surface or lines and save them as .vtp");
+    return *data;
+  }
+
+  void readFaces(const XMLElement& piece, const std::string& place, TriangleMesh& mesh) {
+    const auto points = std::size_t(count(piece, "NumberOfPoints", place));
+    const auto base = std::uint32_t(mesh.positions.size());
+    Amounts::check(place + "/NumberOfPoints", "points", base + points, most_.points);
+    const Numbers xyz = coordinates(piece, points, place);
+    for (std::size_t i = 0; i < points; ++i) mesh.positions.push_back(placeOf(xyz, i, place));
+    for (const auto& [name, amount] : {std::pair("Polys", "NumberOfPolys"), std::pair("Strips", "NumberOfStrips")}) {
+      const auto cells = std::size_t(count(piece, amount, place));
+      if (cells == 0) continue;
+      Amounts::check(place + "/" + amount, "faces", mesh.triangles.size() + cells, most_.corners);
+      readCellLists(piece, name, points, cells, base, place, [&](std::vector<std::uint32_t> corners) {
+        if (corners.size() > kMostCorners && name == std::string_view("Polys")) breaks(place + "/Polys", "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
+        name == std::string_view("Polys") ? addPolygon(corners, mesh) : addStrip(corners, mesh);
+      });
+    }
+  }
+
+  Numbers coordinates(const XMLElement& piece, std::size_t count, const std::string& place) {
+    const XMLElement* points = piece.FirstChildElement("Points");
+    const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
+    if (!array) breaks(place + "/Points", "is missing");
+    Numbers xyz = numbers(*array, place + "/Points");
+    if (xyz.size() != 3 * count)
+      breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " + std::to_string(count) + " points");
+    return xyz;
+  }
+  vec3 placeOf(const Numbers& xyz, std::size_t i, const std::string& place) const {
+    const dvec3 p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+    if (!(glm::length(p) * frame_.metresPerUnit <= kLargestImportedCoordinate))
+      breaks(place + "/Points", "point " + std::to_string(i) + " is not finite or farther than 1000 km away; give the file's unit with --scale");
+    return frame_.toHouse(p);
+  }
+
   // Appended data may be raw bytes, which no XML parser takes: cut out before it sees the file.
   std::string takeAppended(std::string_view text) {
     const std::size_t tag = text.rfind("<AppendedData");
@@ -249,12 +295,7 @@ class Reader {
   }
 
   void readPoints(const XMLElement& piece, std::size_t count, const std::string& place) {
-    const XMLElement* points = piece.FirstChildElement("Points");
-    const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
-    if (!array) breaks(place + "/Points", "is missing");
-    const Numbers xyz = numbers(*array, place + "/Points");
-    if (xyz.size() != 3 * count)
-      breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " + std::to_string(count) + " points");
+    const Numbers xyz = coordinates(piece, count, place);
     const XMLElement* data = piece.FirstChildElement("PointData");
     const XMLElement* radiusArray = arrayNamed(data, "MaximumInscribedSphereRadius");
     for (const char* name : {"Radius", "radius"})
@@ -266,45 +307,51 @@ class Reader {
     if (radius.size() != count)
       breaks(radiusPlace, "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
     for (std::size_t i = 0; i < count; ++i) {
-      const dvec3 p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-      if (!(std::max(glm::length(p), std::abs(radius[i])) * frame_.metresPerUnit <= kLargestImportedCoordinate))
-        breaks(place + "/Points", "point " + std::to_string(i) + " is not finite or farther than 1000 km away; give the file's unit with --scale");
-      if (!(radius[i] >= 0))
-        breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) + " must be positive");
-      out_.points.push_back(vec4(frame_.toHouse(p), float(radius[i] * frame_.metresPerUnit)));
+      const vec3 p = placeOf(xyz, i, place);
+      if (!(radius[i] >= 0) || radius[i] * frame_.metresPerUnit > kLargestImportedCoordinate)
+        breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) + " must be positive, and no more than 1000 km; --scale gives the file's unit");
+      out_.points.push_back(vec4(p, float(radius[i] * frame_.metresPerUnit)));
     }
   }
 
   std::vector<bool> readLines(const XMLElement& piece, std::size_t points, std::size_t lines, std::uint32_t base,
                               const std::string& piecePlace) {
-    const std::string place = piecePlace + "/Lines";
-    const XMLElement* element = piece.FirstChildElement("Lines");
+    std::vector<bool> kept;
+    readCellLists(piece, "Lines", points, lines, base, piecePlace, [&](std::vector<std::uint32_t> line) {
+      kept.push_back(line.size() > 1);
+      if (kept.back()) out_.lines.push_back(std::move(line));
+    });
+    return kept;
+  }
+
+  template <class Take>
+  void readCellLists(const XMLElement& piece, const char* kind, std::size_t points, std::size_t cells, std::uint32_t base,
+                     const std::string& piecePlace, Take take) {
+    const std::string place = piecePlace + "/" + kind;
+    const XMLElement* element = piece.FirstChildElement(kind);
     const XMLElement *connectivity = arrayNamed(element, "connectivity"), *offsets = arrayNamed(element, "offsets");
     if (!connectivity || !offsets) breaks(place, "needs the arrays connectivity and offsets");
     const Numbers numbersOfPoints = numbers(*connectivity, place + "/connectivity");
     const Numbers ends = numbers(*offsets, place + "/offsets");
-    if (ends.size() != lines)
-      breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " + std::to_string(lines) + " lines");
-    std::vector<bool> kept;
+    if (ends.size() != cells)
+      breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " + std::to_string(cells) + (kind == std::string_view("Lines") ? " lines" : " faces"));
     double start = 0;
-    for (std::size_t i = 0; i < lines; ++i) {
+    for (std::size_t i = 0; i < cells; ++i) {
       if (!(ends[i] >= start && ends[i] <= double(numbersOfPoints.size())))
         breaks(place + "/offsets", "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
       corners_ += std::size_t(ends[i] - start);
       Amounts::check(place + "/connectivity", "lines' points", corners_, most_.corners);
-      std::vector<std::uint32_t> line;
-      line.reserve(std::size_t(ends[i] - start));
+      std::vector<std::uint32_t> cell;
+      cell.reserve(std::size_t(ends[i] - start));
       for (auto k = std::size_t(start); k < std::size_t(ends[i]); ++k) {
         const double point = numbersOfPoints[k];
         if (!(point >= 0 && point < double(points)))
           breaks(place + "/connectivity", "value " + std::to_string(k) + " lies outside the " + std::to_string(points) + " points");
-        line.push_back(base + std::uint32_t(point));
+        cell.push_back(base + std::uint32_t(point));
       }
       start = ends[i];
-      kept.push_back(line.size() > 1);
-      if (kept.back()) out_.lines.push_back(std::move(line));
+      take(std::move(cell));
     }
-    return kept;
   }
 
   // Whole numbers a line; cells are counted verts first.
@@ -368,6 +415,14 @@ Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& n
     if (reader.mended > 0)
       logWarning(name + ": " + std::to_string(reader.mended) + " points without a radius take a neighbour's");
     return lines;
+  } catch (const BrokenRule& broken) {
+    return badInput(name + ": " + broken.place + ": " + broken.rule);
+  }
+}
+
+Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame) {
+  try {
+    return Reader(bytes, frame).surface();
   } catch (const BrokenRule& broken) {
     return badInput(name + ": " + broken.place + ": " + broken.rule);
   }

@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "io/import_frame.h"
+#include "mesh/triangle_mesh.h"
 #include "network/centrelines.h"
 
 // VTK's XML PolyData, as far as centre lines go: lines over points with a radius, and whole numbers a line.
@@ -37,14 +38,22 @@ Result<VtpLines> readVtp(const std::filesystem::path& path, const ImportFrame& f
 /// The same from memory. @param name  for messages
 Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame = {});
 
+/// The polygons and strips of such a file, cut into triangles; empty where there are none. Fails in the same way.
+Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame = {});
+
+/// Adds a face, or a strip of triangles, to a mesh that has its corners already.
+void addPolygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh);
+void addStrip(std::span<const std::uint32_t> corners, TriangleMesh& mesh);
+
 /// The text of a file, read back as the same lines: binary, base64, not compressed, little-endian; points and
 /// radii as 64-bit floats, so that nothing is lost to the change of unit.
 std::string encodeVtp(const VtpLines& lines, const ImportFrame& frame = {});
 
 /// The lines as vessels. Files of ours (VesselIds): a line a vessel. VMTK's: tracts of one centre line are put
 /// together again, and what several centre lines have in common (every one starts at the inlet) becomes one
-/// vessel, that of the longest; the others leave its side where they part from it. Ends at exactly the place of
-/// another line's sample are joined there.
+/// vessel, that of the longest; the others leave its side where they part from it. Others' (without CenterlineIds):
+/// pieces that share points are put together first (io/chain_lines.h). Ends at exactly the place of another line's
+/// sample are joined there.
 /// Fails with badInput where lines lie so close that telling them apart takes more than 1,000 comparisons a point and 10^8.
 Result<Centrelines> centrelinesOfVtp(const VtpLines& lines, const std::string& name, VesselKind kind);
 

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "io/chain_lines.h"
 #include "io/vtp.h"
 #include "math/closest_point.h"
 
@@ -234,7 +235,9 @@ Result<Centrelines> centrelinesOfVtp(const VtpLines& file, const std::string& na
                               told >= 0 && told <= int(VesselKind::other) ? VesselKind(told) : kind, std::move(samples)});
     }
   } else {
-    auto merged = Merger(wholeLines(file)).run();
+    // VMTK numbers its lines; others' are cut up anyhow.
+    auto whole = wholeLines(file);
+    auto merged = Merger(file.find("CenterlineIds") ? std::move(whole) : chainLines(whole)).run();
     if (!merged)
       return badInput("its lines lie so close to one another that telling them apart takes more than " + std::to_string(kComparisonsAPoint) +
                       " comparisons a point; leave out lines that are traced several times, or long steps");

@@ -5,6 +5,7 @@
 
 #include "body/retarget.h"
 #include "core/cancellation.h"
+#include "core/log.h"
 #include "edit/replay.h"
 #include "core/stage_log.h"
 #include "io/bvh.h"
@@ -60,9 +61,10 @@ Result<void> addMotion(const SceneFile& file, Body& body) {
     if (!read) return read.error();
     map = std::move(*read);
   }
-  auto clip = retarget(*motion, body, map);
-  if (!clip) return clip.error();
-  body.clips.push_back(std::move(*clip));
+  auto done = retargeted(*motion, body, map);
+  if (!done) return done.error();
+  logInfo(file.clip + ": " + describeMatch(*done));
+  body.clips.push_back(std::move(done->clip));
   return {};
 }
 

@@ -4,12 +4,15 @@
 #include <cctype>
 
 #include "convert/convert.h"
+#include "core/log.h"
 #include "io/gltf.h"
 #include "io/obj.h"
 #include "io/stl.h"
 #include "io/swc.h"
+#include "io/vtk.h"
 #include "io/vtp.h"
 #include "network/file.h"
+#include "network/join_lines.h"
 
 namespace vasa {
 namespace {
@@ -20,40 +23,44 @@ std::string extensionOf(const std::filesystem::path& path) {
   return extension;
 }
 
+bool isVtk(const std::string& extension) { return extension == ".vtp" || extension == ".vtk"; }
+
+// What others' common files of vessels are made into.
+std::string remedyFor(const std::string& extension) {
+  if (extension == ".ply" || extension == ".off" || extension == ".dae" || extension == ".fbx" || extension == ".3ds" || extension == ".blend")
+    return "; open it in Blender or MeshLab and export it as .glb or .obj";
+  if (extension == ".vtu" || extension == ".vti" || extension == ".vtr" || extension == ".vts")
+    return "; extract its surface (ParaView: Extract Surface) and save it as .vtp";
+  if (extension == ".nrrd" || extension == ".nii" || extension == ".gz" || extension == ".mha" || extension == ".mhd" || extension == ".dcm")
+    return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
+  return "";
+}
+
 Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path, const ImportFrame& frame) {
   const std::string extension = extensionOf(path);
   if (extension == ".glb" || extension == ".gltf") return readGltfElements(path);
   if (extension == ".obj") return readObj(path, frame);
   if (extension == ".stl") return readStl(path, frame);
-  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .swc and .vtp"};
+  if (extension == ".vtp" || extension == ".vtk") return readVtkSurface(path, frame);
+  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk and .swc" + remedyFor(extension)};
 }
 
-Aabb boundsOf(const std::vector<SourceElement>& sources) {
-  Aabb box;
-  for (const SourceElement& source : sources) box.add(source.element.mesh.bounds());
-  return box;
-}
-
-Aabb boundsOf(const Centrelines& lines) {
-  Aabb box;
-  for (const Centrelines::Line& line : lines.lines)
-    for (const vec4& sample : line.samples) box.add(vec3(sample));
-  return box;
-}
-
-// What `read` gives, in millimetres if it would be a giant in metres.
+// What `read` gives, in the likely unit.
 template <class Read>
-auto readInLikelyUnit(Read read) -> decltype(read(VesselImport{})) {
+auto readInLikelyUnit(const std::filesystem::path& path, Read read) -> decltype(read(VesselImport{})) {
   auto found = read(VesselImport{});
-  if (!found) return found;
-  const Aabb box = boundsOf(*found);
-  const vec3 extent = box.empty() ? vec3(0) : box.extent();
-  if (std::max({extent.x, extent.y, extent.z}) <= kTallestBody) return found;
-  return read(VesselImport{{0.001, ImportFrame::Up::y}, {}});
+  const std::string extension = extensionOf(path);
+  if (!found || extension == ".glb" || extension == ".gltf") return found;  // metres by definition
+  const vec3 extent = extentOf(*found);
+  const double unit = likelyUnit(extent);
+  if (unit == 1) return found;
+  logInfo(path.string() + ": read as millimetres, as it would be " + std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
+          " m large in metres; vasa convert --unit says otherwise");
+  return read(VesselImport{{unit, ImportFrame::Up::y}, {}});
 }
 
 Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyHeight, const ReadingProgress& told) {
-  const auto sources = readInLikelyUnit([&](const VesselImport& import) { return readSurfaces(path, import); });
+  const auto sources = readInLikelyUnit(path, [&](const VesselImport& import) { return readSurfaces(path, import); });
   if (!sources) return sources.error();
   ConvertOptions options{.bodyHeight = bodyHeight};
   if (told) {
@@ -69,7 +76,7 @@ Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyH
 }
 
 Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeight) {
-  const auto lines = readInLikelyUnit([&](const VesselImport& import) { return readCentrelines(path, import); });
+  const auto lines = readInLikelyUnit(path, [&](const VesselImport& import) { return readCentrelines(path, import); });
   if (!lines) return lines.error();
   auto made = networkOfCentrelines(*lines, bodyHeight);
   if (!made) return badInput(path.string() + ": " + made.error().message);
@@ -78,14 +85,35 @@ Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeig
 
 }  // namespace
 
+vec3 extentOf(const std::vector<SourceElement>& sources) {
+  Aabb box;
+  for (const SourceElement& source : sources) box.add(source.element.mesh.bounds());
+  return box.empty() ? vec3(0) : box.extent();
+}
+
+vec3 extentOf(const Centrelines& lines) {
+  Aabb box;
+  for (const Centrelines::Line& line : lines.lines)
+    for (const vec4& sample : line.samples) box.add(vec3(sample));
+  return box.empty() ? vec3(0) : box.extent();
+}
+
+double metresOfUnit(std::string_view name) {
+  for (const auto& [unit, metres] : {std::pair<std::string_view, double>{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"um", 1e-6}})
+    if (name == unit) return metres;
+  return 0;
+}
+
+double likelyUnit(vec3 extent) { return std::max({extent.x, extent.y, extent.z}) > kTallestBody ? 0.001 : 1; }
+
 bool holdsSurfaces(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".stl";
+  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".stl" || (isVtk(extension) && vtkContent(path) != VtkContent::lines);
 }
 
 bool holdsCentrelines(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  return extension == ".swc" || extension == ".vtp";
+  return extension == ".swc" || (isVtk(extension) && vtkContent(path) == VtkContent::lines);
 }
 
 Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path, const VesselImport& import) {
@@ -104,12 +132,15 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   if (extensionOf(path) == ".swc") {
     const auto samples = readSwc(path, import.frame);
     if (!samples) return samples.error();
-    return centrelinesOfSwc(*samples, name, kind);
+    Centrelines traces = centrelinesOfSwc(*samples, name, kind);
+    joinTouchingLines(traces);
+    return traces;
   }
-  const auto lines = readVtp(path, import.frame);
+  const auto lines = extensionOf(path) == ".vtk" ? readVtkLines(path, import.frame) : readVtp(path, import.frame);
   if (!lines) return lines.error();
   auto centrelines = centrelinesOfVtp(*lines, name, kind);
   if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);
+  if (!lines->find("VesselIds")) joinTouchingLines(*centrelines);  // ours say themselves what is joined
   return centrelines;
 }
 

@@ -11,15 +11,23 @@
 // Vessels out of files that other programs wrote.
 namespace vasa {
 
+/// Lengths that files may be in [m]: "m", "cm", "mm", "in", "um"; 0 for another word.
+double metresOfUnit(std::string_view name);
+
+/// The one rule for files that do not say: metres, or millimetres where in metres they would be taller than
+/// kTallestBody. @param extent  of all vessels, in the file's unit
+double likelyUnit(vec3 extent);
+constexpr float kTallestBody = 4;  ///< [m]
+
 /// What such files leave open.
 struct VesselImport {
   ImportFrame frame;               ///< of all but glTF
   std::optional<VesselKind> kind;  ///< of every vessel; none: as the file or its name tells
 };
 
-/// By the file's extension: .glb, .gltf, .obj, .stl.
+/// By the file's extension: .glb, .gltf, .obj, .stl; .vtp and .vtk without lines.
 bool holdsSurfaces(const std::filesystem::path& path);
-/// .swc, .vtp
+/// .swc; .vtp and .vtk with lines.
 bool holdsCentrelines(const std::filesystem::path& path);
 
 /// Fails as readers do, with badInput where there is no triangle, and with Fault::usage for other kinds of file.
@@ -27,10 +35,12 @@ Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& pat
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import = {});
 
 /// A network out of any file that has vessels: ours (.vasa) as it is, others converted (convert/convert.h). Those
-/// without a unit of their own are read as millimetres where in metres they would be taller than kTallestBody.
+/// without a unit of their own are read in the likely one (likelyUnit), and that is said where it is not metres.
 /// @param bodyHeight  [m] of the body that they belong to; 0: their own
 Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight = 0, const ReadingProgress& told = {});
 
-constexpr float kTallestBody = 4;  ///< [m]
+/// The extent of vessels, in the unit that they were read in.
+vec3 extentOf(const std::vector<SourceElement>& sources);
+vec3 extentOf(const Centrelines& lines);
 
 }  // namespace vasa

@@ -12,7 +12,7 @@ MeshElement named(const char* name, const char* category = "") { return {name, c
 
 }  // namespace
 
-TEST_CASE("the kind comes from the category, else the file's name, else the element's") {
+TEST_CASE("the kind comes from the category, else the element's name, else the file's") {
   CHECK(kindOf(named("splenic", "artery"), "veins") == VesselKind::artery);
   CHECK(kindOf(named("splenic"), "bp3d_veins") == VesselKind::vein);
   CHECK(kindOf(named("Inferior Vena Cava"), "body") == VesselKind::vein);
@@ -23,6 +23,27 @@ TEST_CASE("the kind comes from the category, else the file's name, else the elem
   CHECK(kindOf(named("artery beside a vein"), "x") == VesselKind::other);
   CHECK(sameFamily(VesselKind::vein, VesselKind::portalVein));
   CHECK(!sameFamily(VesselKind::vein, VesselKind::artery));
+}
+
+TEST_CASE("names of others tell the kind: numbers of an ontology, what is around them, at last their colour") {
+  CHECK(kindOf(named("Superior_VenaCava"), "heart") == VesselKind::vein);
+  CHECK(kindOf(named("SVC.001"), "heart") == VesselKind::vein);
+  CHECK(kindOf(named("PulmonaryTrunk"), "heart") == VesselKind::artery);
+  CHECK(kindOf(named("Mesh_12 FMA10951"), "heart") == VesselKind::vein);
+  CHECK(kindOf(named("UBERON_0000947_1"), "heart") == VesselKind::artery);
+  CHECK(kindOf(named("FMA37341"), "heart") == VesselKind::other);
+  CHECK(kindOf(named("pulmonary artery", ""), "all_veins") == VesselKind::artery);
+  MeshElement element = named("Object_4");
+  CHECK(kindOf(element, "heart") == VesselKind::other);
+  element.colour = vec3(0.6f, 0.05f, 0.04f);
+  CHECK(kindOf(element, "heart") == VesselKind::artery);
+  element.colour = vec3(0.05f, 0.1f, 0.6f);
+  CHECK(kindOf(element, "heart") == VesselKind::vein);
+  element.surroundings = {"Material.007", "Collection 2", "Arteries"};
+  CHECK(kindOf(element, "heart") == VesselKind::artery);
+  element.colour = vec3(0.8f, 0.5f, 0.45f);  // flesh
+  element.surroundings = {"Heart"};
+  CHECK(kindOf(element, "heart") == VesselKind::other);
 }
 
 TEST_CASE("catalogue numbers go, names stay") {

@@ -229,6 +229,18 @@ TEST_CASE("skinned elements are given in the rest pose, which is the one they ar
   CHECK(near((*elements)[0].mesh.positions[2], {0, 0, 0}));
 }
 
+TEST_CASE("VRM's table names the joints, in both of its versions; what is no table is passed over") {
+  const auto names = [](const nlohmann::json& extensions) {
+    GltfBuilder file = bodyFile();
+    file.document["extensions"] = extensions;
+    const Body body = bodyOf(file);
+    return body.skeleton.joints[0].name + " " + body.skeleton.joints[1].name;
+  };
+  CHECK(names({{"VRM", {{"humanoid", {{"humanBones", {{{"bone", "hips"}, {"node", 0}}, {{"bone", "leftLowerLeg"}, {"node", 1}}}}}}}}}) == "hips leftLowerLeg");
+  CHECK(names({{"VRMC_vrm", {{"humanoid", {{"humanBones", {{"hips", {{"node", 0}}}, {"leftLowerLeg", {{"node", 1}}}}}}}}}}) == "hips leftLowerLeg");
+  CHECK(names({{"VRM", {{"humanoid", {{"humanBones", {{{"bone", "hips"}, {"node", 99}}, {{"bone", 3}}, 7}}}}}}}) == "hip knee");
+}
+
 TEST_CASE("what is no body is refused") {
   const TemporaryFolder folder;
   const auto refusal = [&](GltfBuilder file) {

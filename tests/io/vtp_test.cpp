@@ -175,3 +175,43 @@ TEST_CASE("VMTK's aorta: one tree, radii within 1 % of the source's at every sam
     MESSAGE(std::string(name) << ": " << made->network.sweepCount() << " sweeps, radius within " << 100 * worst << " %, centre within " << 1000 * farthest << " mm");
   }
 }
+
+namespace {
+
+// Two-point lines along these polylines; every piece with points of its own, or shared by number.
+VtpLines pieces(const std::vector<std::vector<vec4>>& polylines, bool shared, float rounding) {
+  VtpLines file;
+  const auto number = [&](vec4 p) {
+    if (shared)
+      for (std::uint32_t i = 0; i < file.points.size(); ++i)
+        if (file.points[i] == p) return i;
+    file.points.push_back(p + (file.points.size() % 2 ? rounding : 0) * vec4(1, 0, 0, 0));
+    return std::uint32_t(file.points.size() - 1);
+  };
+  for (const auto& line : polylines)
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const std::uint32_t a = number(line[i - 1]), b = number(line[i]);
+      file.lines.push_back({a, b});
+    }
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("two-point lines that share points are vessels with forks, by number, by place and by about the same place") {
+  std::vector<vec4> trunk, branch, other;
+  for (int i = 0; i <= 40; ++i) trunk.push_back({0, float(i), 0, 1});
+  for (int i = 0; i <= 20; ++i) branch.push_back({float(i), 20 + 0.5f * float(i), 0, 0.5f});
+  for (int i = 0; i <= 20; ++i) other.push_back({60 + float(i), 0, 0, 0.5f});
+  branch[0].w = trunk[20].w;  // the shared point has one radius
+  for (const auto& [shared, rounding] : {std::pair(true, 0.0f), std::pair(false, 0.0f), std::pair(false, 0.01f)}) {
+    const auto lines = centrelinesOfVtp(pieces({trunk, branch, other}, shared, rounding), "brain", VesselKind::artery);
+    REQUIRE(lines.ok());
+    REQUIRE(lines->lines.size() == 3);
+    CHECK(lines->lines[0].samples.size() == 41);
+    const auto made = networkOfCentrelines(*lines);
+    if (!made.ok()) FAIL(made.error().message);
+    CHECK(made->network.componentCount() == 2);
+    CHECK(made->network.junctionCount() == 1);
+  }
+}

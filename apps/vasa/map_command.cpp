@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "body/retarget.h"
+#include "commands.h"
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "core/visible.h"
+#include "io/bvh.h"
+#include "io/gltf.h"
+#include "report.h"
+#include "scene/scene_file.h"
+
+// vasa map: the pairs of joints by which a motion moves a body, to be read and mended by hand.
+namespace vasa::cli {
+namespace {
+
+struct Options {
+  std::string body, motion, output, jointMap;
+};
+
+struct Pairing {
+  std::vector<std::uint32_t> source;  // one a joint of the body
+  HumanoidNames bodyParts, motionParts;
+  std::string match;  // how well, or why not
+  float sureness = 0;
+};
+
+Result<Pairing> pair(const Body& body, const Motion& motion, const JointMap& map) {
+  auto source = matchedJoints(motion, body, map);
+  if (!source) return source.error();
+  Pairing pairing{std::move(*source), partsOf(body.skeleton), partsOf(motion), {}, 0};
+  const auto done = retargeted(motion, body, map);
+  pairing.match = done ? describeMatch(*done) : done.error().message;
+  pairing.sureness = done ? done->sureness : 0;
+  return pairing;
+}
+
+std::string mapText(const Body& body, const Motion& motion, const Pairing& pairing) {
+  std::string text = fmt::format("# {} moves {}\n# {}\n# A line a pair: motion's joint = body's joint; nothing on the right leaves the joint out.\n",
+                                 visible(motion.name), visible(body.name), visible(pairing.match));
+  const auto& joints = body.skeleton.joints;
+  for (std::size_t m = 0; m < motion.joints.size(); ++m) {
+    bool any = false;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (pairing.source[j] != m) continue;
+      text += fmt::format("{} = {}", motion.joints[m].name, joints[j].name);
+      text += pairing.bodyParts.of[j].empty() ? "\n" : fmt::format("  # {}\n", pairing.bodyParts.of[j]);
+      any = true;
+    }
+    if (!any) text += fmt::format("# {} =\n", motion.joints[m].name);
+  }
+  text += "# Joints of the body that follow nothing, and go with the one before them:\n";
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (pairing.source[j] == JointId::kNone) text += fmt::format("#   {}\n", joints[j].name);
+  return text;
+}
+
+Report asReport(const Body& body, const Motion& motion, const Pairing& pairing) {
+  Report report{{"pairs", Report::array()}, {"motion_free", Report::array()}, {"body_free", Report::array()}};
+  std::vector<bool> used(motion.joints.size());
+  for (std::size_t j = 0; j < pairing.source.size(); ++j) {
+    const std::string& name = body.skeleton.joints[j].name;
+    if (pairing.source[j] == JointId::kNone) {
+      report["body_free"].push_back(name);
+      continue;
+    }
+    used[pairing.source[j]] = true;
+    report["pairs"].push_back({{"motion", motion.joints[pairing.source[j]].name}, {"body", name}, {"part", pairing.bodyParts.of[j]}});
+  }
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (!used[m]) report["motion_free"].push_back(motion.joints[m].name);
+  report["sureness"] = pairing.sureness;
+  report["match"] = pairing.match;
+  return report;
+}
+
+// A body instead of a motion: what vasa fit pairs, which asks for the new body's joints on the left.
+Result<Motion> readMotion(const std::string& file) {
+  if (isMotionFile(file)) return readBvh(file);
+  const auto other = readBody(file);
+  if (!other) return other.error();
+  return standingStill(*other);
+}
+
+Result<void> run(const Globals& globals, const Options& options) {
+  const auto body = readBody(options.body);
+  if (!body) return body.error();
+  const auto motion = readMotion(options.motion);
+  if (!motion) return motion.error();
+  JointMap map;
+  if (!options.jointMap.empty()) {
+    auto read = readJointMap(options.jointMap);
+    if (!read) return read.error();
+    map = std::move(*read);
+  }
+  const auto pairing = pair(*body, *motion, map);
+  if (!pairing) return pairing.error();
+  const std::string text = mapText(*body, *motion, *pairing);
+  if (!options.output.empty())
+    if (const auto written = writeFileAtomically(options.output, text); !written) return written.error();
+  if (globals.json) return printJson(asReport(*body, *motion, *pairing));
+  if (options.output.empty()) return printText(text);
+  return printText(pairing->match + "\nwritten    " + options.output + "; mend it where a pair is wrong, and give it with --joint-map\n");
+}
+
+}  // namespace
+
+void addMap(CLI::App& app, Command& command) {
+  auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("map", "Which joint of a motion moves which joint of a body, as a file to mend by hand");
+  sub->footer(
+      "Examples:\n"
+      "  vasa map body.glb dance.bvh\n"
+      "  vasa map body.glb dance.bvh -o map.txt\n"
+      "  vasa render --body body.glb --network body.vasa --clip dance.bvh --joint-map map.txt -o 'out/{frame:04}.png'\n"
+      "  vasa map adult.glb child.glb -o joints.txt   (for vasa fit --from adult.glb --to child.glb)\n"
+      "Joints are paired by their names, by the words in them, or by the skeletons' shapes (vasa help bodies); the file says\n"
+      "how sure that is.");
+  sub->add_option("BODY", options->body, "A body with a skeleton (glTF)")->required();
+  sub->add_option("MOTION", options->motion, "A motion (.bvh), or the body that vasa fit is to carry vessels to")->required();
+  sub->add_option("-o,--output", options->output, "The file to write; none: standard output");
+  sub->add_option("--joint-map", options->jointMap, "Pairs that are known already");
+  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+}
+
+}  // namespace vasa::cli
