@@ -42,6 +42,7 @@ Report asReport(const std::vector<VesselComparison>& all) {
 }
 
 std::string asText(const std::vector<VesselComparison>& all, const Report& report, std::size_t rows) {
+  if (all.empty()) return "no vessel is in both: vessels are compared by name and kind, and none has its like; vasa info NET --vessels lists them\n";
   const Report& summary = report["summary"];
   std::string text = fmt::format("{} vessels in both; in the middle {:.2f} times as long and {:.1f} mm apart\n", all.size(),
                                  summary["length_ratio_median"].get<double>(), 1e3 * summary["apart_median_m"].get<double>());

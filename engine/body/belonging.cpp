@@ -46,7 +46,7 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
   if (share <= kMostOutside) return {};
   return badInput(fmt::format(
       "{}: these vessels do not belong to the body {}: {:.0f} % of them lie {} at rest. Choose the body that they "
-      "were made for, or bring the vessels into this body's rest pose and convert them again (metres, +Y up)",
+      "were made for; vasa fit carries them from that one to this, vasa place moves what stands elsewhere (vasa help bodies)",
       name, body.name, 100 * share, skin ? "outside its skin" : "far from all of its joints"));
 }
 

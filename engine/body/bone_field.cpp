@@ -19,6 +19,8 @@ constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
 constexpr float kBonesShare = 0.5f;    // of the links' length must have rigid vertices: else they are eyes, shoes, a hat
 
+constexpr double kStrayWeight = 1e-3;  // of all weights: a vertex or two that were left on the root
+
 using Links = std::vector<std::pair<vec3, vec3>>;
 
 /// The links that each joint moves.
@@ -33,6 +35,22 @@ std::vector<Links> linksOf(const SpineSet& spines) {
       links[i].emplace_back(joint.centre, joint.centre + kTipShare * (joint.centre - before));
   }
   return links;
+}
+
+/// Joints above all that any mesh follows: a root on the floor, an armature's own node. Their links run through the body,
+/// but are no part of it: what hung on them would stay where it is while the body squats.
+std::vector<bool> aboveBody(const Body& body) {
+  std::vector<double> weight(body.skeleton.joints.size(), 0.0);
+  double whole = 0;
+  for (const SkinnedMesh& mesh : body.meshes)
+    for (const SkinInfluence& influence : mesh.influences)
+      for (int k = 0; k < 4; ++k) weight[influence.joints[std::size_t(k)]] += double(influence.weights[k]), whole += double(influence.weights[k]);
+  std::vector<bool> above(weight.size(), false);
+  for (std::size_t j = 0; j < above.size() && whole > 0; ++j) {
+    const JointId parent = body.skeleton.joints[j].parent;
+    above[j] = weight[j] <= kStrayWeight * whole && (!parent.valid() || above[parent.value]);
+  }
+  return above;
 }
 
 float distanceToLinks(const Links& links, vec3 p) {
@@ -97,7 +115,9 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
   fromMeshes_ = fromMeshes_ && standForBones(points, links);
   if (!fromMeshes_) {
     for (auto& list : points) list.clear();
-    for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].links = std::move(links[i]);
+    const std::vector<bool> above = aboveBody(body);
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (!above[i]) parts_[i].links = std::move(links[i]);
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (points[i].empty()) continue;

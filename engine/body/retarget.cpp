@@ -21,6 +21,9 @@ constexpr float kMostHingeTurn = 1.0f;
 constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower than the floor, a little
 constexpr float kFacingDoubt = 0.87f;  // cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant
 constexpr std::uint32_t kFramesCompared = 12;
+constexpr float kLongBone = 2.5f;      // times the other bone of a limb: no person's
+constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand and foot
+constexpr int kGross = 8;              // what no person has counts as much as this many doubts
 constexpr float kAlike = 0.25f;        // the share by which the bones of both sides may differ
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
 constexpr float kGoodAngle = 10, kLostAngle = 60;      // [degrees] between limbs: as good as right, and wrong
@@ -145,7 +148,8 @@ std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<
 // legs away from the trunk. Names alone may mean anything.
 float plausibility(const Rig& rig) {
   int held = 0, asked = 0;
-  const auto ask = [&](bool holds) { ++asked, held += holds; };
+  float arm = 0, leg = 0;
+  const auto ask = [&](bool holds, int weight = 1) { asked += weight, held += holds ? weight : 0; };
   const auto below = [&](std::uint32_t joint, std::uint32_t above) {
     while (joint != kNone && joint != above) joint = rig.parents[joint];
     return joint == above;
@@ -165,11 +169,17 @@ float plausibility(const Rig& rig) {
         if (limb[0] == std::string_view("UpperLeg") && hips != kNone && top != kNone)
           ask(glm::dot(bone, rig.centres[top] - rig.centres[hips]) < 0);
       }
+    for (int s = 0; s < 2; ++s) {
+      const float upper = lengths[0][std::size_t(s)], lower = lengths[1][std::size_t(s)];
+      if (upper > 0 && lower > 0) ask(upper < kLongBone * lower && lower < kLongBone * upper, kGross);
+      (limb[0] == std::string_view("UpperArm") ? arm : leg) += upper > 0 && lower > 0 ? upper + lower : 0;
+    }
     for (const auto& [left, right] : {std::pair(lengths[0][0], lengths[0][1]), std::pair(lengths[1][0], lengths[1][1])})
       if (left > 0 && right > 0) ask(std::abs(left - right) < kAlike * std::max(left, right));
     const std::uint32_t l = part("left", limb[0]), r = part("right", limb[0]);
     if (l != kNone && r != kNone) ask(!below(l, r) && !below(r, l));
   }
+  if (arm > 0 && leg > 0) ask(arm > kShortArm * leg && arm < kLongArm * leg, kGross);
   return asked > 0 ? float(held) / float(asked) : 1.0f;
 }
 

@@ -198,7 +198,7 @@ class Attacher {
     collectParts();
     std::ranges::stable_sort(all, {}, &Candidate::cost);
     for (const Candidate& candidate : all) {
-      if (!graph_.isFree(candidate.end) || !mayClose(candidate)) continue;
+      if (!graph_.isFree(candidate.end) || !mayClose(candidate) || isGuess(candidate)) continue;
       const bool joined = candidate.otherLast ? joinToEnd(candidate, {candidate.strand, *candidate.otherLast})
                                               : joinToSide(candidate);
       if (joined) unite(candidate.end.strand, candidate.strand);
@@ -206,6 +206,14 @@ class Attacher {
         report_.gaps.push_back({graph_.strands[candidate.end.strand].element,
                                 graph_.strands[candidate.strand].element, candidate.gap, candidate.bridge});
     }
+  }
+
+  // Of elements that nothing says the kind of, one may be an artery and the other a vein: across a gap they are joined
+  // only where their names go on in one another.
+  bool isGuess(const Candidate& candidate) const {
+    const Strand &a = graph_.strands[candidate.end.strand], &b = graph_.strands[candidate.strand];
+    if (candidate.gap <= kToldGap || a.element == b.element || a.kind != VesselKind::other) return false;
+    return !namesContinue(elements_[a.element].label, elements_[b.element].label);
   }
 
   // The lungs' arteries touch the body's here and there without meeting them. Anastomoses are real, but an element's own skeleton knows its rings, and between elements a ring wants ends

@@ -261,3 +261,26 @@ TEST_CASE("rigid eyes in a smooth body are no bones: vessels follow the limbs as
   for (BindingRecord& record : still.records) record.joint = 0, record.along = BindingRecord({{0}, 2}, 0).along;
   CHECK(shareLeftBehind(body, still, points) > 0.4f);
 }
+
+TEST_CASE("a root on the floor below the hips is no bone: what lies beside its link goes with the body") {
+  Body body = chainBody({{0, 0, 0}, {0, 1, 0}, {0, 1.3f, 0}, {0, 1.6f, 0}});
+  SkinnedMesh skin;
+  skin.name = "skin";
+  for (std::uint32_t v = 0; v < 8; ++v) {
+    skin.mesh.positions.emplace_back(v & 1 ? 0.2f : -0.2f, v & 2 ? 1.8f : -0.1f, v & 4 ? 0.2f : -0.2f);
+    skin.influences.push_back({{1, 2, 0, 0}, vec4(0.5f, 0.5f, 0, 0)});
+    skin.normals.emplace_back(0, 0, 1);
+  }
+  skin.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                         {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  body.meshes.push_back(skin);
+  const std::vector<vec4> points = bundle({0, 0.4f, 0}, {0, 1.5f, 0}, {0.05f}, 6, 20);
+  const auto binding = bindPoints(body, points, "vessels");
+  if (!binding.ok()) FAIL(binding.error().message);
+  // The hips come down by half a metre; the root stays.
+  std::vector<JointTransform> local;
+  for (const auto& joint : body.skeleton.joints) local.push_back(joint.rest);
+  local[1].translation.y -= 0.5f;
+  const auto posed = deformed(*binding, points, poseFromLocal(body.skeleton, local));
+  for (std::size_t i = 0; i < points.size(); ++i) CHECK(glm::distance(vec3(posed[i]), vec3(points[i]) - vec3(0, 0.5f, 0)) < 1e-4f);
+}

@@ -61,6 +61,19 @@ TEST_CASE("arteries do not join veins, nor ends what is far away") {
   CHECK(scene.jointOf(far, false) == kNone);
 }
 
+TEST_CASE("elements of no known kind join where they touch, across a gap only by name: one may be a vein") {
+  Scene scene;
+  scene.add("trunk", {0, 0, 0}, {0, 0.2f, 0}, 0.005f, VesselKind::other);
+  const auto touching = scene.add("a", {0.0052f, 0.1f, 0}, {0.05f, 0.1f, 0}, 0.002f, VesselKind::other);
+  const auto apart = scene.add("b", {0.0105f, 0.05f, 0}, {0.05f, 0.05f, 0}, 0.002f, VesselKind::other);
+  const auto first = scene.add("left carotid 1", {0.2f, 0, 0}, {0.2f, 0.05f, 0}, 0.004f, VesselKind::other);
+  scene.add("left carotid 2", {0.2f, 0.058f, 0}, {0.2f, 0.1f, 0}, 0.004f, VesselKind::other);
+  scene.attach();
+  CHECK(scene.jointOf(touching, false) != kNone);
+  CHECK(scene.jointOf(apart, false) == kNone);
+  CHECK(scene.jointOf(first, true) != kNone);
+}
+
 TEST_CASE("ends that face one another meet halfway, overlapping ones are cut back") {
   Scene scene;
   const auto a = scene.add("a", {0, 0, 0}, {0, 0.05f, 0}, 0.004f), b = scene.add("b", {0, 0.052f, 0}, {0, 0.1f, 0}, 0.004f);

@@ -43,6 +43,14 @@ TEST_CASE("BVH: hierarchy, places, rotations in the order of the channels") {
   CHECK(glm::distance(motion->rotation(1, 1) * vec3(0, 0, 1), vec3(1, 0, 0)) < 1e-6f);
 }
 
+TEST_CASE("keywords and channels in any case") {
+  std::string text = kHierarchy + "MOTION\nFrames: 1\nFrame Time: .1\n1 2 3 0 0 0 0 0 0\n";
+  for (char& c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
+  const auto motion = parseBvh(text, "a.bvh");
+  if (!motion.ok()) FAIL(motion.error().message);
+  CHECK(motion->joints[1].name == "LEFT LEG");
+}
+
 TEST_CASE("what is wrong with a BVH file is told with its line") {
   const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
   expectFault("", "a.bvh:1: expected HIERARCHY, found the file's end");
