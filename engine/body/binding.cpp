@@ -23,7 +23,7 @@ namespace {
 constexpr float kSmallestTurn = 1e-3f;  // of a joint's motion
 constexpr float kSmallestShare = 0.004f;
 constexpr std::size_t kMostLimbs = 4;
-constexpr float kMostLeftBehind = 0.15f;  // as many vessels as may lie outside the body (body/belonging.h)
+constexpr float kMostLeftBehind = 0.02f;  // four of the points that are looked at
 
 /// How a point moves with one limb: the stations of the joints that have set in partly, the deepest first.
 struct LimbShare {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kEqual = 0.12f;        // a pair's lengths differ by no more than this share
 constexpr float kShortLimb = 0.15f;    // of the longest way from the root to a tip: fingers, eyes and ribs are no limbs
-constexpr std::size_t kMostJoints = 2000;
+constexpr std::size_t kMostJoints = 1000;
 
 struct Pair {
   std::uint32_t at, a, b;  // the joint they leave, the first joint of each
@@ -24,12 +24,12 @@ struct Pair {
 class Shape {
  public:
   Shape(std::span<const std::uint32_t> parents, std::span<const vec3> places, std::span<const vec3> tips)
-      : parents_(parents), places_(places), tips_(tips), children_(parents.size()), reach_(parents.size()), out_(parents.size()) {
+      : parents_(parents), places_(places), tips_(tips), children_(parents.size()), reach_(parents.size()), count_(parents.size(), 1), out_(parents.size()) {
     for (std::uint32_t j = 0; j < parents.size(); ++j)
       if (parents[j] != kNone) children_[parents[j]].push_back(j);
     for (std::uint32_t j = std::uint32_t(parents.size()); j-- > 0;) {
       reach_[j] = glm::distance(places[j], tips[j]);
-      for (const std::uint32_t child : children_[j]) reach_[j] = std::max(reach_[j], reach_[child] + link(child));
+      for (const std::uint32_t child : children_[j]) reach_[j] = std::max(reach_[j], reach_[child] + link(child)), count_[j] += count_[child];
     }
   }
 
@@ -57,15 +57,7 @@ class Shape {
       }
     return best;
   }
-  std::size_t jointsBelow(std::uint32_t joint) const {
-    std::size_t count = 1;
-    for (const std::uint32_t child : children_[joint]) count += jointsBelow(child);
-    return count;
-  }
-  bool sameCounts(std::uint32_t a, std::uint32_t b) const {
-    const std::size_t x = jointsBelow(a), y = jointsBelow(b);
-    return std::max(x, y) <= std::min(x, y) + 2;
-  }
+  bool sameCounts(std::uint32_t a, std::uint32_t b) const { return std::max(count_[a], count_[b]) <= std::min(count_[a], count_[b]) + 2; }
 
   bool find() {
     if (parents_.size() > kMostJoints) return false;
@@ -189,7 +181,8 @@ class Shape {
   std::span<const std::uint32_t> parents_;
   std::span<const vec3> places_, tips_;
   std::vector<std::vector<std::uint32_t>> children_;
-  std::vector<float> reach_;  // of the longest way from a joint to a tip
+  std::vector<float> reach_;         // of the longest way from a joint to a tip
+  std::vector<std::uint32_t> count_;  // of a joint and those behind it
   std::vector<std::string_view> out_;
   vec3 left_{1, 0, 0};
 };

@@ -103,10 +103,15 @@ class Graph {
   // Of the edges that meet in a place, the two that are one vessel's.
   void pairAtForks() {
     next_.assign(2 * edges_.size(), kNone);
-    std::vector<std::vector<std::uint32_t>> at(points_.size());
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) at[edges_[e].a].push_back(e), at[edges_[e].b].push_back(e);
-    for (std::uint32_t node = 0; node < at.size(); ++node) {
-      const auto& own = at[node];
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  // place, edge
+    at.reserve(2 * edges_.size());
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) at.push_back({edges_[e].a, e}), at.push_back({edges_[e].b, e});
+    std::ranges::sort(at);
+    std::vector<std::uint32_t> own;
+    for (std::size_t first = 0; first < at.size();) {
+      const std::uint32_t node = at[first].first;
+      own.clear();
+      for (; first < at.size() && at[first].first == node; ++first) own.push_back(at[first].second);
       if (own.size() < 2 || own.size() > kMostLookedAt) continue;
       float best = -4;
       std::pair<std::uint32_t, std::uint32_t> pair{kNone, kNone};

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
@@ -28,7 +29,15 @@ struct BrokenRule {
 };
 [[noreturn]] void breaks(std::string place, std::string rule) { throw BrokenRule{std::move(place), std::move(rule)}; }
 
-using Cells = std::vector<std::vector<std::uint32_t>>;
+// One after the other: files may have a cell for two bytes.
+struct Cells {
+  std::vector<std::uint32_t> points, ends;
+  std::size_t size() const { return ends.size(); }
+  std::span<const std::uint32_t> operator[](std::size_t i) const {
+    const std::size_t from = i == 0 ? 0 : ends[i - 1];
+    return std::span(points).subspan(from, ends[i] - from);
+  }
+};
 
 struct Sections {
   std::vector<dvec3> points;
@@ -170,13 +179,12 @@ class Reader {
   }
   void addCell(Cells& cells, const std::vector<double>& points, double from, double to, const std::string& name) {
     if (!(from >= 0 && to >= from && to <= double(points.size()))) breaks(name, "cell " + std::to_string(cells.size()) + " does not lie in the file's list");
-    std::vector<std::uint32_t> cell;
     for (auto k = std::size_t(from); k < std::size_t(to); ++k) {
       if (!(points[k] >= 0 && points[k] < double(out_.points.size())))
         breaks(name, "cell " + std::to_string(cells.size()) + " has a point outside the " + std::to_string(out_.points.size()) + " that there are");
-      cell.push_back(std::uint32_t(points[k]));
+      cells.points.push_back(std::uint32_t(points[k]));
     }
-    cells.push_back(std::move(cell));
+    cells.ends.push_back(std::uint32_t(cells.points.size()));
   }
 
   void readFields() {
@@ -255,7 +263,7 @@ VtpLines linesOf(const Sections& file, const ImportFrame& frame) {
   const std::size_t before = verts == file.cells.end() ? 0 : verts->second.size();
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < lines->second.size(); ++i)
-    if (lines->second[i].size() > 1) kept.push_back(i), out.lines.push_back(lines->second[i]);
+    if (const auto line = lines->second[i]; line.size() > 1) kept.push_back(i), out.lines.emplace_back(line.begin(), line.end());
   for (const auto& [name, values] : file.cellData) {
     if (values.size() < before + lines->second.size()) continue;
     VtpLines::CellArray array{name, {}};
@@ -282,11 +290,13 @@ TriangleMesh surfaceOf(const Sections& file, const ImportFrame& frame) {
     const auto found = file.cells.find(name);
     return found == file.cells.end() ? none : found->second;
   };
-  for (const auto& polygon : cellsOf("POLYGONS")) {
+  const Cells &polygons = cellsOf("POLYGONS"), &strips = cellsOf("TRIANGLE_STRIPS");
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const auto polygon = polygons[i];
     if (polygon.size() > kMostCorners) breaks("POLYGONS", "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
     addPolygon(polygon, mesh);
   }
-  for (const auto& strip : cellsOf("TRIANGLE_STRIPS")) addStrip(strip, mesh);
+  for (std::size_t i = 0; i < strips.size(); ++i) addStrip(strips[i], mesh);
   return mesh;
 }
 

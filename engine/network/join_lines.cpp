@@ -12,7 +12,8 @@ namespace {
 
 constexpr float kStartReach = 1, kEndReach = 0.5f;  // of the other line's radius
 constexpr float kSameSample = 0.1f;                 // of a radius: a place so near to a sample is that sample
-constexpr std::size_t kMostComparisons = 200'000'000;
+// A join looks at its host's samples and at all joints: a hundred thousand traces that all join one line would take minutes.
+constexpr std::size_t kMostComparisons = 200'000'000, kMostWork = 1'000'000'000;
 
 struct Found {
   std::uint32_t line = 0, segment = 0;
@@ -49,8 +50,12 @@ class Joiner {
         if (const auto found = find({l, last})) all.push_back({{l, last}, *found});
       }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second.cost; });
-    for (const auto& [end, found] : all)
+    for (const auto& [end, found] : all) {
+      checkpoints.pass();
+      work_ += lines_.lines[found.line].samples.size() + lines_.joints.size();
+      if (work_ > kMostWork) break;
       if (!joined_[2 * end.line + end.last] && take(end, found)) ++count;
+    }
     return count;
   }
 
@@ -161,7 +166,7 @@ class Joiner {
   std::vector<bool> joined_;
   float cell_ = 1e-6f;
   std::unordered_map<std::uint64_t, std::vector<Centrelines::Place>> cells_;
-  std::size_t comparisons_ = 0;
+  std::size_t comparisons_ = 0, work_ = 0;
   std::unordered_set<std::uint64_t> pairs_;  // of lines that are joined
 };
 

@@ -21,6 +21,7 @@
 #include "io/read_limits.h"
 #include "io/stl.h"
 #include "io/swc.h"
+#include "io/vtk.h"
 #include "io/vtp.h"
 #include "network/file.h"
 #include "scene/scene_file.h"
@@ -279,6 +280,14 @@ TEST_CASE("STL of nasty shapes grows in proportion") {
                   return file;
                 }}},
               [](const std::string& file) { return messageOf(parseStl(bytesOf(file), "f")); });
+}
+
+TEST_CASE("legacy VTK of nasty shapes grows in proportion") {
+  const std::string head = "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 0 1 0 1 0 0\n";
+  checkGrowth({{"empty faces", 100'000, [&](std::size_t n) { return head + "POLYGONS " + of(n) + " " + of(n) + "\n" + times(n, "0\n"); }},
+               {"triangles", 50'000, [&](std::size_t n) { return head + "POLYGONS " + of(n) + " " + of(4 * n) + "\n" + times(n, "3 0 1 2\n"); }},
+               {"arrays", 2'000, [&](std::size_t n) { return head + "POINT_DATA 3\nFIELD f " + of(n) + "\n" + times(n, [](std::size_t i) { return 'a' + of(i) + " 1 3 int\n1 1 1\n"; }); }}},
+              [](const std::string& file) { return messageOf(parseVtkSurface(bytesOf(file), "f")); });
 }
 
 TEST_CASE("VTP of nasty shapes grows in proportion") {

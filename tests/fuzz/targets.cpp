@@ -16,9 +16,11 @@
 #include "io/obj.h"
 #include "io/stl.h"
 #include "io/swc.h"
+#include "io/vtk.h"
 #include "io/vtp.h"
 #include "network/builder.h"
 #include "network/file.h"
+#include "network/join_lines.h"
 #include "scene/scene_file.h"
 
 namespace vasa::fuzz {
@@ -108,7 +110,20 @@ void swc(Bytes bytes) {
   const std::string text = encodeSwc(*samples);
   const auto again = parseSwc(text, "f");
   must(again.ok() && encodeSwc(*again) == text);
-  useLines(centrelinesOfSwc(*samples, "f", VesselKind::artery));
+  Centrelines traces = centrelinesOfSwc(*samples, "f", VesselKind::artery);
+  useLines(traces);
+  joinTouchingLines(traces);
+  useLines(traces);
+}
+
+void vtk(Bytes bytes) {
+  const auto surface = parseVtkSurface(bytes, "f");
+  messageNames(surface);
+  checkMesh(surface);
+  const auto lines = parseVtkLines(bytes, "f");
+  messageNames(lines);
+  if (!lines) return;
+  if (auto centrelines = centrelinesOfVtp(*lines, "f", VesselKind::artery)) useLines(*centrelines);
 }
 
 void vtp(Bytes bytes) {
@@ -227,7 +242,7 @@ void vedit(Bytes bytes) {
 }
 
 std::span<const Target> targets() {
-  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"gltf", gltf}, {"map", map}, {"rules", rules}, {"scene", scene}, {"vasa", vasa},
+  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"vtk", vtk}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"gltf", gltf}, {"map", map}, {"rules", rules}, {"scene", scene}, {"vasa", vasa},
                                    {"vedit", vedit}};
   return all;
 }
