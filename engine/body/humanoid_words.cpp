@@ -57,8 +57,11 @@ Words wordsOf(std::string_view name) {
     if (isAny(word, kPassedOver)) words.passedOver = true;
     for (const auto& [begin, side] : {std::pair<std::string_view, Side>{"left", Side::left}, {"right", Side::right}})
       if (word.starts_with(begin)) words.side = side, word.erase(0, begin.size());
-    if (words.side == Side::none && (word == "l" || word == "lf")) words.side = Side::left, word.clear();
-    if (words.side == Side::none && (word == "r" || word == "rt")) words.side = Side::right, word.clear();
+    if (words.side == Side::none && (word == "l" || word == "lft")) words.side = Side::left, word.clear();
+    if (words.side == Side::none && (word == "r" || word == "rgt")) words.side = Side::right, word.clear();
+    // "LUArm": the side and the first letter of upper or fore.
+    if (words.side == Side::none && (word == "lu" || word == "lf" || word == "ru" || word == "rf"))
+      words.side = word[0] == 'l' ? Side::left : Side::right, word.erase(0, 1);
     words.base += word;
   }
   return words;
@@ -70,15 +73,15 @@ struct Meaning {
   std::vector<std::string_view> words;
 };
 const std::vector<Meaning>& middle() {
-  static const std::vector<Meaning> list{{"hips", {"hips", "pelvis", "hip", "root"}}, {"neck", {"neck", "necklower", "cervical"}}, {"head", {"head", "skull"}}};
+  static const std::vector<Meaning> list{{"hips", {"hips", "pelvis", "hip", "hipcenter", "spinebase", "root"}}, {"neck", {"neck", "necklower", "lowerneck", "cervical"}}, {"head", {"head", "skull"}}};
   return list;
 }
 const std::vector<Meaning>& sided() {
   // A limb's lower parts before its upper ones, these before the collar: a word goes to the first that takes it.
   static const std::vector<Meaning> list{
-      {"LowerArm", {"forearm", "lowerarm", "lowarm", "loarm", "armlower", "elbow", "forearmbend", "ulna", "radius"}},
+      {"LowerArm", {"forearm", "lowerarm", "farm", "lowarm", "loarm", "armlower", "elbow", "forearmbend", "ulna", "radius"}},
       {"Hand", {"hand", "wrist", "palm"}},
-      {"UpperArm", {"upperarm", "uparm", "armupper", "humerus", "shldr", "shldrbend", "arm", "shoulder"}},
+      {"UpperArm", {"upperarm", "uarm", "uparm", "armupper", "humerus", "shldr", "shldrbend", "arm", "shoulder"}},
       {"Shoulder", {"collar", "clavicle", "clav", "scapula", "shoulder", "innershoulder"}},
       {"UpperLeg", {"thigh", "upperleg", "upleg", "legupper", "femur", "thighbend", "hip", "leg"}},
       {"LowerLeg", {"calf", "shin", "lowerleg", "lowleg", "loleg", "leglower", "knee", "tibia", "leg"}},
@@ -96,7 +99,16 @@ constexpr std::array<std::string_view, 16> kSpine{"spine",   "torso",   "abdomen
 
 std::vector<std::string_view> humanoidWords(std::span<const std::string> joints) {
   std::vector<Words> words;
-  for (const std::string& joint : joints) words.push_back(wordsOf(joint));
+  for (const std::string& joint : joints) {
+    words.push_back(wordsOf(joint));
+    // "lfemur": small letters throughout.
+    Words& own = words.back();
+    if (own.side != Side::none || own.base.size() < 3 || (own.base[0] != 'l' && own.base[0] != 'r')) continue;
+    const std::string_view rest = std::string_view(own.base).substr(1);
+    if (std::ranges::none_of(sided(), [&](const Meaning& meaning) { return std::ranges::find(meaning.words, rest) != meaning.words.end(); })) continue;
+    own.side = own.base[0] == 'l' ? Side::left : Side::right;
+    own.base.erase(0, 1);
+  }
   std::vector<std::string_view> parts(joints.size());
   const auto find = [&](std::string_view base, Side side) {
     for (std::size_t j = 0; j < words.size(); ++j)

@@ -14,6 +14,7 @@
 namespace vasa {
 namespace {
 
+constexpr std::uint32_t kNone = JointId::kNone;
 constexpr std::size_t kLeastJoints = 6;
 constexpr float kKneeCapShare = 0.6f;
 constexpr float kLeastBend = 0.1f;  // sine of an elbow's bend
@@ -63,9 +64,22 @@ struct Rig {
   }
 };
 
+// Where both legs leave the trunk, in rigs that call the hips a spine.
+void findHips(Rig& rig) {
+  const std::uint32_t left = rig.partNamed("leftUpperLeg"), right = rig.partNamed("rightUpperLeg");
+  if (rig.partNamed("hips") != kNone || left == kNone || right == kNone) return;
+  for (std::uint32_t a = rig.parents[left]; a != kNone; a = rig.parents[a])
+    for (std::uint32_t b = rig.parents[right]; b != kNone; b = rig.parents[b])
+      if (a == b) {
+        rig.parts.of[a] = humanoidPart("hips");
+        return;
+      }
+}
+
 // Names first; where these tell little, the skeleton's shape.
 void nameParts(Rig& rig) {
   rig.parts = humanoidNames(rig.names);
+  findHips(rig);
   if (humanoidKeys(rig.parts.of) >= kHumanoidKeys / 2) return;
   auto shape = humanoidShape(rig.parents, rig.centres, rig.tips);
   if (humanoidKeys(shape) > humanoidKeys(rig.parts.of)) rig.parts = {"shape", std::move(shape)};
@@ -93,8 +107,6 @@ Rig rigOf(const Skeleton& skeleton) {
   nameParts(rig);
   return rig;
 }
-
-constexpr std::uint32_t kNone = JointId::kNone;
 
 Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& body, const JointMap& map,
                                                const std::string& motionName, const std::string& bodyName) {

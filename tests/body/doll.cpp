@@ -125,6 +125,10 @@ std::string dollName(const std::string& part, const std::string& family) {
       {"bip", {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 $ Clavicle", "Bip01 $ UpperArm", "Bip01 $ Forearm", "Bip01 $ Hand", "Bip01 $ Thigh", "Bip01 $ Calf", "Bip01 $ Foot", "Bip01 $ Toe0"}},
       {"daz", {"hip", "abdomen", "chest", "neck", "head", "%Collar", "%Shldr", "%ForeArm", "%Hand", "%Thigh", "%Shin", "%Foot", "%Toe"}},
       {"smpl", {"Pelvis", "Spine1", "Spine2", "Neck", "Head", "$_Collar", "$_Shoulder", "$_Elbow", "$_Wrist", "$_Hip", "$_Knee", "$_Ankle", "$_Foot"}},
+      {"asf", {"root", "lowerback", "thorax", "lowerneck", "head", "*clavicle", "*humerus", "*radius", "*wrist", "*femur", "*tibia", "*foot", "*toes"}},
+      {"motive", {"Hip", "Ab", "Chest", "Neck", "Head", "$Shoulder", "$UArm", "$FArm", "$Hand", "$Thigh", "$Shin", "$Foot", "$Toe"}},
+      {"kinect", {"SpineBase", "SpineMid", "SpineShoulder", "Neck", "Head", "Clavicle@", "Shoulder@", "Elbow@", "Wrist@", "Hip@", "Knee@", "Ankle@", "Foot@"}},
+      {"rigify", {"DEF-spine", "DEF-spine.001", "DEF-spine.003", "DEF-spine.004", "DEF-spine.006", "DEF-shoulder.$", "DEF-upper_arm.$", "DEF-forearm.$", "DEF-hand.$", "DEF-thigh.$", "DEF-shin.$", "DEF-foot.$", "DEF-toe.$"}},
       {"prefixed", {"Character1_HIPS", "Character1_SPINE", "Character1_SPINE1", "Character1_NECK", "Character1_HEAD", "Character1_@_SHOULDER", "Character1_@_ARM", "Character1_@_FOREARM", "Character1_@_HAND", "Character1_@_UPLEG", "Character1_@_LEG", "Character1_@_FOOT", "Character1_@_TOEBASE"}}};
   const bool left = part.starts_with("left"), right = part.starts_with("right");
   if (family == "numbered") return std::string("joint_").append(std::to_string(indexOf(part)));
@@ -134,7 +138,7 @@ std::string dollName(const std::string& part, const std::string& family) {
   for (const char c : kNames.at(family)[std::size_t(std::ranges::find(kWords, word) - kWords.begin())])
     if (c == '@') name += left ? "Left" : "Right";
     else if (c == '$') name += left ? "L" : "R";
-    else if (c == '%') name += left ? "l" : "r";
+    else if (c == '%' || c == '*') name += left ? "l" : "r";
     else name += c;
   return name;
 }
