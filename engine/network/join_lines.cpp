@@ -136,12 +136,12 @@ class Joiner {
     return true;
   }
 
-  // With its own radius. A sample that is there already but for rounding is moved.
+  // With its own radius. A tip that is nearer than that is moved: a short step aside would be a kink.
   void leadTo(const Centrelines::End& end, const vec4& place) {
     auto& samples = lines_.lines[end.line].samples;
     vec4& tip = sampleOf(end);
     const vec4 target(vec3(place), tip.w);
-    if (glm::distance(vec3(tip), vec3(place)) <= kSameSample * tip.w) {
+    if (glm::distance(vec3(tip), vec3(place)) <= tip.w) {
       const vec4& next = end.last ? samples[samples.size() - 2] : samples[1];
       if (vec3(next) != vec3(place)) tip = target;
       return;
