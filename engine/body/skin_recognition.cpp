@@ -16,7 +16,7 @@ constexpr float kLongLink = 0.06f;   // of the skeleton's size: hands and faces 
 constexpr float kBelowSkin = 0.012f; // ... a finger's breadth: deeper in flesh than a bone's own surface
 constexpr float kEnclosed = 0.5f;    // of the links
 constexpr float kInside = 0.7f;      // of a mesh's vertices, for it to be something within
-constexpr std::size_t kVerticesAsked = 100;
+constexpr std::size_t kVerticesAsked = 100, kMostPlaces = 400;
 constexpr std::size_t kMostNames = 4;
 
 // Around the middle of each long link.
@@ -34,6 +34,11 @@ std::vector<vec3> placesInFlesh(const Skeleton& skeleton) {
     if (length < kLongLink * size) continue;
     const vec3 across = kBelowSkin * size * anyPerpendicular((to - from) / length), other = glm::cross((to - from) / length, across);
     for (const vec3 aside : {across, other, -across, -other}) places.push_back(0.5f * (from + to) + aside);
+  }
+  // Of thousands of links (hair, cloth) some do.
+  if (const std::size_t count = places.size(); count > kMostPlaces) {
+    for (std::size_t i = 0; i < kMostPlaces; ++i) places[i] = places[i * count / kMostPlaces];
+    places.resize(kMostPlaces);
   }
   return places;
 }
@@ -106,9 +111,11 @@ void recogniseSkin(Body& body) {
     skin.name += (i > 0 ? ", " : " ") + body.meshes[candidates[i]].name;
   if (candidates.size() > kMostNames) skin.name += " and " + std::to_string(candidates.size() - kMostNames) + " more";
   body.meshes[first] = std::move(skin);
+  std::vector<bool> merges(body.meshes.size());
+  for (const std::size_t m : candidates) merges[m] = m != first;
   std::vector<SkinnedMesh> rest;
   for (std::size_t m = 0; m < body.meshes.size(); ++m)
-    if (m == first || std::ranges::find(candidates, m) == candidates.end()) rest.push_back(std::move(body.meshes[m]));
+    if (!merges[m]) rest.push_back(std::move(body.meshes[m]));
   body.meshes = std::move(rest);
 }
 

@@ -67,6 +67,16 @@ TEST_CASE("motions in others' dialects move a body's limbs as theirs: names, zer
       }
 }
 
+TEST_CASE("a zero pose that looks aside or back moves a body the same way") {
+  const Body body = dollBody("cmu");
+  for (const float facing : {90.0f, 180.0f, -90.0f})
+    for (const bool zUp : {false, true}) {
+      const Retargeting done = carried({"mixamo", DollDialect::Zero::t, 100, zUp, false, facing}, body);
+      CHECK_MESSAGE(worstAngle(body, done.clip, "cmu") < 10, describeMatch(done));
+      CHECK(done.standingFrame == Retargeting::kZeroPose);
+    }
+}
+
 TEST_CASE("bodies in others' dialects are moved as well, those without names by their shape") {
   for (const char* family : {"vrm", "mixamo", "bip", "daz", "numbered"}) {
     const Body body = dollBody(family);

@@ -67,6 +67,7 @@ struct Writer {
   std::string text;
   std::vector<int> order;
 
+  mat3 aside() const { return about({0, 1, 0}, dialect.facing); }
   vec3 inFile(vec3 p) const { return float(dialect.unitsAMetre) * (dialect.zUp ? kLaysUp * p : p); }
   void numbers(vec3 v) {
     for (int i = 0; i < 3; ++i) text.append(1, ' ').append(std::to_string(v[i]));
@@ -78,7 +79,7 @@ struct Writer {
     else text.append(own.parent < 0 ? "ROOT " : "JOINT ").append(dollName(own.part, dialect.family)).append("\n{\nOFFSET"), order.push_back(part);
     const vec3 offset = own.parent < 0 ? vec3(0) : own.place - parts[std::size_t(own.parent)].place;
     const mat3 turn = own.parent < 0 ? mat3(1) : zeroTurn(parts[std::size_t(own.parent)].part, dialect.zero);
-    numbers(inFile(turn * offset));
+    numbers(inFile(aside() * turn * offset));
     text += "\n";
     if (!own.part.empty())
       text += own.parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n" : "CHANNELS 3 Zrotation Yrotation Xrotation\n";
@@ -152,7 +153,7 @@ std::string dollMotion(const DollDialect& dialect, int frames) {
   const auto& parts = dollParts();
   for (int frame = 0; frame < frames; ++frame) {
     const auto world = [&](int part) {
-      const mat3 turn = performed(parts[std::size_t(part)].part, frame) * glm::transpose(zeroTurn(parts[std::size_t(part)].part, dialect.zero));
+      const mat3 turn = performed(parts[std::size_t(part)].part, frame) * glm::transpose(writer.aside() * zeroTurn(parts[std::size_t(part)].part, dialect.zero));
       if (dialect.rootTurnsUp) return kLaysUp * turn;
       return dialect.zUp ? kLaysUp * turn * glm::transpose(kLaysUp) : turn;
     };

@@ -14,6 +14,7 @@ struct DollDialect {
   double unitsAMetre = 1;
   bool zUp = false;         ///< the whole file, rest and motion
   bool rootTurnsUp = false; ///< the zero pose stands along +Y, the root's turns lay it along +Z
+  float facing = 0;         ///< degrees about +Y by which the zero pose looks aside
 };
 
 struct DollPart {
