@@ -38,8 +38,9 @@ Result<Pairing> pair(const Body& body, const Motion& motion, const JointMap& map
 }
 
 std::string mapText(const Body& body, const Motion& motion, const Pairing& pairing) {
-  std::string text = fmt::format("# {} moves {}\n# {}\n# A line a pair: motion's joint = body's joint; nothing on the right leaves the joint out.\n",
-                                 visible(motion.name), visible(body.name), visible(pairing.match));
+  std::string text = fmt::format(
+      "# {} moves {}\n# {}\n# A line a pair: motion's joint = body's joint; nothing on the right leaves the joint out.\n",
+      visible(motion.name), visible(body.name), visible(pairing.match));
   const auto& joints = body.skeleton.joints;
   for (std::size_t m = 0; m < motion.joints.size(); ++m) {
     bool any = false;
@@ -67,7 +68,9 @@ Report asReport(const Body& body, const Motion& motion, const Pairing& pairing) 
       continue;
     }
     used[pairing.source[j]] = true;
-    report["pairs"].push_back({{"motion", motion.joints[pairing.source[j]].name}, {"body", name}, {"part", pairing.bodyParts.of[j]}});
+    report["pairs"].push_back({{"motion", motion.joints[pairing.source[j]].name},
+                               {"body", name},
+                               {"part", pairing.bodyParts.of[j]}});
   }
   for (std::size_t m = 0; m < used.size(); ++m)
     if (!used[m]) report["motion_free"].push_back(motion.joints[m].name);
@@ -102,14 +105,16 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (const auto written = writeFileAtomically(options.output, text); !written) return written.error();
   if (globals.json) return printJson(asReport(*body, *motion, *pairing));
   if (options.output.empty()) return printText(text);
-  return printText(pairing->match + "\nwritten    " + options.output + "; mend it where a pair is wrong, and give it with --joint-map\n");
+  return printText(pairing->match + "\nwritten    " + options.output +
+                   "; mend it where a pair is wrong, and give it with --joint-map\n");
 }
 
 }  // namespace
 
 void addMap(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("map", "Which joint of a motion moves which joint of a body, as a file to mend by hand");
+  CLI::App* sub = app.add_subcommand(
+      "map", "Which joint of a motion moves which joint of a body, as a file to mend by hand");
   sub->footer(
       "Examples:\n"
       "  vasa map body.glb dance.bvh\n"
@@ -119,10 +124,13 @@ void addMap(CLI::App& app, Command& command) {
       "Joints are paired by their names, by the words in them, or by the skeletons' shapes (vasa help bodies); the file says\n"
       "how sure that is.");
   sub->add_option("BODY", options->body, "A body with a skeleton (glTF)")->required();
-  sub->add_option("MOTION", options->motion, "A motion (.bvh), or the body that vasa fit is to carry vessels to")->required();
+  sub->add_option("MOTION", options->motion,
+                  "A motion (.bvh), or the body that vasa fit is to carry vessels to")
+      ->required();
   sub->add_option("-o,--output", options->output, "The file to write; none: standard output");
   sub->add_option("--joint-map", options->jointMap, "Pairs that are known already");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

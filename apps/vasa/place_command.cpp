@@ -18,7 +18,8 @@
 #include "report.h"
 #include "scene/vessel_files.h"
 
-// vasa place: a network that stands elsewhere moved into a body: turned, moved and scaled, by hand or by landmarks.
+// vasa place: a network that stands elsewhere moved into a body: turned, moved and scaled, by hand or by
+// landmarks.
 namespace vasa::cli {
 namespace {
 
@@ -72,11 +73,14 @@ std::optional<JointId> jointNamed(const Body& body, const HumanoidNames& parts, 
 // "0.1,1.2,0", a joint, or "leftUpperLeg/rightUpperLeg": halfway between two.
 Result<vec3> placeInBody(const std::optional<Body>& body, const std::string& text) {
   if (const auto xyz = numbersIn(text, 3)) return vec3((*xyz)[0], (*xyz)[1], (*xyz)[2]);
-  if (!body) return Error{Fault::usage, "--at ...=" + text + ": a joint needs its body; add --body FILE.glb, or give x,y,z in metres"};
+  if (!body)
+    return Error{Fault::usage, "--at ...=" + text +
+                                   ": a joint needs its body; add --body FILE.glb, or give x,y,z in metres"};
   const HumanoidNames parts = partsOf(body->skeleton);
   vec3 sum(0);
   const std::size_t slash = text.find('/');
-  for (const std::string& name : {text.substr(0, slash), slash == text.npos ? text : text.substr(slash + 1)}) {
+  for (const std::string& name :
+       {text.substr(0, slash), slash == text.npos ? text : text.substr(slash + 1)}) {
     const auto joint = jointNamed(*body, parts, name);
     if (!joint) return badInput(body->name + " has no joint '" + name + "'; vasa info --joints lists them");
     sum += 0.5f * vec3(body->skeleton.joints[joint->value].restWorld[3]);
@@ -87,9 +91,11 @@ Result<vec3> placeInBody(const std::optional<Body>& body, const std::string& tex
 Result<quat> turnOf(const std::vector<std::string>& turns) {
   quat all(1, 0, 0, 0);
   for (const std::string& text : turns) {
-    const auto degrees = text.size() > 2 && text[1] == ':' ? numbersIn(std::string_view(text).substr(2), 1) : std::nullopt;
+    const auto degrees =
+        text.size() > 2 && text[1] == ':' ? numbersIn(std::string_view(text).substr(2), 1) : std::nullopt;
     const int axis = text.empty() ? -1 : text[0] - 'x';
-    if (!degrees || axis < 0 || axis > 2) return Error{Fault::usage, "--turn " + text + ": must be x:, y: or z: and degrees, such as x:-90"};
+    if (!degrees || axis < 0 || axis > 2)
+      return Error{Fault::usage, "--turn " + text + ": must be x:, y: or z: and degrees, such as x:-90"};
     vec3 about(0);
     about[axis] = 1;
     all = glm::angleAxis((*degrees)[0] * kPi / 180, about) * all;
@@ -110,7 +116,8 @@ Result<Placing> placingOf(const Options& options, const Network& network, const 
   std::vector<std::pair<vec3, vec3>> pairs;
   for (const std::string& text : options.at) {
     const std::size_t sign = text.find('=');
-    if (sign == text.npos) return Error{Fault::usage, "--at " + text + ": must be VESSEL[:start|end|0..1]=JOINT or =x,y,z"};
+    if (sign == text.npos)
+      return Error{Fault::usage, "--at " + text + ": must be VESSEL[:start|end|0..1]=JOINT or =x,y,z"};
     const auto from = placeOnVessel(network, network.points(), text.substr(0, sign));
     if (!from) return from.error();
     const auto to = placeInBody(body, text.substr(sign + 1));
@@ -125,14 +132,21 @@ Result<Placing> placingOf(const Options& options, const Network& network, const 
 }
 
 std::string asText(const Report& report) {
-  std::string text = fmt::format("placed     {} vessels: times {:.4f}, turned by {:.1f} degrees, moved by {:.1f}, {:.1f}, {:.1f} mm\n", report["vessels"].get<std::size_t>(),
-                                 report["scale"].get<double>(), report["turn_degrees"].get<double>(), 1e3 * report["move_m"][0].get<double>(),
-                                 1e3 * report["move_m"][1].get<double>(), 1e3 * report["move_m"][2].get<double>());
-  if (report["landmarks"].get<std::size_t>() > 0) text += fmt::format("landmarks  {}, the worst {:.1f} mm off\n", report["landmarks"].get<std::size_t>(), report["landmark_worst_mm"].get<double>());
+  std::string text = fmt::format(
+      "placed     {} vessels: times {:.4f}, turned by {:.1f} degrees, moved by {:.1f}, {:.1f}, {:.1f} mm\n",
+      report["vessels"].get<std::size_t>(), report["scale"].get<double>(),
+      report["turn_degrees"].get<double>(), 1e3 * report["move_m"][0].get<double>(),
+      1e3 * report["move_m"][1].get<double>(), 1e3 * report["move_m"][2].get<double>());
+  if (report["landmarks"].get<std::size_t>() > 0)
+    text += fmt::format("landmarks  {}, the worst {:.1f} mm off\n", report["landmarks"].get<std::size_t>(),
+                        report["landmark_worst_mm"].get<double>());
   if (report.contains("outside_skin_share"))
-    text += fmt::format("outside    {:.2f} % of the length lies outside the skin, {:.2f} % by more than 5 mm\n", 100 * report["outside_skin_share"].get<double>(),
-                        100 * report["outside_by_5_mm_share"].get<double>());
-  return text + fmt::format("written    {}: {} bytes\n", plainText(report["file"]), report["file_bytes"].get<std::size_t>());
+    text +=
+        fmt::format("outside    {:.2f} % of the length lies outside the skin, {:.2f} % by more than 5 mm\n",
+                    100 * report["outside_skin_share"].get<double>(),
+                    100 * report["outside_by_5_mm_share"].get<double>());
+  return text + fmt::format("written    {}: {} bytes\n", plainText(report["file"]),
+                            report["file_bytes"].get<std::size_t>());
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
@@ -148,7 +162,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!placing) return placing.error();
   std::vector<vec4> points(network->points().begin(), network->points().end());
   for (vec4& p : points) p = vec4(placing->by(vec3(p)), placing->by.scale * p.w);
-  const auto placed = reshapeNetwork(*network, points, body ? body->height() : placing->by.scale * network->bodyHeight());
+  const auto placed =
+      reshapeNetwork(*network, points, body ? body->height() : placing->by.scale * network->bodyHeight());
   if (!placed) return badInput(options.network + ": " + placed.error().message);
   const auto bytes = writeNetwork(options.output, *placed, {.quantise = !options.exact});
   if (!bytes) return bytes.error();
@@ -164,8 +179,11 @@ Result<void> run(const Globals& globals, const Options& options) {
                 {"length_m", measure(*placed, placed->points()).length}};
   if (body) {
     const SkinReport outside = measureOutside(*placed, placed->points(), *body);
-    if (outside.length > 0) report["outside_skin_share"] = outside.outside / outside.length, report["outside_by_5_mm_share"] = outside.outside5mm / outside.length;
-    else logInfo("how much lies outside " + body->name + " is not known: it has no skin");
+    if (outside.length > 0)
+      report["outside_skin_share"] = outside.outside / outside.length,
+      report["outside_by_5_mm_share"] = outside.outside5mm / outside.length;
+    else
+      logInfo("how much lies outside " + body->name + " is not known: it has no skin");
   }
   return globals.json ? printJson(report) : printText(asText(report));
 }
@@ -174,7 +192,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addPlace(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("place", "Move, turn and scale a network that stands elsewhere into a body, by hand or by landmarks");
+  CLI::App* sub = app.add_subcommand(
+      "place", "Move, turn and scale a network that stands elsewhere into a body, by hand or by landmarks");
   sub->footer(
       "Examples:\n"
       "  vasa place scan.vasa --turn x:-90 --move 0,1.1,0 -o placed.vasa\n"
@@ -183,16 +202,26 @@ void addPlace(CLI::App& app, Command& command) {
       "Turns come first, in the order given, about the origin; then the scale; then landmarks, which bring a place of a vessel to a\n"
       "joint (by its name, by the part of a person that it is, or halfway between two) or to x,y,z in metres: one moves, two turn\n"
       "and scale as well, three or more turn all the way; then the move. Vessels of a whole other body are carried by vasa fit.");
-  sub->add_option("NETWORK", options->network, "The network (.vasa, or anything that convert reads)")->required();
+  sub->add_option("NETWORK", options->network, "The network (.vasa, or anything that convert reads)")
+      ->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--body", options->body, "The body that it is placed in (glTF)");
-  sub->add_option("--at", options->at, "A landmark: VESSEL[:start|end|0..1]=JOINT, =JOINT/JOINT or =x,y,z; may be given several times")->take_all()->allow_extra_args(false);
-  sub->add_option("--turn", options->turns, "x:, y: or z: and degrees; may be given several times")->take_all()->allow_extra_args(false);
-  sub->add_option("--scale", options->scale, "Times this size")->check(CLI::PositiveNumber)->capture_default_str();
+  sub->add_option(
+         "--at", options->at,
+         "A landmark: VESSEL[:start|end|0..1]=JOINT, =JOINT/JOINT or =x,y,z; may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  sub->add_option("--turn", options->turns, "x:, y: or z: and degrees; may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  sub->add_option("--scale", options->scale, "Times this size")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   sub->add_option("--move", options->move, "x,y,z in metres")->delimiter(',')->expected(3);
   sub->add_flag("--rigid", options->rigid, "Landmarks do not change the size");
   sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

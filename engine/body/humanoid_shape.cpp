@@ -12,8 +12,9 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr float kEqual = 0.12f;        // a pair's lengths differ by no more than this share
-constexpr float kShortLimb = 0.15f;    // of the longest way from the root to a tip: fingers, eyes and ribs are no limbs
+constexpr float kEqual = 0.12f;  // a pair's lengths differ by no more than this share
+constexpr float kShortLimb =
+    0.15f;  // of the longest way from the root to a tip: fingers, eyes and ribs are no limbs
 constexpr std::size_t kMostJoints = 1000;
 
 struct Pair {
@@ -24,12 +25,19 @@ struct Pair {
 class Shape {
  public:
   Shape(std::span<const std::uint32_t> parents, std::span<const vec3> places, std::span<const vec3> tips)
-      : parents_(parents), places_(places), tips_(tips), children_(parents.size()), reach_(parents.size()), count_(parents.size(), 1), out_(parents.size()) {
+      : parents_(parents),
+        places_(places),
+        tips_(tips),
+        children_(parents.size()),
+        reach_(parents.size()),
+        count_(parents.size(), 1),
+        out_(parents.size()) {
     for (std::uint32_t j = 0; j < parents.size(); ++j)
       if (parents[j] != kNone) children_[parents[j]].push_back(j);
     for (std::uint32_t j = std::uint32_t(parents.size()); j-- > 0;) {
       reach_[j] = glm::distance(places[j], tips[j]);
-      for (const std::uint32_t child : children_[j]) reach_[j] = std::max(reach_[j], reach_[child] + link(child)), count_[j] += count_[child];
+      for (const std::uint32_t child : children_[j])
+        reach_[j] = std::max(reach_[j], reach_[child] + link(child)), count_[j] += count_[child];
     }
   }
 
@@ -39,7 +47,9 @@ class Shape {
   }
 
  private:
-  float link(std::uint32_t joint) const { return parents_[joint] == kNone ? 0.0f : glm::distance(places_[joint], places_[parents_[joint]]); }
+  float link(std::uint32_t joint) const {
+    return parents_[joint] == kNone ? 0.0f : glm::distance(places_[joint], places_[parents_[joint]]);
+  }
 
   // Equal limbs that leave one joint, or two joints at one place after it (hip joints without length).
   std::optional<Pair> pairAt(std::uint32_t joint, float least) const {
@@ -57,7 +67,9 @@ class Shape {
       }
     return best;
   }
-  bool sameCounts(std::uint32_t a, std::uint32_t b) const { return std::max(count_[a], count_[b]) <= std::min(count_[a], count_[b]) + 2; }
+  bool sameCounts(std::uint32_t a, std::uint32_t b) const {
+    return std::max(count_[a], count_[b]) <= std::min(count_[a], count_[b]) + 2;
+  }
 
   bool find() {
     if (parents_.size() > kMostJoints) return false;
@@ -67,9 +79,11 @@ class Shape {
     std::vector<Pair> pairs;
     for (std::uint32_t j = 0; j < parents_.size(); ++j)
       if (const auto pair = pairAt(j, kShortLimb * whole)) pairs.push_back(*pair);
-    // Of pairs inside a limb (two bones of a forearm) only those along the trunk count: a limb's joint is below a pair.
+    // Of pairs inside a limb (two bones of a forearm) only those along the trunk count: a limb's joint is
+    // below a pair.
     std::erase_if(pairs, [&](const Pair& p) {
-      return std::ranges::any_of(pairs, [&](const Pair& q) { return q.at != p.at && (isBelow(p.at, q.a) || isBelow(p.at, q.b)); });
+      return std::ranges::any_of(
+          pairs, [&](const Pair& q) { return q.at != p.at && (isBelow(p.at, q.a) || isBelow(p.at, q.b)); });
     });
     if (pairs.size() < 2) return false;
     std::ranges::stable_sort(pairs, std::greater{}, &Pair::length);
@@ -83,7 +97,8 @@ class Shape {
     if (!leftIsA) return false;
     for (const auto& [pair, arm] : {std::pair(legs, false), std::pair(arms, true)}) {
       const bool same = glm::dot(across(pair), left_) > 0;
-      if (!nameLimb(same ? pair.a : pair.b, "left", arm) || !nameLimb(same ? pair.b : pair.a, "right", arm)) return false;
+      if (!nameLimb(same ? pair.a : pair.b, "left", arm) || !nameLimb(same ? pair.b : pair.a, "right", arm))
+        return false;
     }
     return true;
   }
@@ -140,7 +155,8 @@ class Shape {
       forward += end(legs, a) - places_[leg->chain[ankle]];
     }
     forward -= glm::dot(forward, up) * up;
-    left_ = glm::length(forward) > 0.05f * legs.length ? glm::cross(up, glm::normalize(forward)) : vec3(1, 0, 0);
+    left_ =
+        glm::length(forward) > 0.05f * legs.length ? glm::cross(up, glm::normalize(forward)) : vec3(1, 0, 0);
     const float side = glm::dot(across(legs), left_);
     if (side == 0) return std::nullopt;
     return side > 0;
@@ -181,7 +197,7 @@ class Shape {
   std::span<const std::uint32_t> parents_;
   std::span<const vec3> places_, tips_;
   std::vector<std::vector<std::uint32_t>> children_;
-  std::vector<float> reach_;         // of the longest way from a joint to a tip
+  std::vector<float> reach_;          // of the longest way from a joint to a tip
   std::vector<std::uint32_t> count_;  // of a joint and those behind it
   std::vector<std::string_view> out_;
   vec3 left_{1, 0, 0};
@@ -189,7 +205,8 @@ class Shape {
 
 }  // namespace
 
-std::vector<std::string_view> humanoidShape(std::span<const std::uint32_t> parents, std::span<const vec3> places, std::span<const vec3> tips) {
+std::vector<std::string_view> humanoidShape(std::span<const std::uint32_t> parents,
+                                            std::span<const vec3> places, std::span<const vec3> tips) {
   return Shape(parents, places, tips).run();
 }
 

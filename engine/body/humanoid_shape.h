@@ -8,13 +8,16 @@
 
 namespace vasa {
 
-/// What the joints of a human skeleton are, in the words of body/humanoid.h, judged by its shape alone: the two joints
-/// at which equal pairs of limbs leave a line are hips and chest, the longest two bones in a row of each limb its upper
-/// and lower one, what goes on beyond the chest neck and head. Which pair is the legs is told by the feet, which point
-/// forward, or by the root, which is nearer to them; which side is left by where the feet point.
+/// What the joints of a human skeleton are, in the words of body/humanoid.h, judged by its shape alone: the
+/// two joints at which equal pairs of limbs leave a line are hips and chest, the longest two bones in a row
+/// of each limb its upper and lower one, what goes on beyond the chest neck and head. Which pair is the legs
+/// is told by the feet, which point forward, or by the root, which is nearer to them; which side is left by
+/// where the feet point.
 /// @param parents  of each joint, before it; JointId::kNone at a root
-/// @param places, tips  in any pose that is not folded; tips: of a joint's end where it has one, else its place
+/// @param places, tips  in any pose that is not folded; tips: of a joint's end where it has one, else its
+/// place
 /// @return one a joint, empty where unknown; all empty where the shape is none of a person. O(joints²)
-std::vector<std::string_view> humanoidShape(std::span<const std::uint32_t> parents, std::span<const vec3> places, std::span<const vec3> tips);
+std::vector<std::string_view> humanoidShape(std::span<const std::uint32_t> parents,
+                                            std::span<const vec3> places, std::span<const vec3> tips);
 
 }  // namespace vasa

@@ -17,8 +17,8 @@ struct Words {
   bool passedOver = false;
 };
 
-// Words between marks, between small letter and capital, between letter and digit; two capitals before a small letter
-// are divided, too ("LHip").
+// Words between marks, between small letter and capital, between letter and digit; two capitals before a
+// small letter are divided, too ("LHip").
 std::vector<std::string> divided(std::string_view name) {
   std::vector<std::string> words;
   std::string word;
@@ -28,13 +28,17 @@ std::vector<std::string> divided(std::string_view name) {
   };
   for (std::size_t i = 0; i < name.size(); ++i) {
     const auto c = static_cast<unsigned char>(name[i]);
-    const auto kind = [](unsigned char x) { return std::isdigit(x) ? 'd' : std::isupper(x) ? 'U' : std::islower(x) ? 'l' : ' '; };
+    const auto kind = [](unsigned char x) {
+      return std::isdigit(x) ? 'd' : std::isupper(x) ? 'U' : std::islower(x) ? 'l' : ' ';
+    };
     const char own = kind(c), before = i > 0 ? kind(static_cast<unsigned char>(name[i - 1])) : ' ';
     const char after = i + 1 < name.size() ? kind(static_cast<unsigned char>(name[i + 1])) : ' ';
     const bool starts = own != before && !(before == 'U' && own == 'l');
     if (starts || (own == 'U' && before == 'U' && after == 'l')) finish();
-    if (own == ' ') finish();
-    else word += char(std::tolower(c));
+    if (own == ' ')
+      finish();
+    else
+      word += char(std::tolower(c));
   }
   finish();
   return words;
@@ -45,17 +49,23 @@ bool isAny(std::string_view word, const std::array<std::string_view, N>& of) {
   return std::ranges::find(of, word) != of.end();
 }
 
-constexpr std::array<std::string_view, 16> kSilent{"joint", "jnt", "bone", "jt", "bip", "def", "org", "character", "robot", "mixamorig", "skeleton", "armature", "rig", "b", "j", "bn"};
-constexpr std::array<std::string_view, 22> kPassedOver{"twist", "roll",   "ik",     "end",  "nub",  "target", "pole",  "ctrl", "effector", "site", "helper",
-                                                       "socket", "muscle", "metacarpal", "eye", "jaw", "tongue", "breast", "pectoral", "prop", "hair", "cloth"};
+constexpr std::array<std::string_view, 16> kSilent{
+    "joint", "jnt",       "bone",     "jt",       "bip", "def", "org", "character",
+    "robot", "mixamorig", "skeleton", "armature", "rig", "b",   "j",   "bn"};
+constexpr std::array<std::string_view, 22> kPassedOver{
+    "twist",    "roll",   "ik",       "end",    "nub",    "target",     "pole", "ctrl",
+    "effector", "site",   "helper",   "socket", "muscle", "metacarpal", "eye",  "jaw",
+    "tongue",   "breast", "pectoral", "prop",   "hair",   "cloth"};
 
 Words wordsOf(std::string_view name) {
-  if (const std::size_t mark = name.find_last_of(":|"); mark != name.npos && mark + 1 < name.size()) name.remove_prefix(mark + 1);
+  if (const std::size_t mark = name.find_last_of(":|"); mark != name.npos && mark + 1 < name.size())
+    name.remove_prefix(mark + 1);
   Words words;
   for (std::string word : divided(name)) {
     if (std::isdigit(static_cast<unsigned char>(word[0])) || isAny(word, kSilent)) continue;
     if (isAny(word, kPassedOver)) words.passedOver = true;
-    for (const auto& [begin, side] : {std::pair<std::string_view, Side>{"left", Side::left}, {"right", Side::right}})
+    for (const auto& [begin, side] :
+         {std::pair<std::string_view, Side>{"left", Side::left}, {"right", Side::right}})
       if (word.starts_with(begin)) words.side = side, word.erase(0, begin.size());
     if (words.side == Side::none && (word == "l" || word == "lft")) words.side = Side::left, word.clear();
     if (words.side == Side::none && (word == "r" || word == "rgt")) words.side = Side::right, word.clear();
@@ -73,15 +83,22 @@ struct Meaning {
   std::vector<std::string_view> words;
 };
 const std::vector<Meaning>& middle() {
-  static const std::vector<Meaning> list{{"hips", {"hips", "pelvis", "hip", "hipcenter", "spinebase", "root"}}, {"neck", {"neck", "necklower", "lowerneck", "cervical"}}, {"head", {"head", "skull"}}};
+  static const std::vector<Meaning> list{
+      {"hips", {"hips", "pelvis", "hip", "hipcenter", "spinebase", "root"}},
+      {"neck", {"neck", "necklower", "lowerneck", "cervical"}},
+      {"head", {"head", "skull"}}};
   return list;
 }
 const std::vector<Meaning>& sided() {
-  // A limb's lower parts before its upper ones, these before the collar: a word goes to the first that takes it.
+  // A limb's lower parts before its upper ones, these before the collar: a word goes to the first that takes
+  // it.
   static const std::vector<Meaning> list{
-      {"LowerArm", {"forearm", "lowerarm", "farm", "lowarm", "loarm", "armlower", "elbow", "forearmbend", "ulna", "radius"}},
+      {"LowerArm",
+       {"forearm", "lowerarm", "farm", "lowarm", "loarm", "armlower", "elbow", "forearmbend", "ulna",
+        "radius"}},
       {"Hand", {"hand", "wrist", "palm"}},
-      {"UpperArm", {"upperarm", "uarm", "uparm", "armupper", "humerus", "shldr", "shldrbend", "arm", "shoulder"}},
+      {"UpperArm",
+       {"upperarm", "uarm", "uparm", "armupper", "humerus", "shldr", "shldrbend", "arm", "shoulder"}},
       {"Shoulder", {"collar", "clavicle", "clav", "scapula", "shoulder", "innershoulder"}},
       {"UpperLeg", {"thigh", "upperleg", "upleg", "legupper", "femur", "thighbend", "hip", "leg"}},
       {"LowerLeg", {"calf", "shin", "lowerleg", "lowleg", "loleg", "leglower", "knee", "tibia", "leg"}},
@@ -92,8 +109,9 @@ const std::vector<Meaning>& sided() {
       {"MiddleProximal", {"middle", "handmiddle", "inhandmiddle", "middleproximal"}}};
   return list;
 }
-constexpr std::array<std::string_view, 16> kSpine{"spine",   "torso",   "abdomen",      "waist",        "chest",      "upperchest", "thorax",      "back",
-                                                  "lowerback", "upperback", "abdomenlower", "abdomenupper", "chestlower", "chestupper", "ribs", "lumbar"};
+constexpr std::array<std::string_view, 16> kSpine{
+    "spine",     "torso",     "abdomen",      "waist",        "chest",      "upperchest", "thorax", "back",
+    "lowerback", "upperback", "abdomenlower", "abdomenupper", "chestlower", "chestupper", "ribs",   "lumbar"};
 
 }  // namespace
 
@@ -105,14 +123,18 @@ std::vector<std::string_view> humanoidWords(std::span<const std::string> joints)
     Words& own = words.back();
     if (own.side != Side::none || own.base.size() < 3 || (own.base[0] != 'l' && own.base[0] != 'r')) continue;
     const std::string_view rest = std::string_view(own.base).substr(1);
-    if (std::ranges::none_of(sided(), [&](const Meaning& meaning) { return std::ranges::find(meaning.words, rest) != meaning.words.end(); })) continue;
+    if (std::ranges::none_of(sided(), [&](const Meaning& meaning) {
+          return std::ranges::find(meaning.words, rest) != meaning.words.end();
+        }))
+      continue;
     own.side = own.base[0] == 'l' ? Side::left : Side::right;
     own.base.erase(0, 1);
   }
   std::vector<std::string_view> parts(joints.size());
   const auto find = [&](std::string_view base, Side side) {
     for (std::size_t j = 0; j < words.size(); ++j)
-      if (parts[j].empty() && !words[j].passedOver && words[j].side == side && words[j].base == base) return j;
+      if (parts[j].empty() && !words[j].passedOver && words[j].side == side && words[j].base == base)
+        return j;
     return words.size();
   };
   const auto take = [&](const Meaning& meaning, Side side, const std::string& name) {
@@ -127,7 +149,9 @@ std::vector<std::string_view> humanoidWords(std::span<const std::string> joints)
     for (const Meaning& meaning : sided()) take(meaning, side, begin + std::string(meaning.part));
   std::vector<std::size_t> spine;
   for (std::size_t j = 0; j < words.size(); ++j)
-    if (parts[j].empty() && !words[j].passedOver && words[j].side == Side::none && isAny(words[j].base, kSpine)) spine.push_back(j);
+    if (parts[j].empty() && !words[j].passedOver && words[j].side == Side::none &&
+        isAny(words[j].base, kSpine))
+      spine.push_back(j);
   if (!spine.empty()) parts[spine.front()] = humanoidPart("spine");
   if (spine.size() > 2) parts[spine[spine.size() / 2]] = humanoidPart("chest");
   if (spine.size() > 1) parts[spine.back()] = humanoidPart(spine.size() > 2 ? "upperChest" : "chest");

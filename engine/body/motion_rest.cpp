@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::uint32_t kNone = JointId::kNone;
 constexpr std::uint32_t kFramesAsked = 64;
-constexpr float kUpright = 0.5f;        // least cosine between the trunk and +Y for +Y to be up
-constexpr float kSteady = 0.8f;         // length of the mean of unit vectors that say the same
+constexpr float kUpright = 0.5f;  // least cosine between the trunk and +Y for +Y to be up
+constexpr float kSteady = 0.8f;   // length of the mean of unit vectors that say the same
 constexpr float kStandingTrunk = 0.77f, kStandingLeg = 0.71f;  // cosines of 40 and 45 degrees
 constexpr const char* kSides[] = {"left", "right"};
 
@@ -78,7 +78,8 @@ class Stance {
     for (const std::string side : kSides) {
       const std::uint32_t a = of(side + "UpperLeg"), b = of(side + "LowerLeg"), c = of(side + "Foot");
       if (a == kNone || b == kNone || c == kNone) continue;
-      longest = std::max(longest, glm::distance(pose.places[a], pose.places[b]) + glm::distance(pose.places[b], pose.places[c]));
+      longest = std::max(longest, glm::distance(pose.places[a], pose.places[b]) +
+                                      glm::distance(pose.places[b], pose.places[c]));
     }
     return longest;
   }
@@ -107,7 +108,8 @@ MotionPose motionPose(const Motion& motion, std::uint32_t frame) {
 std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t most) {
   std::vector<std::uint32_t> frames;
   const std::uint32_t count = std::min(most, motion.frameCount);
-  for (std::uint32_t k = 0; k < count; ++k) frames.push_back(std::uint32_t(std::uint64_t(k) * motion.frameCount / count));
+  for (std::uint32_t k = 0; k < count; ++k)
+    frames.push_back(std::uint32_t(std::uint64_t(k) * motion.frameCount / count));
   return frames;
 }
 
@@ -139,13 +141,17 @@ vec3 upOf(const Motion& motion, std::span<const std::string_view> parts) {
 Motion withUp(const Motion& motion, vec3 up) {
   if (up == vec3(0, 1, 0)) return motion;
   const vec3 side = up == vec3(0, -1, 0) ? vec3(1, 0, 0) : glm::cross(vec3(0, 1, 0), up);
-  // Rows: what becomes x, y, z. A quarter turn about the axis that is neither, a half turn about x where up was down.
+  // Rows: what becomes x, y, z. A quarter turn about the axis that is neither, a half turn about x where up
+  // was down.
   const vec3 back = glm::cross(side, up);
   mat3 turn = glm::transpose(mat3(side, up, back));
-  if (std::abs(up.z) > 0.5f) turn = up.z > 0 ? mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, 1, 0)) : mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
+  if (std::abs(up.z) > 0.5f)
+    turn = up.z > 0 ? mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, 1, 0))
+                    : mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
   const quat q = glm::normalize(glm::quat_cast(turn));
   Motion turned = motion;
-  for (Motion::Joint& joint : turned.joints) joint.offset = turn * joint.offset, joint.endOffset = turn * joint.endOffset;
+  for (Motion::Joint& joint : turned.joints)
+    joint.offset = turn * joint.offset, joint.endOffset = turn * joint.endOffset;
   for (quat& rotation : turned.rotations) rotation = glm::normalize(q * rotation * glm::conjugate(q));
   for (vec3& place : turned.translations) place = turn * place;
   return turned;
@@ -159,7 +165,8 @@ std::uint32_t standingPose(const Motion& motion, std::span<const std::string_vie
   std::uint32_t best = MotionPose::kZero;
   float most = zero.sum;
   for (const std::uint32_t frame : sampledFrames(motion, kFramesAsked))
-    if (const float sum = stance.uprightness(motionPose(motion, frame)).sum; sum > most + 0.02f) most = sum, best = frame;
+    if (const float sum = stance.uprightness(motionPose(motion, frame)).sum; sum > most + 0.02f)
+      most = sum, best = frame;
   return best;
 }
 

@@ -20,22 +20,23 @@ MotionPose motionPose(const Motion& motion, std::uint32_t frame);
 /// Some of a motion's frames, evenly, the first one among them.
 std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t most);
 
-/// Which way is up in a motion: +Y, or the axis along which the trunk stands above the legs where that is another one
-/// and the hips are as high along it as legs are long (or never leave the origin): others' files have +Z up, also
-/// such whose zero pose stands along +Y.
+/// Which way is up in a motion: +Y, or the axis along which the trunk stands above the legs where that is
+/// another one and the hips are as high along it as legs are long (or never leave the origin): others' files
+/// have +Z up, also such whose zero pose stands along +Y.
 /// @param parts  what each joint is (body/humanoid.h)
 vec3 upOf(const Motion& motion, std::span<const std::string_view> parts);
 
 /// The same motion told with this axis as +Y. @param up  one of the axes' directions
 Motion withUp(const Motion& motion, vec3 up);
 
-/// The pose to compare a body's rest pose with: all rotations zero, where that is a person who stands (arms may hang,
-/// be stretched out or anything between); else, as in files whose zero pose has all bones along one axis, the frame
-/// of the motion that stands most upright. @return its frame, or MotionPose::kZero
+/// The pose to compare a body's rest pose with: all rotations zero, where that is a person who stands (arms
+/// may hang, be stretched out or anything between); else, as in files whose zero pose has all bones along one
+/// axis, the frame of the motion that stands most upright. @return its frame, or MotionPose::kZero
 std::uint32_t standingPose(const Motion& motion, std::span<const std::string_view> parts);
 
-/// Metres that a unit of the motion is, judged by the length of a leg: 1, 0.01, 0.0254, 0.0564 (CMU's), 0.001; 0 where
-/// none of them makes a person of it. Motions are carried in any unit: this is for telling only.
+/// Metres that a unit of the motion is, judged by the length of a leg: 1, 0.01, 0.0254, 0.0564 (CMU's),
+/// 0.001; 0 where none of them makes a person of it. Motions are carried in any unit: this is for telling
+/// only.
 double metresAUnit(const Motion& motion, std::span<const std::string_view> parts);
 
 }  // namespace vasa

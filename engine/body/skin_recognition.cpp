@@ -12,10 +12,10 @@
 namespace vasa {
 namespace {
 
-constexpr float kLongLink = 0.06f;   // of the skeleton's size: hands and faces have links too short to tell
-constexpr float kBelowSkin = 0.012f; // ... a finger's breadth: deeper in flesh than a bone's own surface
-constexpr float kEnclosed = 0.5f;    // of the links
-constexpr float kInside = 0.7f;      // of a mesh's vertices, for it to be something within
+constexpr float kLongLink = 0.06f;    // of the skeleton's size: hands and faces have links too short to tell
+constexpr float kBelowSkin = 0.012f;  // ... a finger's breadth: deeper in flesh than a bone's own surface
+constexpr float kEnclosed = 0.5f;     // of the links
+constexpr float kInside = 0.7f;       // of a mesh's vertices, for it to be something within
 constexpr std::size_t kVerticesAsked = 100, kMostPlaces = 400;
 constexpr std::size_t kMostNames = 4;
 
@@ -32,7 +32,8 @@ std::vector<vec3> placesInFlesh(const Skeleton& skeleton) {
     const vec3 from(skeleton.joints[joint.parent.value].restWorld[3]), to(joint.restWorld[3]);
     const float length = glm::distance(from, to);
     if (length < kLongLink * size) continue;
-    const vec3 across = kBelowSkin * size * anyPerpendicular((to - from) / length), other = glm::cross((to - from) / length, across);
+    const vec3 across = kBelowSkin * size * anyPerpendicular((to - from) / length),
+               other = glm::cross((to - from) / length, across);
     for (const vec3 aside : {across, other, -across, -other}) places.push_back(0.5f * (from + to) + aside);
   }
   // Of thousands of links (hair, cloth) some do.
@@ -53,7 +54,8 @@ float enclosedShare(std::span<const vec3> places, const TriangleMesh& mesh) {
 bool liesInside(const SkinnedMesh& mesh, const WindingNumber& winding) {
   const std::size_t count = mesh.mesh.positions.size(), asked = std::min(count, kVerticesAsked);
   std::size_t inside = 0;
-  for (std::size_t i = 0; i < asked; ++i) inside += std::abs(winding.at(mesh.mesh.positions[i * count / asked])) >= 0.5f;
+  for (std::size_t i = 0; i < asked; ++i)
+    inside += std::abs(winding.at(mesh.mesh.positions[i * count / asked])) >= 0.5f;
   return float(inside) >= kInside * float(asked);
 }
 
@@ -71,8 +73,8 @@ SkinnedMesh merged(const Body& body, std::span<const std::size_t> which) {
   return all;
 }
 
-// Which meshes might be skin, by how little is known of them otherwise: 0 bends and has no other name, 1 moves by rigid
-// parts, 2 is named something else but bends.
+// Which meshes might be skin, by how little is known of them otherwise: 0 bends and has no other name, 1
+// moves by rigid parts, 2 is named something else but bends.
 int strangeness(const SkinnedMesh& mesh) {
   const MeshRole role = roleNamed(mesh.name);
   const bool unnamed = role == MeshRole::skin || role == MeshRole::other, rigid = movesByRigidParts(mesh);
@@ -98,18 +100,23 @@ void recogniseSkin(Body& body) {
 
   std::vector<float> shares(body.meshes.size(), 0.0f);
   for (const std::size_t m : candidates) shares[m] = enclosedShare(places, body.meshes[m].mesh);
-  const std::size_t first = *std::ranges::max_element(candidates, {}, [&](std::size_t m) { return shares[m]; });
+  const std::size_t first =
+      *std::ranges::max_element(candidates, {}, [&](std::size_t m) { return shares[m]; });
   const WindingNumber winding(body.meshes[first].mesh.positions, body.meshes[first].mesh.triangles);
   std::erase_if(candidates, [&](std::size_t m) { return m != first && liesInside(body.meshes[m], winding); });
-  std::ranges::stable_sort(candidates, std::greater{}, [&](std::size_t m) { return m == first ? 2.0f : shares[m]; });
-  if (candidates.size() == 1 && roleNamed(body.meshes[first].name) == MeshRole::skin && !movesByRigidParts(body.meshes[first])) return;
+  std::ranges::stable_sort(candidates, std::greater{},
+                           [&](std::size_t m) { return m == first ? 2.0f : shares[m]; });
+  if (candidates.size() == 1 && roleNamed(body.meshes[first].name) == MeshRole::skin &&
+      !movesByRigidParts(body.meshes[first]))
+    return;
 
   SkinnedMesh skin = merged(body, candidates);
   skin.colour = body.meshes[first].colour;
   skin.name = "skin:";
   for (std::size_t i = 0; i < std::min(candidates.size(), kMostNames); ++i)
     skin.name += (i > 0 ? ", " : " ") + body.meshes[candidates[i]].name;
-  if (candidates.size() > kMostNames) skin.name += " and " + std::to_string(candidates.size() - kMostNames) + " more";
+  if (candidates.size() > kMostNames)
+    skin.name += " and " + std::to_string(candidates.size() - kMostNames) + " more";
   body.meshes[first] = std::move(skin);
   std::vector<bool> merges(body.meshes.size());
   for (const std::size_t m : candidates) merges[m] = m != first;

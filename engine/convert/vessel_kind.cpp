@@ -8,7 +8,8 @@
 namespace vasa {
 namespace {
 
-// Small letters, a space between words and around the whole: "Superior_VenaCava2" -> " superior vena cava 2 ".
+// Small letters, a space between words and around the whole: "Superior_VenaCava2" -> " superior vena cava 2
+// ".
 std::string spaced(std::string_view text) {
   std::string words = " ";
   char before = ' ';
@@ -17,8 +18,10 @@ std::string spaced(std::string_view text) {
     const bool starts = (std::isupper(u) && std::islower(static_cast<unsigned char>(before))) ||
                         (std::isdigit(u) != 0) != (std::isdigit(static_cast<unsigned char>(before)) != 0);
     if (starts && words.back() != ' ') words += ' ';
-    if (std::isalnum(u)) words += char(std::tolower(u));
-    else if (words.back() != ' ') words += ' ';
+    if (std::isalnum(u))
+      words += char(std::tolower(u));
+    else if (words.back() != ' ')
+      words += ' ';
     before = c;
   }
   if (words.back() != ' ') words += ' ';
@@ -30,12 +33,26 @@ bool hasAny(const std::string& text, const std::array<std::string_view, N>& word
   return std::ranges::any_of(words, [&](std::string_view word) { return text.find(word) != text.npos; });
 }
 
-// A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next source.
+// A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next
+// source.
 VesselKind kindInText(std::string_view raw) {
-  static constexpr std::array<std::string_view, 13> kArtery{"arter",  "aorta", "aortic", "coeliac trunk", "celiac trunk", "pulmonary trunk", "truncus pulmonalis",
-                                                            "brachiocephalic trunk", "carotid", " lad ", " rca ", " lcx ", "thyrocervical"};
-  static constexpr std::array<std::string_view, 15> kVein{" vein", " vena ", " venae ", " venous", "venule", "azygos", "azygous", " cava ", " svc ", " ivc ",
-                                                          "coronary sinus", "sagittal sinus", "transverse sinus", "sigmoid sinus", "jugular"};
+  static constexpr std::array<std::string_view, 13> kArtery{"arter",
+                                                            "aorta",
+                                                            "aortic",
+                                                            "coeliac trunk",
+                                                            "celiac trunk",
+                                                            "pulmonary trunk",
+                                                            "truncus pulmonalis",
+                                                            "brachiocephalic trunk",
+                                                            "carotid",
+                                                            " lad ",
+                                                            " rca ",
+                                                            " lcx ",
+                                                            "thyrocervical"};
+  static constexpr std::array<std::string_view, 15> kVein{
+      " vein",          " vena ",         " venae ",          " venous",       "venule",
+      "azygos",         "azygous",        " cava ",           " svc ",         " ivc ",
+      "coronary sinus", "sagittal sinus", "transverse sinus", "sigmoid sinus", "jugular"};
   static constexpr std::array<std::string_view, 2> kLymph{"lymph", "thoracic duct"};
   const std::string text = spaced(raw);
   const bool artery = hasAny(text, kArtery), vein = hasAny(text, kVein);
@@ -63,8 +80,7 @@ constexpr std::array kKnown{
     Known{"fma", "4720", VesselKind::vein},     // superior vena cava
     Known{"fma", "10951", VesselKind::vein},    // inferior vena cava
     Known{"fma", "4706", VesselKind::vein},     // coronary sinus
-    Known{"fma", "50735", VesselKind::portalVein},
-    Known{"uberon", "0000947", VesselKind::artery},  // aorta
+    Known{"fma", "50735", VesselKind::portalVein},  Known{"uberon", "0000947", VesselKind::artery},  // aorta
     Known{"uberon", "0002333", VesselKind::artery},  // pulmonary trunk
     Known{"uberon", "0001585", VesselKind::vein},    // superior vena cava
     Known{"uberon", "0001072", VesselKind::vein},    // inferior vena cava
@@ -74,7 +90,8 @@ constexpr std::array kKnown{
 VesselKind kindByNumber(std::string_view raw) {
   const std::string text = spaced(raw);
   for (const Known& known : kKnown)
-    if (text.find(' ' + std::string(known.ontology) + ' ' + std::string(known.number) + ' ') != text.npos) return known.kind;
+    if (text.find(' ' + std::string(known.ontology) + ' ' + std::string(known.number) + ' ') != text.npos)
+      return known.kind;
   return VesselKind::other;
 }
 
@@ -89,7 +106,8 @@ VesselKind kindOfColour(vec3 c) {
 }  // namespace
 
 VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
-  std::vector<std::string_view> numbered{element.ontologyId, element.name}, texts{element.category, element.name, fileName};
+  std::vector<std::string_view> numbered{element.ontologyId, element.name},
+      texts{element.category, element.name, fileName};
   for (const std::string& name : element.surroundings) numbered.push_back(name), texts.push_back(name);
   VesselKind kind = kindInText(element.category);
   for (const std::string_view text : numbered)

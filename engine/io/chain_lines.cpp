@@ -12,7 +12,7 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr float kSamePlace = 0.05f;  // of a radius
+constexpr float kSamePlace = 0.05f;        // of a radius
 constexpr std::size_t kMostLookedAt = 64;  // samples in a slab of that width: more are another scale's
 
 struct Edge {
@@ -40,7 +40,9 @@ class Graph {
   }
 
  private:
-  static bool before(const vec4& a, const vec4& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+  static bool before(const vec4& a, const vec4& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  }
   static bool same(const vec4& a, const vec4& b) { return vec3(a) == vec3(b); }
 
   void collect(const std::vector<std::vector<vec4>>& lines) {
@@ -64,17 +66,24 @@ class Graph {
     for (const auto& line : lines)
       for (const bool last : {false, true}) {
         checkpoints.pass();
-        const vec4 end = last ? line.back() : line.front(), neighbour = last ? line[line.size() - 2] : line[1];
+        const vec4 end = last ? line.back() : line.front(),
+                   neighbour = last ? line[line.size() - 2] : line[1];
         // Not so far that it could be its own line's next sample.
         const float reach = std::min(kSamePlace * end.w, 0.25f * glm::distance(vec3(end), vec3(neighbour)));
         const std::uint32_t own = numberOf(end);
         std::uint32_t nearest = kNone;
         float least = reach;
         const auto look = [&](std::uint32_t i) {
-          if (const float d = glm::distance(vec3(points_[i]), vec3(end)); d <= least && !same(points_[i], neighbour)) least = d, nearest = i;
+          if (const float d = glm::distance(vec3(points_[i]), vec3(end));
+              d <= least && !same(points_[i], neighbour))
+            least = d, nearest = i;
         };
-        for (std::uint32_t i = own + 1, seen = 0; i < points_.size() && points_[i].x - end.x <= reach && seen < kMostLookedAt; ++i, ++seen) look(i);
-        for (std::uint32_t i = own, seen = 0; i-- > 0 && end.x - points_[i].x <= reach && seen < kMostLookedAt; ++seen) look(i);
+        for (std::uint32_t i = own + 1, seen = 0;
+             i < points_.size() && points_[i].x - end.x <= reach && seen < kMostLookedAt; ++i, ++seen)
+          look(i);
+        for (std::uint32_t i = own, seen = 0;
+             i-- > 0 && end.x - points_[i].x <= reach && seen < kMostLookedAt; ++seen)
+          look(i);
         if (nearest != kNone) same_[root(own)] = root(nearest);
       }
   }
@@ -91,21 +100,25 @@ class Graph {
     // Of doubles the first told stays, in the order of the file.
     std::ranges::sort(keys);
     std::vector<bool> repeated(edges_.size());
-    for (std::size_t k = 1; k < keys.size(); ++k) repeated[keys[k].second] = keys[k].first == keys[k - 1].first;
+    for (std::size_t k = 1; k < keys.size(); ++k)
+      repeated[keys[k].second] = keys[k].first == keys[k - 1].first;
     std::vector<Edge> kept;
     for (std::size_t e = 0; e < edges_.size(); ++e)
       if (!repeated[e]) kept.push_back(edges_[e]);
     edges_ = std::move(kept);
   }
 
-  std::uint32_t other(std::uint32_t edge, std::uint32_t node) const { return edges_[edge].a == node ? edges_[edge].b : edges_[edge].a; }
+  std::uint32_t other(std::uint32_t edge, std::uint32_t node) const {
+    return edges_[edge].a == node ? edges_[edge].b : edges_[edge].a;
+  }
 
   // Of the edges that meet in a place, the two that are one vessel's.
   void pairAtForks() {
     next_.assign(2 * edges_.size(), kNone);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  // place, edge
     at.reserve(2 * edges_.size());
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) at.push_back({edges_[e].a, e}), at.push_back({edges_[e].b, e});
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      at.push_back({edges_[e].a, e}), at.push_back({edges_[e].b, e});
     std::ranges::sort(at);
     std::vector<std::uint32_t> own;
     for (std::size_t first = 0; first < at.size();) {
@@ -126,7 +139,9 @@ class Graph {
       next_[slot(pair.second, node)] = pair.first;
     }
   }
-  std::size_t slot(std::uint32_t edge, std::uint32_t node) const { return 2 * std::size_t(edge) + (edges_[edge].b == node); }
+  std::size_t slot(std::uint32_t edge, std::uint32_t node) const {
+    return 2 * std::size_t(edge) + (edges_[edge].b == node);
+  }
   std::uint32_t nextOf(std::uint32_t edge, std::uint32_t node) const { return next_[slot(edge, node)]; }
 
   std::vector<vec4> follow(std::uint32_t edge, std::uint32_t from) {
@@ -149,6 +164,8 @@ class Graph {
 
 }  // namespace
 
-std::vector<std::vector<vec4>> chainLines(const std::vector<std::vector<vec4>>& lines) { return Graph(lines).chains(); }
+std::vector<std::vector<vec4>> chainLines(const std::vector<std::vector<vec4>>& lines) {
+  return Graph(lines).chains();
+}
 
 }  // namespace vasa

@@ -7,9 +7,10 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr float kSamePose = 1e-3f;    // of the skeleton's size
-constexpr float kAnotherUnit = 0.69f; // logarithm of 2
-constexpr float kTurnedLinks = 0.3f;  // mean cosine between links in both poses below which the space is another
+constexpr float kSamePose = 1e-3f;     // of the skeleton's size
+constexpr float kAnotherUnit = 0.69f;  // logarithm of 2
+constexpr float kTurnedLinks =
+    0.3f;  // mean cosine between links in both poses below which the space is another
 
 bool sound(const mat4& m) {
   const float determinant = std::abs(glm::determinant(mat3(m)));
@@ -47,14 +48,16 @@ struct Link {
 };
 
 // From each of the skin's joints to the nearest one above it that the skin has, too.
-std::vector<Link> linksOf(const Skeleton& skeleton, const BoundSkin& skin, const std::vector<std::optional<mat4>>& bound) {
+std::vector<Link> linksOf(const Skeleton& skeleton, const BoundSkin& skin,
+                          const std::vector<std::optional<mat4>>& bound) {
   std::vector<Link> links;
   for (const JointId joint : skin.joints) {
     JointId above = skeleton.joints[joint.value].parent;
     while (above.valid() && !bound[above.value]) above = skeleton.joints[above.value].parent;
     if (!above.valid()) continue;
-    links.push_back({vec3((*bound[joint.value])[3] - (*bound[above.value])[3]),
-                     vec3(skeleton.joints[joint.value].restWorld[3] - skeleton.joints[above.value].restWorld[3])});
+    links.push_back(
+        {vec3((*bound[joint.value])[3] - (*bound[above.value])[3]),
+         vec3(skeleton.joints[joint.value].restWorld[3] - skeleton.joints[above.value].restWorld[3])});
   }
   return links;
 }
@@ -68,7 +71,8 @@ float likeness(const std::vector<Link>& links, const mat3& turn) {
   return sum / weight;
 }
 
-// The first of the world, the nodes above and their turns by right angles that is likely enough, else the likeliest.
+// The first of the world, the nodes above and their turns by right angles that is likely enough, else the
+// likeliest.
 mat4 spaceOf(const Skeleton& skeleton, const std::vector<Link>& links) {
   const mat4& above = skeleton.rootTransform;
   float bound = 0, posed = 0;
@@ -96,9 +100,12 @@ mat4 spaceOf(const Skeleton& skeleton, const std::vector<Link>& links) {
 }
 
 bool isPosed(const Skeleton& skeleton, const BoundSkin& skin) {
-  const auto at = [&](std::size_t i) { return skeleton.joints[skin.joints[i].value].restWorld * skin.inverseBinds[i]; };
+  const auto at = [&](std::size_t i) {
+    return skeleton.joints[skin.joints[i].value].restWorld * skin.inverseBinds[i];
+  };
   float size = 0;
-  for (const JointId joint : skin.joints) size = std::max(size, difference(skeleton.joints[joint.value].restWorld, mat4(0)));
+  for (const JointId joint : skin.joints)
+    size = std::max(size, difference(skeleton.joints[joint.value].restWorld, mat4(0)));
   for (std::size_t i = 1; i < skin.joints.size(); ++i)
     if (!(difference(at(i), at(0)) <= kSamePose * size)) return true;
   return false;
@@ -107,7 +114,8 @@ bool isPosed(const Skeleton& skeleton, const BoundSkin& skin) {
 }  // namespace
 
 bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins) {
-  const auto largest = std::ranges::max_element(skins, {}, [](const BoundSkin& skin) { return skin.joints.size(); });
+  const auto largest =
+      std::ranges::max_element(skins, {}, [](const BoundSkin& skin) { return skin.joints.size(); });
   if (largest == skins.end() || !isPosed(skeleton, *largest)) return false;
   std::vector<std::optional<mat4>> bound(skeleton.joints.size());
   for (std::size_t i = 0; i < largest->joints.size(); ++i) {
@@ -118,7 +126,8 @@ bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins) {
   Skeleton moved = skeleton;
   for (std::size_t j = 0; j < moved.joints.size(); ++j) {
     Skeleton::Joint& joint = moved.joints[j];
-    const mat4 above = joint.parent.valid() ? moved.joints[joint.parent.value].restWorld : moved.rootTransform;
+    const mat4 above =
+        joint.parent.valid() ? moved.joints[joint.parent.value].restWorld : moved.rootTransform;
     joint.restWorld = bound[j] ? space * *bound[j] : above * joint.rest.matrix();
     if (!bound[j]) continue;
     if (!sound(above)) return false;

@@ -11,14 +11,14 @@ struct BoundSkin {
   std::vector<mat4> inverseBinds;  ///< one a joint
 };
 
-/// Moves a skeleton from the pose that a file's nodes have (a frame of some motion, as a rule) to the one in which
-/// its largest skin is bound; joints that no skin binds keep their place beside their parent.
+/// Moves a skeleton from the pose that a file's nodes have (a frame of some motion, as a rule) to the one in
+/// which its largest skin is bound; joints that no skin binds keep their place beside their parent.
 ///
-/// What space the inverse bind matrices are in is not told by the file: of the world and the space of the nodes above
-/// the joints, upright or turned by right angles, the one in which the links point most as they do in the nodes' pose,
-/// in the unit in which they are as long.
-/// @return whether anything moved. False where the skin is bound in the nodes' pose already, up to one transform, and
-/// where the matrices are none of joints (with shear, or not invertible)
+/// What space the inverse bind matrices are in is not told by the file: of the world and the space of the
+/// nodes above the joints, upright or turned by right angles, the one in which the links point most as they
+/// do in the nodes' pose, in the unit in which they are as long.
+/// @return whether anything moved. False where the skin is bound in the nodes' pose already, up to one
+/// transform, and where the matrices are none of joints (with shear, or not invertible)
 bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins);
 
 }  // namespace vasa::gltf

@@ -16,8 +16,9 @@
 #include "io/words.h"
 #include "mesh/polygon.h"
 
-// Legacy VTK (the format's versions 2 to 5): four lines of head, then sections that begin with a word. Binary numbers
-// are big-endian. Since version 5 cells are two arrays, offsets and connectivity, before it a count before each cell.
+// Legacy VTK (the format's versions 2 to 5): four lines of head, then sections that begin with a word. Binary
+// numbers are big-endian. Since version 5 cells are two arrays, offsets and connectivity, before it a count
+// before each cell.
 namespace vasa {
 namespace {
 
@@ -27,7 +28,9 @@ constexpr std::size_t kMostCorners = 512;  // as for .obj: cutting a polygon tak
 struct BrokenRule {
   std::string place, rule;
 };
-[[noreturn]] void breaks(std::string place, std::string rule) { throw BrokenRule{std::move(place), std::move(rule)}; }
+[[noreturn]] void breaks(std::string place, std::string rule) {
+  throw BrokenRule{std::move(place), std::move(rule)};
+}
 
 // One after the other: files may have a cell for two bytes.
 struct Cells {
@@ -46,11 +49,20 @@ struct Sections {
 };
 
 std::optional<vtp::Scalar> scalarOf(std::string_view word) {
-  static const std::map<std::string_view, vtp::Scalar> kTypes{
-      {"char", vtp::Scalar::int8},           {"signed_char", vtp::Scalar::int8}, {"unsigned_char", vtp::Scalar::uint8}, {"short", vtp::Scalar::int16},
-      {"unsigned_short", vtp::Scalar::uint16}, {"int", vtp::Scalar::int32},      {"unsigned_int", vtp::Scalar::uint32}, {"long", vtp::Scalar::int64},
-      {"unsigned_long", vtp::Scalar::uint64}, {"vtktypeint64", vtp::Scalar::int64}, {"vtktypeint32", vtp::Scalar::int32}, {"vtkidtype", vtp::Scalar::int64},
-      {"float", vtp::Scalar::float32},       {"double", vtp::Scalar::float64}};
+  static const std::map<std::string_view, vtp::Scalar> kTypes{{"char", vtp::Scalar::int8},
+                                                              {"signed_char", vtp::Scalar::int8},
+                                                              {"unsigned_char", vtp::Scalar::uint8},
+                                                              {"short", vtp::Scalar::int16},
+                                                              {"unsigned_short", vtp::Scalar::uint16},
+                                                              {"int", vtp::Scalar::int32},
+                                                              {"unsigned_int", vtp::Scalar::uint32},
+                                                              {"long", vtp::Scalar::int64},
+                                                              {"unsigned_long", vtp::Scalar::uint64},
+                                                              {"vtktypeint64", vtp::Scalar::int64},
+                                                              {"vtktypeint32", vtp::Scalar::int32},
+                                                              {"vtkidtype", vtp::Scalar::int64},
+                                                              {"float", vtp::Scalar::float32},
+                                                              {"double", vtp::Scalar::float64}};
   const auto found = kTypes.find(word);
   return found == kTypes.end() ? std::nullopt : std::optional(found->second);
 }
@@ -71,14 +83,18 @@ class Reader {
   explicit Reader(std::string_view text) : rest_(text) {}
 
   Sections run() {
-    if (!line().starts_with("# vtk DataFile")) breaks("line 1", "is no legacy VTK file: it must begin with \"# vtk DataFile Version\"");
+    if (!line().starts_with("# vtk DataFile"))
+      breaks("line 1", "is no legacy VTK file: it must begin with \"# vtk DataFile Version\"");
     line();
     const std::string kind = upper(word());
     if (kind != "ASCII" && kind != "BINARY") breaks("line 3", "must be ASCII or BINARY");
     binary_ = kind == "BINARY";
     if (upper(word()) != "DATASET") breaks("line 4", "must be DATASET POLYDATA");
     if (const std::string set = upper(word()); set != "POLYDATA")
-      breaks("line 4", "holds " + set + ", not POLYDATA; extract its surface or lines (ParaView: Extract Surface) and save them as .vtp");
+      breaks(
+          "line 4",
+          "holds " + set +
+              ", not POLYDATA; extract its surface or lines (ParaView: Extract Surface) and save them as .vtp");
     for (std::string_view next = word(); !next.empty(); next = word()) section(upper(next));
     return std::move(out_);
   }
@@ -102,14 +118,18 @@ class Reader {
   }
   std::size_t count(const std::string& place) {
     std::int64_t value = 0;
-    if (const std::string_view text = word(); !parseInteger(text, value) || value < 0 || std::size_t(value) > rest_.size())
-      breaks(place, "promises more than the file holds, or no whole number: '" + std::string(text.substr(0, 40)) + "'");
+    if (const std::string_view text = word();
+        !parseInteger(text, value) || value < 0 || std::size_t(value) > rest_.size())
+      breaks(place, "promises more than the file holds, or no whole number: '" +
+                        std::string(text.substr(0, 40)) + "'");
     return std::size_t(value);
   }
   vtp::Scalar type(const std::string& place) {
     const std::string name = lower(word());
     const auto scalar = scalarOf(name);
-    if (!scalar) breaks(place, "is of the type '" + name.substr(0, 40) + "', which is not read; save it as float or int");
+    if (!scalar)
+      breaks(place,
+             "is of the type '" + name.substr(0, 40) + "', which is not read; save it as float or int");
     return *scalar;
   }
 
@@ -119,21 +139,25 @@ class Reader {
       if (amount > rest_.size()) breaks(place, "is cut short");
       values.resize(amount);
       for (double& value : values)
-        if (const std::string_view text = word(); !parseNumber(text, value)) breaks(place, "has no finite number where it has '" + std::string(text.substr(0, 40)) + "'");
+        if (const std::string_view text = word(); !parseNumber(text, value))
+          breaks(place, "has no finite number where it has '" + std::string(text.substr(0, 40)) + "'");
       return values;
     }
-    if (const std::size_t end = rest_.find('\n'); end != rest_.npos) rest_.remove_prefix(end + 1);  // of the section's own line
+    if (const std::size_t end = rest_.find('\n'); end != rest_.npos)
+      rest_.remove_prefix(end + 1);  // of the section's own line
     const std::size_t size = vtp::sizeOf(scalar);
     if (amount > rest_.size() / size) breaks(place, "is cut short");
     values.resize(amount);
-    for (std::size_t i = 0; i < amount; ++i) values[i] = vtp::numberAt(reinterpret_cast<const std::byte*>(rest_.data()) + i * size, scalar, true);
+    for (std::size_t i = 0; i < amount; ++i)
+      values[i] = vtp::numberAt(reinterpret_cast<const std::byte*>(rest_.data()) + i * size, scalar, true);
     rest_.remove_prefix(amount * size);
     return values;
   }
 
   void section(const std::string& name) {
     if (name == "POINTS") return readPoints();
-    if (name == "LINES" || name == "POLYGONS" || name == "TRIANGLE_STRIPS" || name == "VERTICES") return readCells(name);
+    if (name == "LINES" || name == "POLYGONS" || name == "TRIANGLE_STRIPS" || name == "VERTICES")
+      return readCells(name);
     if (name == "POINT_DATA" || name == "CELL_DATA") {
       data_ = name == "POINT_DATA" ? &out_.pointData : &out_.cellData;
       rows_ = count(name);
@@ -142,10 +166,12 @@ class Reader {
     if (name == "FIELD") return readFields();
     if (name == "METADATA") {  // up to an empty line
       line();
-      for (std::string_view text = line(); !rest_.empty() && text.find_first_not_of(" \t\r") != text.npos;) text = line();
+      for (std::string_view text = line(); !rest_.empty() && text.find_first_not_of(" \t\r") != text.npos;)
+        text = line();
       return;
     }
-    if (name == "SCALARS" || name == "NORMALS" || name == "VECTORS" || name == "TENSORS" || name == "TEXTURE_COORDINATES" || name == "COLOR_SCALARS" || name == "LOOKUP_TABLE")
+    if (name == "SCALARS" || name == "NORMALS" || name == "VECTORS" || name == "TENSORS" ||
+        name == "TEXTURE_COORDINATES" || name == "COLOR_SCALARS" || name == "LOOKUP_TABLE")
       return readAttribute(name);
     breaks(name.substr(0, 40), "is no section that a legacy VTK file has; write the file again");
   }
@@ -153,7 +179,8 @@ class Reader {
   void readPoints() {
     const std::size_t amount = count("POINTS");
     const std::vector<double> xyz = numbers(3 * amount, type("POINTS"), "POINTS");
-    for (std::size_t i = 0; i < amount; ++i) out_.points.emplace_back(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+    for (std::size_t i = 0; i < amount; ++i)
+      out_.points.emplace_back(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
   }
 
   void readCells(const std::string& name) {
@@ -164,7 +191,8 @@ class Reader {
       const std::vector<double> offsets = numbers(amount, type(name), name);
       if (upper(word()) != "CONNECTIVITY") breaks(name, "needs CONNECTIVITY after OFFSETS");
       const std::vector<double> points = numbers(size, type(name), name);
-      for (std::size_t i = 1; i < offsets.size(); ++i) addCell(cells, points, offsets[i - 1], offsets[i], name);
+      for (std::size_t i = 1; i < offsets.size(); ++i)
+        addCell(cells, points, offsets[i - 1], offsets[i], name);
       return;
     }
     rest_ = before;
@@ -177,11 +205,14 @@ class Reader {
       at += 1 + corners;
     }
   }
-  void addCell(Cells& cells, const std::vector<double>& points, double from, double to, const std::string& name) {
-    if (!(from >= 0 && to >= from && to <= double(points.size()))) breaks(name, "cell " + std::to_string(cells.size()) + " does not lie in the file's list");
+  void addCell(Cells& cells, const std::vector<double>& points, double from, double to,
+               const std::string& name) {
+    if (!(from >= 0 && to >= from && to <= double(points.size())))
+      breaks(name, "cell " + std::to_string(cells.size()) + " does not lie in the file's list");
     for (auto k = std::size_t(from); k < std::size_t(to); ++k) {
       if (!(points[k] >= 0 && points[k] < double(out_.points.size())))
-        breaks(name, "cell " + std::to_string(cells.size()) + " has a point outside the " + std::to_string(out_.points.size()) + " that there are");
+        breaks(name, "cell " + std::to_string(cells.size()) + " has a point outside the " +
+                         std::to_string(out_.points.size()) + " that there are");
       cells.points.push_back(std::uint32_t(points[k]));
     }
     cells.ends.push_back(std::uint32_t(cells.points.size()));
@@ -217,14 +248,18 @@ class Reader {
     }
     std::size_t components = kind == "TENSORS" ? 9 : kind == "NORMALS" || kind == "VECTORS" ? 3 : 1;
     if (kind == "COLOR_SCALARS" || kind == "TEXTURE_COORDINATES") components = count(name);
-    const auto scalar = kind == "COLOR_SCALARS" ? (binary_ ? vtp::Scalar::uint8 : vtp::Scalar::float32) : type(name);
+    const auto scalar =
+        kind == "COLOR_SCALARS" ? (binary_ ? vtp::Scalar::uint8 : vtp::Scalar::float32) : type(name);
     if (kind == "SCALARS") {
       std::string_view told = line();
       if (const std::string_view more = nextWord(told); !more.empty())
-        if (std::int64_t value = 0; parseInteger(more, value) && value >= 1 && value <= 4) components = std::size_t(value);
+        if (std::int64_t value = 0; parseInteger(more, value) && value >= 1 && value <= 4)
+          components = std::size_t(value);
       const std::string_view before = rest_;
-      if (upper(word()) == "LOOKUP_TABLE") word();
-      else rest_ = before;
+      if (upper(word()) == "LOOKUP_TABLE")
+        word();
+      else
+        rest_ = before;
     }
     std::vector<double> values = numbers(components * rows_, scalar, name);
     if (data_ && components == 1) (*data_)[name] = std::move(values);
@@ -238,11 +273,14 @@ class Reader {
   Sections out_;
 };
 
-Sections sectionsOf(std::span<const std::byte> bytes) { return Reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).run(); }
+Sections sectionsOf(std::span<const std::byte> bytes) {
+  return Reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).run();
+}
 
 vec3 placed(const dvec3& p, const ImportFrame& frame, std::size_t number) {
   if (!(glm::length(p) * frame.metresPerUnit <= kLargestImportedCoordinate))
-    breaks("POINTS", "point " + std::to_string(number) + " is not finite or farther than 1000 km away; give the file's unit with --scale");
+    breaks("POINTS", "point " + std::to_string(number) +
+                         " is not finite or farther than 1000 km away; give the file's unit with --scale");
   return frame.toHouse(p);
 }
 
@@ -254,20 +292,26 @@ VtpLines linesOf(const Sections& file, const ImportFrame& frame) {
   for (const char* name : {"Radius", "radius"})
     if (radius == file.pointData.end()) radius = file.pointData.find(name);
   if (radius == file.pointData.end() || radius->second.size() != file.points.size())
-    breaks("POINT_DATA", "has no array MaximumInscribedSphereRadius or Radius of a number a point; add one (vmtkcenterlines does)");
+    breaks(
+        "POINT_DATA",
+        "has no array MaximumInscribedSphereRadius or Radius of a number a point; add one (vmtkcenterlines does)");
   for (std::size_t i = 0; i < file.points.size(); ++i) {
-    if (!(radius->second[i] >= 0)) breaks(radius->first, "of point " + std::to_string(i) + " must be positive");
-    out.points.push_back(vec4(placed(file.points[i], frame, i), float(radius->second[i] * frame.metresPerUnit)));
+    if (!(radius->second[i] >= 0))
+      breaks(radius->first, "of point " + std::to_string(i) + " must be positive");
+    out.points.push_back(
+        vec4(placed(file.points[i], frame, i), float(radius->second[i] * frame.metresPerUnit)));
   }
   const auto verts = file.cells.find("VERTICES");
   const std::size_t before = verts == file.cells.end() ? 0 : verts->second.size();
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < lines->second.size(); ++i)
-    if (const auto line = lines->second[i]; line.size() > 1) kept.push_back(i), out.lines.emplace_back(line.begin(), line.end());
+    if (const auto line = lines->second[i]; line.size() > 1)
+      kept.push_back(i), out.lines.emplace_back(line.begin(), line.end());
   for (const auto& [name, values] : file.cellData) {
     if (values.size() < before + lines->second.size()) continue;
     VtpLines::CellArray array{name, {}};
-    for (const std::size_t i : kept) array.values.push_back(std::int32_t(std::clamp(values[before + i], -2147483648.0, 2147483647.0)));
+    for (const std::size_t i : kept)
+      array.values.push_back(std::int32_t(std::clamp(values[before + i], -2147483648.0, 2147483647.0)));
     out.cellArrays.push_back(std::move(array));
   }
   // A radius of zero is a neighbour's, as in .vtp.
@@ -284,7 +328,8 @@ VtpLines linesOf(const Sections& file, const ImportFrame& frame) {
 
 TriangleMesh surfaceOf(const Sections& file, const ImportFrame& frame) {
   TriangleMesh mesh;
-  for (std::size_t i = 0; i < file.points.size(); ++i) mesh.positions.push_back(placed(file.points[i], frame, i));
+  for (std::size_t i = 0; i < file.points.size(); ++i)
+    mesh.positions.push_back(placed(file.points[i], frame, i));
   const auto cellsOf = [&](const char* name) -> const Cells& {
     static const Cells none;
     const auto found = file.cells.find(name);
@@ -293,7 +338,9 @@ TriangleMesh surfaceOf(const Sections& file, const ImportFrame& frame) {
   const Cells &polygons = cellsOf("POLYGONS"), &strips = cellsOf("TRIANGLE_STRIPS");
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     const auto polygon = polygons[i];
-    if (polygon.size() > kMostCorners) breaks("POLYGONS", "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
+    if (polygon.size() > kMostCorners)
+      breaks("POLYGONS",
+             "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
     addPolygon(polygon, mesh);
   }
   for (std::size_t i = 0; i < strips.size(); ++i) addStrip(strips[i], mesh);
@@ -313,7 +360,8 @@ void addPolygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
 
 void addStrip(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
   for (std::size_t i = 0; i + 2 < corners.size(); ++i)
-    mesh.triangles.push_back(i % 2 ? uvec3(corners[i + 1], corners[i], corners[i + 2]) : uvec3(corners[i], corners[i + 1], corners[i + 2]));
+    mesh.triangles.push_back(i % 2 ? uvec3(corners[i + 1], corners[i], corners[i + 2])
+                                   : uvec3(corners[i], corners[i + 1], corners[i + 2]));
 }
 
 VtkContent vtkContent(const std::filesystem::path& path) {
@@ -331,13 +379,16 @@ VtkContent vtkContent(const std::filesystem::path& path) {
   };
   if (text.starts_with("# vtk DataFile")) {
     if (counted("\nLINES ", 0)) return VtkContent::lines;
-    return counted("\nPOLYGONS ", 0) || counted("\nTRIANGLE_STRIPS ", 0) ? VtkContent::surface : VtkContent::nothing;
+    return counted("\nPOLYGONS ", 0) || counted("\nTRIANGLE_STRIPS ", 0) ? VtkContent::surface
+                                                                         : VtkContent::nothing;
   }
   if (counted("NumberOfLines=", '"')) return VtkContent::lines;
-  return counted("NumberOfPolys=", '"') || counted("NumberOfStrips=", '"') ? VtkContent::surface : VtkContent::nothing;
+  return counted("NumberOfPolys=", '"') || counted("NumberOfStrips=", '"') ? VtkContent::surface
+                                                                           : VtkContent::nothing;
 }
 
-Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame) {
+Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name,
+                               const ImportFrame& frame) {
   try {
     return linesOf(sectionsOf(bytes), frame);
   } catch (const BrokenRule& broken) {
@@ -351,7 +402,9 @@ Result<VtpLines> readVtkLines(const std::filesystem::path& path, const ImportFra
   return parseVtkLines(*bytes, path.string(), frame);
 }
 
-Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> bytes, const std::filesystem::path& path, const ImportFrame& frame) {
+Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> bytes,
+                                                 const std::filesystem::path& path,
+                                                 const ImportFrame& frame) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   TriangleMesh mesh;
   if (text.starts_with("# vtk DataFile")) {
@@ -365,7 +418,9 @@ Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> byte
     if (!read) return read.error();
     mesh = std::move(*read);
   }
-  if (mesh.triangles.empty()) return badInput(path.string() + ": the file has neither lines nor polygons; save centre lines with radii, or a surface");
+  if (mesh.triangles.empty())
+    return badInput(path.string() +
+                    ": the file has neither lines nor polygons; save centre lines with radii, or a surface");
   return std::vector<MeshElement>{{path.stem().string(), {}, {}, std::move(mesh), {}, {}}};
 }
 

@@ -10,18 +10,24 @@ namespace vasa {
 
 enum class VtkContent { nothing, lines, surface };
 
-/// What a file is about, told by its counts: lines where it has any, else a surface. Files that cannot be read, or hold
-/// neither, hold nothing; reading them says why.
+/// What a file is about, told by its counts: lines where it has any, else a surface. Files that cannot be
+/// read, or hold neither, hold nothing; reading them says why.
 VtkContent vtkContent(const std::filesystem::path& path);
 
 /// The lines of a legacy file, as readVtp gives them.
-/// Fails with badInput, naming file and place: no legacy VTK, another data set than POLYDATA (with what to do), data cut
-/// short, an index out of range, numbers that are not finite, no lines, no radius. Memory is in proportion to the file.
+/// Fails with badInput, naming file and place: no legacy VTK, another data set than POLYDATA (with what to
+/// do), data cut short, an index out of range, numbers that are not finite, no lines, no radius. Memory is in
+/// proportion to the file.
 Result<VtpLines> readVtkLines(const std::filesystem::path& path, const ImportFrame& frame = {});
-Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame = {});
+Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name,
+                               const ImportFrame& frame = {});
 
-/// The polygons and strips of a .vtp or a legacy .vtk file, cut into triangles. Fails as above, and without any.
-Result<std::vector<MeshElement>> readVtkSurface(const std::filesystem::path& path, const ImportFrame& frame = {});
-Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> bytes, const std::filesystem::path& path, const ImportFrame& frame = {});
+/// The polygons and strips of a .vtp or a legacy .vtk file, cut into triangles. Fails as above, and without
+/// any.
+Result<std::vector<MeshElement>> readVtkSurface(const std::filesystem::path& path,
+                                                const ImportFrame& frame = {});
+Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> bytes,
+                                                 const std::filesystem::path& path,
+                                                 const ImportFrame& frame = {});
 
 }  // namespace vasa

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
-// Horn, "Closed-form solution of absolute orientation using unit quaternions": the turn is the eigenvector of the
-// largest eigenvalue of a symmetric 4 x 4 matrix, found here by squaring it: only that one is left in the end.
+// Horn, "Closed-form solution of absolute orientation using unit quaternions": the turn is the eigenvector of
+// the largest eigenvalue of a symmetric 4 x 4 matrix, found here by squaring it: only that one is left in the
+// end.
 namespace vasa {
 namespace {
 
@@ -51,7 +52,8 @@ Similarity fitSimilarity(std::span<const std::pair<vec3, vec3>> pairs, bool rigi
   Similarity fit;
   if (pairs.empty()) return fit;
   dvec3 from(0), to(0);
-  for (const auto& [a, b] : pairs) from += dvec3(a) / double(pairs.size()), to += dvec3(b) / double(pairs.size());
+  for (const auto& [a, b] : pairs)
+    from += dvec3(a) / double(pairs.size()), to += dvec3(b) / double(pairs.size());
   glm::dmat3 s(0);
   double spreadFrom = 0, spreadTo = 0;
   dvec3 along(0);  // the longest way in the first places, and what becomes of it
@@ -65,7 +67,8 @@ Similarity fitSimilarity(std::span<const std::pair<vec3, vec3>> pairs, bool rigi
   if (spreadFrom > 0 && spreadTo > 0) {
     double off = 0;
     for (const auto& pair : pairs) {
-      const dvec3 p = dvec3(pair.first) - from, aside = p - glm::dot(p, along) / glm::dot(along, along) * along;
+      const dvec3 p = dvec3(pair.first) - from,
+                  aside = p - glm::dot(p, along) / glm::dot(along, along) * along;
       off += glm::dot(aside, aside);
     }
     if (!rigid) fit.scale = float(std::sqrt(spreadTo / spreadFrom));

@@ -12,7 +12,8 @@ namespace {
 
 constexpr float kStartReach = 1, kEndReach = 0.5f;  // of the other line's radius
 constexpr float kSameSample = 0.1f;                 // of a radius: a place so near to a sample is that sample
-// A join looks at its host's samples and at all joints: a hundred thousand traces that all join one line would take minutes.
+// A join looks at its host's samples and at all joints: a hundred thousand traces that all join one line
+// would take minutes.
 constexpr std::size_t kMostComparisons = 200'000'000, kMostWork = 1'000'000'000;
 
 struct Found {
@@ -30,13 +31,16 @@ class Joiner {
   explicit Joiner(Centrelines& lines) : lines_(lines), joined_(2 * lines.lines.size()) {
     for (const auto& joint : lines.joints) {
       const std::uint32_t at = joint.host ? joint.host->line : joint.ends.front().line;
-      for (const auto& end : joint.ends) joined_[2 * end.line + end.last] = true, pairs_.insert(pairOf(end.line, at));
+      for (const auto& end : joint.ends)
+        joined_[2 * end.line + end.last] = true, pairs_.insert(pairOf(end.line, at));
     }
     for (const auto& line : lines.lines)
       for (std::size_t i = 0; i < line.samples.size(); ++i)
-        cell_ = std::max({cell_, line.samples[i].w, i > 0 ? glm::distance(vec3(line.samples[i]), vec3(line.samples[i - 1])) : 0.0f});
+        cell_ = std::max({cell_, line.samples[i].w,
+                          i > 0 ? glm::distance(vec3(line.samples[i]), vec3(line.samples[i - 1])) : 0.0f});
     for (std::uint32_t l = 0; l < lines.lines.size(); ++l)
-      for (std::uint32_t i = 0; i < lines.lines[l].samples.size(); ++i) cells_[keyOf(cellOf(vec3(lines.lines[l].samples[i])))].push_back({l, i});
+      for (std::uint32_t i = 0; i < lines.lines[l].samples.size(); ++i)
+        cells_[keyOf(cellOf(vec3(lines.lines[l].samples[i])))].push_back({l, i});
   }
 
   std::size_t run() {
@@ -92,7 +96,8 @@ class Joiner {
     Found best{line, 0, 0, 1e30f};
     for (std::uint32_t i = 0; i + 1 < samples.size(); ++i) {
       const float t = closestOnSegment(p, vec3(samples[i]), vec3(samples[i + 1]));
-      if (const float d = glm::distance(vec3(glm::mix(samples[i], samples[i + 1], t)), p); d < best.cost) best = {line, i, t, d};
+      if (const float d = glm::distance(vec3(glm::mix(samples[i], samples[i + 1], t)), p); d < best.cost)
+        best = {line, i, t, d};
     }
     return best;
   }
@@ -106,7 +111,9 @@ class Joiner {
   }
 
   // A way there and back is no second join.
-  static std::uint64_t pairOf(std::uint32_t a, std::uint32_t b) { return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b); }
+  static std::uint64_t pairOf(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+  }
 
   bool take(const Centrelines::End& end, const Found& seen) {
     if (!pairs_.insert(pairOf(end.line, seen.line)).second) return false;
@@ -115,7 +122,8 @@ class Joiner {
     const vec4 at = glm::mix(host[found.segment], host[found.segment + 1], found.t);
     for (const bool last : {false, true}) {
       const vec4 tip = last ? host.back() : host.front();
-      if (glm::distance(vec3(tip), vec3(at)) <= (joined_[2 * found.line + last] ? kSameSample : 1.0f) * tip.w) return meet(end, {found.line, last});
+      if (glm::distance(vec3(tip), vec3(at)) <= (joined_[2 * found.line + last] ? kSameSample : 1.0f) * tip.w)
+        return meet(end, {found.line, last});
     }
     leadTo(end, at);
     lines_.joints.push_back({Centrelines::Place{found.line, sampleAt(found.line, found.segment, at)}, {end}});
@@ -127,7 +135,9 @@ class Joiner {
     leadTo(end, sampleOf(other));
     joined_[2 * end.line + end.last] = true;
     for (auto& joint : lines_.joints)
-      if (std::ranges::any_of(joint.ends, [&](const auto& own) { return own.line == other.line && own.last == other.last; })) {
+      if (std::ranges::any_of(joint.ends, [&](const auto& own) {
+            return own.line == other.line && own.last == other.last;
+          })) {
         joint.ends.push_back(end);
         return true;
       }
@@ -172,6 +182,8 @@ class Joiner {
 
 }  // namespace
 
-std::size_t joinTouchingLines(Centrelines& lines) { return Joiner(lines).run(); }
+std::size_t joinTouchingLines(Centrelines& lines) {
+  return Joiner(lines).run();
+}
 
 }  // namespace vasa

@@ -10,10 +10,13 @@ using namespace vasa::test;
 
 namespace {
 
-constexpr const char* kLimbs[] = {"leftUpperArm",  "leftLowerArm",  "leftUpperLeg",  "leftLowerLeg",  "leftFoot",
-                                  "rightUpperArm", "rightLowerArm", "rightUpperLeg", "rightLowerLeg", "rightFoot"};
+constexpr const char* kLimbs[] = {"leftUpperArm",  "leftLowerArm",  "leftUpperLeg",  "leftLowerLeg",
+                                  "leftFoot",      "rightUpperArm", "rightLowerArm", "rightUpperLeg",
+                                  "rightLowerLeg", "rightFoot"};
 
-std::uint32_t jointOf(const Body& body, const std::string& part, const std::string& family) { return body.skeleton.find(dollName(part, family)).value; }
+std::uint32_t jointOf(const Body& body, const std::string& part, const std::string& family) {
+  return body.skeleton.find(dollName(part, family)).value;
+}
 
 // The largest angle [degrees] between a limb of the body and the performance's, in every frame.
 float worstAngle(const Body& body, const Clip& clip, const std::string& family) {
@@ -23,9 +26,14 @@ float worstAngle(const Body& body, const Clip& clip, const std::string& family) 
     const Pose pose = samplePose(body.skeleton, clip, clip.timeOfFrame(std::uint32_t(frame)));
     for (const std::string limb : kLimbs)
       for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i].parent < 0 || parts[std::size_t(parts[i].parent)].part != limb || parts[i].part.empty()) continue;
-        const vec3 from(pose.world[jointOf(body, limb, family)][3]), to(pose.world[jointOf(body, parts[i].part, family)][3]);
-        worst = std::max(worst, std::acos(std::clamp(glm::dot(glm::normalize(to - from), dollDirection(limb, frame)), -1.0f, 1.0f)) * 180 / kPi);
+        if (parts[i].parent < 0 || parts[std::size_t(parts[i].parent)].part != limb || parts[i].part.empty())
+          continue;
+        const vec3 from(pose.world[jointOf(body, limb, family)][3]),
+            to(pose.world[jointOf(body, parts[i].part, family)][3]);
+        worst = std::max(worst,
+                         std::acos(std::clamp(glm::dot(glm::normalize(to - from), dollDirection(limb, frame)),
+                                              -1.0f, 1.0f)) *
+                             180 / kPi);
       }
   }
   return worst;
@@ -44,26 +52,36 @@ Retargeting carried(const DollDialect& dialect, const Body& body) {
 TEST_CASE("motions in others' dialects move a body's limbs as theirs: names, zero poses, units, axes") {
   using Zero = DollDialect::Zero;
   const Body body = dollBody("cmu");
-  for (const char* family : {"cmu", "biovision", "mixamo", "vrm", "makehuman", "bip", "daz", "smpl", "prefixed", "asf", "motive", "kinect", "rigify", "numbered"})
+  for (const char* family : {"cmu", "biovision", "mixamo", "vrm", "makehuman", "bip", "daz", "smpl",
+                             "prefixed", "asf", "motive", "kinect", "rigify", "numbered"})
     for (const Zero zero : {Zero::t, Zero::a, Zero::i, Zero::oneAxis}) {
       const Retargeting done = carried({family, zero, 100, false, false}, body);
-      const std::string what = std::string(family) + " " + std::to_string(int(zero)) + ": " + describeMatch(done);
+      const std::string what =
+          std::string(family) + " " + std::to_string(int(zero)) + ": " + describeMatch(done);
       CHECK_MESSAGE(worstAngle(body, done.clip, "cmu") < 10, what);
-      CHECK_MESSAGE(done.keys >= kHumanoidKeys - (family == std::string("rigify")), what);  // no word for its neck and head
+      CHECK_MESSAGE(done.keys >= kHumanoidKeys - (family == std::string("rigify")),
+                    what);  // no word for its neck and head
       CHECK_MESSAGE(done.sureness >= 0.75f, what);
       CHECK((done.standingFrame == Retargeting::kZeroPose) == (zero != Zero::oneAxis));
     }
   for (const double units : {1.0, 100.0, 39.37, 1000.0})
     for (const Zero zero : {Zero::t, Zero::oneAxis})
-      for (const auto& [zUp, rootTurns] : {std::pair(false, false), std::pair(true, false), std::pair(false, true)}) {
+      for (const auto& [zUp, rootTurns] :
+           {std::pair(false, false), std::pair(true, false), std::pair(false, true)}) {
         const Retargeting done = carried({"biovision", zero, units, zUp, rootTurns}, body);
         CHECK_MESSAGE(worstAngle(body, done.clip, "cmu") < 10, describeMatch(done));
         CHECK(done.up == (zUp || rootTurns ? vec3(0, 0, 1) : vec3(0, 1, 0)));
         // The way of the hips is the performer's, who is as tall.
-        const Pose first = samplePose(body.skeleton, done.clip, 0), last = samplePose(body.skeleton, done.clip, done.clip.end);
+        const Pose first = samplePose(body.skeleton, done.clip, 0),
+                   last = samplePose(body.skeleton, done.clip, done.clip.end);
         const vec3 way = vec3(last.world[0][3] - first.world[0][3]);
         CHECK(glm::distance(way, vec3(0.02f, 0, 0.03f) * float(kDollFrames - 1)) < 0.03f);
-        CHECK(std::abs(metresAUnit(*parseBvh(dollMotion({"biovision", zero, units, zUp, rootTurns}, 2), "x"), partsOf(*parseBvh(dollMotion({"biovision", zero, units, zUp, rootTurns}, 2), "x")).of) * units - 1) < 0.01);
+        CHECK(std::abs(
+                  metresAUnit(
+                      *parseBvh(dollMotion({"biovision", zero, units, zUp, rootTurns}, 2), "x"),
+                      partsOf(*parseBvh(dollMotion({"biovision", zero, units, zUp, rootTurns}, 2), "x")).of) *
+                      units -
+                  1) < 0.01);
       }
 }
 
@@ -94,8 +112,14 @@ TEST_CASE("what fits by few joints is refused with how sure it is and what helps
     for (auto& joint : motion->joints)
       if (joint.name == dollName(part, "numbered")) joint.name = name;
   };
-  for (const auto& [part, name] : {std::pair("hips", "Hips"), {"spine", "LeftUpLeg"}, {"chest", "LeftLeg"}, {"neck", "LeftFoot"}, {"leftShoulder", "RightUpLeg"},
-                                   {"leftUpperArm", "RightLeg"}, {"leftLowerArm", "RightFoot"}, {"rightUpperArm", "Head"}})
+  for (const auto& [part, name] : {std::pair("hips", "Hips"),
+                                   {"spine", "LeftUpLeg"},
+                                   {"chest", "LeftLeg"},
+                                   {"neck", "LeftFoot"},
+                                   {"leftShoulder", "RightUpLeg"},
+                                   {"leftUpperArm", "RightLeg"},
+                                   {"leftLowerArm", "RightFoot"},
+                                   {"rightUpperArm", "Head"}})
     rename(part, name);
   const auto done = retargeted(*motion, body);
   if (done.ok()) FAIL(describeMatch(*done));

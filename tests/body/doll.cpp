@@ -8,7 +8,9 @@
 namespace vasa::test {
 namespace {
 
-mat3 about(vec3 axis, float degrees) { return glm::mat3_cast(glm::angleAxis(degrees * kPi / 180, glm::normalize(axis))); }
+mat3 about(vec3 axis, float degrees) {
+  return glm::mat3_cast(glm::angleAxis(degrees * kPi / 180, glm::normalize(axis)));
+}
 
 const DollPart& named(const std::string& part) {
   for (const DollPart& own : dollParts())
@@ -16,9 +18,13 @@ const DollPart& named(const std::string& part) {
   std::abort();
 }
 
-int indexOf(const std::string& part) { return int(&named(part) - dollParts().data()); }
+int indexOf(const std::string& part) {
+  return int(&named(part) - dollParts().data());
+}
 
-bool has(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
+bool has(const std::string& text, const char* word) {
+  return text.find(word) != std::string::npos;
+}
 
 // From the T pose's world to a frame's, a part's own turn.
 mat3 performed(const std::string& part, int frame) {
@@ -75,14 +81,20 @@ struct Writer {
   void joint(int part) {
     const auto& parts = dollParts();
     const DollPart& own = parts[std::size_t(part)];
-    if (own.part.empty()) text += "End Site\n{\nOFFSET";
-    else text.append(own.parent < 0 ? "ROOT " : "JOINT ").append(dollName(own.part, dialect.family)).append("\n{\nOFFSET"), order.push_back(part);
+    if (own.part.empty())
+      text += "End Site\n{\nOFFSET";
+    else
+      text.append(own.parent < 0 ? "ROOT " : "JOINT ")
+          .append(dollName(own.part, dialect.family))
+          .append("\n{\nOFFSET"),
+          order.push_back(part);
     const vec3 offset = own.parent < 0 ? vec3(0) : own.place - parts[std::size_t(own.parent)].place;
     const mat3 turn = own.parent < 0 ? mat3(1) : zeroTurn(parts[std::size_t(own.parent)].part, dialect.zero);
     numbers(inFile(aside() * turn * offset));
     text += "\n";
     if (!own.part.empty())
-      text += own.parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n" : "CHANNELS 3 Zrotation Yrotation Xrotation\n";
+      text += own.parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n"
+                             : "CHANNELS 3 Zrotation Yrotation Xrotation\n";
     for (std::size_t i = 0; i < parts.size(); ++i)
       if (parts[i].parent == part) joint(int(i));
     text += "}\n";
@@ -93,22 +105,24 @@ struct Writer {
 
 const std::vector<DollPart>& dollParts() {
   static const std::vector<DollPart> parts = [] {
-    std::vector<DollPart> all{{"hips", -1, {0, 0.95f, 0}}, {"spine", 0, {0, 1.05f, 0}}, {"chest", 1, {0, 1.2f, 0}},
-                              {"neck", 2, {0, 1.45f, 0}},  {"head", 3, {0, 1.55f, 0}},  {"", 4, {0, 1.75f, 0}}};
+    std::vector<DollPart> all{{"hips", -1, {0, 0.95f, 0}}, {"spine", 0, {0, 1.05f, 0}},
+                              {"chest", 1, {0, 1.2f, 0}},  {"neck", 2, {0, 1.45f, 0}},
+                              {"head", 3, {0, 1.55f, 0}},  {"", 4, {0, 1.75f, 0}}};
     for (const float side : {1.0f, -1.0f}) {
       const std::string name = side > 0 ? "left" : "right";
       const auto at = [&](float x, float y, float z) { return vec3(side * x, y, z); };
       const int base = int(all.size());
-      for (const auto& [part, parent, place] : std::vector<DollPart>{{"Shoulder", 2, at(0.04f, 1.4f, 0)},
-                                                                     {"UpperArm", base, at(0.18f, 1.4f, 0)},
-                                                                     {"LowerArm", base + 1, at(0.46f, 1.4f, 0)},
-                                                                     {"Hand", base + 2, at(0.71f, 1.4f, 0)},
-                                                                     {"", base + 3, at(0.88f, 1.4f, 0)},
-                                                                     {"UpperLeg", 0, at(0.09f, 0.9f, 0)},
-                                                                     {"LowerLeg", base + 5, at(0.09f, 0.5f, 0)},
-                                                                     {"Foot", base + 6, at(0.09f, 0.08f, 0)},
-                                                                     {"Toes", base + 7, at(0.09f, 0.02f, 0.13f)},
-                                                                     {"", base + 8, at(0.09f, 0.01f, 0.2f)}})
+      for (const auto& [part, parent, place] :
+           std::vector<DollPart>{{"Shoulder", 2, at(0.04f, 1.4f, 0)},
+                                 {"UpperArm", base, at(0.18f, 1.4f, 0)},
+                                 {"LowerArm", base + 1, at(0.46f, 1.4f, 0)},
+                                 {"Hand", base + 2, at(0.71f, 1.4f, 0)},
+                                 {"", base + 3, at(0.88f, 1.4f, 0)},
+                                 {"UpperLeg", 0, at(0.09f, 0.9f, 0)},
+                                 {"LowerLeg", base + 5, at(0.09f, 0.5f, 0)},
+                                 {"Foot", base + 6, at(0.09f, 0.08f, 0)},
+                                 {"Toes", base + 7, at(0.09f, 0.02f, 0.13f)},
+                                 {"", base + 8, at(0.09f, 0.01f, 0.2f)}})
         all.push_back({part.empty() ? "" : name + part, parent, place});
     }
     return all;
@@ -117,34 +131,70 @@ const std::vector<DollPart>& dollParts() {
 }
 
 std::string dollName(const std::string& part, const std::string& family) {
-  static const std::vector<std::string> kWords{"hips", "spine", "chest", "neck", "head", "Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes"};
+  static const std::vector<std::string> kWords{"hips",     "spine",    "chest",    "neck", "head",
+                                               "Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg",
+                                               "LowerLeg", "Foot",     "Toes"};
   static const std::map<std::string, std::vector<std::string>> kNames{
-      {"cmu", {"Hips", "LowerBack", "Spine", "Neck", "Head", "@Shoulder", "@Arm", "@ForeArm", "@Hand", "@UpLeg", "@Leg", "@Foot", "@ToeBase"}},
-      {"biovision", {"Hips", "Chest", "Chest2", "Neck", "Head", "@Collar", "@Shoulder", "@Elbow", "@Wrist", "@Hip", "@Knee", "@Ankle", "@Toe"}},
-      {"mixamo", {"mixamorig:Hips", "mixamorig:Spine", "mixamorig:Spine1", "mixamorig:Neck", "mixamorig:Head", "mixamorig:@Shoulder", "mixamorig:@Arm", "mixamorig:@ForeArm", "mixamorig:@Hand", "mixamorig:@UpLeg", "mixamorig:@Leg", "mixamorig:@Foot", "mixamorig:@ToeBase"}},
-      {"makehuman", {"root", "spine05", "spine03", "neck01", "head", "clavicle.$", "upperarm01.$", "lowerarm01.$", "wrist.$", "upperleg01.$", "lowerleg01.$", "foot.$", "toe1-1.$"}},
-      {"bip", {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 $ Clavicle", "Bip01 $ UpperArm", "Bip01 $ Forearm", "Bip01 $ Hand", "Bip01 $ Thigh", "Bip01 $ Calf", "Bip01 $ Foot", "Bip01 $ Toe0"}},
-      {"daz", {"hip", "abdomen", "chest", "neck", "head", "%Collar", "%Shldr", "%ForeArm", "%Hand", "%Thigh", "%Shin", "%Foot", "%Toe"}},
-      {"smpl", {"Pelvis", "Spine1", "Spine2", "Neck", "Head", "$_Collar", "$_Shoulder", "$_Elbow", "$_Wrist", "$_Hip", "$_Knee", "$_Ankle", "$_Foot"}},
-      {"asf", {"root", "lowerback", "thorax", "lowerneck", "head", "*clavicle", "*humerus", "*radius", "*wrist", "*femur", "*tibia", "*foot", "*toes"}},
-      {"motive", {"Hip", "Ab", "Chest", "Neck", "Head", "$Shoulder", "$UArm", "$FArm", "$Hand", "$Thigh", "$Shin", "$Foot", "$Toe"}},
-      {"kinect", {"SpineBase", "SpineMid", "SpineShoulder", "Neck", "Head", "Clavicle@", "Shoulder@", "Elbow@", "Wrist@", "Hip@", "Knee@", "Ankle@", "Foot@"}},
-      {"rigify", {"DEF-spine", "DEF-spine.001", "DEF-spine.003", "DEF-spine.004", "DEF-spine.006", "DEF-shoulder.$", "DEF-upper_arm.$", "DEF-forearm.$", "DEF-hand.$", "DEF-thigh.$", "DEF-shin.$", "DEF-foot.$", "DEF-toe.$"}},
-      {"prefixed", {"Character1_HIPS", "Character1_SPINE", "Character1_SPINE1", "Character1_NECK", "Character1_HEAD", "Character1_@_SHOULDER", "Character1_@_ARM", "Character1_@_FOREARM", "Character1_@_HAND", "Character1_@_UPLEG", "Character1_@_LEG", "Character1_@_FOOT", "Character1_@_TOEBASE"}}};
+      {"cmu",
+       {"Hips", "LowerBack", "Spine", "Neck", "Head", "@Shoulder", "@Arm", "@ForeArm", "@Hand", "@UpLeg",
+        "@Leg", "@Foot", "@ToeBase"}},
+      {"biovision",
+       {"Hips", "Chest", "Chest2", "Neck", "Head", "@Collar", "@Shoulder", "@Elbow", "@Wrist", "@Hip",
+        "@Knee", "@Ankle", "@Toe"}},
+      {"mixamo",
+       {"mixamorig:Hips", "mixamorig:Spine", "mixamorig:Spine1", "mixamorig:Neck", "mixamorig:Head",
+        "mixamorig:@Shoulder", "mixamorig:@Arm", "mixamorig:@ForeArm", "mixamorig:@Hand", "mixamorig:@UpLeg",
+        "mixamorig:@Leg", "mixamorig:@Foot", "mixamorig:@ToeBase"}},
+      {"makehuman",
+       {"root", "spine05", "spine03", "neck01", "head", "clavicle.$", "upperarm01.$", "lowerarm01.$",
+        "wrist.$", "upperleg01.$", "lowerleg01.$", "foot.$", "toe1-1.$"}},
+      {"bip",
+       {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 $ Clavicle",
+        "Bip01 $ UpperArm", "Bip01 $ Forearm", "Bip01 $ Hand", "Bip01 $ Thigh", "Bip01 $ Calf",
+        "Bip01 $ Foot", "Bip01 $ Toe0"}},
+      {"daz",
+       {"hip", "abdomen", "chest", "neck", "head", "%Collar", "%Shldr", "%ForeArm", "%Hand", "%Thigh",
+        "%Shin", "%Foot", "%Toe"}},
+      {"smpl",
+       {"Pelvis", "Spine1", "Spine2", "Neck", "Head", "$_Collar", "$_Shoulder", "$_Elbow", "$_Wrist", "$_Hip",
+        "$_Knee", "$_Ankle", "$_Foot"}},
+      {"asf",
+       {"root", "lowerback", "thorax", "lowerneck", "head", "*clavicle", "*humerus", "*radius", "*wrist",
+        "*femur", "*tibia", "*foot", "*toes"}},
+      {"motive",
+       {"Hip", "Ab", "Chest", "Neck", "Head", "$Shoulder", "$UArm", "$FArm", "$Hand", "$Thigh", "$Shin",
+        "$Foot", "$Toe"}},
+      {"kinect",
+       {"SpineBase", "SpineMid", "SpineShoulder", "Neck", "Head", "Clavicle@", "Shoulder@", "Elbow@",
+        "Wrist@", "Hip@", "Knee@", "Ankle@", "Foot@"}},
+      {"rigify",
+       {"DEF-spine", "DEF-spine.001", "DEF-spine.003", "DEF-spine.004", "DEF-spine.006", "DEF-shoulder.$",
+        "DEF-upper_arm.$", "DEF-forearm.$", "DEF-hand.$", "DEF-thigh.$", "DEF-shin.$", "DEF-foot.$",
+        "DEF-toe.$"}},
+      {"prefixed",
+       {"Character1_HIPS", "Character1_SPINE", "Character1_SPINE1", "Character1_NECK", "Character1_HEAD",
+        "Character1_@_SHOULDER", "Character1_@_ARM", "Character1_@_FOREARM", "Character1_@_HAND",
+        "Character1_@_UPLEG", "Character1_@_LEG", "Character1_@_FOOT", "Character1_@_TOEBASE"}}};
   const bool left = part.starts_with("left"), right = part.starts_with("right");
   if (family == "numbered") return std::string("joint_").append(std::to_string(indexOf(part)));
   if (family == "vrm") return part;
   const std::string word = left ? part.substr(4) : right ? part.substr(5) : part;
   std::string name;
   for (const char c : kNames.at(family)[std::size_t(std::ranges::find(kWords, word) - kWords.begin())])
-    if (c == '@') name += left ? "Left" : "Right";
-    else if (c == '$') name += left ? "L" : "R";
-    else if (c == '%' || c == '*') name += left ? "l" : "r";
-    else name += c;
+    if (c == '@')
+      name += left ? "Left" : "Right";
+    else if (c == '$')
+      name += left ? "L" : "R";
+    else if (c == '%' || c == '*')
+      name += left ? "l" : "r";
+    else
+      name += c;
   return name;
 }
 
-vec3 dollDirection(const std::string& part, int frame) { return glm::normalize(performed(part, frame) * boneOf(indexOf(part))); }
+vec3 dollDirection(const std::string& part, int frame) {
+  return glm::normalize(performed(part, frame) * boneOf(indexOf(part)));
+}
 
 std::string dollMotion(const DollDialect& dialect, int frames) {
   Writer writer{dialect, "HIERARCHY\n", {}};
@@ -153,7 +203,9 @@ std::string dollMotion(const DollDialect& dialect, int frames) {
   const auto& parts = dollParts();
   for (int frame = 0; frame < frames; ++frame) {
     const auto world = [&](int part) {
-      const mat3 turn = performed(parts[std::size_t(part)].part, frame) * glm::transpose(writer.aside() * zeroTurn(parts[std::size_t(part)].part, dialect.zero));
+      const mat3 turn =
+          performed(parts[std::size_t(part)].part, frame) *
+          glm::transpose(writer.aside() * zeroTurn(parts[std::size_t(part)].part, dialect.zero));
       if (dialect.rootTurnsUp) return kLaysUp * turn;
       return dialect.zUp ? kLaysUp * turn * glm::transpose(kLaysUp) : turn;
     };
@@ -161,7 +213,8 @@ std::string dollMotion(const DollDialect& dialect, int frames) {
       const int parent = parts[std::size_t(part)].parent;
       if (parent < 0) {
         const vec3 place = vec3(0.02f * float(frame), 0.95f, 0.03f * float(frame));
-        const vec3 told = dialect.rootTurnsUp ? float(dialect.unitsAMetre) * (kLaysUp * place) : writer.inFile(place);
+        const vec3 told =
+            dialect.rootTurnsUp ? float(dialect.unitsAMetre) * (kLaysUp * place) : writer.inFile(place);
         writer.numbers(told);
       }
       const mat3 local = parent < 0 ? world(part) : glm::transpose(world(parent)) * world(part);
@@ -187,7 +240,9 @@ Body dollBody(const std::string& family) {
     const std::string above = parent < 0 ? "" : parts[std::size_t(parent)].part;
     const bool arm = has(above, "Arm") || has(above, "Hand");
     const mat3 turn = arm ? about({0, 0, 1}, above.starts_with("left") ? -40.0f : 40.0f) : mat3(1);
-    places.push_back(parent < 0 ? parts[i].place : places[std::size_t(parent)] + turn * (parts[i].place - parts[std::size_t(parent)].place));
+    places.push_back(parent < 0 ? parts[i].place
+                                : places[std::size_t(parent)] +
+                                      turn * (parts[i].place - parts[std::size_t(parent)].place));
     if (parts[i].part.empty()) continue;
     Skeleton::Joint joint;
     joint.name = dollName(parts[i].part, family);

@@ -6,26 +6,28 @@
 
 namespace vasa::test {
 
-/// A person of twenty-three joints and what it does, told as others' files would: by their names, from their zero pose,
-/// in their unit, with their axis up.
+/// A person of twenty-three joints and what it does, told as others' files would: by their names, from their
+/// zero pose, in their unit, with their axis up.
 struct DollDialect {
-  std::string family = "vrm";  ///< "cmu", "biovision", "mixamo", "vrm", "makehuman", "bip", "daz", "smpl", "numbered"
+  std::string family =
+      "vrm";  ///< "cmu", "biovision", "mixamo", "vrm", "makehuman", "bip", "daz", "smpl", "numbered"
   enum class Zero { t, a, i, oneAxis } zero = Zero::t;
   double unitsAMetre = 1;
-  bool zUp = false;         ///< the whole file, rest and motion
-  bool rootTurnsUp = false; ///< the zero pose stands along +Y, the root's turns lay it along +Z
-  float facing = 0;         ///< degrees about +Y by which the zero pose looks aside
+  bool zUp = false;          ///< the whole file, rest and motion
+  bool rootTurnsUp = false;  ///< the zero pose stands along +Y, the root's turns lay it along +Z
+  float facing = 0;          ///< degrees about +Y by which the zero pose looks aside
 };
 
 struct DollPart {
   std::string part;  ///< "hips", "leftUpperArm" ... (body/humanoid.h); ends of tips have none
   int parent;
-  vec3 place;        ///< in the T pose [m]
+  vec3 place;  ///< in the T pose [m]
 };
 const std::vector<DollPart>& dollParts();
 std::string dollName(const std::string& part, const std::string& family);
 
-/// Which way a limb's bone points in a frame of the performance: walking, turning, leaning, arms that swing and bend.
+/// Which way a limb's bone points in a frame of the performance: walking, turning, leaning, arms that swing
+/// and bend.
 vec3 dollDirection(const std::string& part, int frame);
 constexpr int kDollFrames = 24;
 

@@ -14,7 +14,8 @@ using namespace vasa::test;
 namespace {
 
 // A box around a bone that bends with its two joints.
-SkinnedMesh sleeve(const Body& body, const std::string& name, std::initializer_list<const char*> parts, float thick) {
+SkinnedMesh sleeve(const Body& body, const std::string& name, std::initializer_list<const char*> parts,
+                   float thick) {
   Aabb box;
   std::vector<std::uint16_t> joints;
   for (const char* part : parts) {
@@ -23,7 +24,8 @@ SkinnedMesh sleeve(const Body& body, const std::string& name, std::initializer_l
     joints.push_back(std::uint16_t(joint.value));
   }
   SkinnedMesh mesh = boxMesh(name, box.low - thick, box.high + thick);
-  for (SkinInfluence& influence : mesh.influences) influence = {{joints.front(), joints.back(), 0, 0}, vec4(0.5f, 0.5f, 0, 0)};
+  for (SkinInfluence& influence : mesh.influences)
+    influence = {{joints.front(), joints.back(), 0, 0}, vec4(0.5f, 0.5f, 0, 0)};
   return mesh;
 }
 
@@ -38,9 +40,11 @@ SkinnedMesh whole(const Body& body, const std::string& name, float thick) {
 
 }  // namespace
 
-TEST_CASE("a skin is known by enclosing the skeleton, whatever it is called; what lies within stays what it is") {
+TEST_CASE(
+    "a skin is known by enclosing the skeleton, whatever it is called; what lies within stays what it is") {
   Body body = dollBody("vrm");
-  body.meshes = {whole(body, "Object_7", 0.1f), sleeve(body, "Object_8", {"neck", "head"}, 0.02f), whole(body, "Coat", 0.15f)};
+  body.meshes = {whole(body, "Object_7", 0.1f), sleeve(body, "Object_8", {"neck", "head"}, 0.02f),
+                 whole(body, "Coat", 0.15f)};
   recogniseSkin(body);
   REQUIRE(body.meshes.size() == 2);
   CHECK(roleNamed(body.meshes[0].name) == MeshRole::skin);
@@ -54,7 +58,11 @@ TEST_CASE("a skin is known by enclosing the skeleton, whatever it is called; wha
 TEST_CASE("a skin in pieces is one") {
   Body body = dollBody("vrm");
   for (const auto& [name, parts] : std::vector<std::pair<std::string, std::initializer_list<const char*>>>{
-           {"torso", {"hips", "neck"}}, {"a", {"leftUpperArm", "leftHand"}}, {"b", {"rightUpperArm", "rightHand"}}, {"c", {"leftUpperLeg", "leftFoot"}}, {"d", {"rightUpperLeg", "rightFoot"}}})
+           {"torso", {"hips", "neck"}},
+           {"a", {"leftUpperArm", "leftHand"}},
+           {"b", {"rightUpperArm", "rightHand"}},
+           {"c", {"leftUpperLeg", "leftFoot"}},
+           {"d", {"rightUpperLeg", "rightFoot"}}})
     body.meshes.push_back(sleeve(body, name, parts, 0.06f));
   recogniseSkin(body);
   REQUIRE(body.meshes.size() == 1);

@@ -10,7 +10,9 @@ using namespace vasa::test;
 
 namespace {
 
-std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
+std::span<const std::byte> bytesOf(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
 
 template <class T>
 std::string bigEndian(const std::vector<T>& values) {
@@ -22,7 +24,9 @@ std::string bigEndian(const std::vector<T>& values) {
   return out + "\n";
 }
 
-std::string head(const char* kind) { return std::string("# vtk DataFile Version 4.2\na title\n") + kind + "\nDATASET POLYDATA\n"; }
+std::string head(const char* kind) {
+  return std::string("# vtk DataFile Version 4.2\na title\n") + kind + "\nDATASET POLYDATA\n";
+}
 
 // A square and a strip of two triangles beside it.
 const std::string kPoints = "POINTS 6 float\n0 0 0 1 0 0 1 1 0\n0 1 0 2 0 0 2 1 0\n";
@@ -36,7 +40,8 @@ void expectSurface(const std::string& text) {
   CHECK(mesh.positions[5] == vec3(0.002f, 0.001f, 0));
   REQUIRE(mesh.triangles.size() == 4);
   for (const uvec3& t : mesh.triangles) {
-    const vec3 normal = glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
+    const vec3 normal =
+        glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
     CHECK(normal.z > 0);
   }
 }
@@ -50,11 +55,16 @@ void expectFault(const std::string& text, const char* message) {
 }  // namespace
 
 TEST_CASE("surfaces of legacy VTK: ASCII and binary, cells as before version 5 and since") {
-  expectSurface(head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 3\nTRIANGLE_STRIPS 1 5\n4 1 4 2 5\nCELL_DATA 2\nSCALARS id int\nLOOKUP_TABLE default\n1 2\n");
-  expectSurface(head("ASCII") + "METADATA\nINFORMATION 0\n\n" + kPoints + "POLYGONS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\n" +
+  expectSurface(
+      head("ASCII") + kPoints +
+      "POLYGONS 1 5\n4 0 1 2 3\nTRIANGLE_STRIPS 1 5\n4 1 4 2 5\nCELL_DATA 2\nSCALARS id int\nLOOKUP_TABLE default\n1 2\n");
+  expectSurface(head("ASCII") + "METADATA\nINFORMATION 0\n\n" + kPoints +
+                "POLYGONS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\n" +
                 "TRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n1 4 2 5\n");
-  const std::string points = "POINTS 6 float\n" + bigEndian<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0});
-  expectSurface(head("BINARY") + points + "POLYGONS 1 5\n" + bigEndian<std::int32_t>({4, 0, 1, 2, 3}) + "TRIANGLE_STRIPS 1 5\n" + bigEndian<std::int32_t>({4, 1, 4, 2, 5}) +
+  const std::string points =
+      "POINTS 6 float\n" + bigEndian<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0});
+  expectSurface(head("BINARY") + points + "POLYGONS 1 5\n" + bigEndian<std::int32_t>({4, 0, 1, 2, 3}) +
+                "TRIANGLE_STRIPS 1 5\n" + bigEndian<std::int32_t>({4, 1, 4, 2, 5}) +
                 "POINT_DATA 6\nNORMALS n float\n" + bigEndian<float>(std::vector<float>(18, 1.0f)));
 }
 
@@ -70,14 +80,18 @@ TEST_CASE("surfaces of XML VTK, and which of both a file is about") {
   std::string lines = xml;
   lines.replace(lines.find("NumberOfLines=\"0\""), 17, "NumberOfLines=\"2\"");
   CHECK(vtkContent(writeBytes(folder.path() / "b.vtp", lines)) == VtkContent::lines);
-  CHECK(vtkContent(writeBytes(folder.path() / "a.vtk", head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 3\n")) == VtkContent::surface);
-  CHECK(vtkContent(writeBytes(folder.path() / "b.vtk", head("ASCII") + kPoints + "LINES 1 3\n2 0 1\n")) == VtkContent::lines);
+  CHECK(vtkContent(writeBytes(folder.path() / "a.vtk",
+                              head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 3\n")) == VtkContent::surface);
+  CHECK(vtkContent(writeBytes(folder.path() / "b.vtk", head("ASCII") + kPoints + "LINES 1 3\n2 0 1\n")) ==
+        VtkContent::lines);
   CHECK(vtkContent(folder.path() / "none.vtk") == VtkContent::nothing);
 }
 
 TEST_CASE("centre lines of legacy VTK, with radii as fields or scalars") {
   const std::string cells = "POINTS 3 double\n0 0 0 0 1 0 0 2 0\nLINES 1 4\n3 0 1 2\n";
-  for (const std::string data : {"POINT_DATA 3\nFIELD FieldData 1\nMaximumInscribedSphereRadius 1 3 double\n1 2 3\n", "POINT_DATA 3\nSCALARS Radius float 1\nLOOKUP_TABLE default\n1 2 3\n"}) {
+  for (const std::string data :
+       {"POINT_DATA 3\nFIELD FieldData 1\nMaximumInscribedSphereRadius 1 3 double\n1 2 3\n",
+        "POINT_DATA 3\nSCALARS Radius float 1\nLOOKUP_TABLE default\n1 2 3\n"}) {
     const auto read = parseVtkLines(bytesOf(head("ASCII") + cells + data), "a.vtk");
     if (!read.ok()) FAIL(read.error().message);
     REQUIRE(read->lines.size() == 1);
@@ -89,10 +103,13 @@ TEST_CASE("centre lines of legacy VTK, with radii as fields or scalars") {
 }
 
 TEST_CASE("what is wrong with a legacy file is told with its place") {
-  expectFault("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n", "line 4: holds UNSTRUCTURED_GRID, not POLYDATA; extract its surface");
+  expectFault("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+              "line 4: holds UNSTRUCTURED_GRID, not POLYDATA; extract its surface");
   expectFault(head("BINARY") + "POINTS 6 float\nabc", "POINTS: is cut short");
-  expectFault(head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 9\n", "POLYGONS: cell 0 has a point outside the 6");
-  expectFault(head("ASCII") + kPoints + "POLYGONS 99999999 5\n", "POLYGONS: promises more than the file holds");
+  expectFault(head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 9\n",
+              "POLYGONS: cell 0 has a point outside the 6");
+  expectFault(head("ASCII") + kPoints + "POLYGONS 99999999 5\n",
+              "POLYGONS: promises more than the file holds");
   expectFault(head("ASCII") + kPoints + "POLYGONS 2 5\n4 0 1 2 3\n", "POLYGONS: is cut short");
   expectFault(head("ASCII") + kPoints, "neither lines nor polygons");
   expectFault(head("ASCII") + kPoints + "CURVES 3\n", "CURVES: is no section");

@@ -11,7 +11,9 @@ TEST_CASE("a similarity is found again from places and where it takes them") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(-1, 1);
   for (int round = 0; round < 50; ++round) {
-    const Similarity told{1 + 0.5f * unit(random), glm::normalize(quat(unit(random), unit(random), unit(random), unit(random))), vec3(unit(random), 3, unit(random))};
+    const Similarity told{1 + 0.5f * unit(random),
+                          glm::normalize(quat(unit(random), unit(random), unit(random), unit(random))),
+                          vec3(unit(random), 3, unit(random))};
     std::vector<std::pair<vec3, vec3>> pairs;
     for (int i = 0; i < 3 + round % 4; ++i) {
       const vec3 p(unit(random), unit(random), 2 * unit(random));

@@ -6,11 +6,14 @@ using namespace vasa;
 
 namespace {
 
-Centrelines::Line trace(const char* name, std::vector<vec4> samples, VesselKind kind = VesselKind::artery) { return {name, {}, kind, std::move(samples)}; }
+Centrelines::Line trace(const char* name, std::vector<vec4> samples, VesselKind kind = VesselKind::artery) {
+  return {name, {}, kind, std::move(samples)};
+}
 
 std::vector<vec4> straight(vec3 from, vec3 to, float radius, int count) {
   std::vector<vec4> samples;
-  for (int i = 0; i <= count; ++i) samples.push_back(vec4(glm::mix(from, to, float(i) / float(count)), radius));
+  for (int i = 0; i <= count; ++i)
+    samples.push_back(vec4(glm::mix(from, to, float(i) / float(count)), radius));
   return samples;
 }
 
@@ -23,7 +26,8 @@ TEST_CASE("traces that start in another's tube join it where they touch, at a sa
   lines.lines.push_back(trace("from the wall", straight({0.9f, 3, 0}, {6, 3, 0}, 0.3f, 6)));
   lines.lines.push_back(trace("on the branch", straight({4, 5, 0.1f}, {4, 5, 5}, 0.1f, 6)));
   lines.lines.push_back(trace("elsewhere", straight({30, 3, 0}, {36, 3, 0}, 0.3f, 6)));
-  lines.lines.push_back(trace("a vein through it", straight({0.2f, 7, 0}, {6, 7, 0}, 0.3f, 6), VesselKind::vein));
+  lines.lines.push_back(
+      trace("a vein through it", straight({0.2f, 7, 0}, {6, 7, 0}, 0.3f, 6), VesselKind::vein));
   lines.lines.push_back(trace("goes on", straight({0.1f, 10.2f, 0}, {0, 14, 0}, 0.9f, 4)));
   CHECK(joinTouchingLines(lines) == 4);
   const auto made = networkOfCentrelines(lines);
@@ -33,7 +37,8 @@ TEST_CASE("traces that start in another's tube join it where they touch, at a sa
     for (const auto& end : joint.ends) {
       const auto& samples = lines.lines[end.line].samples;
       const vec3 at(end.last ? samples.back() : samples.front());
-      if (joint.host) CHECK(glm::distance(at, vec3(lines.lines[joint.host->line].samples[joint.host->sample])) < 0.11f);
+      if (joint.host)
+        CHECK(glm::distance(at, vec3(lines.lines[joint.host->line].samples[joint.host->sample])) < 0.11f);
     }
   CHECK(joinTouchingLines(lines) == 0);
 }
