@@ -9,6 +9,8 @@
 namespace vasa {
 namespace {
 
+constexpr float kThread = 0.6f;  // [pixels] of the thickest stems: thinner trees are threads; where a body is 720 pixels tall, 0.5
+
 // Lengths of a system's curves in first radii of the stem.
 struct Sizes {
   std::array<float, shared::kMostGrowthLevels> longest{};  // curve of each generation
@@ -127,7 +129,7 @@ class Planner {
   std::uint32_t edgesAt(float pixels) const {
     if (wish_.edges) return wish_.edges;
     const std::uint32_t edges = edgesFor(longestStem_ * pixels);
-    const bool thin = wish_.smallest > 0 && thickestStem_ * pixels < in_.view.thinnest;
+    const bool thin = wish_.smallest > 0 && thickestStem_ * pixels < kThread;
     return thin && edges == shared::kThreadEdges ? shared::kThreads : edges;
   }
 

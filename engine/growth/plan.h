@@ -27,7 +27,7 @@ struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
   std::uint32_t edges = 0;   ///< of every curve's polyline: 3, 5, 8 or 10; 0: by its size in the picture
   std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every span has fewer trees
-  /// [pixels] generations with shorter curves are left out, and trees thinner than a pixel are drawn as threads (ribbon.h)
+  /// [pixels] generations with shorter curves are left out, and trees much thinner than a pixel are drawn as threads (ribbon.h)
   /// where `edges` is 0. 0: none is left out, all are ribbons.
   float smallest = 0.5f;
   bool fewerLevels = false;  ///< beyond the budget all trees lose generations before there are fewer trees

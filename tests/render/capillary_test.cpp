@@ -136,7 +136,7 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
     bool perspective;
     float distance = 2;
   };
-  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true}, Case{3, 0, 7, true, 20}, Case{2, 0, 7, false, 6}}) {
+  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true}, Case{3, 0, 7, true, 30}, Case{2, 0, 7, false, 12}}) {
     CAPTURE(c.levels);
     CAPTURE(c.edges);
     const CapillaryWish wish{.levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.edges ? 0 : 1e-6f};
@@ -253,7 +253,7 @@ TEST_CASE("a picture made in slices is the same to the bit, and one that is left
 TEST_CASE("threads look as ribbons do") {
   VASA_REQUIRE_GPU(rig);
   const test::GrownNetwork grown(test::windingNetwork(10, 5));
-  const Camera camera = lookingAt(grown, 20, true);
+  const Camera camera = lookingAt(grown, 25, true);
   const auto opacityOf = [](const Image& image) {
     double sum = 0;
     for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
