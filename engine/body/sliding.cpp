@@ -15,7 +15,7 @@ namespace {
 // hold with r. Shorter, and strain gathers at the joints; longer, and branches are drawn along that bones hold in life.
 constexpr float kSlidingLength = 0.13f, kOfRadius = 3e-3f;
 // Over so much of its arc a branch gives way to the shift of what it hangs on: what is shorter comes along.
-constexpr float kCarried = 0.12f;      // [m] of 0.06 to 0.2 the one with which no clip jumps
+constexpr float kCarried = 0.05f;      // [m] of 0.03 to 0.2 the one with which no clip jumps, at 30 and 120 frames a second
 constexpr std::uint32_t kSamples = 6;  // a span
 constexpr float kUnstrained = 2e-4f;   // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
 

@@ -110,7 +110,7 @@ TEST_CASE("what branches off goes along with its host and stays on it") {
   const vec4 place = evaluate(Network::pointsOf(network.vessels()[0], points), 8);
   CHECK(glm::distance(vec3(place), vec3(own.front())) < 1e-6f);
   for (std::size_t i = 1; i < own.size(); ++i) {
-    CHECK(own[i].x - was[i].x < 0.5f * shift);  // 3 cm long: it comes along
+    CHECK(own[i].x - was[i].x < 0.3f * shift);  // 3 cm long: most of it comes along
     CHECK(own[i].x - was[i].x >= own[i - 1].x - was[i - 1].x);
     CHECK(own[i].y == was[i].y);
   }
