@@ -42,8 +42,8 @@ std::string rowOf(const ProtocolRow& row, const ProtocolResult& result) {
 
 std::string plot(const ProtocolSweep& sweep, const SweepCurve& curve) {
   if (!curve.refusal.empty()) return fmt::format("<div>{}<br><small>{}</small></div>\n", escaped(sweep.name), escaped(curve.refusal));
-  auto [low, high] = std::ranges::minmax(curve.values);
-  low = std::min(low, 0.0f), high = std::max(high, 0.0f);
+  const float low = std::min(std::ranges::min(curve.values), 0.0f);
+  float high = std::max(std::ranges::max(curve.values), 0.0f);
   if (high - low < 1) high = low + 1;
   const auto x = [&](float degrees) { return kLeft + (kWidth - kLeft - 10) * double(degrees) / double(sweep.degrees); };
   const auto y = [&](float value) { return kTop + (kHeight - kTop - kBottom) * double(high - value) / double(high - low); };

@@ -132,9 +132,10 @@ class Reader {
       const auto cells = std::size_t(count(piece, amount, place));
       if (cells == 0) continue;
       Amounts::check(place + "/" + amount, "faces", mesh.triangles.size() + cells, most_.corners);
+      const bool polygons = name == std::string_view("Polys");
       readCellLists(piece, name, points, cells, base, place, [&](std::vector<std::uint32_t> corners) {
-        if (corners.size() > kMostCorners && name == std::string_view("Polys")) breaks(place + "/Polys", "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
-        name == std::string_view("Polys") ? addPolygon(corners, mesh) : addStrip(corners, mesh);
+        if (corners.size() > kMostCorners && polygons) breaks(place + "/Polys", "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
+        polygons ? addPolygon(corners, mesh) : addStrip(corners, mesh);
       });
     }
   }
