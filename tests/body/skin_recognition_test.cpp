@@ -14,7 +14,7 @@ using namespace vasa::test;
 namespace {
 
 // A box around a bone that bends with its two joints.
-SkinnedMesh sleeve(const Body& body, const std::string& name, std::initializer_list<const char*> parts,
+SkinnedMesh sleeve(const Body& body, const std::string& name, const std::vector<const char*>& parts,
                    float thick) {
   Aabb box;
   std::vector<std::uint16_t> joints;
@@ -57,7 +57,7 @@ TEST_CASE(
 
 TEST_CASE("a skin in pieces is one") {
   Body body = dollBody("vrm");
-  for (const auto& [name, parts] : std::vector<std::pair<std::string, std::initializer_list<const char*>>>{
+  for (const auto& [name, parts] : std::vector<std::pair<std::string, std::vector<const char*>>>{
            {"torso", {"hips", "neck"}},
            {"a", {"leftUpperArm", "leftHand"}},
            {"b", {"rightUpperArm", "rightHand"}},
