@@ -59,9 +59,6 @@ class Shape {
       for (std::size_t k = i + 1; k < own.size(); ++k) {
         const float a = reach_[own[i]] + link(own[i]), b = reach_[own[k]] + link(own[k]);
         if (std::min(a, b) < least || std::abs(a - b) > kEqual * std::max(a, b)) continue;
-        // A pair lies to both sides: what goes on along the trunk is no half of one, however long.
-        const vec3 apart = places_[own[i]] - places_[own[k]];
-        if (glm::length(apart) < 1e-3f * a && !sameCounts(own[i], own[k])) continue;
         if (!sameCounts(own[i], own[k])) continue;
         if (!best || std::min(a, b) > best->length) best = Pair{joint, own[i], own[k], std::min(a, b)};
       }

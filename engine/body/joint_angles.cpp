@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "body/humanoid.h"
+#include "body/retarget.h"
 
 namespace vasa {
 namespace {
@@ -16,9 +16,7 @@ vec3 placeOf(const Skeleton& skeleton, std::uint32_t joint) {
 class Anatomy {
  public:
   explicit Anatomy(const Skeleton& skeleton) : skeleton_(skeleton) {
-    std::vector<std::string> names;
-    for (const Skeleton::Joint& joint : skeleton.joints) names.push_back(joint.name);
-    parts_ = humanoidNames(names).of;
+    parts_ = partsOf(skeleton).of;
     if (const auto left = find("leftUpperLeg"), right = find("rightUpperLeg"); left && right)
       left_ = glm::normalize(placeOf(skeleton, *left) - placeOf(skeleton, *right));
   }

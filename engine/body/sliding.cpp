@@ -31,11 +31,6 @@ std::uint32_t grevilleThirds(std::uint32_t j, std::uint32_t spans) {
   return std::uint32_t(knot(j + 1) + knot(j + 2) + knot(j + 3));
 }
 
-float smooth(float t) {
-  t = std::clamp(t, 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 template <class Pieces>
 Sampled sample(const Network& network, const Pieces& pieces, std::span<const vec4> points) {
   Sampled course;
@@ -275,7 +270,7 @@ void VesselSlider::carry(const Course& course, std::span<vec4> points) const {
   // Between two holds the shares of both add up to one at most.
   const float reach = hangs[0] && hangs[1] ? std::min(kCarried, whole) : kCarried;
   for (std::size_t i = 0; i < course.points.size(); ++i) {
-    const vec3 moved = start * (1 - smooth(course.along[i] / reach)) + finish * (1 - smooth((whole - course.along[i]) / reach));
+    const vec3 moved = start * (1 - glm::smoothstep(0.0f, reach, course.along[i])) + finish * (1 - glm::smoothstep(0.0f, reach, whole - course.along[i]));
     vec4& point = points[course.points[i]];
     point = vec4(vec3(point) + moved, point.w);
   }

@@ -1,7 +1,6 @@
 #include "io/bvh.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/atomic_file.h"
 #include "io/read_limits.h"
@@ -32,7 +31,8 @@ class Parser {
     expect("HIERARCHY");
     expect("ROOT");
     readJoint({}, 0);
-    while (same(peek(), "ROOT")) {
+    // Some write keywords in capitals, or in none.
+    while (sameLetters(peek(), "ROOT")) {
       next();
       readJoint({}, 0);
     }
@@ -71,12 +71,8 @@ class Parser {
     if (word.empty()) return "the file's end";
     return std::string(1, '\'').append(word.substr(0, 40)).append(1, '\'');
   }
-  // Some write keywords in capitals, or in none.
-  static bool same(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-  }
   void expect(std::string_view word) {
-    if (const std::string_view found = next(); !same(found, word)) breaks("expected " + std::string(word) + ", found " + quoted(found));
+    if (const std::string_view found = next(); !sameLetters(found, word)) breaks("expected " + std::string(word) + ", found " + quoted(found));
   }
   double number(const char* what) {
     double value = 0;
@@ -105,10 +101,10 @@ class Parser {
     expect("{");
     motion_.joints[own.value].offset = offset();
     channels_.emplace_back();
-    if (same(peek(), "CHANNELS")) next(), readChannels(own);
+    if (sameLetters(peek(), "CHANNELS")) next(), readChannels(own);
     for (std::string_view word = next(); word != "}"; word = next()) {
-      if (same(word, "JOINT")) readJoint(own, depth + 1);
-      else if (same(word, "End")) readEnd(own);
+      if (sameLetters(word, "JOINT")) readJoint(own, depth + 1);
+      else if (sameLetters(word, "End")) readEnd(own);
       else breaks("expected JOINT, End Site or }, found " + quoted(word));
     }
   }
@@ -123,7 +119,7 @@ class Parser {
     for (std::int64_t i = 0; i < count; ++i) {
       static constexpr std::string_view kNames[] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
       const std::string_view word = next();
-      const auto found = std::ranges::find_if(kNames, [&](std::string_view name) { return same(name, word); });
+      const auto found = std::ranges::find_if(kNames, [&](std::string_view name) { return sameLetters(name, word); });
       if (found == std::end(kNames)) breaks("a channel must be a position or rotation such as Xrotation, found " + quoted(word));
       const auto channel = Channel(found - std::begin(kNames));
       channels_[joint.value].push_back(channel);

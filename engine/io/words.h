@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -24,6 +26,11 @@ inline std::string_view nextLine(std::string_view& text) {
   const std::string_view line = text.substr(0, stop);
   text.remove_prefix(stop == text.npos ? text.size() : stop + 1);
   return line;
+}
+
+/// Whether two words are the same but for capitals.
+inline bool sameLetters(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 /// A whole word as a finite number.

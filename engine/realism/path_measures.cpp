@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "curve/frame.h"
 
 namespace vasa {
 namespace {
@@ -40,32 +41,26 @@ std::vector<vec3> tangentsOf(std::span<const vec4> places) {
   return tangents;
 }
 
-// The shortest turn from one direction to another.
-vec3 transported(vec3 across, vec3 from, vec3 to) {
-  const vec3 axis = glm::cross(from, to);
-  const float sine = glm::length(axis), cosine = glm::dot(from, to);
-  if (sine < 1e-7f) return across;
-  return glm::angleAxis(std::atan2(sine, cosine), axis / sine) * across;
+std::vector<Frame> framesOf(std::span<const vec4> places, std::span<const vec3> tangents, vec3 start) {
+  const std::vector<vec3> points(places.begin(), places.end());
+  std::vector<Frame> frames(points.size());
+  minimisingFrames(points, tangents, start, frames);
+  return frames;
 }
 
-vec3 acrossTo(vec3 direction, vec3 tangent) {
-  return glm::normalize(direction - tangent * glm::dot(direction, tangent));
-}
-
-// Twist of the wall since rest up to each station [radians]: a mark that does not twist at rest is carried along by the
-// surroundings and compared with one that does not twist in the pose.
-std::vector<float> twistAlong(const Network& network, const VesselPath& path, std::span<const vec4> rest, std::span<const vec4> posed,
-                              std::span<const quat> rotations) {
-  const auto before = tangentsOf(rest), now = tangentsOf(posed);
-  const vec3 t0 = before.front();
-  vec3 mark = acrossTo(std::abs(t0.x) < 0.8f ? vec3(1, 0, 0) : vec3(0, 0, 1), t0);
-  vec3 still = acrossTo(turnAt(network, path.stations.front(), rotations) * mark, now.front());
+// Twist of the wall since rest up to each station [radians]: a mark that does not twist at rest is carried
+// along by the surroundings and compared with one that does not twist in the pose.
+std::vector<float> twistAlong(const Network& network, const VesselPath& path, std::span<const vec4> rest,
+                              std::span<const vec4> posed, std::span<const quat> rotations) {
+  const std::vector<vec3> before = tangentsOf(rest), now = tangentsOf(posed);
+  const auto marks =
+      framesOf(rest, before, std::abs(before.front().x) < 0.8f ? vec3(1, 0, 0) : vec3(0, 0, 1));
+  const auto still =
+      framesOf(posed, now, turnAt(network, path.stations.front(), rotations) * marks.front().u);
   std::vector<float> twist{0};
   for (std::size_t i = 1; i < posed.size(); ++i) {
-    mark = transported(mark, before[i - 1], before[i]);
-    still = transported(still, now[i - 1], now[i]);
-    const vec3 wall = acrossTo(turnAt(network, path.stations[i], rotations) * mark, now[i]);
-    float angle = std::atan2(glm::dot(glm::cross(still, wall), now[i]), glm::dot(still, wall));
+    const vec3 wall = turnAt(network, path.stations[i], rotations) * marks[i].u;
+    float angle = std::atan2(glm::dot(wall, still[i].v), glm::dot(wall, still[i].u));
     angle += 2 * kPi * std::round((twist.back() - angle) / (2 * kPi));
     twist.push_back(angle);
   }
@@ -74,14 +69,17 @@ std::vector<float> twistAlong(const Network& network, const VesselPath& path, st
 
 std::vector<float> lengthsOf(std::span<const vec4> places) {
   std::vector<float> along{0};
-  for (std::size_t i = 1; i < places.size(); ++i) along.push_back(along.back() + glm::distance(vec3(places[i - 1]), vec3(places[i])));
+  for (std::size_t i = 1; i < places.size(); ++i)
+    along.push_back(along.back() + glm::distance(vec3(places[i - 1]), vec3(places[i])));
   return along;
 }
 
 }  // namespace
 
-PathMeasures measurePath(const Network& network, const VesselPath& path, std::span<const vec4> points, std::span<const quat> rotations) {
-  const std::vector<vec4> rest = placesOf(network, path, network.points()), posed = placesOf(network, path, points);
+PathMeasures measurePath(const Network& network, const VesselPath& path, std::span<const vec4> points,
+                         std::span<const quat> rotations) {
+  const std::vector<vec4> rest = placesOf(network, path, network.points()),
+                          posed = placesOf(network, path, points);
   const std::vector<float> restAlong = lengthsOf(rest), along = lengthsOf(posed);
   const std::size_t last = posed.size() - 1;
   PathMeasures measures;
@@ -93,7 +91,8 @@ PathMeasures measurePath(const Network& network, const VesselPath& path, std::sp
   const std::size_t window = std::min(kWindow, last);
   measures.leastStrain = std::numeric_limits<float>::infinity();
   for (std::size_t i = window; i <= last; ++i)
-    measures.leastStrain = std::min(measures.leastStrain, (along[i] - along[i - window]) / (restAlong[i] - restAlong[i - window]) - 1);
+    measures.leastStrain = std::min(
+        measures.leastStrain, (along[i] - along[i - window]) / (restAlong[i] - restAlong[i - window]) - 1);
 
   const std::size_t step = std::clamp<std::size_t>(last / 2, 1, kBendStep);
   double turned = 0, over = 0, most = 0;
@@ -111,7 +110,8 @@ PathMeasures measurePath(const Network& network, const VesselPath& path, std::sp
   const std::vector<float> twist = twistAlong(network, path, rest, posed, rotations);
   measures.twist = twist.back();
   for (std::size_t i = window; i <= last; ++i)
-    measures.greatestTwist = std::max(measures.greatestTwist, std::abs(twist[i] - twist[i - window]) / (restAlong[i] - restAlong[i - window]));
+    measures.greatestTwist = std::max(measures.greatestTwist, std::abs(twist[i] - twist[i - window]) /
+                                                                  (restAlong[i] - restAlong[i - window]));
   return measures;
 }
 

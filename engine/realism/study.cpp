@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body/humanoid.h"
+#include "body/retarget.h"
 #include "core/cancellation.h"
 #include "io/csv.h"
 #include "realism/bone_gap.h"
@@ -146,9 +146,7 @@ class Study {
   }
 
   Result<JointId> jointCalled(std::string_view part) const {
-    std::vector<std::string> names;
-    for (const Skeleton::Joint& joint : scene_.body.skeleton.joints) names.push_back(joint.name);
-    const HumanoidNames known = humanoidNames(names);
+    const HumanoidNames known = partsOf(scene_.body.skeleton);
     const auto found = std::ranges::find(known.of, part);
     if (found == known.of.end()) return badInput("no joint of this skeleton is known to be " + csv::quoted(part));
     return JointId{std::uint32_t(found - known.of.begin())};

@@ -5,15 +5,12 @@
 
 #include "curve/arc_length.h"
 #include "io/csv.h"
+#include "io/words.h"
 
 namespace vasa {
 namespace {
 
 constexpr float kStep = 1e-3f;  // [m] finer than any published figure
-
-bool sameName(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 }  // namespace
 
@@ -24,7 +21,7 @@ Result<VesselPlace> PathFinder::landmark(std::string_view text) const {
     const auto parts = csv::split(alternative, '@');
     for (std::uint32_t v = 0; v < network_->vessels().size(); ++v) {
       const Vessel& vessel = network_->vessels()[v];
-      if (!sameName(vessel.name, parts[0])) continue;
+      if (!sameLetters(vessel.name, parts[0])) continue;
       const auto spans = float(vessel.spanCount());
       if (parts.size() == 1 || parts[1] == "start") {
         // A vessel may be laid from either end: its root is the one that hangs on a host, or else its first point.
