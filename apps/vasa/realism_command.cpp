@@ -23,7 +23,7 @@ struct Options {
 };
 
 Report scoreReport(const RealismScore& score) {
-  return {{"usable", score.usable}, {"signed", score.signed_}, {"right_sign", score.rightSign},
+  return {{"usable", score.usable}, {"signed", score.signed_},        {"right_sign", score.rightSign},
           {"banded", score.banded}, {"within_1_sd", score.withinOne}, {"within_2_sd", score.withinTwo}};
 }
 
@@ -33,9 +33,20 @@ Report orNull(const std::optional<T>& value) {
 }
 
 Report rowReport(const ProtocolRow& row, const ProtocolResult& result) {
-  Report report{{"id", row.id}, {"from", row.from}, {"to", row.to}, {"first_share", row.firstShare}, {"last_share", row.lastShare},
-                {"from_pose", row.firstPose}, {"to_pose", row.lastPose}, {"metric", metricName(row.metric)}, {"unit", unitOf(row.metric)},
-                {"mean", row.mean}, {"sd", orNull(row.deviation)}, {"low", orNull(row.low)}, {"high", orNull(row.high)}, {"blind", row.blind},
+  Report report{{"id", row.id},
+                {"from", row.from},
+                {"to", row.to},
+                {"first_share", row.firstShare},
+                {"last_share", row.lastShare},
+                {"from_pose", row.firstPose},
+                {"to_pose", row.lastPose},
+                {"metric", metricName(row.metric)},
+                {"unit", unitOf(row.metric)},
+                {"mean", row.mean},
+                {"sd", orNull(row.deviation)},
+                {"low", orNull(row.low)},
+                {"high", orNull(row.high)},
+                {"blind", row.blind},
                 {"source", row.source}};
   if (!result.refusal.empty()) {
     report["refusal"] = result.refusal;
@@ -48,13 +59,19 @@ Report rowReport(const ProtocolRow& row, const ProtocolResult& result) {
   return report;
 }
 
-Report reportOf(const Scene& scene, const SceneFile& file, const Protocol& protocol, const RealismStudy& study) {
-  Report report{{"body", scene.body.name}, {"vessels", file.networks.front().filename().string()}, {"score", scoreReport(study.tuned)},
-                {"blind", scoreReport(study.blind)}, {"rows", Report::array()}, {"curves", Report::array()}};
-  for (std::size_t i = 0; i < protocol.rows.size(); ++i) report["rows"].push_back(rowReport(protocol.rows[i], study.results[i]));
+Report reportOf(const Scene& scene, const SceneFile& file, const Protocol& protocol,
+                const RealismStudy& study) {
+  Report report{{"body", scene.body.name},           {"vessels", file.networks.front().filename().string()},
+                {"score", scoreReport(study.tuned)}, {"blind", scoreReport(study.blind)},
+                {"rows", Report::array()},           {"curves", Report::array()}};
+  for (std::size_t i = 0; i < protocol.rows.size(); ++i)
+    report["rows"].push_back(rowReport(protocol.rows[i], study.results[i]));
   for (std::size_t i = 0; i < protocol.sweeps.size(); ++i) {
     const ProtocolSweep& sweep = protocol.sweeps[i];
-    Report curve{{"sweep", sweep.name}, {"metric", metricName(sweep.metric)}, {"degrees", study.curves[i].degrees}, {"values", study.curves[i].values}};
+    Report curve{{"sweep", sweep.name},
+                 {"metric", metricName(sweep.metric)},
+                 {"degrees", study.curves[i].degrees},
+                 {"values", study.curves[i].values}};
     if (!study.curves[i].refusal.empty()) curve["refusal"] = study.curves[i].refusal;
     report["curves"].push_back(std::move(curve));
   }
@@ -64,22 +81,29 @@ Report reportOf(const Scene& scene, const SceneFile& file, const Protocol& proto
 std::string asText(const Report& report) {
   std::string text;
   for (const Report& row : report["rows"]) {
-    const std::string name = fmt::format("{:<6}{:<30}{:<12}", row["id"].get<std::string>(), row["metric"].get<std::string>(), row["to_pose"].get<std::string>());
+    const std::string name = fmt::format("{:<6}{:<30}{:<12}", row["id"].get<std::string>(),
+                                         row["metric"].get<std::string>(), row["to_pose"].get<std::string>());
     if (row.contains("refusal")) {
       text += name + visible(row["refusal"].get<std::string>()) + "\n";
       continue;
     }
-    text += fmt::format("{}{:>9.2f}  published {:>7.2f}", name, row["ours"].get<double>(), row["mean"].get<double>());
-    if (row["sd"].is_number()) text += fmt::format(" +- {:g}", row["sd"].get<double>());
-    else if (row["low"].is_number()) text += fmt::format(" ({:g} to {:g})", row["low"].get<double>(), row["high"].get<double>());
+    text += fmt::format("{}{:>9.2f}  published {:>7.2f}", name, row["ours"].get<double>(),
+                        row["mean"].get<double>());
+    if (row["sd"].is_number())
+      text += fmt::format(" +- {:g}", row["sd"].get<double>());
+    else if (row["low"].is_number())
+      text += fmt::format(" ({:g} to {:g})", row["low"].get<double>(), row["high"].get<double>());
     if (row["deviations"].is_number()) text += fmt::format("  {:+.1f} SD", row["deviations"].get<double>());
     if (row["right_sign"].is_boolean() && !row["right_sign"].get<bool>()) text += "  wrong direction";
     text += row["blind"].get<bool>() ? "  blind\n" : "\n";
   }
   for (const char* part : {"score", "blind"})
-    text += fmt::format("{:<6} usable {}, right direction {} of {}, within 1 SD {} of {}, within 2 SD {} of {}\n", part, report[part]["usable"].get<int>(),
-                        report[part]["right_sign"].get<int>(), report[part]["signed"].get<int>(), report[part]["within_1_sd"].get<int>(),
-                        report[part]["banded"].get<int>(), report[part]["within_2_sd"].get<int>(), report[part]["banded"].get<int>());
+    text +=
+        fmt::format("{:<6} usable {}, right direction {} of {}, within 1 SD {} of {}, within 2 SD {} of {}\n",
+                    part, report[part]["usable"].get<int>(), report[part]["right_sign"].get<int>(),
+                    report[part]["signed"].get<int>(), report[part]["within_1_sd"].get<int>(),
+                    report[part]["banded"].get<int>(), report[part]["within_2_sd"].get<int>(),
+                    report[part]["banded"].get<int>());
   return text;
 }
 
@@ -96,19 +120,27 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!file) return file.error();
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
-  const RealismStudy study = studyRealism(*scene, *protocol, {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = true});
+  const RealismStudy study = studyRealism(
+      *scene, *protocol, {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = true});
   const Report report = reportOf(*scene, *file, *protocol, study);
   if (!options.output.empty()) {
     const std::filesystem::path out = options.output;
     std::error_code failed;
     std::filesystem::create_directories(out, failed);
     if (failed) return ioError(out.string() + ": " + failed.message());
-    if (auto written = writeFileAtomically(out / "report.json", report.dump(2) + "\n"); !written) return written;
-    if (auto written = writeFileAtomically(out / "index.html", realismPage(*protocol, study, report)); !written) return written;
+    if (auto written = writeFileAtomically(out / "report.json", report.dump(2) + "\n"); !written)
+      return written;
+    if (auto written = writeFileAtomically(out / "index.html", realismPage(*protocol, study, report));
+        !written)
+      return written;
   }
   if (auto printed = globals.json ? printJson(report) : printText(asText(report)); !printed) return printed;
   const double share = study.tuned.banded ? double(study.tuned.withinTwo) / study.tuned.banded : 0;
-  if (share < options.least) return Error{Fault::failed, fmt::format("{:.0f} % of the figures lie within two standard deviations; --least asks for {:.0f} %", 100 * share, 100 * options.least)};
+  if (share < options.least)
+    return Error{
+        Fault::failed,
+        fmt::format("{:.0f} % of the figures lie within two standard deviations; --least asks for {:.0f} %",
+                    100 * share, 100 * options.least)};
   return {};
 }
 
@@ -116,7 +148,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addRealism(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("realism", "How vessels change with the pose, beside figures measured in people");
+  CLI::App* sub =
+      app.add_subcommand("realism", "How vessels change with the pose, beside figures measured in people");
   sub->footer(
       "Examples:\n"
       "  vasa realism -o realism\n"
@@ -128,12 +161,16 @@ void addRealism(CLI::App& app, Command& command) {
       "quarter, half, three quarters and all of the way to the pose, for abstracts give no angles. Figures marked blind\n"
       "were not looked at while the model was tuned, and are counted apart. The tables are data/realism.");
   addSceneOptions(*sub, options->scene);
-  sub->add_option("--protocol", options->protocol, "Folder with poses.csv, protocol.csv and sweeps.csv (default: what ships)");
+  sub->add_option("--protocol", options->protocol,
+                  "Folder with poses.csv, protocol.csv and sweeps.csv (default: what ships)");
   sub->add_option("-o,--output", options->output, "Folder for index.html and report.json");
-  sub->add_option("--least", options->least, "End with 1 where less than this share of the figures is within two standard deviations")->check(CLI::Range(0.0, 1.0));
+  sub->add_option("--least", options->least,
+                  "End with 1 where less than this share of the figures is within two standard deviations")
+      ->check(CLI::Range(0.0, 1.0));
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -26,11 +26,13 @@ class Anatomy {
     return found == parts_.end() ? std::nullopt : std::optional(std::uint32_t(found - parts_.begin()));
   }
 
-  /// The joints that share a part's motion: in the middle of the body those up to the next part, elsewhere its own.
+  /// The joints that share a part's motion: in the middle of the body those up to the next part, elsewhere
+  /// its own.
   std::vector<std::uint32_t> jointsOf(std::uint32_t joint) const {
     std::vector<std::uint32_t> all{joint};
     const bool middle = !parts_[joint].starts_with("left") && !parts_[joint].starts_with("right");
-    for (auto next = onlyWay(joint); middle && next && parts_[*next].empty(); next = onlyWay(*next)) all.push_back(*next);
+    for (auto next = onlyWay(joint); middle && next && parts_[*next].empty(); next = onlyWay(*next))
+      all.push_back(*next);
     return all;
   }
 
@@ -56,7 +58,8 @@ class Anatomy {
       if (skeleton_.joints[j].parent.value != joint) continue;
       const vec3 step = placeOf(skeleton_, j) - placeOf(skeleton_, joint);
       const float length = glm::length(step), aside = std::abs(glm::dot(step, left_));
-      if (length > 0 && step.y / length > straightest && aside < 0.2f * length) way = j, straightest = step.y / length;
+      if (length > 0 && step.y / length > straightest && aside < 0.2f * length)
+        way = j, straightest = step.y / length;
     }
     return way;
   }
@@ -66,7 +69,9 @@ class Anatomy {
     vec3 link(0);
     for (std::uint32_t j = joint + 1; j < skeleton_.joints.size(); ++j)
       if (skeleton_.joints[j].parent.value == joint)
-        if (const vec3 step = placeOf(skeleton_, j) - placeOf(skeleton_, joint); glm::length(step) > glm::length(link)) link = step;
+        if (const vec3 step = placeOf(skeleton_, j) - placeOf(skeleton_, joint);
+            glm::length(step) > glm::length(link))
+          link = step;
     return glm::length(link) > 0 ? glm::normalize(link) : vec3(0, -1, 0);
   }
 
@@ -91,7 +96,8 @@ Result<Pose> poseByAngles(const Skeleton& skeleton, std::span<const JointAngles>
       // In model space about the joint as it is at rest; its parent's own turn comes on top of that.
       const quat turn = anatomy.turn(j, own.part, own, share / float(sharing.size()));
       const mat3 world(skeleton.joints[j].restWorld);
-      const quat rest = glm::normalize(glm::quat_cast(mat3(glm::normalize(world[0]), glm::normalize(world[1]), glm::normalize(world[2]))));
+      const quat rest = glm::normalize(
+          glm::quat_cast(mat3(glm::normalize(world[0]), glm::normalize(world[1]), glm::normalize(world[2]))));
       local[j].rotation = local[j].rotation * glm::inverse(rest) * turn * rest;
     }
   }

@@ -5,24 +5,27 @@
 
 #include "core/parallel.h"
 
-// Control points are shifted by what the curve at their Greville abscissae is. These are all thirds of a span, so that a
-// course sampled six times a span has each of them among its samples.
+// Control points are shifted by what the curve at their Greville abscissae is. These are all thirds of a
+// span, so that a course sampled six times a span has each of them among its samples.
 namespace vasa {
 namespace {
 
-// The superficial femoral artery (3 mm) shortens by a third of what a knee's flexion takes from it and the popliteal artery
-// together, two hand's breadths above the joint (Klein 2009): 0.13 m gives that. The wall's stiffness grows with r², the bed's
-// hold with r. Shorter, and strain gathers at the joints; longer, and branches are drawn along that bones hold in life.
+// The superficial femoral artery (3 mm) shortens by a third of what a knee's flexion takes from it and the
+// popliteal artery together, two hand's breadths above the joint (Klein 2009): 0.13 m gives that. The wall's
+// stiffness grows with r², the bed's hold with r. Shorter, and strain gathers at the joints; longer, and
+// branches are drawn along that bones hold in life.
 constexpr float kSlidingLength = 0.13f, kOfRadius = 3e-3f;
 // Over so much of its arc a branch gives way to the shift of what it hangs on: what is shorter comes along.
-constexpr float kCarried = 0.05f;      // [m] of 0.03 to 0.2 the one with which no clip jumps, at 30 and 120 frames a second
+constexpr float kCarried =
+    0.05f;  // [m] of 0.03 to 0.2 the one with which no clip jumps, at 30 and 120 frames a second
 constexpr std::uint32_t kSamples = 6;  // a span
-constexpr float kUnstrained = 2e-4f;   // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
+constexpr float kUnstrained =
+    2e-4f;  // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
 
 struct Sampled {
   std::vector<vec3> places;
-  std::vector<float> along;         // [m]
-  std::vector<std::uint32_t> own;   // of each point, its sample
+  std::vector<float> along;        // [m]
+  std::vector<std::uint32_t> own;  // of each point, its sample
 };
 
 // Three times the Greville abscissa of point j.
@@ -166,7 +169,8 @@ void VesselSlider::settleOrder() {
   };
   for (std::uint32_t c = 0; c < courses_.size(); ++c)
     if (waiting[c] == 0) settle(c);
-  for (std::uint32_t c = 0; c < courses_.size(); ++c) settle(c);  // those that hang on one another in a circle
+  for (std::uint32_t c = 0; c < courses_.size(); ++c)
+    settle(c);  // those that hang on one another in a circle
   std::vector<Course> sorted;
   for (const std::uint32_t c : order) sorted.push_back(std::move(courses_[c]));
   courses_ = std::move(sorted);
@@ -178,9 +182,10 @@ void VesselSlider::run(std::span<vec4> points) const {
   pinEnds(*network_, points);
 }
 
-// (1/h_before + 1/h_after + m/ℓ²) a_i - a_{i-1}/h_before - a_{i+1}/h_after = λ_after - λ_before, a tridiagonal system solved by
-// elimination; a = 0 at an end that holds. A free end draws back where its course is stretched and stays where it is squeezed:
-// beyond it there is no course to follow. Where vessels join, their common point is there twice, h = 0 between: it counts once.
+// (1/h_before + 1/h_after + m/ℓ²) a_i - a_{i-1}/h_before - a_{i+1}/h_after = λ_after - λ_before, a
+// tridiagonal system solved by elimination; a = 0 at an end that holds. A free end draws back where its
+// course is stretched and stays where it is squeezed: beyond it there is no course to follow. Where vessels
+// join, their common point is there twice, h = 0 between: it counts once.
 void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
   if (isUnstrained(course, points)) return;
   const Sampled posed = sample(*network_, course.pieces, points);
@@ -189,7 +194,8 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
     if (course.along[i] > course.along[row.back()]) row.push_back(i);
   if (row.size() < 3) return;
   const std::size_t n = row.size();
-  std::vector<double> step(n + 1, 0), stretch(n + 1, 1), factor(n, 0), shift(n, 0);  // step and stretch: before each row
+  std::vector<double> step(n + 1, 0), stretch(n + 1, 1), factor(n, 0),
+      shift(n, 0);  // step and stretch: before each row
   for (std::size_t k = 1; k < n; ++k) {
     step[k] = double(course.along[row[k]]) - course.along[row[k - 1]];
     stretch[k] = (double(posed.along[posed.own[row[k]]]) - posed.along[posed.own[row[k - 1]]]) / step[k];
@@ -200,7 +206,8 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
       factor[k] = shift[k] = 0;
       if ((k == 0 && holdsFirst) || (k + 1 == n && holdsLast)) continue;
       const double before = k > 0 ? 1 / step[k] : 0, after = k + 1 < n ? 1 / step[k + 1] : 0;
-      const double pivot = before + after + 0.5 * (step[k] + step[k + 1]) * double(course.tether[row[k]]) - (k > 0 ? before * factor[k - 1] : 0);
+      const double pivot = before + after + 0.5 * (step[k] + step[k + 1]) * double(course.tether[row[k]]) -
+                           (k > 0 ? before * factor[k - 1] : 0);
       factor[k] = after / pivot;
       shift[k] = (stretch[k + 1] - stretch[k] + (k > 0 ? before * shift[k - 1] : 0)) / pivot;
     }
@@ -209,8 +216,9 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
     if (!outFirst && !outLast) break;
     holdsFirst |= outFirst, holdsLast |= outLast;
   }
-  // A control point stands off its curve, across it, by h²/6 of the curve's bend, h being the way between control points: so that the course
-  // stays, it takes over the distance of those about its new place, by the square of how much farther apart they come to lie.
+  // A control point stands off its curve, across it, by h²/6 of the curve's bend, h being the way between
+  // control points: so that the course stays, it takes over the distance of those about its new place, by the
+  // square of how much farther apart they come to lie.
   std::vector<float> was(n), is(n);
   std::vector<vec3> off(n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -226,13 +234,16 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
     std::size_t j = std::min(k, n - 2);
     while (j > 0 && was[j] > is[k]) --j;
     while (j + 2 < n && was[j + 1] <= is[k]) ++j;
-    const float gap = was[j + 1] - was[j], share = gap > 0 ? std::clamp((is[k] - was[j]) / gap, 0.0f, 1.0f) : 0;
+    const float gap = was[j + 1] - was[j],
+                share = gap > 0 ? std::clamp((is[k] - was[j]) / gap, 0.0f, 1.0f) : 0;
     const float before = glm::mix(apart(was, j), apart(was, j + 1), share);
     const float wider = before > 0 ? std::clamp(apart(is, k) / before, 0.0f, 2.0f) : 1;
     const std::uint32_t own = posed.own[row[k]];
-    const vec3 along = posed.places[std::min<std::size_t>(own + 1, posed.places.size() - 1)] - posed.places[own > 0 ? own - 1 : 0];
+    const vec3 along = posed.places[std::min<std::size_t>(own + 1, posed.places.size() - 1)] -
+                       posed.places[own > 0 ? own - 1 : 0];
     vec3 aside = wider * wider * glm::mix(off[j], off[j + 1], share) - off[k];
-    if (const float square = glm::dot(along, along); square > 0) aside -= along * (glm::dot(aside, along) / square);
+    if (const float square = glm::dot(along, along); square > 0)
+      aside -= along * (glm::dot(aside, along) / square);
     moved[k] = placeAt(posed, is[k], own) - posed.places[own] + aside;
   }
   for (std::size_t i = 0, k = 0; i < course.points.size(); ++i) {
@@ -242,7 +253,8 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
   }
 }
 
-// Whether its control polygon is as long as at rest, leg by leg: most courses in most poses, and much cheaper to tell.
+// Whether its control polygon is as long as at rest, leg by leg: most courses in most poses, and much cheaper
+// to tell.
 bool VesselSlider::isUnstrained(const Course& course, std::span<const vec4> points) const {
   for (std::size_t i = 1; i < course.points.size(); ++i) {
     const std::uint32_t a = course.points[i - 1], b = course.points[i];
@@ -256,21 +268,26 @@ bool VesselSlider::isUnstrained(const Course& course, std::span<const vec4> poin
 void VesselSlider::carry(const Course& course, std::span<vec4> points) const {
   const auto shiftOf = [&](const Hold& hold, std::uint32_t point) {
     vec3 place(points[point]);
-    if (hold.host) place = vec3(evaluate(Network::pointsOf(network_->vessel(hold.host->vessel), std::span<const vec4>(points)), hold.host->parameter));
+    if (hold.host)
+      place =
+          vec3(evaluate(Network::pointsOf(network_->vessel(hold.host->vessel), std::span<const vec4>(points)),
+                        hold.host->parameter));
     if (hold.end) {
       const Vessel& vessel = network_->vessel(hold.end->vessel);
       place = vec3(points[vessel.firstPoint + (hold.end->last ? vessel.pointCount - 1 : 0)]);
     }
     return place - vec3(points[point]);
   };
-  const vec3 start = shiftOf(course.start, course.points.front()), finish = shiftOf(course.finish, course.points.back());
+  const vec3 start = shiftOf(course.start, course.points.front()),
+             finish = shiftOf(course.finish, course.points.back());
   if (start == vec3(0) && finish == vec3(0)) return;
   const float whole = course.along.back();
   const bool hangs[]{course.start.host || course.start.end, course.finish.host || course.finish.end};
   // Between two holds the shares of both add up to one at most.
   const float reach = hangs[0] && hangs[1] ? std::min(kCarried, whole) : kCarried;
   for (std::size_t i = 0; i < course.points.size(); ++i) {
-    const vec3 moved = start * (1 - glm::smoothstep(0.0f, reach, course.along[i])) + finish * (1 - glm::smoothstep(0.0f, reach, whole - course.along[i]));
+    const vec3 moved = start * (1 - glm::smoothstep(0.0f, reach, course.along[i])) +
+                       finish * (1 - glm::smoothstep(0.0f, reach, whole - course.along[i]));
     vec4& point = points[course.points[i]];
     point = vec4(vec3(point) + moved, point.w);
   }

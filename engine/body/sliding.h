@@ -7,20 +7,21 @@
 
 namespace vasa {
 
-/// Lets vessels slide in their beds. Posed point by point a vessel is as short behind a bent knee as its bed, and unchanged a
-/// hand's breadth above; a living one shifts along its course and evens that out. Along each course (vessels joined end to
-/// end, up to forks, which hold) the shift a [m] is least in
+/// Lets vessels slide in their beds. Posed point by point a vessel is as short behind a bent knee as its bed,
+/// and unchanged a hand's breadth above; a living one shifts along its course and evens that out. Along each
+/// course (vessels joined end to end, up to forks, which hold) the shift a [m] is least in
 ///   ½ ∫ (da/ds + λ - 1)² ds + ½ ∫ a² / ℓ² ds,
-/// with λ the stretch that the pose makes and s the arc at rest: a rod of elastic wall tied to its bed. So strain becomes its
-/// mean over some ℓ to both sides, lengths between what holds stay, and nothing is shifted where nothing is strained. A free end
-/// draws back where its vessel is stretched. Points move along the posed course alone; what branches off goes along. Continuous in
-/// the pose.
+/// with λ the stretch that the pose makes and s the arc at rest: a rod of elastic wall tied to its bed. So
+/// strain becomes its mean over some ℓ to both sides, lengths between what holds stay, and nothing is shifted
+/// where nothing is strained. A free end draws back where its vessel is stretched. Points move along the
+/// posed course alone; what branches off goes along. Continuous in the pose.
 class VesselSlider {
  public:
   /// @param network  at rest; must outlive this
   explicit VesselSlider(const Network& network);
 
-  /// @param points  a posed network's points, ends on their nodes; radii stay. O(points), parallel over courses
+  /// @param points  a posed network's points, ends on their nodes; radii stay. O(points), parallel over
+  /// courses
   void run(std::span<vec4> points) const;
 
   /// ℓ of a vessel of this radius [m].
@@ -39,9 +40,10 @@ class VesselSlider {
   };
   struct Course {
     std::vector<Piece> pieces;
-    std::vector<std::uint32_t> points;  // of the network, in order; where vessels join the one point is there for both
-    std::vector<float> along;           // [m] at rest, of each
-    std::vector<float> tether;          // 1/ℓ², of each
+    std::vector<std::uint32_t>
+        points;                // of the network, in order; where vessels join the one point is there for both
+    std::vector<float> along;  // [m] at rest, of each
+    std::vector<float> tether;  // 1/ℓ², of each
     Hold start, finish;
   };
   void slide(const Course& course, std::span<vec4> points) const;
@@ -50,7 +52,7 @@ class VesselSlider {
   void settleOrder();
 
   const Network* network_;
-  std::vector<Course> courses_;       // in an order in which what others hang on comes first
+  std::vector<Course> courses_;  // in an order in which what others hang on comes first
 };
 
 }  // namespace vasa

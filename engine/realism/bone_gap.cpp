@@ -10,8 +10,8 @@
 
 namespace vasa {
 
-float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<float> level, const Network& network, const VesselPath& path,
-              std::span<const vec4> points) {
+float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<float> level,
+              const Network& network, const VesselPath& path, std::span<const vec4> points) {
   std::vector<vec4> places;
   for (const VesselPath::Station& station : path.stations)
     places.push_back(evaluate(Network::pointsOf(network.vessel(station.vessel), points), station.parameter));
@@ -19,7 +19,8 @@ float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<f
     const Skeleton::Joint& limb = body.skeleton.joints[joint.value];
     const mat4 toRest = limb.restWorld * glm::inverse(pose.world[joint.value]);
     const float height = limb.restWorld[3].y + *level;
-    places = {*std::ranges::min_element(places, {}, [&](const vec4& place) { return std::abs((toRest * vec4(vec3(place), 1)).y - height); })};
+    places = {*std::ranges::min_element(
+        places, {}, [&](const vec4& place) { return std::abs((toRest * vec4(vec3(place), 1)).y - height); })};
   }
   const std::vector<mat4> matrices = skinMatrices(body.skeleton, pose);
   float gap = std::numeric_limits<float>::infinity();
@@ -29,7 +30,11 @@ float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<f
     skinPositions(mesh, matrices, positions);
     for (const vec4& place : places)
       for (const uvec3& t : mesh.mesh.triangles)
-        gap = std::min(gap, glm::distance(vec3(place), closestOnTriangle(vec3(place), positions[t.x], positions[t.y], positions[t.z]).point) - place.w);
+        gap = std::min(
+            gap, glm::distance(
+                     vec3(place),
+                     closestOnTriangle(vec3(place), positions[t.x], positions[t.y], positions[t.z]).point) -
+                     place.w);
   }
   return gap;
 }

@@ -7,14 +7,14 @@
 
 namespace vasa {
 
-/// How far a vessel's wall is from the nearest bone: where the path passes a level of a limb that moves with its joint, or
-/// where it is nearest.
+/// How far a vessel's wall is from the nearest bone: where the path passes a level of a limb that moves with
+/// its joint, or where it is nearest.
 /// @param joint   the limb's joint
 /// @param level   [m] above the joint at rest (body upright)
 /// @param points  as Network::points(), in the pose
 /// @return [m] from the surface of the wall to that of the bone
 /// O(stations looked at · triangles of the bones)
-float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<float> level, const Network& network, const VesselPath& path,
-              std::span<const vec4> points);
+float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<float> level,
+              const Network& network, const VesselPath& path, std::span<const vec4> points);
 
 }  // namespace vasa

@@ -50,21 +50,27 @@ std::string textOf(csv::Table& table, std::size_t row, std::string_view column) 
 }
 
 void checkPose(csv::Table& table, std::size_t row, const Protocol& protocol, const std::string& pose) {
-  if (pose != "rest" && !protocol.poses.contains(pose)) table.fault(row, "poses.csv has no pose " + csv::quoted(pose));
+  if (pose != "rest" && !protocol.poses.contains(pose))
+    table.fault(row, "poses.csv has no pose " + csv::quoted(pose));
 }
 
 }  // namespace
 
-std::string_view metricName(PoseMetric metric) { return wordsOf(metric).name; }
-std::string_view unitOf(PoseMetric metric) { return wordsOf(metric).unit; }
+std::string_view metricName(PoseMetric metric) {
+  return wordsOf(metric).name;
+}
+std::string_view unitOf(PoseMetric metric) {
+  return wordsOf(metric).unit;
+}
 
 Result<Protocol> readProtocol(const std::filesystem::path& folder) {
   Protocol protocol;
   auto poses = csv::Table::read(folder / "poses.csv");
   if (!poses) return poses.error();
   for (std::size_t r = 0; r < poses->rowCount(); ++r)
-    protocol.poses[textOf(*poses, r, "pose")].push_back({textOf(*poses, r, "part"), glm::radians(poses->number(r, "flex_deg")),
-                                                         glm::radians(poses->number(r, "abduct_deg")), glm::radians(poses->number(r, "twist_deg"))});
+    protocol.poses[textOf(*poses, r, "pose")].push_back(
+        {textOf(*poses, r, "part"), glm::radians(poses->number(r, "flex_deg")),
+         glm::radians(poses->number(r, "abduct_deg")), glm::radians(poses->number(r, "twist_deg"))});
   if (!poses->state()) return poses->state().error();
 
   auto rows = csv::Table::read(folder / "protocol.csv");
@@ -83,7 +89,8 @@ Result<Protocol> readProtocol(const std::filesystem::path& folder) {
     row.blind = rows->text(r, "blind") == "yes";
     row.source = textOf(*rows, r, "source"), row.note = textOf(*rows, r, "note");
     checkPose(*rows, r, protocol, row.firstPose), checkPose(*rows, r, protocol, row.lastPose);
-    if (!(row.firstShare >= 0 && row.firstShare < row.lastShare && row.lastShare <= 1)) rows->fault(r, "shares must rise from 0 to 1");
+    if (!(row.firstShare >= 0 && row.firstShare < row.lastShare && row.lastShare <= 1))
+      rows->fault(r, "shares must rise from 0 to 1");
     protocol.rows.push_back(std::move(row));
   }
   if (!rows->state()) return rows->state().error();
@@ -91,8 +98,12 @@ Result<Protocol> readProtocol(const std::filesystem::path& folder) {
   auto sweeps = csv::Table::read(folder / "sweeps.csv");
   if (!sweeps) return sweeps.error();
   for (std::size_t r = 0; r < sweeps->rowCount(); ++r) {
-    ProtocolSweep sweep{textOf(*sweeps, r, "sweep"), textOf(*sweeps, r, "pose"), textOf(*sweeps, r, "from"), textOf(*sweeps, r, "to"),
-                        sweeps->take(r, metricNamed(sweeps->text(r, "metric"))), sweeps->number(r, "degrees")};
+    ProtocolSweep sweep{textOf(*sweeps, r, "sweep"),
+                        textOf(*sweeps, r, "pose"),
+                        textOf(*sweeps, r, "from"),
+                        textOf(*sweeps, r, "to"),
+                        sweeps->take(r, metricNamed(sweeps->text(r, "metric"))),
+                        sweeps->number(r, "degrees")};
     checkPose(*sweeps, r, protocol, sweep.pose);
     protocol.sweeps.push_back(std::move(sweep));
   }

@@ -20,7 +20,8 @@ enum class PoseMetric : std::uint8_t {
   curvatureChangePercent,
   leastBendRadius,     ///< [mm] in the second pose
   chordByArc,          ///< [%] in the second pose
-  boneDistanceChange,  ///< [mm] from the wall to the nearest bone, at a level of the shin or, without one, where it is least
+  boneDistanceChange,  ///< [mm] from the wall to the nearest bone, at a level of the shin or, without one,
+                       ///< where it is least
   forkAngleChange,     ///< [%] of the angle between two branches
   radiusChange,        ///< [%] of the mean lumen
 };
@@ -28,15 +29,15 @@ enum class PoseMetric : std::uint8_t {
 /// One published figure and how to take it here.
 struct ProtocolRow {
   std::string id;
-  std::string from, to;           ///< landmarks (realism/vessel_path.h)
+  std::string from, to;                 ///< landmarks (realism/vessel_path.h)
   float firstShare = 0, lastShare = 1;  ///< of the stretch between them
   std::string firstPose, lastPose;
   PoseMetric metric = PoseMetric::lengthChange;
-  std::optional<float> level;     ///< [m] boneDistanceChange: up from the knee's joint line, along the shin
+  std::optional<float> level;  ///< [m] boneDistanceChange: up from the knee's joint line, along the shin
   float mean = 0;
-  std::optional<float> deviation;    ///< standard deviation among people
-  std::optional<float> low, high;    ///< range that was seen
-  bool blind = false;             ///< not looked at while the model was tuned
+  std::optional<float> deviation;  ///< standard deviation among people
+  std::optional<float> low, high;  ///< range that was seen
+  bool blind = false;              ///< not looked at while the model was tuned
   std::string source, note;
 };
 
@@ -57,7 +58,8 @@ struct Protocol {
 std::string_view metricName(PoseMetric metric);
 std::string_view unitOf(PoseMetric metric);
 
-/// Reads poses.csv, protocol.csv and sweeps.csv of a folder. Fails with io or badInput that names file, line and cause.
+/// Reads poses.csv, protocol.csv and sweeps.csv of a folder. Fails with io or badInput that names file, line
+/// and cause.
 Result<Protocol> readProtocol(const std::filesystem::path& folder);
 
 }  // namespace vasa

@@ -13,20 +13,23 @@
 namespace vasa {
 namespace {
 
-constexpr int kSteps = 4;              // of the way to a pose
-constexpr int kSweepSteps = 7;         // of a sweep
-constexpr float kForkReach = 0.01f;    // [m] over which a branch's direction is taken
-constexpr float kPerRange = 4;         // standard deviations that a range counts as
-constexpr float kNoChange = 0.02f;     // of a figure's mean: less is no change in its direction
+constexpr int kSteps = 4;            // of the way to a pose
+constexpr int kSweepSteps = 7;       // of a sweep
+constexpr float kForkReach = 0.01f;  // [m] over which a branch's direction is taken
+constexpr float kPerRange = 4;       // standard deviations that a range counts as
+constexpr float kNoChange = 0.02f;   // of a figure's mean: less is no change in its direction
 
 // "left renal artery" <-> "right renal artery", "leftUpperLeg" <-> "rightUpperLeg".
 std::string mirrored(std::string text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto is = [&](std::string_view word) { return text.compare(i, word.size(), word) == 0; };
-    if (is("left")) out += "right", i += 4;
-    else if (is("right")) out += "left", i += 5;
-    else out += text[i++];
+    if (is("left"))
+      out += "right", i += 4;
+    else if (is("right"))
+      out += "left", i += 5;
+    else
+      out += text[i++];
   }
   return out;
 }
@@ -101,11 +104,14 @@ class Study {
     if (!pose) return pose.error();
     checkpoint();
     maker_.make(*pose);
-    Posed made{std::move(*pose), {maker_.points().begin(), maker_.points().end()}, {maker_.rotations().begin(), maker_.rotations().end()}};
+    Posed made{std::move(*pose),
+               {maker_.points().begin(), maker_.points().end()},
+               {maker_.rotations().begin(), maker_.rotations().end()}};
     return &posed_.emplace(key, std::move(made)).first->second;
   }
 
-  // @param share  of the way from the first pose to the last: a first pose that is not rest is left by the same share
+  // @param share  of the way from the first pose to the last: a first pose that is not rest is left by the
+  // same share
   Result<float> valueOf(const ProtocolRow& row, float share, bool mirror) {
     const auto first = posed(row.firstPose, 1, mirror), last = posed(row.lastPose, share, mirror);
     if (!first) return first.error();
@@ -117,7 +123,9 @@ class Study {
     if (row.metric == PoseMetric::boneDistanceChange) {
       const auto knee = jointCalled(mirror ? "rightLowerLeg" : "leftLowerLeg");
       if (!knee) return knee.error();
-      const auto gap = [&](const Posed& in) { return boneGap(scene_.body, in.pose, *knee, row.level, scene_.network, *path, in.points); };
+      const auto gap = [&](const Posed& in) {
+        return boneGap(scene_.body, in.pose, *knee, row.level, scene_.network, *path, in.points);
+      };
       return 1e3f * (gap(**last) - gap(**first));
     }
     const PathMeasures a = measurePath(scene_.network, *path, (*first)->points, (*first)->rotations);
@@ -128,19 +136,31 @@ class Study {
   static float difference(PoseMetric metric, const PathMeasures& a, const PathMeasures& b) {
     const float twist = glm::degrees(std::abs(b.twist - a.twist));
     switch (metric) {
-      case PoseMetric::lengthChange: return 100 * (b.length / a.length - 1);
-      case PoseMetric::lengthChangeMm: return 1e3f * (b.length - a.length);
-      case PoseMetric::greatestShortening: return -100 * b.leastStrain;
-      case PoseMetric::twist: return twist;
-      case PoseMetric::twistPerCm: return twist / (100 * a.length);
-      case PoseMetric::greatestTwistPerCm: return 0.01f * glm::degrees(b.greatestTwist);
-      case PoseMetric::curvatureChange: return 0.01f * (b.meanCurvature - a.meanCurvature);
-      case PoseMetric::curvatureChangePercent: return 100 * (b.meanCurvature / a.meanCurvature - 1);
-      case PoseMetric::leastBendRadius: return 1e3f * b.leastBendRadius;
-      case PoseMetric::chordByArc: return 100 * b.chordByArc;
-      case PoseMetric::radiusChange: return 100 * (b.meanRadius / a.meanRadius - 1);
+      case PoseMetric::lengthChange:
+        return 100 * (b.length / a.length - 1);
+      case PoseMetric::lengthChangeMm:
+        return 1e3f * (b.length - a.length);
+      case PoseMetric::greatestShortening:
+        return -100 * b.leastStrain;
+      case PoseMetric::twist:
+        return twist;
+      case PoseMetric::twistPerCm:
+        return twist / (100 * a.length);
+      case PoseMetric::greatestTwistPerCm:
+        return 0.01f * glm::degrees(b.greatestTwist);
+      case PoseMetric::curvatureChange:
+        return 0.01f * (b.meanCurvature - a.meanCurvature);
+      case PoseMetric::curvatureChangePercent:
+        return 100 * (b.meanCurvature / a.meanCurvature - 1);
+      case PoseMetric::leastBendRadius:
+        return 1e3f * b.leastBendRadius;
+      case PoseMetric::chordByArc:
+        return 100 * b.chordByArc;
+      case PoseMetric::radiusChange:
+        return 100 * (b.meanRadius / a.meanRadius - 1);
       case PoseMetric::boneDistanceChange:
-      case PoseMetric::forkAngleChange: break;
+      case PoseMetric::forkAngleChange:
+        break;
     }
     return 0;
   }
@@ -148,21 +168,26 @@ class Study {
   Result<JointId> jointCalled(std::string_view part) const {
     const HumanoidNames known = partsOf(scene_.body.skeleton);
     const auto found = std::ranges::find(known.of, part);
-    if (found == known.of.end()) return badInput("no joint of this skeleton is known to be " + csv::quoted(part));
+    if (found == known.of.end())
+      return badInput("no joint of this skeleton is known to be " + csv::quoted(part));
     return JointId{std::uint32_t(found - known.of.begin())};
   }
 
   // Both branches begin where they part.
-  Result<float> forkAngleChange(const std::string& one, const std::string& other, const Posed& first, const Posed& last) {
-    const auto a = paths_.find(one, one + (one.find('@') == one.npos ? "@end" : "")), b = paths_.find(other, other + (other.find('@') == other.npos ? "@end" : ""));
+  Result<float> forkAngleChange(const std::string& one, const std::string& other, const Posed& first,
+                                const Posed& last) {
+    const auto a = paths_.find(one, one + (one.find('@') == one.npos ? "@end" : "")),
+               b = paths_.find(other, other + (other.find('@') == other.npos ? "@end" : ""));
     if (!a) return a.error();
     if (!b) return b.error();
     const auto direction = [&](const VesselPath& path, const Posed& posed) {
-      const auto far = std::ranges::find_if(path.stations, [](const VesselPath::Station& s) { return s.rest >= kForkReach; });
+      const auto far = std::ranges::find_if(
+          path.stations, [](const VesselPath::Station& s) { return s.rest >= kForkReach; });
       const auto at = [&](const VesselPath::Station& s) {
         return vec3(evaluate(Network::pointsOf(scene_.network.vessel(s.vessel), posed.points), s.parameter));
       };
-      return glm::normalize(at(far == path.stations.end() ? path.stations.back() : *far) - at(path.stations.front()));
+      return glm::normalize(at(far == path.stations.end() ? path.stations.back() : *far) -
+                            at(path.stations.front()));
     };
     const auto angle = [&](const Posed& posed) {
       return std::acos(std::clamp(glm::dot(direction(*a, posed), direction(*b, posed)), -1.0f, 1.0f));
@@ -175,9 +200,12 @@ class Study {
   static void judge(const ProtocolRow& row, ProtocolResult& result) {
     const bool changes = row.metric != PoseMetric::leastBendRadius && row.metric != PoseMetric::chordByArc;
     const bool single = row.low && row.high && *row.low < 0 && *row.high > 0;  // a range about no change
-    if (changes && !single && row.mean != 0) result.rightSign = result.ours * (row.mean > 0 ? 1 : -1) > kNoChange * std::abs(row.mean);
-    if (row.deviation) result.deviations = (result.ours - row.mean) / *row.deviation;
-    else if (row.low && row.high) result.deviations = kPerRange * (result.ours - 0.5f * (*row.low + *row.high)) / (*row.high - *row.low);
+    if (changes && !single && row.mean != 0)
+      result.rightSign = result.ours * (row.mean > 0 ? 1 : -1) > kNoChange * std::abs(row.mean);
+    if (row.deviation)
+      result.deviations = (result.ours - row.mean) / *row.deviation;
+    else if (row.low && row.high)
+      result.deviations = kPerRange * (result.ours - 0.5f * (*row.low + *row.high)) / (*row.high - *row.low);
   }
 
   const Scene& scene_;
@@ -198,7 +226,8 @@ RealismStudy studyRealism(const Scene& scene, const Protocol& protocol, FrameOpt
     if (!result.refusal.empty()) continue;
     ++score.usable;
     if (result.rightSign) ++score.signed_, score.rightSign += *result.rightSign;
-    if (result.deviations) ++score.banded, score.withinOne += result.within(1), score.withinTwo += result.within(2);
+    if (result.deviations)
+      ++score.banded, score.withinOne += result.within(1), score.withinTwo += result.within(2);
   }
   for (const ProtocolSweep& sweep : protocol.sweeps) all.curves.push_back(study.curveOf(sweep));
   return all;

@@ -24,25 +24,29 @@ Result<VesselPlace> PathFinder::landmark(std::string_view text) const {
       if (!sameLetters(vessel.name, parts[0])) continue;
       const auto spans = float(vessel.spanCount());
       if (parts.size() == 1 || parts[1] == "start") {
-        // A vessel may be laid from either end: its root is the one that hangs on a host, or else its first point.
+        // A vessel may be laid from either end: its root is the one that hangs on a host, or else its first
+        // point.
         const bool last = !vessel.start.valid() && vessel.end.valid() && network_->node(vessel.end).host;
         return VesselPlace{{v}, last ? spans : 0};
       }
       if (parts[1] == "end") return VesselPlace{{v}, spans};
       const Result<float> share = csv::parseNumber(parts[1]);
-      if (!share || *share < 0 || *share > 1) return badInput(csv::quoted(alternative) + ": after @ comes start, end or a number from 0 to 1");
+      if (!share || *share < 0 || *share > 1)
+        return badInput(csv::quoted(alternative) + ": after @ comes start, end or a number from 0 to 1");
       return VesselPlace{{v}, *share * spans};
     }
   }
   return badInput("no vessel is called " + csv::quoted(text));
 }
 
-Result<VesselPath> PathFinder::find(std::string_view from, std::string_view to, float firstShare, float lastShare) const {
+Result<VesselPath> PathFinder::find(std::string_view from, std::string_view to, float firstShare,
+                                    float lastShare) const {
   const auto first = landmark(from), last = landmark(to);
   if (!first) return first.error();
   if (!last) return last.error();
   const auto route = routes_.find(*first, *last);
-  if (!route || !(route->length > kStep)) return badInput("no vessels lead from " + csv::quoted(from) + " to " + csv::quoted(to));
+  if (!route || !(route->length > kStep))
+    return badInput("no vessels lead from " + csv::quoted(from) + " to " + csv::quoted(to));
   const float begin = firstShare * route->length, length = (lastShare - firstShare) * route->length;
   const auto count = std::uint32_t(std::max(std::lround(length / kStep), 2l));
   VesselPath path;
@@ -52,7 +56,8 @@ Result<VesselPath> PathFinder::find(std::string_view from, std::string_view to, 
     const Route::Leg& leg = route->legs[l];
     const ArcLength arc(network_->pointsOf(network_->vessel(leg.vessel)));
     const float start = arc.along(leg.from), end = arc.along(leg.to), own = std::abs(end - start);
-    if (own < kStep * 1e-3f && l + 1 < route->legs.size()) continue;  // a landmark's own first place is its host's
+    if (own < kStep * 1e-3f && l + 1 < route->legs.size())
+      continue;  // a landmark's own first place is its host's
     for (; next <= count; ++next) {
       const float along = length * float(next) / float(count), here = begin + along - before;
       if (here > own && l + 1 < route->legs.size()) break;

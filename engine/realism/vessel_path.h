@@ -6,7 +6,8 @@
 
 namespace vasa {
 
-/// A stretch of vessels between two landmarks, marked off at rest: the same places of the wall are looked at in every pose.
+/// A stretch of vessels between two landmarks, marked off at rest: the same places of the wall are looked at
+/// in every pose.
 struct VesselPath {
   struct Station {
     VesselId vessel;
@@ -25,10 +26,12 @@ class PathFinder {
   explicit PathFinder(const Network& network);
 
   /// From landmark to landmark along the vessels, or a part of that stretch.
-  /// @param from, to  "NAME": where this vessel begins (leaves its host); "NAME@end"; "NAME@0.3": at that share of its parameter.
+  /// @param from, to  "NAME": where this vessel begins (leaves its host); "NAME@end"; "NAME@0.3": at that
+  /// share of its parameter.
   ///                  Names that mean the same are parted by '|', the first one that there is counts.
   /// Fails with badInput where a vessel is not there, or no vessels lead from one to the other.
-  Result<VesselPath> find(std::string_view from, std::string_view to, float firstShare = 0, float lastShare = 1) const;
+  Result<VesselPath> find(std::string_view from, std::string_view to, float firstShare = 0,
+                          float lastShare = 1) const;
 
  private:
   Result<VesselPlace> landmark(std::string_view text) const;

@@ -15,17 +15,32 @@ Body upright(float turned = 0) {
     int parent;
     vec3 place;
   };
-  const Row rows[]{{"Hips", -1, {0, 1, 0}},        {"LeftUpLeg", 0, {0.1f, 0.95f, 0}},  {"LeftLeg", 1, {0.1f, 0.5f, 0}},   {"LeftFoot", 2, {0.1f, 0.1f, 0}},
-                   {"RightUpLeg", 0, {-0.1f, 0.95f, 0}}, {"RightLeg", 4, {-0.1f, 0.5f, 0}}, {"RightFoot", 5, {-0.1f, 0.1f, 0}}, {"LowerBack", 0, {0, 1.1f, 0}},
-                   {"Spine", 7, {0, 1.25f, 0}},    {"Spine1", 8, {0, 1.35f, 0}},        {"Neck", 9, {0, 1.5f, 0}},         {"Neck1", 10, {0, 1.55f, 0}},
-                   {"Head", 11, {0, 1.6f, 0}},     {"LeftArm", 9, {0.2f, 1.45f, 0}},    {"LeftForeArm", 13, {0.2f, 1.15f, 0}}, {"LeftHand", 14, {0.2f, 0.9f, 0}}};
+  const Row rows[]{{"Hips", -1, {0, 1, 0}},
+                   {"LeftUpLeg", 0, {0.1f, 0.95f, 0}},
+                   {"LeftLeg", 1, {0.1f, 0.5f, 0}},
+                   {"LeftFoot", 2, {0.1f, 0.1f, 0}},
+                   {"RightUpLeg", 0, {-0.1f, 0.95f, 0}},
+                   {"RightLeg", 4, {-0.1f, 0.5f, 0}},
+                   {"RightFoot", 5, {-0.1f, 0.1f, 0}},
+                   {"LowerBack", 0, {0, 1.1f, 0}},
+                   {"Spine", 7, {0, 1.25f, 0}},
+                   {"Spine1", 8, {0, 1.35f, 0}},
+                   {"Neck", 9, {0, 1.5f, 0}},
+                   {"Neck1", 10, {0, 1.55f, 0}},
+                   {"Head", 11, {0, 1.6f, 0}},
+                   {"LeftArm", 9, {0.2f, 1.45f, 0}},
+                   {"LeftForeArm", 13, {0.2f, 1.15f, 0}},
+                   {"LeftHand", 14, {0.2f, 0.9f, 0}}};
   Body body;
   const mat4 turn = glm::mat4_cast(glm::angleAxis(turned, vec3(0, 1, 0)));
   for (const Row& row : rows) {
     Skeleton::Joint joint;
     joint.name = row.name;
     joint.restWorld = turn * glm::translate(mat4(1), row.place);
-    const mat4 local = row.parent < 0 ? joint.restWorld : glm::inverse(body.skeleton.joints[std::size_t(row.parent)].restWorld) * joint.restWorld;
+    const mat4 local =
+        row.parent < 0
+            ? joint.restWorld
+            : glm::inverse(body.skeleton.joints[std::size_t(row.parent)].restWorld) * joint.restWorld;
     if (row.parent >= 0) joint.parent = {std::uint32_t(row.parent)};
     joint.rest.translation = vec3(local[3]);
     joint.rest.rotation = glm::quat_cast(local);
@@ -39,7 +54,9 @@ vec3 placeOf(const Body& body, const Pose& pose, const char* joint) {
   return vec3(pose.world[body.skeleton.find(joint).value][3]);
 }
 
-bool near(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-4f; }
+bool near(vec3 a, vec3 b) {
+  return glm::distance(a, b) < 1e-4f;
+}
 
 }  // namespace
 
@@ -67,19 +84,23 @@ TEST_CASE("twist is inwards on both sides, and a neck's is shared by its joints"
   // With the knee bent backwards, a thigh that turns inwards takes the foot outwards.
   for (const bool left : {true, false}) {
     const std::string side = left ? "left" : "right";
-    auto pose = poseByAngles(body.skeleton, std::array{JointAngles{side + "UpperLeg", 0, 0, right}, JointAngles{side + "LowerLeg", right}});
+    auto pose = poseByAngles(body.skeleton, std::array{JointAngles{side + "UpperLeg", 0, 0, right},
+                                                       JointAngles{side + "LowerLeg", right}});
     REQUIRE(pose.ok());
     CHECK(near(placeOf(body, *pose, left ? "LeftFoot" : "RightFoot"), vec3(left ? 0.5f : -0.5f, 0.5f, 0)));
   }
   auto pose = poseByAngles(body.skeleton, std::array{JointAngles{"neck", 0, 0, right}});
   REQUIRE(pose.ok());
-  const auto turnOf = [&](const char* joint) { return glm::angle(glm::quat_cast(pose->world[body.skeleton.find(joint).value])); };
+  const auto turnOf = [&](const char* joint) {
+    return glm::angle(glm::quat_cast(pose->world[body.skeleton.find(joint).value]));
+  };
   CHECK(turnOf("Neck") == doctest::Approx(right / 2));
   CHECK(turnOf("Neck1") == doctest::Approx(right));
   CHECK(turnOf("Head") == doctest::Approx(right));
   auto half = poseByAngles(body.skeleton, std::array{JointAngles{"neck", 0, 0, right}}, 0.5f);
   REQUIRE(half.ok());
-  CHECK(glm::angle(glm::quat_cast(half->world[body.skeleton.find("Head").value])) == doctest::Approx(right / 2));
+  CHECK(glm::angle(glm::quat_cast(half->world[body.skeleton.find("Head").value])) ==
+        doctest::Approx(right / 2));
 }
 
 TEST_CASE("a part that is not there is named") {

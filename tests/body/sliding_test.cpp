@@ -12,21 +12,25 @@ namespace {
 
 constexpr float kRadius = 0.003f;
 
-// A vessel of so many spans of 1 cm along x, joined from parts of 10 spans each, and a branch on the side of the first part.
+// A vessel of so many spans of 1 cm along x, joined from parts of 10 spans each, and a branch on the side of
+// the first part.
 Network lineNetwork(std::uint32_t parts, bool backwards = false) {
   NetworkBuilder builder;
   std::vector<VesselId> line;
   for (std::uint32_t part = 0; part < parts; ++part) {
     std::vector<vec4> points;
-    for (const float u : {0.0f, 1 / 3.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 8.0f, 9.0f, 10 - 1 / 3.0f, 10.0f})
+    for (const float u :
+         {0.0f, 1 / 3.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 8.0f, 9.0f, 10 - 1 / 3.0f, 10.0f})
       points.emplace_back(0.1f * float(part) + 0.01f * u, 0, 0, kRadius);
     if (backwards && part % 2) std::reverse(points.begin(), points.end());
     line.push_back(builder.addVessel({"part", "", VesselKind::artery}, points));
     if (part > 0)
-      builder.joinEnds({{line[part - 1], !(backwards && (part - 1) % 2)}, {line[part], backwards && part % 2}});
+      builder.joinEnds(
+          {{line[part - 1], !(backwards && (part - 1) % 2)}, {line[part], backwards && part % 2}});
   }
   std::vector<vec4> branch;
-  for (const float u : {0.0f, 1 / 3.0f, 1.0f, 2.0f, 3.0f - 1 / 3.0f, 3.0f}) branch.emplace_back(0.08f, 0.01f * u, 0, 0.001f);
+  for (const float u : {0.0f, 1 / 3.0f, 1.0f, 2.0f, 3.0f - 1 / 3.0f, 3.0f})
+    branch.emplace_back(0.08f, 0.01f * u, 0, 0.001f);
   builder.joinToSide({builder.addVessel({"branch", "", VesselKind::artery}, branch), false}, {line[0], 8});
   auto network = builder.build(1.75f);
   REQUIRE_MESSAGE(network.ok(), network.error().message);
@@ -41,7 +45,8 @@ std::vector<vec4> squeezed(const Network& network, float from, float to, float s
   return points;
 }
 
-float stretchOf(const Network& network, std::span<const vec4> points, std::uint32_t vessel, float from, float to) {
+float stretchOf(const Network& network, std::span<const vec4> points, std::uint32_t vessel, float from,
+                float to) {
   const Vessel& own = network.vessels()[vessel];
   const ArcLength rest(network.pointsOf(own)), posed(Network::pointsOf(own, points));
   return (posed.along(to) - posed.along(from)) / (rest.along(to) - rest.along(from));
@@ -59,31 +64,39 @@ TEST_CASE("sliding leaves the rest pose as it is, to the bit, and what is only m
   for (vec4& p : points) p = vec4(turn * vec3(p) + vec3(0.3f, 0, 0), p.w);
   const std::vector<vec4> before = points;
   slider.run(points);
-  for (std::size_t i = 0; i < points.size(); ++i) CHECK(glm::distance(vec3(points[i]), vec3(before[i])) < 5e-6f);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    CHECK(glm::distance(vec3(points[i]), vec3(before[i])) < 5e-6f);
 }
 
-TEST_CASE("strain evens out over the sliding length, across vessels joined end to end, in whichever direction they run") {
+TEST_CASE(
+    "strain evens out over the sliding length, across vessels joined end to end, in whichever direction they run") {
   for (const bool backwards : {false, true}) {
     const Network network = lineNetwork(8, backwards);
     std::vector<vec4> points = squeezed(network, 0.35f, 0.45f, 0.5f);
-    const float before = stretchOf(network, points, 3, backwards ? 1.0f : 6.0f, backwards ? 4.0f : 9.0f), length = 0.75f;
+    const float before = stretchOf(network, points, 3, backwards ? 1.0f : 6.0f, backwards ? 4.0f : 9.0f),
+                length = 0.75f;
     CHECK(before == doctest::Approx(0.5f).epsilon(0.01));
     VesselSlider(network).run(points);
     // A rod tied to its bed: the mean of the strain, weighted by e^(-distance / ℓ) / 2ℓ.
     const float l = VesselSlider::slidingLength(kRadius);
     const auto expected = [&](float s) {
-      const auto integral = [&](float t) { return t < s ? 0.5f * std::exp((t - s) / l) : 1 - 0.5f * std::exp((s - t) / l); };
+      const auto integral = [&](float t) {
+        return t < s ? 0.5f * std::exp((t - s) / l) : 1 - 0.5f * std::exp((s - t) / l);
+      };
       return 1 - 0.5f * (integral(0.45f) - integral(0.35f));
     };
-    CHECK(stretchOf(network, points, 3, backwards ? 3.0f : 6.0f, backwards ? 4.0f : 7.0f) == doctest::Approx(expected(0.365f)).epsilon(0.02));
+    CHECK(stretchOf(network, points, 3, backwards ? 3.0f : 6.0f, backwards ? 4.0f : 7.0f) ==
+          doctest::Approx(expected(0.365f)).epsilon(0.02));
     CHECK(stretchOf(network, points, 2, 4, 6) == doctest::Approx(expected(0.25f)).epsilon(0.02));
     CHECK(stretchOf(network, points, 6, 4, 6) == doctest::Approx(expected(0.65f)).epsilon(0.03));
-    // Between the ends, beyond which there is nothing to slide into, nothing is gained or lost, and no point leaves the line.
+    // Between the ends, beyond which there is nothing to slide into, nothing is gained or lost, and no point
+    // leaves the line.
     float whole = 0;
     for (std::uint32_t v = 0; v < 8; ++v) whole += lengthOf(Network::pointsOf(network.vessels()[v], points));
     CHECK(whole == doctest::Approx(length).epsilon(1e-4));
     CHECK(points[network.vessels()[0].firstPoint].x == network.points()[network.vessels()[0].firstPoint].x);
-    for (std::uint32_t i = 0; i < network.vessels().back().firstPoint; ++i) CHECK(std::abs(points[i].y) < 1e-6f);
+    for (std::uint32_t i = 0; i < network.vessels().back().firstPoint; ++i)
+      CHECK(std::abs(points[i].y) < 1e-6f);
   }
 }
 
@@ -93,7 +106,8 @@ TEST_CASE("a free end draws back where its vessel is stretched") {
   VesselSlider(network).run(points);
   // Both ends are free and the bed is long for so short a rod: it keeps nearly its own length, in the middle.
   const auto own = Network::pointsOf(network.vessels()[0], points);
-  const float l = VesselSlider::slidingLength(kRadius), expected = 0.1f + 0.1f * (1 - std::tanh(0.05f / l) / (0.05f / l));
+  const float l = VesselSlider::slidingLength(kRadius),
+              expected = 0.1f + 0.1f * (1 - std::tanh(0.05f / l) / (0.05f / l));
   CHECK(lengthOf(own) == doctest::Approx(expected).epsilon(0.01));
   CHECK(own.front().x + own.back().x == doctest::Approx(0.2f).epsilon(1e-3));
 }
@@ -123,7 +137,8 @@ TEST_CASE("sliding is continuous in the pose") {
   for (float share = 1; share > 0.3f; share -= 0.01f) {
     std::vector<vec4> points = squeezed(network, 0.2f, 0.3f, share);
     slider.run(points);
-    for (std::size_t i = 0; i < last.size(); ++i) CHECK(glm::distance(vec3(points[i]), vec3(last[i])) < 1.5e-3f);  // the bed: 1 mm
+    for (std::size_t i = 0; i < last.size(); ++i)
+      CHECK(glm::distance(vec3(points[i]), vec3(last[i])) < 1.5e-3f);  // the bed: 1 mm
     last = points;
   }
 }

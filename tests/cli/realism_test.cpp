@@ -11,20 +11,24 @@ namespace {
 
 // One pose and a figure that the built-in human comes near, or one that nobody does.
 void writeProtocol(const std::filesystem::path& folder, const std::string& row) {
-  std::ofstream(folder / "poses.csv") << "pose,part,flex_deg,abduct_deg,twist_deg\nknee_60,leftLowerLeg,60,0,0\nknee_60,rightLowerLeg,60,0,0\n";
+  std::ofstream(folder / "poses.csv")
+      << "pose,part,flex_deg,abduct_deg,twist_deg\nknee_60,leftLowerLeg,60,0,0\nknee_60,rightLowerLeg,60,0,0\n";
   std::ofstream(folder / "sweeps.csv") << "sweep,pose,degrees,from,to,metric\n";
   std::ofstream(folder / "protocol.csv")
-      << "id,from,to,first_share,last_share,from_pose,to_pose,metric,level_mm,mean,sd,low,high,blind,source,link,note\n" << row << "\n";
+      << "id,from,to,first_share,last_share,from_pose,to_pose,metric,level_mm,mean,sd,low,high,blind,source,link,note\n"
+      << row << "\n";
 }
 
 }  // namespace
 
-TEST_CASE("realism takes a figure from the built-in human, writes a page, and ends with 1 below the score that is asked for") {
+TEST_CASE(
+    "realism takes a figure from the built-in human, writes a page, and ends with 1 below the score that is asked for") {
   TemporaryFolder folder;
   const std::string landmarks = "left deep femoral artery,left anterior tibial artery,,,rest,knee_60,";
   writeProtocol(folder.path(), "A1," + landmarks + "length_change_percent,,-6,3,,,,Somebody 2006,,");
   const auto out = folder.path() / "page";
-  auto outcome = runProgram({"realism", "--protocol", folder.path().string(), "--json", "--least", "1", "-o", out.string()});
+  auto outcome = runProgram(
+      {"realism", "--protocol", folder.path().string(), "--json", "--least", "1", "-o", out.string()});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   const auto row = outcome.json()["rows"][0];
   CHECK(row["ours"].get<double>() < -3);
@@ -44,7 +48,9 @@ TEST_CASE("realism takes a figure from the built-in human, writes a page, and en
 
 TEST_CASE("realism says what is wrong with a table") {
   TemporaryFolder folder;
-  writeProtocol(folder.path(), "A1,left deep femoral artery,left anterior tibial artery,,,rest,kneel,twist_degrees,,60,34,,,,S,,");
+  writeProtocol(
+      folder.path(),
+      "A1,left deep femoral artery,left anterior tibial artery,,,rest,kneel,twist_degrees,,60,34,,,,S,,");
   const auto outcome = runProgram({"realism", "--protocol", folder.path().string()});
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("protocol.csv:2: poses.csv has no pose 'kneel'") != std::string::npos);

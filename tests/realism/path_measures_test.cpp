@@ -50,7 +50,8 @@ TEST_CASE("an arc has the arc's radius and chord, a squeezed path its strain") {
   CHECK(1 / arc.meanCurvature == doctest::Approx(radius).epsilon(0.02));
   CHECK(arc.leastBendRadius == doctest::Approx(radius).epsilon(0.05));
   CHECK(arc.chordByArc == doctest::Approx(std::sin(1.0f)).epsilon(0.01));  // of 2 radians: 2 sin(1) / 2
-  const auto squeezed = c.moved([](vec3 p) { return vec3(p.x, p.y > 0.9f ? 0.9f + 0.6f * (p.y - 0.9f) : p.y, p.z); });
+  const auto squeezed =
+      c.moved([](vec3 p) { return vec3(p.x, p.y > 0.9f ? 0.9f + 0.6f * (p.y - 0.9f) : p.y, p.z); });
   const PathMeasures half = measurePath(c.network, c.path, squeezed, {});
   CHECK(half.strain == doctest::Approx(-0.2f).epsilon(0.02));
   CHECK(half.leastStrain == doctest::Approx(-0.4f).epsilon(0.02));

@@ -15,7 +15,8 @@ void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
 }
 
-const std::string kHeader = "id,from,to,first_share,last_share,from_pose,to_pose,metric,level_mm,mean,sd,low,high,blind,source,link,note\n";
+const std::string kHeader =
+    "id,from,to,first_share,last_share,from_pose,to_pose,metric,level_mm,mean,sd,low,high,blind,source,link,note\n";
 
 Result<Protocol> withRow(const std::string& row) {
   test::TemporaryFolder folder;
@@ -27,7 +28,8 @@ Result<Protocol> withRow(const std::string& row) {
 
 }  // namespace
 
-TEST_CASE("the protocol that ships: forty figures and more, each with its source, every eighth of the list blind") {
+TEST_CASE(
+    "the protocol that ships: forty figures and more, each with its source, every eighth of the list blind") {
   const auto protocol = readProtocol(VASA_REALISM_DATA);
   REQUIRE_MESSAGE(protocol.ok(), protocol.error().message);
   CHECK(protocol->rows.size() >= 40);
@@ -52,8 +54,13 @@ TEST_CASE("a row is read, and what is wrong with one is told with its line") {
   CHECK_FALSE(row.low);
   CHECK(row.blind);
   CHECK(good->poses.find("bent")->second.front().flexion == doctest::Approx(glm::radians(90.0f)));
-  CHECK(withRow("A1,a,b,,,rest,knelt,twist_degrees,,60,34,,,,S,,").error().message == "protocol.csv:2: poses.csv has no pose 'knelt'");
-  CHECK(withRow("A1,a,b,,,rest,bent,twits,,60,34,,,,S,,").error().message.find("protocol.csv:2: 'twits' is no metric; there are length_change_percent") == 0);
-  CHECK(withRow("A1,a,b,0.6,0.5,rest,bent,twist_degrees,,60,34,,,,S,,").error().message == "protocol.csv:2: shares must rise from 0 to 1");
-  CHECK(withRow("A1,a,b,,,rest,bent,twist_degrees,,sixty,34,,,,S,,").error().message == "protocol.csv:2: 'sixty' is not a number");
+  CHECK(withRow("A1,a,b,,,rest,knelt,twist_degrees,,60,34,,,,S,,").error().message ==
+        "protocol.csv:2: poses.csv has no pose 'knelt'");
+  CHECK(withRow("A1,a,b,,,rest,bent,twits,,60,34,,,,S,,")
+            .error()
+            .message.find("protocol.csv:2: 'twits' is no metric; there are length_change_percent") == 0);
+  CHECK(withRow("A1,a,b,0.6,0.5,rest,bent,twist_degrees,,60,34,,,,S,,").error().message ==
+        "protocol.csv:2: shares must rise from 0 to 1");
+  CHECK(withRow("A1,a,b,,,rest,bent,twist_degrees,,sixty,34,,,,S,,").error().message ==
+        "protocol.csv:2: 'sixty' is not a number");
 }

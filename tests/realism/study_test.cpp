@@ -6,7 +6,8 @@ using namespace vasa;
 
 namespace {
 
-// A leg by its joints alone, on either side, and the vessels of landmarkNetwork() before its knee, mirrored to the right.
+// A leg by its joints alone, on either side, and the vessels of landmarkNetwork() before its knee, mirrored
+// to the right.
 Scene twoLegs() {
   Body body;
   body.name = "legs";
@@ -15,9 +16,15 @@ Scene twoLegs() {
     int parent;
     vec3 place;
   };
-  for (const Row& row : {Row{"Hips", -1, {0, 1.1f, 0}}, {"LeftUpLeg", 0, {0.1f, 1.05f, 0}}, {"LeftLeg", 1, {0.1f, 0.85f, 0.03f}}, {"LeftFoot", 2, {0.1f, 0.5f, 0.03f}},
-                         {"RightUpLeg", 0, {-0.1f, 1.05f, 0}}, {"RightLeg", 4, {-0.1f, 0.85f, 0.03f}}, {"RightFoot", 5, {-0.1f, 0.5f, 0.03f}},
-                         {"Spine", 0, {0, 1.3f, 0}}, {"Head", 7, {0, 1.6f, 0}}}) {
+  for (const Row& row : {Row{"Hips", -1, {0, 1.1f, 0}},
+                         {"LeftUpLeg", 0, {0.1f, 1.05f, 0}},
+                         {"LeftLeg", 1, {0.1f, 0.85f, 0.03f}},
+                         {"LeftFoot", 2, {0.1f, 0.5f, 0.03f}},
+                         {"RightUpLeg", 0, {-0.1f, 1.05f, 0}},
+                         {"RightLeg", 4, {-0.1f, 0.85f, 0.03f}},
+                         {"RightFoot", 5, {-0.1f, 0.5f, 0.03f}},
+                         {"Spine", 0, {0, 1.3f, 0}},
+                         {"Head", 7, {0, 1.6f, 0}}}) {
     Skeleton::Joint joint;
     joint.name = row.name;
     joint.restWorld = glm::translate(mat4(1), row.place);
@@ -36,7 +43,8 @@ Scene twoLegs() {
       std::vector<vec4> points(left.pointsOf(vessel).begin(), left.pointsOf(vessel).end());
       if (mirror)
         for (vec4& p : points) p.x = -p.x;
-      builder.addVessel({(mirror ? "right" : "left") + vessel.name.substr(4), "", VesselKind::artery}, points);
+      builder.addVessel({(mirror ? "right" : "left") + vessel.name.substr(4), "", VesselKind::artery},
+                        points);
     }
   for (const std::uint32_t side : {0u, 5u}) {
     builder.joinEnds({{{side}, true}, {{side + 1}, false}});
@@ -98,7 +106,8 @@ TEST_CASE("sliding spreads a bend's strain along the vessel and keeps the whole"
     return studyRealism(scene, protocol, {.slide = slide, .avoid = true}).results[0].ours;
   };
   // But for what splines of other density cut off a bend of a few millimetres.
-  CHECK(change("left trunk", "left last", true) == doctest::Approx(change("left trunk", "left last", false)).epsilon(0.35));
+  CHECK(change("left trunk", "left last", true) ==
+        doctest::Approx(change("left trunk", "left last", false)).epsilon(0.35));
   CHECK(std::abs(change("left trunk", "left high", false)) < 1);  // far above the bend
   CHECK(change("left trunk", "left high", true) < -3);
 }

@@ -15,7 +15,8 @@ TEST_CASE("a path runs from where one branch leaves to where another does, over 
   CHECK(path->stations.front().parameter == doctest::Approx(5).epsilon(1e-3));
   CHECK(path->stations.back().vessel == VesselId{1});
   CHECK(path->stations.back().parameter == doctest::Approx(10).epsilon(1e-3));
-  for (std::size_t i = 1; i < path->stations.size(); ++i) CHECK(path->stations[i].rest > path->stations[i - 1].rest);
+  for (std::size_t i = 1; i < path->stations.size(); ++i)
+    CHECK(path->stations[i].rest > path->stations[i - 1].rest);
 }
 
 TEST_CASE("a part of a path, places by share, other names for the same, and either direction") {
