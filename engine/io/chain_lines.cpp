@@ -126,6 +126,7 @@ class Graph {
       own.clear();
       for (; first < at.size() && at[first].first == node; ++first) own.push_back(at[first].second);
       if (own.size() < 2 || own.size() > kMostLookedAt) continue;
+      // Samples next to nothing apart, or too far apart for numbers, have no direction: they pair with none.
       float best = -4;
       std::pair<std::uint32_t, std::uint32_t> pair{kNone, kNone};
       for (std::size_t i = 0; i < own.size(); ++i)
@@ -135,6 +136,7 @@ class Graph {
           const float fit = -glm::dot(a, b) + 0.5f * std::min(p.w, q.w) / std::max(p.w, q.w);
           if (fit > best) best = fit, pair = {own[i], own[k]};
         }
+      if (pair.first == kNone) continue;
       next_[slot(pair.first, node)] = pair.second;
       next_[slot(pair.second, node)] = pair.first;
     }
