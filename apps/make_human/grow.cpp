@@ -16,8 +16,8 @@ constexpr float kHostCell = 0.016f, kObstacleCell = 0.010f, kLeastCell = 0.0015f
 constexpr int kCandidates = 8;  // places of which the emptiest is chosen, at first
 constexpr int kRelaxations = 8;
 constexpr int kFailuresToClose = 150;  // in a row: the region is full
-constexpr float kFiner = 0.85f;         // times as thin is what grows where all regions are full
-constexpr int kMostFiner = 4;           // times
+constexpr float kFiner = 0.85f;        // times as thin is what grows where all regions are full
+constexpr int kMostFiner = 4;          // times
 constexpr int kFailuresToLowerSights =
     8;  // in a row: half as many candidates, and branches that stop on the way
 constexpr float kShortenings[] = {1, 0.6f, 0.35f};
@@ -416,16 +416,10 @@ Grower::Grower(std::vector<LaidVessel>& vessels, const std::vector<Region>& regi
     : state_(std::make_unique<State>(vessels, regions, around, options)) {}
 Grower::~Grower() = default;
 
-void Grower::run() {
-  state_->run();
-}
+void Grower::run() { state_->run(); }
 
-bool Grower::remove(int vessel) {
-  return state_->remove(vessel);
-}
+bool Grower::remove(int vessel) { return state_->remove(vessel); }
 
-std::vector<LaidVessel> Grower::finish() {
-  return state_->finish();
-}
+std::vector<LaidVessel> Grower::finish() { return state_->finish(); }
 
 }  // namespace vasa::human

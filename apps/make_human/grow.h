@@ -30,7 +30,8 @@ class Grower {
          const GrowOptions& options);
   ~Grower();
 
-  /// Grows until there are enough sweeps, thinner branches where the regions are full, or until these have no room either.
+  /// Grows until there are enough sweeps, thinner branches where the regions are full, or until these have no
+  /// room either.
   void run();
   /// Takes a grown vessel away, and what grew on it; its place stays empty. False for a vessel of the table
   /// or one that is gone already.

@@ -85,7 +85,8 @@ Body bodyOf(const Rig& rig, std::vector<SkinnedMesh> meshes, std::vector<Clip> c
 MotionProbe::MotionProbe(Body body) : body_(std::move(body)), poses_(extremePoses(body_)) {}
 
 template <class Visit>
-Result<void> MotionProbe::visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh, Visit visit) const {
+Result<void> MotionProbe::visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh,
+                                     Visit visit) const {
   const Result<Binding> binding = bind(body_, network, "human.vasa");
   if (!binding.ok()) return binding.error();
   Deformer deformer(*binding);
@@ -114,7 +115,8 @@ Result<std::vector<Escape>> MotionProbe::escapes(const Network& network) const {
     for (vec3 q : corners) nearest = std::min(nearest, glm::dot(p - q, p - q));
     excess[i] = std::max(excess[i], std::sqrt(nearest));
   };
-  if (const Result<void> visited = visitPoses(network, places, 0, visit); !visited.ok()) return visited.error();
+  if (const Result<void> visited = visitPoses(network, places, 0, visit); !visited.ok())
+    return visited.error();
   std::vector<Escape> escapes;
   for (std::size_t i = 0; i < places.size(); ++i)
     if (excess[i] > 0) escapes.push_back({places[i].vessel, places[i].share, excess[i]});
@@ -129,10 +131,12 @@ Result<std::vector<VesselId>> MotionProbe::throughBones(const Network& network, 
     const std::optional<Solid::Place> place = bones.at(p, depth);
     deep[i] = place && place->distance <= -depth;
   };
-  if (const Result<void> visited = visitPoses(network, places, 1, visit); !visited.ok()) return visited.error();
+  if (const Result<void> visited = visitPoses(network, places, 1, visit); !visited.ok())
+    return visited.error();
   std::vector<VesselId> vessels;
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (deep[i] && (vessels.empty() || vessels.back().value != places[i].vessel)) vessels.push_back({places[i].vessel});
+    if (deep[i] && (vessels.empty() || vessels.back().value != places[i].vessel))
+      vessels.push_back({places[i].vessel});
   return vessels;
 }
 

@@ -27,8 +27,8 @@ class MotionProbe {
   /// Where centre lines leave the skin, at every half span; sorted by vessel, then share.
   Result<std::vector<Escape>> escapes(const Network& network) const;
 
-  /// Vessels that a pose brings deeper into a bone than `depth` [m], with their centre lines, at every half span; by
-  /// number, each once.
+  /// Vessels that a pose brings deeper into a bone than `depth` [m], with their centre lines, at every half
+  /// span; by number, each once.
   Result<std::vector<VesselId>> throughBones(const Network& network, float depth) const;
 
  private:
@@ -37,9 +37,11 @@ class MotionProbe {
     float share;  // along it
   };
   static std::vector<Place> halfSpans(const Network& network);
-  /// visit(place's number, where it is, what the mesh encloses then, the mesh's corners then), in each pose; parallel.
+  /// visit(place's number, where it is, what the mesh encloses then, the mesh's corners then), in each pose;
+  /// parallel.
   template <class Visit>
-  Result<void> visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh, Visit visit) const;
+  Result<void> visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh,
+                          Visit visit) const;
 
   Body body_;
   std::vector<Pose> poses_;

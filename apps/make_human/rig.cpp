@@ -3,9 +3,7 @@
 namespace vasa::human {
 namespace {
 
-bool onLeft(std::string_view name) {
-  return mirroredName(name) != name;
-}
+bool onLeft(std::string_view name) { return mirroredName(name) != name; }
 
 struct PendingRow {
   RigPoint point;

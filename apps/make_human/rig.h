@@ -39,9 +39,7 @@ class Rig {
 
 /// "LeftHand" -> "RightHand", "LThumb" -> "RThumb"; other names stay.
 std::string mirroredName(std::string_view name);
-inline vec3 mirrored(vec3 v) {
-  return {-v.x, v.y, v.z};
-}
+inline vec3 mirrored(vec3 v) { return {-v.x, v.y, v.z}; }
 /// `LR` -> left and right, `L`, `R`, anything else -> middle.
 std::vector<Side> sidesOf(std::string_view cell);
 

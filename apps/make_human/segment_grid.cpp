@@ -20,17 +20,22 @@ SegmentGrid::Cell SegmentGrid::cellAt(vec3 p) const {
 // All that may hold something, by x, then y, then z.
 template <class Visit>
 void SegmentGrid::visitCells(Cell low, Cell high, Visit visit) const {
-  const Cell first = low >> std::int64_t(kBlockBits), blocks = (high >> std::int64_t(kBlockBits)) - first + std::int64_t(1);
+  const Cell first = low >> std::int64_t(kBlockBits),
+             blocks = (high >> std::int64_t(kBlockBits)) - first + std::int64_t(1);
   occupied_.clear();
   for (std::int64_t x = 0; x < blocks.x; ++x)
     for (std::int64_t y = 0; y < blocks.y; ++y)
-      for (std::int64_t z = 0; z < blocks.z; ++z) occupied_.push_back(blocks_.contains(keyOf(first + Cell(x, y, z))));
+      for (std::int64_t z = 0; z < blocks.z; ++z)
+        occupied_.push_back(blocks_.contains(keyOf(first + Cell(x, y, z))));
   for (std::int64_t x = low.x; x <= high.x; ++x)
     for (std::int64_t y = low.y; y <= high.y; ++y) {
-      const std::int64_t row = (((x >> kBlockBits) - first.x) * blocks.y + (y >> kBlockBits) - first.y) * blocks.z;
+      const std::int64_t row =
+          (((x >> kBlockBits) - first.x) * blocks.y + (y >> kBlockBits) - first.y) * blocks.z;
       for (std::int64_t z = low.z; z <= high.z; ++z) {
-        if (occupied_[std::size_t(row + (z >> kBlockBits) - first.z)]) visit(keyOf({x, y, z}));
-        else z |= (1 << kBlockBits) - 1;
+        if (occupied_[std::size_t(row + (z >> kBlockBits) - first.z)])
+          visit(keyOf({x, y, z}));
+        else
+          z |= (1 << kBlockBits) - 1;
       }
     }
 }
@@ -39,7 +44,8 @@ void SegmentGrid::add(const Segment& segment) {
   const std::uint32_t number = std::uint32_t(segments_.size());
   segments_.push_back(segment);
   stamp_.push_back(0);
-  const Cell low = cellAt(glm::min(segment.a, segment.b) - segment.radius), high = cellAt(glm::max(segment.a, segment.b) + segment.radius);
+  const Cell low = cellAt(glm::min(segment.a, segment.b) - segment.radius),
+             high = cellAt(glm::max(segment.a, segment.b) + segment.radius);
   for (std::int64_t x = low.x; x <= high.x; ++x)
     for (std::int64_t y = low.y; y <= high.y; ++y)
       for (std::int64_t z = low.z; z <= high.z; ++z) {

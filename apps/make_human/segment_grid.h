@@ -8,8 +8,8 @@
 
 namespace vasa::human {
 
-/// Round pieces of vessels in a grid of cells: which lie near a place. Grows piece by piece. Blocks of cells in which
-/// there is nothing are passed over, so that cells may be small beside what is looked for.
+/// Round pieces of vessels in a grid of cells: which lie near a place. Grows piece by piece. Blocks of cells
+/// in which there is nothing are passed over, so that cells may be small beside what is looked for.
 class SegmentGrid {
  public:
   struct Segment {

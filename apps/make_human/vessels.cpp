@@ -7,10 +7,10 @@ namespace vasa::human {
 namespace {
 
 constexpr int kSinkings = 2, kPrunings = 6, kRefinements = 10;
-constexpr float kAllowedOut = 0.2e-3f;  // [m] of a centre line, in the poses looked at
+constexpr float kAllowedOut = 0.2e-3f;   // [m] of a centre line, in the poses looked at
 constexpr float kAllowedInBone = 4e-3f;  // [m] of a grown one's; less is put right as the vessels move
-constexpr float kDeeper = 2.5e-3f;      // [m] than would just do
-constexpr float kDeepest = 6e-3f;       // at a time
+constexpr float kDeeper = 2.5e-3f;       // [m] than would just do
+constexpr float kDeepest = 6e-3f;        // at a time
 
 Result<void> sinkEscapes(VesselLayout& layout, const MotionProbe& probe, float bodyHeight) {
   layout.settle();

@@ -23,8 +23,10 @@ std::optional<vec3> parseVector(std::string_view text) {
 bool parsePlace(const std::string& text, CameraChoice& choice) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
-    if (c == '/') parts.emplace_back();
-    else parts.back() += c;
+    if (c == '/')
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   if (parts.size() > 3) return false;
   choice.position = parseVector(parts[0]);
@@ -34,7 +36,8 @@ bool parsePlace(const std::string& text, CameraChoice& choice) {
   if (parts.size() > 2) {
     const char* end = parts[2].data() + parts[2].size();
     const auto [stop, error] = std::from_chars(parts[2].data(), end, choice.angleDegrees);
-    if (error != std::errc() || stop != end || !(choice.angleDegrees >= 1 && choice.angleDegrees <= 150)) return false;
+    if (error != std::errc() || stop != end || !(choice.angleDegrees >= 1 && choice.angleDegrees <= 150))
+      return false;
   }
   return true;
 }
@@ -42,8 +45,9 @@ bool parsePlace(const std::string& text, CameraChoice& choice) {
 }  // namespace
 
 void addCameraOptions(CLI::App& sub, CameraOptions& options) {
-  sub.add_option("--camera", options.camera,
-                 "front, back, left, right, top, or POSITION[/TARGET[/ANGLE]], e.g. 0,1.2,3/0,1,0/25 (metres, degrees)");
+  sub.add_option(
+      "--camera", options.camera,
+      "front, back, left, right, top, or POSITION[/TARGET[/ANGLE]], e.g. 0,1.2,3/0,1,0/25 (metres, degrees)");
   sub.add_option("--focus", options.focus, "Vessel or joint that fills the picture and is followed");
   sub.add_option("--distance", options.distance, "How far off, as a multiple of what just fits (default 1)")
       ->check(CLI::Range(0.01, 100.0));
@@ -57,13 +61,16 @@ Result<CameraChoice> chooseCamera(CameraChoice choice, const CameraOptions& opti
     choice.view = options.camera;
     choice.position.reset();
   } else if (!parsePlace(options.camera, choice)) {
-    return Error{Fault::usage, "--camera " + options.camera +
-                                   ": give front, back, left, right, top, or POSITION/TARGET/ANGLE such as 0,1.2,3/0,1,0/25"};
+    return Error{
+        Fault::usage,
+        "--camera " + options.camera +
+            ": give front, back, left, right, top, or POSITION/TARGET/ANGLE such as 0,1.2,3/0,1,0/25"};
   }
   return choice;
 }
 
-Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& scene, const Clip* clip, float aspect) {
+Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& scene, const Clip* clip,
+                                    float aspect) {
   CameraMan man;
   const Aabb all = motionBounds(scene, clip);
   man.still_ = cameraFrom(viewNamed(choice.view).value_or(View::front), all, aspect);
@@ -76,7 +83,8 @@ Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& sce
   } else if (choice.focus.empty()) {
     man.goesAlong_ = true;
     man.still_ = focusOn(man.still_, all, aspect);
-    man.still_.position = man.still_.target + choice.distanceFactor * (man.still_.position - man.still_.target);
+    man.still_.position =
+        man.still_.target + choice.distanceFactor * (man.still_.position - man.still_.target);
   }
   if (choice.focus.empty()) return man;
   const auto subject = findSubject(scene, choice.focus);

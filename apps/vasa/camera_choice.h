@@ -14,12 +14,13 @@ struct CameraOptions {
 void addCameraOptions(CLI::App& sub, CameraOptions& options);
 Result<CameraChoice> chooseCamera(CameraChoice fromScene, const CameraOptions& options);
 
-/// Gives each frame its camera: one that stands still where it was put, one that goes along with the body and holds its
-/// whole motion, or one that goes with a subject.
-/// A function of the scene, the clip and the frame's pose.
+/// Gives each frame its camera: one that stands still where it was put, one that goes along with the body and
+/// holds its whole motion, or one that goes with a subject. A function of the scene, the clip and the frame's
+/// pose.
 class CameraMan {
  public:
-  static Result<CameraMan> create(const CameraChoice& choice, const Scene& scene, const Clip* clip, float aspect);
+  static Result<CameraMan> create(const CameraChoice& choice, const Scene& scene, const Clip* clip,
+                                  float aspect);
   Camera at(const Scene& scene, const Pose& pose, std::span<const vec4> points) const;
 
  private:

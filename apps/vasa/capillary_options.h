@@ -26,7 +26,7 @@ CapillaryWish wishOf(const CapillaryChoice& choice);
 /// What the scene's capillaries grow from; null where none are asked for.
 /// @param table  makeSweepTable() of the scene's network, made where it is left out
 Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice);
-Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice, const SweepTable& table,
-                                              GrowthUse use = GrowthUse::drawn);
+Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice,
+                                              const SweepTable& table, GrowthUse use = GrowthUse::drawn);
 
 }  // namespace vasa::cli

@@ -56,8 +56,8 @@ Result<Setting> prepare(const Options& options) {
   return setting;
 }
 
-// Volumes by the vessels' points alone, whatever the solver says of them. Those that gave way (a radius at its least or
-// greatest, or a narrow place) cannot keep theirs, and are told apart.
+// Volumes by the vessels' points alone, whatever the solver says of them. Those that gave way (a radius at
+// its least or greatest, or a narrow place) cannot keep theirs, and are told apart.
 struct VolumeErrors {
   double kept = 0, gaveWay = 0;
   std::uint32_t gaveWayCount = 0;
@@ -76,16 +76,19 @@ VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, 
     bool atLimit = narrow[v];
     for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p) {
       const float factor = points[p].w / network.points()[p].w;
-      atLimit |= factor < 1.001f * VolumeKeeper::kLowestFactor || factor > 0.999f * VolumeKeeper::kHighestFactor;
+      atLimit |=
+          factor < 1.001f * VolumeKeeper::kLowestFactor || factor > 0.999f * VolumeKeeper::kHighestFactor;
     }
-    if (atLimit && error > kNegligible) ++errors.gaveWayCount, errors.gaveWay = std::max(errors.gaveWay, error);
-    else errors.kept = std::max(errors.kept, error);
+    if (atLimit && error > kNegligible)
+      ++errors.gaveWayCount, errors.gaveWay = std::max(errors.gaveWay, error);
+    else
+      errors.kept = std::max(errors.kept, error);
   }
   return errors;
 }
 
-// The correction of each point as its surroundings see it, and how much it differs from another frame's, in radii at
-// rest: what an eye would take for flicker.
+// The correction of each point as its surroundings see it, and how much it differs from another frame's, in
+// radii at rest: what an eye would take for flicker.
 class CorrectionChange {
  public:
   // 99th percentile over the points that are corrected in either frame, and the largest.
@@ -96,9 +99,11 @@ class CorrectionChange {
     std::vector<vec3> now(maker.points().size());
     std::vector<double> changes;
     for (std::size_t p = 0; p < now.size(); ++p) {
-      now[p] = glm::conjugate(maker.rotations()[p]) * (vec3(maker.points()[p]) - vec3(maker.posedPoints()[p]));
+      now[p] =
+          glm::conjugate(maker.rotations()[p]) * (vec3(maker.points()[p]) - vec3(maker.posedPoints()[p]));
       if (last_.empty() || (now[p] == vec3(0) && last_[p] == vec3(0))) continue;
-      changes.push_back(double(glm::distance(now[p], last_[p])) / std::max(double(network.points()[p].w), 1e-6));
+      changes.push_back(double(glm::distance(now[p], last_[p])) /
+                        std::max(double(network.points()[p].w), 1e-6));
     }
     last_ = std::move(now);
     if (changes.empty()) return {};
@@ -114,7 +119,8 @@ class CorrectionChange {
 // Vessels that have changed sides since rest, by a look of its own.
 class SideCheck {
  public:
-  explicit SideCheck(const Network& network) : interference_(network), sides_(network, interference_), tubes_(interference_.layout().count()) {}
+  explicit SideCheck(const Network& network)
+      : interference_(network), sides_(network, interference_), tubes_(interference_.layout().count()) {}
   std::span<const Contact> find(const FrameMaker& maker) {
     interference_.layout().shape(maker.points(), tubes_);
     sides_.findChanged(tubes_, maker.rotations(), changed_);
@@ -157,26 +163,33 @@ void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps
                                     {"bound_m", steps->worst->bound}};
 }
 
-// The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two are, and
-// tubes in bones by the joint that carries the bone.
-void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Contact> changedSides, Report& row) {
+// The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two
+// are, and tubes in bones by the joint that carries the bone.
+void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Contact> changedSides,
+               Report& row) {
   const Network& network = scene.network;
   const auto describe = [&](const Contact& contact, float depth) {
-    const auto nameOf = [&](std::uint32_t tube) { return network.vessel(avoider.layout().address(tube).vessel).name; };
+    const auto nameOf = [&](std::uint32_t tube) {
+      return network.vessel(avoider.layout().address(tube).vessel).name;
+    };
     const auto spanOf = [&](std::uint32_t tube) { return avoider.layout().address(tube).span; };
-    return Report{{"vessels", {nameOf(contact.i), nameOf(contact.j)}}, {"spans", {spanOf(contact.i), spanOf(contact.j)}}, {"depth_m", depth}};
+    return Report{{"vessels", {nameOf(contact.i), nameOf(contact.j)}},
+                  {"spans", {spanOf(contact.i), spanOf(contact.j)}},
+                  {"depth_m", depth}};
   };
   row["remaining"] = row["changed_sides"] = Report::array();
-  for (const Interference::Place& place : avoider.remaining()) row["remaining"].push_back(describe(place.contact, place.excess()));
+  for (const Interference::Place& place : avoider.remaining())
+    row["remaining"].push_back(describe(place.contact, place.excess()));
   for (const Contact& contact : changedSides) row["changed_sides"].push_back(describe(contact, -contact.f));
   row["in_bones"] = Report::array();
   for (const BoneContact& contact : avoider.inBones()) {
     const auto [vessel, span] = avoider.layout().address(contact.tube);
-    row["in_bones"].push_back({{"vessel", network.vessel(vessel).name},
-                               {"span", float(span) + contact.s},
-                               {"joint", scene.body.skeleton.joints[avoider.jointOfBone(contact.part).value].name},
-                               {"depth_m", contact.allowed - contact.f},
-                               {"allowed_m", contact.allowed}});
+    row["in_bones"].push_back(
+        {{"vessel", network.vessel(vessel).name},
+         {"span", float(span) + contact.s},
+         {"joint", scene.body.skeleton.joints[avoider.jointOfBone(contact.part).value].name},
+         {"depth_m", contact.allowed - contact.f},
+         {"allowed_m", contact.allowed}});
   }
 }
 
@@ -259,7 +272,8 @@ Report summaryOf(const Report& frames) {
     bad += frame["contacts_after"].get<std::uint32_t>() > 0;
     for (const auto& [key, value] : frame.items()) {
       if (!value.is_number() || key == "frame") continue;
-      const bool worse = !summary.contains(key) || (key == "least_lumen" ? value < summary[key] : value > summary[key]);
+      const bool worse =
+          !summary.contains(key) || (key == "least_lumen" ? value < summary[key] : value > summary[key]);
       if (worse) summary[key] = value;
     }
   }
@@ -273,39 +287,48 @@ Report summaryOf(const Report& frames) {
 
 // What `certified` says something of, and what it does not: bones and the skin have counts of their own.
 Report certificateReport(const Avoider& avoider) {
-  return {{"tubes", true},
-          {"rest_pairs_exempt", avoider.restPairCount()},
-          {"forks_walls", false},
-          {"bones", false},
-          {"capillaries", false},
-          {"skin", false}};
+  return {{"tubes", true},        {"rest_pairs_exempt", avoider.restPairCount()},
+          {"forks_walls", false}, {"bones", false},
+          {"capillaries", false}, {"skin", false}};
 }
 
 std::string asText(const Report& report) {
   const bool byPaper = report["frames"].front().contains("paper_pairs_before");
-  std::vector<const char*> columns{"frame", "contacts_before", "contacts_after", "depth_after_m", "moved_max_m", "volume_error", "kinks", "narrow_spans", "solve_ms"};
+  std::vector<const char*> columns{"frame",         "contacts_before", "contacts_after",
+                                   "depth_after_m", "moved_max_m",     "volume_error",
+                                   "kinks",         "narrow_spans",    "solve_ms"};
   if (byPaper)
-    columns = {"frame", "exact_pairs_before", "paper_pairs_before", "paper_false_pairs_before", "exact_pairs_after",
-               "paper_pairs_after", "exact_detect_ms", "paper_detect_ms"};
+    columns = {"frame",
+               "exact_pairs_before",
+               "paper_pairs_before",
+               "paper_false_pairs_before",
+               "exact_pairs_after",
+               "paper_pairs_after",
+               "exact_detect_ms",
+               "paper_detect_ms"};
   const int width = byPaper ? 26 : 17;
   std::string text;
   for (const char* name : columns) text += fmt::format("{:>{}}", name, width);
   text += "\n";
   for (const Report& frame : report["frames"]) {
     for (const char* name : columns)
-      text += frame[name].is_number_float() ? fmt::format("{:>{}.6f}", frame[name].get<double>(), width) : fmt::format("{:>{}}", frame[name].dump(), width);
+      text += frame[name].is_number_float() ? fmt::format("{:>{}.6f}", frame[name].get<double>(), width)
+                                            : fmt::format("{:>{}}", frame[name].dump(), width);
     text += "\n";
   }
   text += "\n";
-  for (const auto& [name, value] : report["summary"].items()) text += fmt::format("{:<32}{}\n", name, plainText(value));
+  for (const auto& [name, value] : report["summary"].items())
+    text += fmt::format("{:<32}{}\n", name, plainText(value));
   return text;
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameOptions frameOptions{
-      .keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = true, .avoidance = {.skinWall = options.skinWall}};
+  FrameOptions frameOptions{.keepVolume = !options.noVolume,
+                            .slide = !options.noSlide,
+                            .avoid = true,
+                            .avoidance = {.skinWall = options.skinWall}};
   const auto track = TrackFile::open(options.track, setting->scene, setting->clip, frameOptions);
   if (!track) return track.error();
   FrameMaker maker(setting->scene, frameOptions);
@@ -334,8 +357,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addCheck(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub =
-      app.add_subcommand("check", "Interference before and after, certificate, volume, kinks and jumps of each frame");
+  CLI::App* sub = app.add_subcommand(
+      "check", "Interference before and after, certificate, volume, kinks and jumps of each frame");
   sub->footer(
       "Examples:\n"
       "  vasa check --clip walk --json\n"
@@ -366,9 +389,12 @@ void addCheck(CLI::App& app, Command& command) {
       ->capture_default_str();
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
-  sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too; without it skin_contacts are 0");
-  sub->add_flag("--places", options->places, "Name the vessels that still interfere, have changed sides or are in bones in each frame");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->add_flag("--skin-wall", options->skinWall,
+                "Hold vessels below the skin, too; without it skin_contacts are 0");
+  sub->add_flag("--places", options->places,
+                "Name the vessels that still interfere, have changed sides or are in bones in each frame");
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -65,8 +65,6 @@ CommandText describeBelow(const CLI::App& app, std::vector<std::string> path) {
 
 }  // namespace
 
-CommandText describe(const CLI::App& app) {
-  return describeBelow(app, {});
-}
+CommandText describe(const CLI::App& app) { return describeBelow(app, {}); }
 
 }  // namespace vasa::cli

@@ -28,8 +28,9 @@ struct CommandText {
   std::vector<CommandText> commands;  ///< below it
 };
 
-/// What the declarations say, so that manuals and completions are never older than the program. A command's footer is
-/// "Examples:", lines indented by two, then notes; of the program itself the indented lines are in its description.
+/// What the declarations say, so that manuals and completions are never older than the program. A command's
+/// footer is "Examples:", lines indented by two, then notes; of the program itself the indented lines are in
+/// its description.
 CommandText describe(const CLI::App& app);
 
 }  // namespace vasa::cli

@@ -37,19 +37,24 @@ Report asReport(const std::vector<VesselComparison>& all) {
                                  {"distance_m", vessel.distance},
                                  {"other_distance_m", vessel.otherDistance}});
   }
-  report["summary"] = {{"common", all.size()}, {"length_ratio_median", medianOf(ratios)}, {"apart_median_m", medianOf(apart)}};
+  report["summary"] = {
+      {"common", all.size()}, {"length_ratio_median", medianOf(ratios)}, {"apart_median_m", medianOf(apart)}};
   return report;
 }
 
 std::string asText(const std::vector<VesselComparison>& all, const Report& report, std::size_t rows) {
-  if (all.empty()) return "no vessel is in both: vessels are compared by name and kind, and none has its like; vasa info NET --vessels lists them\n";
+  if (all.empty())
+    return "no vessel is in both: vessels are compared by name and kind, and none has its like; vasa info NET --vessels lists them\n";
   const Report& summary = report["summary"];
-  std::string text = fmt::format("{} vessels in both; in the middle {:.2f} times as long and {:.1f} mm apart\n", all.size(),
-                                 summary["length_ratio_median"].get<double>(), 1e3 * summary["apart_median_m"].get<double>());
-  text += fmt::format("{:<50} {:>9} {:>9} {:>6} {:>9} {:>9}\n", "farthest apart", "length mm", "other mm", "ratio", "apart mm", "back mm");
+  std::string text = fmt::format(
+      "{} vessels in both; in the middle {:.2f} times as long and {:.1f} mm apart\n", all.size(),
+      summary["length_ratio_median"].get<double>(), 1e3 * summary["apart_median_m"].get<double>());
+  text += fmt::format("{:<50} {:>9} {:>9} {:>6} {:>9} {:>9}\n", "farthest apart", "length mm", "other mm",
+                      "ratio", "apart mm", "back mm");
   for (std::size_t i = 0; i < std::min(rows, all.size()); ++i)
-    text += fmt::format("{:<50} {:>9.1f} {:>9.1f} {:>6.2f} {:>9.1f} {:>9.1f}\n", visible(all[i].name), 1e3 * all[i].length, 1e3 * all[i].otherLength,
-                        all[i].lengthRatio(), 1e3 * all[i].distance, 1e3 * all[i].otherDistance);
+    text += fmt::format("{:<50} {:>9.1f} {:>9.1f} {:>6.2f} {:>9.1f} {:>9.1f}\n", visible(all[i].name),
+                        1e3 * all[i].length, 1e3 * all[i].otherLength, all[i].lengthRatio(),
+                        1e3 * all[i].distance, 1e3 * all[i].otherDistance);
   return text;
 }
 
@@ -68,7 +73,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addCompare(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("compare", "Lengths and courses of the vessels that two networks both have");
+  CLI::App* sub =
+      app.add_subcommand("compare", "Lengths and courses of the vessels that two networks both have");
   sub->footer(
       "Examples:\n"
       "  vasa fit theirs.vasa --from theirs.glb --to ours.glb -o fitted.vasa && vasa compare ours.vasa fitted.vasa\n"
@@ -78,7 +84,8 @@ void addCompare(CLI::App& app, Command& command) {
   sub->add_option("NETWORK", options->network, "The network (.vasa)")->required();
   sub->add_option("OTHER", options->other, "The one it is compared with (.vasa)")->required();
   sub->add_option("--rows", options->rows, "Rows of the table")->capture_default_str();
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -4,7 +4,8 @@
 
 #include <functional>
 
-// The three shells want the same facts in three shapes. A command is known by its path: "/convert", "/bench/collide".
+// The three shells want the same facts in three shapes. A command is known by its path: "/convert",
+// "/bench/collide".
 namespace vasa::cli {
 namespace {
 
@@ -58,9 +59,12 @@ std::vector<std::string> zshArguments(const CommandText& command) {
   std::vector<std::string> out;
   for (const auto& option : command.options) {
     if (option.positional) continue;
-    const std::string action = option.choices.empty() ? "_files" : fmt::format("({})", joined(option.choices));
+    const std::string action =
+        option.choices.empty() ? "_files" : fmt::format("({})", joined(option.choices));
     for (const auto& name : option.names)
-      out.push_back(quoted(fmt::format("{}[{}]{}", name, zshText(option.description), option.value.empty() ? "" : fmt::format(":{}:{}", option.value, action))));
+      out.push_back(
+          quoted(fmt::format("{}[{}]{}", name, zshText(option.description),
+                             option.value.empty() ? "" : fmt::format(":{}:{}", option.value, action))));
   }
   return out;
 }
@@ -72,14 +76,18 @@ std::string bashCompletion(const CommandText& program) {
   visit(program, [&](const CommandText& command) {
     const std::string path = pathOf(command);
     if (!path.empty()) paths += (paths.empty() ? "" : " | ") + path;
-    words += fmt::format("    {}) words={} ;;\n", path.empty() ? "''" : path, quoted(joined(wordsOf(command, program))));
+    words += fmt::format("    {}) words={} ;;\n", path.empty() ? "''" : path,
+                         quoted(joined(wordsOf(command, program))));
     for (const auto& option : command.options) {
       if (option.positional || option.value.empty()) continue;
       std::string names;
       // An option of the program itself is one of every command.
-      for (const auto& name : option.names) names += (names.empty() ? "" : " | ") + (path.empty() ? "*" : path) + ":" + name;
-      values += option.choices.empty() ? fmt::format("    {}) return ;;\n", names)
-                                       : fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$cur\")); return ;;\n", names, quoted(joined(option.choices)));
+      for (const auto& name : option.names)
+        names += (names.empty() ? "" : " | ") + (path.empty() ? "*" : path) + ":" + name;
+      values += option.choices.empty()
+                    ? fmt::format("    {}) return ;;\n", names)
+                    : fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$cur\")); return ;;\n", names,
+                                  quoted(joined(option.choices)));
     }
   });
   return "# bash completion of vasa; written by the program itself (vasa help --write)\n"
@@ -87,10 +95,16 @@ std::string bashCompletion(const CommandText& program) {
          "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command= words= i\n"
          "  COMPREPLY=()\n"
          "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
-         "    case $command/${COMP_WORDS[i]} in " + paths + ") command+=/${COMP_WORDS[i]} ;; esac\n"
+         "    case $command/${COMP_WORDS[i]} in " +
+         paths +
+         ") command+=/${COMP_WORDS[i]} ;; esac\n"
          "  done\n"
-         "  case $command:$prev in\n" + values + "  esac\n"
-         "  case $command in\n" + words + "  esac\n"
+         "  case $command:$prev in\n" +
+         values +
+         "  esac\n"
+         "  case $command in\n" +
+         words +
+         "  esac\n"
          "  if [[ $cur == -* || -z $command || $command == /bench ]]; then COMPREPLY=($(compgen -W \"$words\" -- \"$cur\")); fi\n"
          "}\n"
          "complete -o default -F _vasa vasa\n";
@@ -100,10 +114,13 @@ std::string zshCompletion(const CommandText& program) {
   std::string out =
       "#compdef vasa\n# zsh completion of vasa; written by the program itself (vasa help --write)\n"
       "_vasa_commands() {\n  local -a commands=(\n";
-  for (const auto& command : program.commands) out += "    " + quoted(fmt::format("{}:{}", command.path.back(), zshText(command.description))) + "\n";
+  for (const auto& command : program.commands)
+    out += "    " + quoted(fmt::format("{}:{}", command.path.back(), zshText(command.description))) + "\n";
   out += "  )\n  _describe command commands\n}\n";
-  out += "_vasa() {\n  local state line\n  local -a everywhere=(\n    " + joined(zshArguments(program), "\n    ") + "\n  )\n";
-  out += "  _arguments -C $everywhere '1: :_vasa_commands' '*:: :->rest'\n  [[ $state == rest ]] || return\n  case $words[1] in\n";
+  out += "_vasa() {\n  local state line\n  local -a everywhere=(\n    " +
+         joined(zshArguments(program), "\n    ") + "\n  )\n";
+  out +=
+      "  _arguments -C $everywhere '1: :_vasa_commands' '*:: :->rest'\n  [[ $state == rest ]] || return\n  case $words[1] in\n";
   for (const auto& command : program.commands) {
     std::vector<std::string> own = zshArguments(command);
     std::vector<std::string> names;
@@ -112,7 +129,8 @@ std::string zshCompletion(const CommandText& program) {
       for (auto& argument : zshArguments(below)) own.push_back(argument);
     }
     own.push_back(names.empty() ? "'*: :_files'" : quoted(fmt::format("1: :({})", joined(names))));
-    out += "    " + command.path.back() + ") _arguments $everywhere \\\n      " + joined(own, " \\\n      ") + " ;;\n";
+    out += "    " + command.path.back() + ") _arguments $everywhere \\\n      " + joined(own, " \\\n      ") +
+           " ;;\n";
   }
   return out + "  esac\n}\n_vasa \"$@\"\n";
 }
@@ -121,17 +139,21 @@ std::string fishCompletion(const CommandText& program) {
   std::string out = "# fish completion of vasa; written by the program itself (vasa help --write)\n";
   visit(program, [&](const CommandText& command) {
     const bool root = command.path.size() == 1;
-    const std::string here = root ? "__fish_use_subcommand" : fmt::format("__fish_seen_subcommand_from {}", command.path.back());
+    const std::string here =
+        root ? "__fish_use_subcommand" : fmt::format("__fish_seen_subcommand_from {}", command.path.back());
     for (const auto& below : command.commands)
-      out += fmt::format("complete -c vasa -n {} -f -a {} -d {}\n", quoted(here), below.path.back(), quoted(below.description));
+      out += fmt::format("complete -c vasa -n {} -f -a {} -d {}\n", quoted(here), below.path.back(),
+                         quoted(below.description));
     for (const auto& option : command.options) {
       if (option.positional) continue;
       out += root ? std::string("complete -c vasa") : fmt::format("complete -c vasa -n {}", quoted(here));
       for (const auto& name : option.names)
-        out += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2)) : fmt::format(" -s {}", name.substr(1));
+        out += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2))
+                                      : fmt::format(" -s {}", name.substr(1));
       if (!option.choices.empty())
         out += fmt::format(" -x -a {}", quoted(joined(option.choices)));
-      else if (!option.value.empty()) out += " -r";
+      else if (!option.value.empty())
+        out += " -r";
       out += " -d " + quoted(option.description) + "\n";
     }
   });

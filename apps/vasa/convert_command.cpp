@@ -73,10 +73,14 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   const vec3 extent = extentOf(*found);
   if (likelyUnit(extent) == 1) return found;
   if (std::ranges::all_of(options.meshes, isGltf)) {
-    logWarning(fmt::format("the vessels are {:.0f} m large, and glTF is in metres; --unit mm reads it as millimetres", std::max({extent.x, extent.y, extent.z})));
+    logWarning(fmt::format(
+        "the vessels are {:.0f} m large, and glTF is in metres; --unit mm reads it as millimetres",
+        std::max({extent.x, extent.y, extent.z})));
     return found;
   }
-  logInfo(fmt::format("read as millimetres, as the vessels would be {:.0f} m large in metres; --unit says otherwise", std::max({extent.x, extent.y, extent.z})));
+  logInfo(fmt::format(
+      "read as millimetres, as the vessels would be {:.0f} m large in metres; --unit says otherwise",
+      std::max({extent.x, extent.y, extent.z})));
   return read(likelyUnit(extent));
 }
 
@@ -95,7 +99,8 @@ ConvertOptions convertOptions(const Options& options) {
 
 // Rounded by default where that is far below the tolerance the sweeps were fitted to.
 bool isQuantised(const Options& options, const ConvertOptions& settings, const Network& network) {
-  return !options.exact && (options.quantise || quantisationError(network) < kRoundingShare * settings.fit.position.least);
+  return !options.exact &&
+         (options.quantise || quantisationError(network) < kRoundingShare * settings.fit.position.least);
 }
 
 Result<ConvertOutput> writeOutput(const Options& options, bool quantised, const Network& network) {
@@ -108,9 +113,11 @@ Result<ConvertOutput> writeOutput(const Options& options, bool quantised, const 
 }
 
 // Patches are matched by place to the forks of the network that the file gives back.
-Result<PatchReport> addPatches(Conversion& conversion, std::span<const SourceElement> sources, bool quantised) {
-  Result<Network> written = quantised ? decodeNetwork(encodeNetwork(conversion.network, {.quantise = true}), "network")
-                                      : Result<Network>(conversion.network);
+Result<PatchReport> addPatches(Conversion& conversion, std::span<const SourceElement> sources,
+                               bool quantised) {
+  Result<Network> written =
+      quantised ? decodeNetwork(encodeNetwork(conversion.network, {.quantise = true}), "network")
+                : Result<Network>(conversion.network);
   if (!written) return written.error();
   KeptPatches kept = keepPatches(*written, sources, conversion.elementOf);
   auto patched = withPatches(std::move(conversion.network), std::move(kept.patches));
@@ -123,7 +130,10 @@ Result<Centrelines> readLines(const Options& options, double metresPerUnit) {
   Centrelines all;
   for (const std::string& file : options.meshes) {
     if (!holdsCentrelines(file))
-      return Error{Fault::usage, file + ": surfaces and centre lines are converted apart; write two networks and give both to --network"};
+      return Error{
+          Fault::usage,
+          file +
+              ": surfaces and centre lines are converted apart; write two networks and give both to --network"};
     auto lines = readCentrelines(file, importOf(options, metresPerUnit));
     if (!lines) return lines.error();
     if (lines->lines.empty()) return badInput(file + ": the file holds no line of two places or more");
@@ -135,7 +145,8 @@ Result<Centrelines> readLines(const Options& options, double metresPerUnit) {
 
 // All lines of all files, in one network.
 Result<Conversion> convertCentrelines(const Options& options) {
-  const auto all = readInUnit(options, [&](double metresPerUnit) { return readLines(options, metresPerUnit); });
+  const auto all =
+      readInUnit(options, [&](double metresPerUnit) { return readLines(options, metresPerUnit); });
   if (!all) return all.error();
   auto made = networkOfCentrelines(*all, options.bodyHeight);
   if (!made) return badInput(options.meshes.front() + ": " + made.error().message);
@@ -148,10 +159,12 @@ Result<void> run(const Globals& globals, const Options& options) {
   ConvertOptions settings = convertOptions(options);
   const bool lines = holdsCentrelines(options.meshes.front());
   if (lines && options.interpolate)
-    return Error{Fault::usage, options.meshes.front() + ": centre lines are followed as they are told; leave out --interpolate"};
+    return Error{Fault::usage, options.meshes.front() +
+                                   ": centre lines are followed as they are told; leave out --interpolate"};
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
-  const auto sources = lines ? Result(std::vector<SourceElement>())
-                             : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
+  const auto sources =
+      lines ? Result(std::vector<SourceElement>())
+            : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
   if (!sources) return sources.error();
   RestRepair repair;
   settings.mend = [&](const Network& network) {
@@ -185,7 +198,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addConvert(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("convert", "Turn surfaces or centre lines of vessels into one network of sweeps");
+  CLI::App* sub =
+      app.add_subcommand("convert", "Turn surfaces or centre lines of vessels into one network of sweeps");
   sub->footer(
       "Examples:\n"
       "  vasa convert arteries.glb veins.glb -o body.vasa\n"
@@ -199,13 +213,19 @@ void addConvert(CLI::App& app, Command& command) {
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
       "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
       "of --json names those that stay, with the reason).");
-  sub->add_option("MESH", options->meshes, "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk")->required();
+  sub->add_option(
+         "MESH", options->meshes,
+         "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk")
+      ->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--kind", options->kind, "Kind of every vessel: artery, vein, portal, lymphatic or other")
       ->check(CLI::IsMember({"artery", "vein", "portal", "lymphatic", "other"}));
-  auto* scale = sub->add_option("--scale", options->scale, "Metres a unit of all but glTF files (0.001: millimetres)")->check(CLI::PositiveNumber);
-  sub->add_option("--unit", options->unit,
-                  "The unit of all files, glTF too: m, cm, mm, in or um (default: glTF metres; others metres, or millimetres where they would be taller than 4 m)")
+  auto* scale =
+      sub->add_option("--scale", options->scale, "Metres a unit of all but glTF files (0.001: millimetres)")
+          ->check(CLI::PositiveNumber);
+  sub->add_option(
+         "--unit", options->unit,
+         "The unit of all files, glTF too: m, cm, mm, in or um (default: glTF metres; others metres, or millimetres where they would be taller than 4 m)")
       ->check(CLI::IsMember({"m", "cm", "mm", "in", "um"}))
       ->excludes(scale);
   sub->add_option("--up", options->up, "The axis that points up in all but glTF files")
@@ -213,20 +233,25 @@ void addConvert(CLI::App& app, Command& command) {
       ->capture_default_str();
   sub->add_option("--body-height", options->bodyHeight, "Height of the body [m] (default: of the input)")
       ->check(CLI::PositiveNumber);
-  auto* tolerance = sub->add_option("--tolerance", options->tolerance, "Largest distance of a sweep from the sections it fits [mm]")
-      ->check(CLI::PositiveNumber);
-  sub->add_flag("--interpolate", options->interpolate,
-                "A sweep between every two sections that were found, through both, as the source paper does, instead of the fewest "
-                "that come near enough")
+  auto* tolerance = sub->add_option("--tolerance", options->tolerance,
+                                    "Largest distance of a sweep from the sections it fits [mm]")
+                        ->check(CLI::PositiveNumber);
+  sub->add_flag(
+         "--interpolate", options->interpolate,
+         "A sweep between every two sections that were found, through both, as the source paper does, instead of the fewest "
+         "that come near enough")
       ->excludes(tolerance);
   sub->add_flag("--no-bridges", options->noBridges, "Do not join vessels of one name across long gaps");
-  sub->add_flag("--keep-patches", options->keepPatches,
-                "Keep the source's own wall around forks where it has one; it is drawn in their place and moves with them");
+  sub->add_flag(
+      "--keep-patches", options->keepPatches,
+      "Keep the source's own wall around forks where it has one; it is drawn in their place and moves with them");
   auto* exact = sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
-  sub->add_flag("--quantise", options->quantise,
-                "Write 16-bit numbers, 8 bytes a point (default where the rounding is far below the tolerance)")
+  sub->add_flag(
+         "--quantise", options->quantise,
+         "Write 16-bit numbers, 8 bytes a point (default where the rounding is far below the tolerance)")
       ->excludes(exact);
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -44,16 +44,15 @@ Report gapsJson(const ConvertReport& report, bool bridges) {
                     {"length_mm", 1e3 * gap.length}});
   }
   const std::size_t count = list.size();
-  return {{"count", count}, {"total_mm", 1e3 * total}, {"longest_mm", 1e3 * longest}, {"joins", std::move(list)}};
+  return {
+      {"count", count}, {"total_mm", 1e3 * total}, {"longest_mm", 1e3 * longest}, {"joins", std::move(list)}};
 }
 
-double share(double part, double whole) {
-  return whole > 0 ? part / whole : 0;
-}
+double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 std::string errorText(const char* what, const ErrorStatistics& error) {
-  return fmt::format("{:<22} mean {:.2f} mm, 95 % within {:.2f} mm, largest {:.1f} mm\n", what, 1e3 * error.mean,
-                     1e3 * error.p95, 1e3 * error.max);
+  return fmt::format("{:<22} mean {:.2f} mm, 95 % within {:.2f} mm, largest {:.1f} mm\n", what,
+                     1e3 * error.mean, 1e3 * error.p95, 1e3 * error.max);
 }
 
 }  // namespace
@@ -98,13 +97,14 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
   for (const ElementReport& element : report.elements) {
     if (element.status == ElementStatus::ok || ++poor > kListed) continue;
     ++listed;
-    text += fmt::format("{:<8} {:<60} {}\n", statusName(element.status), visible(element.name.substr(0, 60)), visible(element.reason));
+    text += fmt::format("{:<8} {:<60} {}\n", statusName(element.status), visible(element.name.substr(0, 60)),
+                        visible(element.reason));
   }
   if (poor > listed) text += fmt::format("... and {} more; --json lists them all\n", poor - listed);
-  text += fmt::format("{:<22} {}: {} ok, {} partial, {} failed, {} doubtful; {} repeat others\n", "elements", s.elements, s.ok,
-                      s.partial, s.failed, s.doubtful, s.duplicates);
-  text += fmt::format("{:<22} {} vessels, {} sweeps, {} junctions, {} connected parts\n", "network", s.vessels,
-                      s.sweeps, s.junctions, s.components);
+  text += fmt::format("{:<22} {}: {} ok, {} partial, {} failed, {} doubtful; {} repeat others\n", "elements",
+                      s.elements, s.ok, s.partial, s.failed, s.doubtful, s.duplicates);
+  text += fmt::format("{:<22} {} vessels, {} sweeps, {} junctions, {} connected parts\n", "network",
+                      s.vessels, s.sweeps, s.junctions, s.components);
   text += fmt::format("{:<22} {} end to side, {} end to end; {} across a gap\n", "joins", s.joins.endToSide,
                       s.joins.endToEnd, s.joins.gaps.size());
   text += fmt::format("{:<22} {:.2f} m; largest arterial tree {:.0f} % of the arteries\n", "length", s.length,
@@ -112,12 +112,13 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
   if (s.meshBytes > 0) text += fmt::format("{:<22} {:.1f} % of the surface\n", "coverage", 100 * s.coverage);
   text += errorText(s.meshBytes > 0 ? "mesh to sweeps" : "samples to sweeps", s.error);
   if (s.backError.measured) text += errorText("sweeps to mesh", s.backError);
-  text += fmt::format("{:<22} {}: {} bytes{}{}\n", "written", visible(output.file), output.bytes,
-                      s.meshBytes > 0 && output.bytes > 0
-                          ? fmt::format(", {:.0f} times smaller than the meshes", double(s.meshBytes) / double(output.bytes))
-                          : std::string{},
-                      output.quantised ? fmt::format("; rounded by at most {:.3f} mm", 1e3 * output.quantisationError)
-                                       : std::string{});
+  text += fmt::format(
+      "{:<22} {}: {} bytes{}{}\n", "written", visible(output.file), output.bytes,
+      s.meshBytes > 0 && output.bytes > 0
+          ? fmt::format(", {:.0f} times smaller than the meshes", double(s.meshBytes) / double(output.bytes))
+          : std::string{},
+      output.quantised ? fmt::format("; rounded by at most {:.3f} mm", 1e3 * output.quantisationError)
+                       : std::string{});
   return text;
 }
 
@@ -134,7 +135,8 @@ Report patchesJson(const PatchReport& report, const Network& network) {
                      {"triangles", fork.triangles}});
   }
   for (std::size_t i = 1; i < kPatchOutcomes; ++i)
-    if (const auto count = report.count(PatchOutcome(i)); count > 0) without[std::string(outcomeName(PatchOutcome(i)))] = count;
+    if (const auto count = report.count(PatchOutcome(i)); count > 0)
+      without[std::string(outcomeName(PatchOutcome(i)))] = count;
   const auto bare = withPatches(network, {});
   return {{"forks", report.forks.size()},
           {"kept", report.count(PatchOutcome::kept)},
@@ -147,8 +149,9 @@ Report patchesJson(const PatchReport& report, const Network& network) {
 }
 
 std::string patchesText(const PatchReport& report) {
-  std::string text = fmt::format("{:<22} {} of {} forks keep the source's wall, {} of them of several surfaces; {} triangles\n", "patches",
-                                 report.count(PatchOutcome::kept), report.forks.size(), report.joined(), report.triangles);
+  std::string text = fmt::format(
+      "{:<22} {} of {} forks keep the source's wall, {} of them of several surfaces; {} triangles\n",
+      "patches", report.count(PatchOutcome::kept), report.forks.size(), report.joined(), report.triangles);
   for (std::size_t i = 1; i < kPatchOutcomes; ++i)
     if (const auto count = report.count(PatchOutcome(i)); count > 0)
       text += fmt::format("{:<22} {} without: {}\n", "", count, outcomeName(PatchOutcome(i)));

@@ -38,7 +38,8 @@ Report limitsOf(const gpu::Adapter& adapter) {
           {"push_constant_bytes", limits.maxPushConstantsSize},
           {"bound_sets", limits.maxBoundDescriptorSets},
           {"sub_pixel_bits", limits.subPixelPrecisionBits},
-          {"most_samples", std::bit_floor(limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts)},
+          {"most_samples",
+           std::bit_floor(limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts)},
           {"image_side", limits.maxImageDimension2D},
           {"heap_bytes", adapter.largestHeap}};
 }
@@ -67,21 +68,24 @@ std::string asTable(const Listing& listing) {
     nameWidth = std::max(nameWidth, adapter.name.size());
     driverWidth = std::max(driverWidth, adapter.driver.size());
   }
-  const auto row = [&](const auto& index, const auto& name, const auto& type, const auto& api, const auto& driver,
-                       const auto& lacks) {
+  const auto row = [&](const auto& index, const auto& name, const auto& type, const auto& api,
+                       const auto& driver, const auto& lacks) {
     return fmt::format("{:<7}{:<{}}  {:<10}  {:<9}  {:<{}}  {}\n", index, name, nameWidth, type, api, driver,
                        driverWidth, lacks);
   };
   std::string text = row("index", "name", "type", "api", "driver", "lacks");
   for (std::size_t i = 0; i < listing.adapters.size(); ++i) {
     const gpu::Adapter& adapter = listing.adapters[i];
-    const std::string lacks = adapter.usable() ? "nothing" : fmt::format("{}", fmt::join(adapter.lacks, ", "));
+    const std::string lacks =
+        adapter.usable() ? "nothing" : fmt::format("{}", fmt::join(adapter.lacks, ", "));
     text += row(fmt::format("{}{}", adapter.index, listing.chosen == i ? " *" : ""), adapter.name,
                 gpu::typeName(adapter.type), adapter.api, adapter.driver, lacks);
-    text += fmt::format("       workgroups of {}, subgroups of {}, {} bytes of push constants, {} sub-pixel bits, pictures up to {} pixels, {} MiB\n",
-                        adapter.limits.maxComputeWorkGroupInvocations, adapter.subgroup, adapter.limits.maxPushConstantsSize,
-                        adapter.limits.subPixelPrecisionBits, adapter.limits.maxImageDimension2D, adapter.largestHeap >> 20);
-    if (!adapter.without.empty()) text += fmt::format("       does without {}\n", fmt::join(adapter.without, ", "));
+    text += fmt::format(
+        "       workgroups of {}, subgroups of {}, {} bytes of push constants, {} sub-pixel bits, pictures up to {} pixels, {} MiB\n",
+        adapter.limits.maxComputeWorkGroupInvocations, adapter.subgroup, adapter.limits.maxPushConstantsSize,
+        adapter.limits.subPixelPrecisionBits, adapter.limits.maxImageDimension2D, adapter.largestHeap >> 20);
+    if (!adapter.without.empty())
+      text += fmt::format("       does without {}\n", fmt::join(adapter.without, ", "));
   }
   return text;
 }
@@ -99,8 +103,9 @@ Result<void> run(const Globals& globals) {
 
 void addDevices(CLI::App& app, Command& command) {
   CLI::App* devices = app.add_subcommand("devices", "Vulkan devices, and what each lacks");
-  devices->footer("Examples:\n  vasa devices\n  vasa devices --json --device llvmpipe\n"
-                  "An asterisk marks the device that other commands use.");
+  devices->footer(
+      "Examples:\n  vasa devices\n  vasa devices --json --device llvmpipe\n"
+      "An asterisk marks the device that other commands use.");
   devices->callback([&command] { command.run = [&command] { return run(command.globals); }; });
 }
 

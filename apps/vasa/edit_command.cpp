@@ -37,13 +37,15 @@ Result<Inputs> readInputs(const Options& options) {
   for (const std::filesystem::path file : options.files) {
     if (file.extension() != ".vedit") {
       if (!inputs.network.empty())
-        return Error{Fault::usage, file.string() + ": a second network beside " + inputs.network.string() + "; journals end in .vedit"};
+        return Error{Fault::usage, file.string() + ": a second network beside " + inputs.network.string() +
+                                       "; journals end in .vedit"};
       inputs.network = file;
       continue;
     }
     auto journal = readJournal(file);
     if (!journal) return journal.error();
-    inputs.edits.insert(inputs.edits.end(), std::make_move_iterator(journal->begin()), std::make_move_iterator(journal->end()));
+    inputs.edits.insert(inputs.edits.end(), std::make_move_iterator(journal->begin()),
+                        std::make_move_iterator(journal->end()));
   }
   for (std::size_t i = 0; i < options.sets.size(); ++i) {
     auto edits = parseJournal(options.sets[i], "--set");
@@ -61,7 +63,10 @@ Result<Inputs> readInputs(const Options& options) {
 Report rowsOf(const Replay& replay) {
   Report rows = Report::array();
   for (const ReplayRow& row : replay.rows)
-    rows.push_back({{"line", row.where}, {"operation", row.operation}, {"vessel", row.vessel}, {"applied", row.applied()},
+    rows.push_back({{"line", row.where},
+                    {"operation", row.operation},
+                    {"vessel", row.vessel},
+                    {"applied", row.applied()},
                     {row.applied() ? "change" : "refusal", row.applied() ? row.change : row.refusal}});
   return rows;
 }
@@ -72,11 +77,14 @@ Report newOverlaps(const RestRepair& before, const RestRepair& after, const std:
   for (const RestOverlap& overlap : after.left) {
     const VesselId a = origins[overlap.first.value], b = origins[overlap.second.value];
     const auto same = std::ranges::find_if(before.left, [&](const RestOverlap& old) {
-      return a.valid() && b.valid() && ((old.first == a && old.second == b) || (old.first == b && old.second == a));
+      return a.valid() && b.valid() &&
+             ((old.first == a && old.second == b) || (old.first == b && old.second == a));
     });
     if (same != before.left.end() && overlap.depth <= same->depth + 1e-5f) continue;
-    list.push_back({{"vessels", {after.network.vessel(overlap.first).name, after.network.vessel(overlap.second).name}},
-                    {"depth_mm", 1e3 * overlap.depth}, {"reason", reasonName(overlap.reason)}});
+    list.push_back(
+        {{"vessels", {after.network.vessel(overlap.first).name, after.network.vessel(overlap.second).name}},
+         {"depth_mm", 1e3 * overlap.depth},
+         {"reason", reasonName(overlap.reason)}});
   }
   return list;
 }
@@ -85,13 +93,16 @@ std::string asText(const Report& report) {
   std::string text;
   for (const Report& row : report["rows"])
     if (row["applied"].get<bool>())
-      text += fmt::format("{}: {} of \"{}\": {}\n", plainText(row["line"]), plainText(row["operation"]), plainText(row["vessel"]),
-                          plainText(row["change"]));
-  text += fmt::format("{} of {} edits applied: {} vessels, {:.2f} m, {:.1f} ml\n", report["applied"].get<std::size_t>(), report["edits"].get<std::size_t>(),
-                      report["vessels"].get<std::size_t>(), report["length_m"].get<double>(), 1e6 * report["volume_m3"].get<double>());
+      text += fmt::format("{}: {} of \"{}\": {}\n", plainText(row["line"]), plainText(row["operation"]),
+                          plainText(row["vessel"]), plainText(row["change"]));
+  text += fmt::format("{} of {} edits applied: {} vessels, {:.2f} m, {:.1f} ml\n",
+                      report["applied"].get<std::size_t>(), report["edits"].get<std::size_t>(),
+                      report["vessels"].get<std::size_t>(), report["length_m"].get<double>(),
+                      1e6 * report["volume_m3"].get<double>());
   for (const Report& overlap : report["overlaps"])
-    text += fmt::format("in the way: \"{}\" and \"{}\" overlap by {:.1f} mm; --part moves them apart\n", plainText(overlap["vessels"][0]),
-                        plainText(overlap["vessels"][1]), overlap["depth_mm"].get<double>());
+    text += fmt::format("in the way: \"{}\" and \"{}\" overlap by {:.1f} mm; --part moves them apart\n",
+                        plainText(overlap["vessels"][0]), plainText(overlap["vessels"][1]),
+                        overlap["depth_mm"].get<double>());
   return text;
 }
 
@@ -115,11 +126,15 @@ Result<void> run(const Globals& globals, const Options& options) {
   for (const ReplayRow& row : replay.rows)
     if (!row.applied()) refusals += (refusals.empty() ? "" : "\n") + row.refusal;
   const std::size_t refused = replay.rows.size() - replay.applied();
-  Report report{{"edits", inputs->edits.size()}, {"applied", replay.applied()}, {"refused", refused}, {"rows", rowsOf(replay)}};
+  Report report{{"edits", inputs->edits.size()},
+                {"applied", replay.applied()},
+                {"refused", refused},
+                {"rows", rowsOf(replay)}};
   if (refused > 0 && !options.keepGoing) {
     if (globals.json)
       if (auto printed = printJson(report); !printed) return printed;
-    return badInput(refusals + "\nnothing was written; mend these lines, or add --keep-going to leave them out");
+    return badInput(refusals +
+                    "\nnothing was written; mend these lines, or add --keep-going to leave them out");
   }
   if (refused > 0) logWarning(refusals);
   const RestRepair before = overlapsAtRest(*network);
@@ -143,20 +158,27 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addEdit(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("edit", "Change vessels by a journal: stenosis, aneurysm, stent, graft, branch, cut and more");
+  CLI::App* sub = app.add_subcommand(
+      "edit", "Change vessels by a journal: stenosis, aneurysm, stent, graft, branch, cut and more");
   sub->footer(
       "Examples:\n"
       "  vasa edit body.vasa lesions.vedit -o edited.vasa\n"
       "  vasa edit --set 'stenosis \"left internal carotid artery\" 0.1 12 70' -o edited.vasa    (the built-in human)\n"
       "  vasa edit lesions.vedit --json -o edited.vasa\n"
       "vasa help edits lists the operations. The network that is read is not changed; without a line, its edit is undone.");
-  sub->add_option("FILES", options->files, "A network (.vasa; none: the built-in human's) and journals (.vedit), replayed in order");
-  sub->add_option("--set", options->sets, "One more operation, after the journals; may be given several times")->take_all()->allow_extra_args(false);
+  sub->add_option("FILES", options->files,
+                  "A network (.vasa; none: the built-in human's) and journals (.vedit), replayed in order");
+  sub->add_option("--set", options->sets,
+                  "One more operation, after the journals; may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
-  sub->add_flag("--part", options->part, "Move apart what overlaps at rest, as convert does; thin what finds no room");
+  sub->add_flag("--part", options->part,
+                "Move apart what overlaps at rest, as convert does; thin what finds no room");
   sub->add_flag("--keep-going", options->keepGoing, "Leave refused lines out instead of writing nothing");
   sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

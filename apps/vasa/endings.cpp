@@ -12,8 +12,9 @@
 
 #include "core/log.h"
 
-// What a signal's handler may do is little: it sets the wish, a lock-free flag, and a timer, whose own signal ends the
-// process. Neither it nor what runs out of memory may allocate, so sentences go to standard error by write().
+// What a signal's handler may do is little: it sets the wish, a lock-free flag, and a timer, whose own signal
+// ends the process. Neither it nor what runs out of memory may allocate, so sentences go to standard error by
+// write().
 namespace vasa::cli {
 namespace {
 
@@ -62,7 +63,7 @@ extern "C" void onStopSignal(int signal) {
 }
 
 void handle(int signal, void (*handler)(int)) {
-  struct sigaction action{};
+  struct sigaction action {};
   action.sa_handler = handler;
   sigaction(signal, &action, nullptr);
 }
@@ -85,24 +86,16 @@ void catchStopSignals(std::chrono::milliseconds patience) {
   handle(SIGTERM, onStopSignal);
 }
 
-const Cancellation& stopWish() {
-  return wish;
-}
+const Cancellation& stopWish() { return wish; }
 
-bool stopRequested() {
-  return stopSignal != 0;
-}
+bool stopRequested() { return stopSignal != 0; }
 
 Error stopError() {
   return {stopSignal == SIGTERM ? Fault::terminated : Fault::interrupted, "stopped by a signal"};
 }
 
-void endWhereMemoryEnds() {
-  std::set_new_handler(outOfMemory);
-}
+void endWhereMemoryEnds() { std::set_new_handler(outOfMemory); }
 
-void tellWhatTerminates() {
-  std::set_terminate(onTerminate);
-}
+void tellWhatTerminates() { std::set_terminate(onTerminate); }
 
 }  // namespace vasa::cli

@@ -26,7 +26,8 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string output, frames, quads, track, unit = "mm";
-  double fps = 0, budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1, clearanceMillimetres = 5;
+  double fps = 0, budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1,
+         clearanceMillimetres = 5;
   std::uint32_t samples = 2;
   bool noVolume = false, noSlide = false, avoid = true, flat = false;
 };
@@ -44,11 +45,13 @@ std::string extensionOf(const std::string& file) {
   return extension;
 }
 
-// Formats that hold one shape get the first frame where none is named and the file's name has no place for it.
+// Formats that hold one shape get the first frame where none is named and the file's name has no place for
+// it.
 std::string framesOf(const Options& options) {
   const std::string extension = extensionOf(options.output);
   const bool holdsMotion = extension == ".glb" || extension == ".csv" || extension == ".tubes";
-  if (!options.frames.empty() || holdsMotion || options.output.find('{') != std::string::npos) return options.frames;
+  if (!options.frames.empty() || holdsMotion || options.output.find('{') != std::string::npos)
+    return options.frames;
   return "0";
 }
 
@@ -57,7 +60,10 @@ Result<Job> prepare(const Options& options) {
   if (!choice) return choice.error();
   auto scene = loadScene(*choice);
   if (!scene) return scene.error();
-  Job job{std::move(*scene), nullptr, {}, {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = options.avoid}};
+  Job job{std::move(*scene),
+          nullptr,
+          {},
+          {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = options.avoid}};
   if (!choice->clip.empty()) {
     const auto clip = findClip(job.scene.body, choice->clip);
     if (!clip) return clip.error();
@@ -71,7 +77,9 @@ Result<Job> prepare(const Options& options) {
 
 vec3 linearColour(VesselKind kind) {
   const vec4 colour = colourOf(kind);
-  const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+  const auto linear = [](float c) {
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  };
   return {linear(colour.x), linear(colour.y), linear(colour.z)};
 }
 
@@ -81,7 +89,10 @@ Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
   if (!options.quads.empty()) {
     const auto quads = parseQuads(options.quads);
     if (!quads) return quads.error();
-    if (quads->pixelError > 0) return Error{Fault::usage, "--quads auto: a file has no picture to measure by; give MxN, or nothing for the finest within --budget"};
+    if (quads->pixelError > 0)
+      return Error{
+          Fault::usage,
+          "--quads auto: a file has no picture to measure by; give MxN, or nothing for the finest within --budget"};
     bake.shape = {quads->around, quads->along};
   }
   bake.fps = float(options.fps);
@@ -151,7 +162,10 @@ Result<Report> exportObj(const Options& options, const Job& job) {
 }
 
 Result<Report> exportLines(const Options& options, const Job& job, bool vtp) {
-  const ImportFrame frame{options.unit == "mm" ? 0.001 : options.unit == "cm" ? 0.01 : 1.0, ImportFrame::Up::y};
+  const ImportFrame frame{options.unit == "mm"   ? 0.001
+                          : options.unit == "cm" ? 0.01
+                                                 : 1.0,
+                          ImportFrame::Up::y};
   FrameMaker maker(job.scene, job.frame);
   return exportFrames(options, job, [&](std::uint32_t number, Report& report) -> Result<std::string> {
     maker.make(job.clip, job.clip ? job.clip->timeOfFrame(number) : 0);
@@ -170,7 +184,8 @@ std::string quoted(const std::string& text) {
 Result<Report> exportMeasurements(const Options& options, const Job& job) {
   FrameMaker maker(job.scene, job.frame);
   VesselMeter meter(job.scene.network, float(1e-3 * options.clearanceMillimetres));
-  std::string text = "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m\n";
+  std::string text =
+      "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m\n";
   ProgressLine progress("measuring");
   for (std::uint32_t frame = job.range.first; frame <= job.range.last; ++frame) {
     checkpoint();
@@ -180,16 +195,20 @@ Result<Report> exportMeasurements(const Options& options, const Job& job) {
     for (std::size_t v = 0; v < all.size(); ++v) {
       const Vessel& vessel = job.scene.network.vessels()[v];
       const VesselMeasures& m = all[v];
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, time, v, quoted(vessel.name), kindName(vessel.kind), m.length, m.volume, m.leastRadius,
-                          m.meanRadius, m.greatestRadius, m.greatestCurvature, m.clearance ? fmt::format("{}", *m.clearance) : std::string());
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, time, v, quoted(vessel.name),
+                          kindName(vessel.kind), m.length, m.volume, m.leastRadius, m.meanRadius,
+                          m.greatestRadius, m.greatestCurvature,
+                          m.clearance ? fmt::format("{}", *m.clearance) : std::string());
     }
     progress.update(frame - job.range.first + 1, job.range.last - job.range.first + 1);
   }
   if (auto written = writeFileAtomically(options.output, text); !written) return written.error();
-  return Report{{"rows", (job.range.last - job.range.first + 1) * job.scene.network.vessels().size()}, {"file_bytes", text.size()}};
+  return Report{{"rows", (job.range.last - job.range.first + 1) * job.scene.network.vessels().size()},
+                {"file_bytes", text.size()}};
 }
 
-// The first frame as pose 0, the last as pose 1; tubes near one another along the network are left out, as check does.
+// The first frame as pose 0, the last as pose 1; tubes near one another along the network are left out, as
+// check does.
 Result<Report> exportTubes(const Options& options, const Job& job) {
   const NetworkTubes layout(job.scene.network);
   FrameMaker maker(job.scene, job.frame);
@@ -214,9 +233,9 @@ Result<Report> exportAs(const Options& options, const std::string& extension) {
   if (!job) return job.error();
   const auto track = TrackFile::open(options.track, job->scene, job->clip, job->frame);
   if (!track) return track.error();
-  auto report = extension == ".glb"   ? exportGlb(options, *job)
-                : extension == ".obj" ? exportObj(options, *job)
-                : extension == ".csv" ? exportMeasurements(options, *job)
+  auto report = extension == ".glb"     ? exportGlb(options, *job)
+                : extension == ".obj"   ? exportObj(options, *job)
+                : extension == ".csv"   ? exportMeasurements(options, *job)
                 : extension == ".tubes" ? exportTubes(options, *job)
                                         : exportLines(options, *job, extension == ".vtp");
   if (!report) return report;
@@ -233,7 +252,9 @@ Result<void> run(const Globals& globals, const Options& options) {
   const std::string extension = extensionOf(options.output);
   constexpr std::string_view kinds[] = {".glb", ".obj", ".vtp", ".swc", ".csv", ".tubes"};
   if (std::ranges::find(kinds, extension) == std::end(kinds))
-    return Error{Fault::usage, options.output + ": unknown kind of file; export writes .glb, .obj, .vtp, .swc, .csv and .tubes"};
+    return Error{
+        Fault::usage,
+        options.output + ": unknown kind of file; export writes .glb, .obj, .vtp, .swc, .csv and .tubes"};
   const auto report = exportAs(options, extension);
   if (!report) return report.error();
   if (globals.json) return printJson(*report);
@@ -246,7 +267,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addExport(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("export", "Animated surface, posed surface, centre lines or measurements for other programs");
+  CLI::App* sub = app.add_subcommand(
+      "export", "Animated surface, posed surface, centre lines or measurements for other programs");
   sub->footer(
       "Examples:\n"
       "  vasa export --clip walk -o walk.glb --budget 30\n"
@@ -263,25 +285,41 @@ void addExport(CLI::App& app, Command& command) {
       "Formats of one frame write the first where none is named.");
   addSceneOptions(*sub, options->scene);
   addTrackOption(*sub, options->track);
-  sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .vtp, .swc, .csv or .tubes")->required();
+  sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .vtp, .swc, .csv or .tubes")
+      ->required();
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN");
-  sub->add_option("--budget", options->budgetMegabytes, "Largest .glb file [MB]")->check(CLI::Range(0.01, 4000.0))->capture_default_str();
-  sub->add_option("--tolerance", options->toleranceMillimetres, "Farthest a vertex of a .glb may be from where it is drawn, in any frame [mm]")
+  sub->add_option("--budget", options->budgetMegabytes, "Largest .glb file [MB]")
+      ->check(CLI::Range(0.01, 4000.0))
+      ->capture_default_str();
+  sub->add_option("--tolerance", options->toleranceMillimetres,
+                  "Farthest a vertex of a .glb may be from where it is drawn, in any frame [mm]")
       ->check(CLI::Range(0.001, 100.0))
       ->capture_default_str();
-  sub->add_option("--between", options->betweenMillimetres, "Keys are added to a .glb where vessels stray farther from the straight way between two frames [mm]")
+  sub->add_option(
+         "--between", options->betweenMillimetres,
+         "Keys are added to a .glb where vessels stray farther from the straight way between two frames [mm]")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  sub->add_option("--fps", options->fps, "Keys a second of a .glb (default: one a frame of the clip)")->check(CLI::Range(0.1, 1000.0));
-  sub->add_option("--samples", options->samples, "Samples a sweep of .vtp and .swc")->check(CLI::Range(1, 64))->capture_default_str();
-  sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")->check(CLI::IsMember({"mm", "cm", "m"}))->capture_default_str();
-  sub->add_option("--clearance", options->clearanceMillimetres, "Clearances beyond this are left empty in .csv [mm]")->check(CLI::Range(0.0, 50.0))->capture_default_str();
+  sub->add_option("--fps", options->fps, "Keys a second of a .glb (default: one a frame of the clip)")
+      ->check(CLI::Range(0.1, 1000.0));
+  sub->add_option("--samples", options->samples, "Samples a sweep of .vtp and .swc")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")
+      ->check(CLI::IsMember({"mm", "cm", "m"}))
+      ->capture_default_str();
+  sub->add_option("--clearance", options->clearanceMillimetres,
+                  "Clearances beyond this are left empty in .csv [mm]")
+      ->check(CLI::Range(0.0, 50.0))
+      ->capture_default_str();
   sub->add_flag("--flat", options->flat, "Leave normals out of a .glb: half the size, shaded facet by facet");
-  sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart that run through one another or through bones (the default)");
+  sub->add_flag("--avoid,!--no-avoid", options->avoid,
+                "Move vessels apart that run through one another or through bones (the default)");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

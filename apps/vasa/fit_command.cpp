@@ -32,26 +32,35 @@ Report outsideJson(const Network& network, const SkinReport& outside) {
                     {"outside_m", vessel.outside},
                     {"farthest_m", vessel.farthest}});
   const double length = std::max(outside.length, 1e-12);
-  return {{"measured", outside.length > 0}, {"share", outside.outside / length}, {"share_by_5_mm", outside.outside5mm / length}, {"vessels", std::move(list)}};
+  return {{"measured", outside.length > 0},
+          {"share", outside.outside / length},
+          {"share_by_5_mm", outside.outside5mm / length},
+          {"vessels", std::move(list)}};
 }
 
 std::string asText(const Report& report) {
   std::string text = fmt::format("joints     {} matched{}\n", report["joints_matched"].get<int>(),
-                                 report["joints_free"].empty() ? "" : "; these go with the joint before them: " + report["joints_free"].dump());
-  text += fmt::format("network    {} vessels, {:.2f} m (before {:.2f} m), radii times {:.3f}\n", report["vessels"].get<std::size_t>(),
-                      report["length_m"].get<double>(), report["length_before_m"].get<double>(), report["radius_factor"].get<double>());
+                                 report["joints_free"].empty() ? ""
+                                                               : "; these go with the joint before them: " +
+                                                                     report["joints_free"].dump());
+  text += fmt::format("network    {} vessels, {:.2f} m (before {:.2f} m), radii times {:.3f}\n",
+                      report["vessels"].get<std::size_t>(), report["length_m"].get<double>(),
+                      report["length_before_m"].get<double>(), report["radius_factor"].get<double>());
   const Report& outside = report["outside_skin"];
   if (!outside["measured"].get<bool>()) return text + "outside    not known: the body has no skin\n";
-  text += fmt::format("outside    {:.2f} % of the length lies outside the skin, {:.2f} % by more than 5 mm; {:.2f} % before\n",
-                      100 * outside["share"].get<double>(), 100 * outside["share_by_5_mm"].get<double>(),
-                      100 * report["outside_skin_before"]["share"].get<double>());
+  text += fmt::format(
+      "outside    {:.2f} % of the length lies outside the skin, {:.2f} % by more than 5 mm; {:.2f} % before\n",
+      100 * outside["share"].get<double>(), 100 * outside["share_by_5_mm"].get<double>(),
+      100 * report["outside_skin_before"]["share"].get<double>());
   std::size_t listed = 0;
   for (const Report& vessel : outside["vessels"]) {
     if (++listed > 10) break;
-    text += fmt::format("           {:<50} {:.1f} of {:.1f} mm, farthest {:.1f} mm\n", plainText(vessel["name"]), 1e3 * vessel["outside_m"].get<double>(),
+    text += fmt::format("           {:<50} {:.1f} of {:.1f} mm, farthest {:.1f} mm\n",
+                        plainText(vessel["name"]), 1e3 * vessel["outside_m"].get<double>(),
                         1e3 * vessel["length_m"].get<double>(), 1e3 * vessel["farthest_m"].get<double>());
   }
-  return text + fmt::format("written    {}: {} bytes\n", plainText(report["file"]), report["file_bytes"].get<std::size_t>());
+  return text + fmt::format("written    {}: {} bytes\n", plainText(report["file"]),
+                            report["file_bytes"].get<std::size_t>());
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
@@ -115,7 +124,8 @@ void addFit(CLI::App& app, Command& command) {
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--joint-map", options->jointMap, "Pairs of joints");
   sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -28,16 +28,16 @@ std::optional<Pair> splitAt(std::string_view text, char separator) {
   return Pair{text.substr(0, at), text.substr(at + 1)};
 }
 
-Error usage(std::string message) {
-  return {Fault::usage, std::move(message)};
-}
+Error usage(std::string message) { return {Fault::usage, std::move(message)}; }
 
 // "AxB" with both in their ranges.
-std::optional<std::pair<std::uint32_t, std::uint32_t>> product(const std::string& text, FrameRange a, FrameRange b) {
+std::optional<std::pair<std::uint32_t, std::uint32_t>> product(const std::string& text, FrameRange a,
+                                                               FrameRange b) {
   const auto pair = splitAt(text, 'x');
   if (!pair) return std::nullopt;
   const auto left = number(pair->left), right = number(pair->right);
-  if (!left || !right || *left < a.first || *left > a.last || *right < b.first || *right > b.last) return std::nullopt;
+  if (!left || !right || *left < a.first || *left > a.last || *right < b.first || *right > b.last)
+    return std::nullopt;
   return std::pair(*left, *right);
 }
 
@@ -71,10 +71,13 @@ Result<PictureSize> parseSize(const std::string& text) {
 Result<Quads> parseQuads(const std::string& text) {
   if (text == "auto") return Quads{.pixelError = kAutoPixelError};
   if (text.starts_with("auto:"))
-    if (const auto pixels = number<float>(std::string_view(text).substr(5)); pixels && *pixels >= 0.001f && *pixels <= 10)
+    if (const auto pixels = number<float>(std::string_view(text).substr(5));
+        pixels && *pixels >= 0.001f && *pixels <= 10)
       return Quads{.pixelError = *pixels};
   if (const auto quads = product(text, {3, 16}, {2, 20})) return Quads{quads->first, quads->second};
-  return usage("--quads " + text + ": give MxN with M from 3 to 16 around and N from 2 to 20 along, for example 8x5, or auto, or auto:PIXELS with an error from 0.001 to 10");
+  return usage(
+      "--quads " + text +
+      ": give MxN with M from 3 to 16 around and N from 2 to 20 along, for example 8x5, or auto, or auto:PIXELS with an error from 0.001 to 10");
 }
 
 Result<FramePattern> FramePattern::parse(const std::string& text, bool several) {
@@ -82,16 +85,20 @@ Result<FramePattern> FramePattern::parse(const std::string& text, bool several) 
   const auto open = text.find('{');
   if (open == std::string::npos) {
     if (several)
-      return usage("-o " + text + ": several frames would overwrite one file; put the number into the name, for example "
+      return usage("-o " + text +
+                   ": several frames would overwrite one file; put the number into the name, for example "
                    "'frame_{frame:04}.png'");
     pattern.before_ = text;
     return pattern;
   }
   const auto close = text.find('}', open);
-  const std::string_view field = std::string_view(text).substr(open, close == std::string::npos ? close : close + 1 - open);
+  const std::string_view field =
+      std::string_view(text).substr(open, close == std::string::npos ? close : close + 1 - open);
   std::optional<std::uint32_t> digits = 0;
-  if (field.starts_with("{frame:0") && field.ends_with('}')) digits = number(field.substr(8, field.size() - 9));
-  else if (field != "{frame}") digits.reset();
+  if (field.starts_with("{frame:0") && field.ends_with('}'))
+    digits = number(field.substr(8, field.size() - 9));
+  else if (field != "{frame}")
+    digits.reset();
   if (!digits || *digits > 9 || text.find_first_of("{}", close + 1) != std::string::npos)
     return usage("-o " + text + ": the only place holder is {frame}, or {frame:04} for leading zeros, once");
   pattern.before_ = text.substr(0, open);

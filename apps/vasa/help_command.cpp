@@ -22,7 +22,8 @@ std::string overview(const CommandText& program) {
   std::string text = "vasa help COMMAND explains a command, vasa help TOPIC one of these:\n";
   for (const Topic& topic : topics()) text += fmt::format("  {:<14} {}\n", topic.name, topic.title());
   text += "Commands:\n";
-  for (const CommandText& command : program.commands) text += fmt::format("  {:<14} {}\n", command.path.back(), command.description);
+  for (const CommandText& command : program.commands)
+    text += fmt::format("  {:<14} {}\n", command.path.back(), command.description);
   return text;
 }
 
@@ -33,16 +34,21 @@ Result<std::string> about(const CLI::App& app, const std::vector<std::string>& s
   const CLI::App* command = &app;
   std::string above;
   for (const std::string& name : subject) {
-    const auto below = command->get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
-    if (below.empty()) return Error{Fault::usage, "there is no help on " + name + "; vasa help lists commands and topics"};
+    const auto below =
+        command->get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
+    if (below.empty())
+      return Error{Fault::usage, "there is no help on " + name + "; vasa help lists commands and topics"};
     above += (above.empty() ? "" : " ") + command->get_name();
     command = below.front();
   }
   return command->help(above);
 }
 
-Result<void> writeManuals(const CommandText& command, const CommandText& program, const std::filesystem::path& folder) {
-  if (auto written = writeFileAtomically(folder / (manName(command) + ".1"), manPage(command, program)); !written) return written;
+Result<void> writeManuals(const CommandText& command, const CommandText& program,
+                          const std::filesystem::path& folder) {
+  if (auto written = writeFileAtomically(folder / (manName(command) + ".1"), manPage(command, program));
+      !written)
+    return written;
   for (const CommandText& below : command.commands)
     if (auto written = writeManuals(below, program, folder); !written) return written;
   return {};
@@ -54,9 +60,11 @@ Result<void> writeAll(const CommandText& program, const std::filesystem::path& f
   if (failed) return ioError(folder.string() + ": " + failed.message());
   if (auto written = writeManuals(program, program, folder); !written) return written;
   for (const Topic& topic : topics())
-    if (auto written = writeFileAtomically(folder / (manName(topic) + ".7"), manPage(topic)); !written) return written;
-  const std::pair<const char*, std::string> completions[] = {
-      {"vasa.bash", bashCompletion(program)}, {"_vasa", zshCompletion(program)}, {"vasa.fish", fishCompletion(program)}};
+    if (auto written = writeFileAtomically(folder / (manName(topic) + ".7"), manPage(topic)); !written)
+      return written;
+  const std::pair<const char*, std::string> completions[] = {{"vasa.bash", bashCompletion(program)},
+                                                             {"_vasa", zshCompletion(program)},
+                                                             {"vasa.fish", fishCompletion(program)}};
   for (const auto& [name, text] : completions)
     if (auto written = writeFileAtomically(folder / name, text); !written) return written;
   return {};
@@ -74,7 +82,8 @@ void addHelp(CLI::App& app, Command& command) {
       "  vasa help formats\n"
       "  vasa help --write out    (manual pages, and completions for bash, zsh and fish)");
   sub->add_option("TOPIC", options->subject, "A command or a topic; nothing: lists them");
-  sub->add_option("--write", options->folder, "Write all manual pages and shell completions into this folder");
+  sub->add_option("--write", options->folder,
+                  "Write all manual pages and shell completions into this folder");
   sub->callback([options, &app, &command] {
     command.run = [options, &app]() -> Result<void> {
       if (!options->folder.empty()) return writeAll(describe(app), options->folder);

@@ -35,33 +35,37 @@ Report networkReport(const Network& network, std::uintmax_t fileBytes, bool vess
   std::size_t patchTriangles = 0;
   for (const ForkPatch& patch : network.patches()) patchTriangles += patch.triangles.size();
   Report report{{"kind", "network"},
-          {"vessels", network.vessels().size()},
-          {"arteries", sum.arteries},
-          {"veins", sum.veins},
-          {"sections", network.sectionCount()},
-          {"sweeps", network.sweepCount()},
-          {"junctions", network.junctionCount()},
-          {"components", network.componentCount()},
-          {"patches", network.patches().size()},
-          {"patch_triangles", patchTriangles},
-          {"length_m", sum.length},
-          {"volume_m3", sum.volume},
-          {"body_height_m", network.bodyHeight()},
-          {"file_bytes", fileBytes},
-          {"bytes_per_sweep", network.sweepCount() ? double(fileBytes) / network.sweepCount() : 0.0}};
+                {"vessels", network.vessels().size()},
+                {"arteries", sum.arteries},
+                {"veins", sum.veins},
+                {"sections", network.sectionCount()},
+                {"sweeps", network.sweepCount()},
+                {"junctions", network.junctionCount()},
+                {"components", network.componentCount()},
+                {"patches", network.patches().size()},
+                {"patch_triangles", patchTriangles},
+                {"length_m", sum.length},
+                {"volume_m3", sum.volume},
+                {"body_height_m", network.bodyHeight()},
+                {"file_bytes", fileBytes},
+                {"bytes_per_sweep", network.sweepCount() ? double(fileBytes) / network.sweepCount() : 0.0}};
   if (vessels) report["vessel"] = vesselReport(network), report["fork"] = forkReport(network);
   return report;
 }
 
 // A row a joint; depth is for the tree that a person reads.
 template <class NameOf, class ParentOf>
-Report jointReport(std::size_t count, const HumanoidNames& parts, const NameOf& nameOf, const ParentOf& parentOf) {
+Report jointReport(std::size_t count, const HumanoidNames& parts, const NameOf& nameOf,
+                   const ParentOf& parentOf) {
   Report list = Report::array();
   std::vector<int> depth(count, 0);
   for (std::size_t j = 0; j < count; ++j) {
     const JointId parent = parentOf(j);
     if (parent.valid()) depth[j] = depth[parent.value] + 1;
-    list.push_back({{"name", nameOf(j)}, {"parent", parent.valid() ? nameOf(parent.value) : std::string{}}, {"part", parts.of[j]}, {"depth", depth[j]}});
+    list.push_back({{"name", nameOf(j)},
+                    {"parent", parent.valid() ? nameOf(parent.value) : std::string{}},
+                    {"part", parts.of[j]},
+                    {"depth", depth[j]}});
   }
   return list;
 }
@@ -69,11 +73,15 @@ Report jointReport(std::size_t count, const HumanoidNames& parts, const NameOf& 
 std::string jointTree(const Report& joints) {
   std::string text;
   for (const Report& joint : joints)
-    text += fmt::format("{:<48} {}\n", std::string(2 * joint["depth"].get<std::size_t>(), ' ') + plainText(joint["name"]), plainText(joint["part"]));
+    text += fmt::format("{:<48} {}\n",
+                        std::string(2 * joint["depth"].get<std::size_t>(), ' ') + plainText(joint["name"]),
+                        plainText(joint["part"]));
   return text;
 }
 
-std::string axisName(vec3 up) { return std::string(up.x + up.y + up.z < 0 ? "-" : "+") + (up.x != 0 ? "X" : up.y != 0 ? "Y" : "Z"); }
+std::string axisName(vec3 up) {
+  return std::string(up.x + up.y + up.z < 0 ? "-" : "+") + (up.x != 0 ? "X" : up.y != 0 ? "Y" : "Z");
+}
 
 Report motionReport(const Motion& motion, std::uintmax_t fileBytes, bool joints) {
   const HumanoidNames parts = partsOf(motion);
@@ -90,10 +98,13 @@ Report motionReport(const Motion& motion, std::uintmax_t fileBytes, bool joints)
                 {"parts_of_a_person", kHumanoidKeys},
                 {"up", axisName(up)},
                 {"metres_a_unit", unit},
-                {"stands_in", standing == MotionPose::kZero ? std::string("the zero pose") : "frame " + std::to_string(standing)},
+                {"stands_in", standing == MotionPose::kZero ? std::string("the zero pose")
+                                                            : "frame " + std::to_string(standing)},
                 {"file_bytes", fileBytes}};
   if (joints)
-    report["joint"] = jointReport(motion.joints.size(), parts, [&](std::size_t j) { return motion.joints[j].name; }, [&](std::size_t j) { return motion.joints[j].parent; });
+    report["joint"] = jointReport(
+        motion.joints.size(), parts, [&](std::size_t j) { return motion.joints[j].name; },
+        [&](std::size_t j) { return motion.joints[j].parent; });
   return report;
 }
 
@@ -118,7 +129,10 @@ Report bodyReport(const Body& body, std::uintmax_t fileBytes, bool joints = fals
                                {"seconds", clip.end - clip.start},
                                {"frames_per_second", clip.framesPerSecond}});
   const auto& all = body.skeleton.joints;
-  if (joints) report["joint"] = jointReport(all.size(), parts, [&](std::size_t j) { return all[j].name; }, [&](std::size_t j) { return all[j].parent; });
+  if (joints)
+    report["joint"] = jointReport(
+        all.size(), parts, [&](std::size_t j) { return all[j].name; },
+        [&](std::size_t j) { return all[j].parent; });
   return report;
 }
 
@@ -165,7 +179,9 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
     if (!body) return body.error();
     return bodyReport(*body, sizeOf(file), joints);
   }
-  return Error{Fault::usage, file.string() + ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .bvh and scene .json files"};
+  return Error{Fault::usage,
+               file.string() +
+                   ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .bvh and scene .json files"};
 }
 
 // What would grow: nothing of it is stored.
@@ -180,10 +196,12 @@ Result<Report> capillaryReport(const Scene& scene, CapillaryChoice choice) {
   report["bytes_per_sweep"] = sizeof(shared::GrowthSite);
   std::vector<std::uint64_t> trees(grown.regions.size());
   for (std::size_t sweep = 0; sweep < grown.sites.region.size(); ++sweep)
-    if (grown.sites.region[sweep] < trees.size()) trees[grown.sites.region[sweep]] += grown.sites.sites[sweep].sprouts;
+    if (grown.sites.region[sweep] < trees.size())
+      trees[grown.sites.region[sweep]] += grown.sites.sites[sweep].sprouts;
   report["regions"] = Report::array();
   for (std::size_t r = 0; r < trees.size(); ++r)
-    if (trees[r] > 0) report["regions"].push_back({{"name", grown.regions[r].name}, {"trees_along_vessels", trees[r]}});
+    if (trees[r] > 0)
+      report["regions"].push_back({{"name", grown.regions[r].name}, {"trees_along_vessels", trees[r]}});
   return report;
 }
 
@@ -241,7 +259,8 @@ Result<void> printProfile(const Options& options) {
 std::string withTables(Report report) {
   std::string tables;
   const auto takeOut = [&](Report& from) {
-    if (from.contains("vessel")) tables += "\n" + vesselTable(from["vessel"]) + "\n" + forkTable(from["fork"]);
+    if (from.contains("vessel"))
+      tables += "\n" + vesselTable(from["vessel"]) + "\n" + forkTable(from["fork"]);
     if (from.contains("joint")) tables += '\n' + jointTree(from["joint"]);
     from.erase("vessel"), from.erase("fork"), from.erase("joint");
   };
@@ -255,9 +274,12 @@ std::string withTables(Report report) {
 
 Result<void> run(const Globals& globals, const Options& options) {
   if (!options.edits.empty() && !isScene(options))
-    return Error{Fault::usage, "--edits belongs to a scene or the built-in human; vasa edit writes an edited network, which info reads"};
+    return Error{
+        Fault::usage,
+        "--edits belongs to a scene or the built-in human; vasa edit writes an edited network, which info reads"};
   if (!options.profile.empty()) return printProfile(options);
-  if (!options.output.empty()) return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
+  if (!options.output.empty())
+    return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
   auto report = [&]() -> Result<Report> {
     if (!isScene(options)) return reportOf(options.file, options.vessels, options.joints);
     const auto sources = chooseScene({.scene = options.file, .edits = options.edits});
@@ -272,7 +294,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addInfo(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body, motion or scene");
+  CLI::App* sub =
+      app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body, motion or scene");
   sub->footer(
       "Examples:\n"
       "  vasa info body.vasa --json\n"
@@ -281,14 +304,25 @@ void addInfo(CLI::App& app, Command& command) {
       "  vasa info            (the built-in human)\n"
       "  vasa info --vessels  (a table: sizes, stenoses, aneurysms, how they wind)\n"
       "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv");
-  sub->add_option("FILE", options->file, "A .vasa network, a glTF body, a .bvh motion or a scene; nothing: the built-in human");
-  sub->add_flag("--vessels", options->vessels, "List each vessel with its sizes, stenosis, aneurysm and course, and each fork");
-  sub->add_flag("--joints", options->joints, "List each joint of a body or motion, below its parent, with the part of a person that it is taken for");
-  sub->add_option("--edits", options->edits, "Journal of edits to a scene's vessels (.vedit); may be given several times")->take_all()->allow_extra_args(false);
+  sub->add_option("FILE", options->file,
+                  "A .vasa network, a glTF body, a .bvh motion or a scene; nothing: the built-in human");
+  sub->add_flag("--vessels", options->vessels,
+                "List each vessel with its sizes, stenosis, aneurysm and course, and each fork");
+  sub->add_flag(
+      "--joints", options->joints,
+      "List each joint of a body or motion, below its parent, with the part of a person that it is taken for");
+  sub->add_option("--edits", options->edits,
+                  "Journal of edits to a scene's vessels (.vedit); may be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
   sub->add_option("--profile", options->profile, "Print one vessel's radius and area along its way, as CSV");
-  sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")->capture_default_str()->check(CLI::Range(0.01, 1000.0));
-  sub->add_option("-o,--output", options->output, "Of a profile: the file to write (.csv); none: standard output");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1000.0));
+  sub->add_option("-o,--output", options->output,
+                  "Of a profile: the file to write (.csv); none: standard output");
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

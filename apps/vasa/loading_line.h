@@ -8,7 +8,8 @@
 
 namespace vasa::cli {
 
-/// What a command does before it begins, as a line on a terminal (core/log.h): for loadScene() and what comes after it.
+/// What a command does before it begins, as a line on a terminal (core/log.h): for loadScene() and what comes
+/// after it.
 class LoadingLine {
  public:
   void operator()(const char* what, std::size_t done = 0, std::size_t total = 0) {

@@ -21,9 +21,13 @@ void addGlobals(CLI::App& app, Globals& globals) {
   app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
   app.add_flag("--verbose", globals.verbose, "Say more");
   app.add_flag("--no-cache", globals.noCache, "Compute everything anew and keep nothing (see vasa prepare)");
-  app.add_option("--threads", globals.threads, "Threads to use (default: one a core)")->check(CLI::Range(1u, 1024u));
-  app.add_option("--device", globals.device, "Vulkan device: its index or part of its name (see vasa devices)");
-  app.add_option("--seed", globals.seed, "Seed of everything random")->check(CLI::Range(0u, 4294967295u))->capture_default_str();
+  app.add_option("--threads", globals.threads, "Threads to use (default: one a core)")
+      ->check(CLI::Range(1u, 1024u));
+  app.add_option("--device", globals.device,
+                 "Vulkan device: its index or part of its name (see vasa devices)");
+  app.add_option("--seed", globals.seed, "Seed of everything random")
+      ->check(CLI::Range(0u, 4294967295u))
+      ->capture_default_str();
 }
 
 // Work leaves at a checkpoint once a signal has asked.
@@ -55,10 +59,11 @@ int runCommand(Command& command) {
 }  // namespace
 
 int run(int argc, char** argv) {
-  CLI::App app{"Moves a body's blood vessels with its skeleton.\n"
-               "  vasa convert arteries.glb veins.glb -o body.vasa\n"
-               "  vasa render --body body.glb --network body.vasa --clip walk -o 'out/{frame:04}.png'\n",
-               "vasa"};
+  CLI::App app{
+      "Moves a body's blood vessels with its skeleton.\n"
+      "  vasa convert arteries.glb veins.glb -o body.vasa\n"
+      "  vasa render --body body.glb --network body.vasa --clip walk -o 'out/{frame:04}.png'\n",
+      "vasa"};
   app.set_version_flag("--version", "vasa " VASA_VERSION);
   app.require_subcommand(1);
   app.fallthrough();

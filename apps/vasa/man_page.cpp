@@ -25,7 +25,8 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
 std::string header(const std::string& name, int section, const std::string& about) {
   std::string title = name;
   for (char& c : title) c = char(std::toupper(static_cast<unsigned char>(c)));
-  return fmt::format(".TH {} {} \"\" \"vasa {}\" \"vasa\"\n.SH NAME\n{} \\- {}\n", escaped(title), section, VASA_VERSION, escaped(name), escaped(about));
+  return fmt::format(".TH {} {} \"\" \"vasa {}\" \"vasa\"\n.SH NAME\n{} \\- {}\n", escaped(title), section,
+                     VASA_VERSION, escaped(name), escaped(about));
 }
 
 std::string listing(const std::vector<std::string>& lines) {
@@ -58,12 +59,15 @@ std::string synopsis(const CommandText& command) {
   if (!command.commands.empty()) out += ".I COMMAND\n";
   out += "[\\fIOPTION\\fR]...";
   for (const OptionText& option : command.options)
-    if (option.positional) out += fmt::format(" {}\\fI{}\\fR{}{}", option.required ? "" : "[", escaped(option.names.front()), option.repeated ? "..." : "", option.required ? "" : "]");
+    if (option.positional)
+      out += fmt::format(" {}\\fI{}\\fR{}{}", option.required ? "" : "[", escaped(option.names.front()),
+                         option.repeated ? "..." : "", option.required ? "" : "]");
   return out + "\n";
 }
 
 std::string lowerFirst(std::string text) {
-  if (text.size() > 1 && !std::isupper(static_cast<unsigned char>(text[1]))) text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
+  if (text.size() > 1 && !std::isupper(static_cast<unsigned char>(text[1])))
+    text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
   while (text.ends_with('.')) text.pop_back();
   return text;
 }
@@ -74,7 +78,8 @@ std::string seeAlso(const CommandText& program, const std::string& self) {
   for (const auto& topic : topics()) pages.push_back(manName(topic) + "(7)");
   std::string out = ".SH SEE ALSO\n";
   for (std::size_t i = 0, written = 0; i < pages.size(); ++i)
-    if (!pages[i].starts_with(self + "(")) out += (written++ ? ", " : "") + fmt::format("\\fB{}\\fR", escaped(pages[i]));
+    if (!pages[i].starts_with(self + "("))
+      out += (written++ ? ", " : "") + fmt::format("\\fB{}\\fR", escaped(pages[i]));
   return out + "\n";
 }
 
@@ -85,13 +90,9 @@ std::string Topic::title() const {
   return text.substr(colon + 2, text.find('\n') - colon - 2);
 }
 
-std::string manName(const CommandText& command) {
-  return joined(command.path, "-");
-}
+std::string manName(const CommandText& command) { return joined(command.path, "-"); }
 
-std::string manName(const Topic& topic) {
-  return fmt::format("vasa-{}", topic.name);
-}
+std::string manName(const Topic& topic) { return fmt::format("vasa-{}", topic.name); }
 
 std::string manPage(const CommandText& command, const CommandText& program) {
   std::string out = header(manName(command), 1, lowerFirst(command.description)) + synopsis(command);
@@ -100,7 +101,8 @@ std::string manPage(const CommandText& command, const CommandText& program) {
   out += options(command, "ARGUMENTS", true) + options(command, "OPTIONS", false);
   if (!command.commands.empty()) {
     out += ".SH COMMANDS\n";
-    for (const auto& below : command.commands) out += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", escaped(below.path.back()), escaped(below.description));
+    for (const auto& below : command.commands)
+      out += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", escaped(below.path.back()), escaped(below.description));
   }
   if (command.path.size() > 1) out += ".PP\nThe options of \\fBvasa\\fR(1) may be given, too.\n";
   if (!command.examples.empty()) out += fmt::format(".SH EXAMPLES\n{}", listing(command.examples));

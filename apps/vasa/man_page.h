@@ -6,8 +6,8 @@
 
 namespace vasa::cli {
 
-/// A subject that help knows beside the commands: a heading line "# name: what it is about", then paragraphs, "## "
-/// headings, "* " list items and blocks indented by four, which are command lines or listings.
+/// A subject that help knows beside the commands: a heading line "# name: what it is about", then paragraphs,
+/// "## " headings, "* " list items and blocks indented by four, which are command lines or listings.
 struct Topic {
   std::string name;
   std::string text;

@@ -26,7 +26,8 @@ struct Options {
   bool quick = false;
 };
 
-constexpr std::array kFigures{wholeBodyFigure, conversionFigure, brainFigure, junctionFigure, capillaryFigure, hierarchyFigure, clipFigure};
+constexpr std::array kFigures{wholeBodyFigure, conversionFigure, brainFigure, junctionFigure,
+                              capillaryFigure, hierarchyFigure,  clipFigure};
 
 // The surfaces that the network was converted from, where they are known.
 Result<std::vector<SourceElement>> givenMeshes(const Options& options, const SceneFile& choice) {
@@ -72,22 +73,28 @@ Result<void> prepare(const Globals& globals, const Options& options, PaperStudy&
   auto growth = growthOf(study.scene, capillaries, study.table);
   if (!growth) return growth.error();
   study.growth = std::move(**growth);
-  auto camera = CameraMan::create(choice->camera, study.scene, study.clip, float(size->width) / float(size->height));
+  auto camera =
+      CameraMan::create(choice->camera, study.scene, study.clip, float(size->width) / float(size->height));
   if (!camera) return camera.error();
   study.camera = std::move(*camera);
   return {};
 }
 
 Report notes(const PaperStudy& study) {
-  return {{"table1", study.meshesGiven ? "Mesh: the surfaces that the network was converted from; 12 bytes a vertex, 12 a triangle."
-                                       : "Mesh: the network with a ring of eight vertices at each section, as the paper's model has; 12 bytes a vertex, 12 a triangle. "
-                                         "Totals hold vessels of other kinds, too."},
-          {"table2", "One thread; medians over poses of the motion before vessels are moved apart; pairs that run through one another, of all poses together, neighbours along the "
-                     "network left out. Hierarchies of boxes are binary trees of single precision down to one triangle, without the mesh; refit is without tessellation. Triangles of "
-                     "4x4 to 8x10 tubes cross less often than round tubes meet, those of the mesh, as long as a sweep, cut across bends, and the sphere tree's method reports pairs that miss by up to its tolerance. The paper's "
-                     "figures are PQP's, of which those of the original mesh are given in its text."},
-          {"table3", "render: a picture; collision: keeping volumes, detection, moving apart, certifying; total: a frame from pose to picture, one stage after the other; "
-                     "frames/s: from picture to picture, the next pose being solved beside the drawing. Medians. Every triangle: drawn as the paper does, without leaving out what cannot be seen."}};
+  return {
+      {"table1",
+       study.meshesGiven
+           ? "Mesh: the surfaces that the network was converted from; 12 bytes a vertex, 12 a triangle."
+           : "Mesh: the network with a ring of eight vertices at each section, as the paper's model has; 12 bytes a vertex, 12 a triangle. "
+             "Totals hold vessels of other kinds, too."},
+      {"table2",
+       "One thread; medians over poses of the motion before vessels are moved apart; pairs that run through one another, of all poses together, neighbours along the "
+       "network left out. Hierarchies of boxes are binary trees of single precision down to one triangle, without the mesh; refit is without tessellation. Triangles of "
+       "4x4 to 8x10 tubes cross less often than round tubes meet, those of the mesh, as long as a sweep, cut across bends, and the sphere tree's method reports pairs that miss by up to its tolerance. The paper's "
+       "figures are PQP's, of which those of the original mesh are given in its text."},
+      {"table3",
+       "render: a picture; collision: keeping volumes, detection, moving apart, certifying; total: a frame from pose to picture, one stage after the other; "
+       "frames/s: from picture to picture, the next pose being solved beside the drawing. Medians. Every triangle: drawn as the paper does, without leaving out what cannot be seen."}};
 }
 
 struct Made {
@@ -101,7 +108,8 @@ Result<Made> make(const PaperStudy& study, gpu::Device& device) {
              {"quick", study.quick},
              {"size", fmt::format("{}x{}", study.size.width, study.size.height)},
              {"clip", study.clip ? study.clip->name : "rest"},
-             {"vessels", fmt::format("{} vessels of {} sweeps", study.scene.network.vessels().size(), study.scene.network.sweepCount())},
+             {"vessels", fmt::format("{} vessels of {} sweeps", study.scene.network.vessels().size(),
+                                     study.scene.network.sweepCount())},
              {"notes", notes(study)}},
             {}};
   // First what is timed, before the machine is warm.
@@ -122,7 +130,8 @@ Result<Made> make(const PaperStudy& study, gpu::Device& device) {
     if (!figure) return figure.error();
     Report panels = Report::array();
     for (const PaperFigure::Panel& panel : figure->panels) panels.push_back(panel.caption);
-    made.report["figures"].push_back({{"figure", i + 1}, {"caption", figure->caption}, {"panels", panels}, {"facts", figure->facts}});
+    made.report["figures"].push_back(
+        {{"figure", i + 1}, {"caption", figure->caption}, {"panels", panels}, {"facts", figure->facts}});
     made.figures.push_back(std::move(*figure));
     progress.update(i + 1, kFigures.size());
   }
@@ -132,7 +141,8 @@ Result<Made> make(const PaperStudy& study, gpu::Device& device) {
 Result<void> write(const std::filesystem::path& folder, const Made& made) {
   const auto page = paperPage(made.report, made.figures);
   if (!page) return page.error();
-  if (auto written = writeFileAtomically(folder / "report.json", made.report.dump(2) + "\n"); !written) return written;
+  if (auto written = writeFileAtomically(folder / "report.json", made.report.dump(2) + "\n"); !written)
+    return written;
   return writeFileAtomically(folder / "index.html", *page);
 }
 
@@ -142,7 +152,9 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (auto prepared = prepare(globals, options, study); !prepared) return prepared;
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
-  if (error) return ioError(options.output + ": cannot make the folder: " + error.message() + "; choose one that you may write to");
+  if (error)
+    return ioError(options.output + ": cannot make the folder: " + error.message() +
+                   "; choose one that you may write to");
   auto made = gpu::attempt([&]() -> Result<Made> {
     gpu::Device device({.choice = globals.device});
     return make(study, device);
@@ -153,7 +165,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   all.report["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (auto written = write(options.output, all); !written) return written;
   if (globals.json) return printJson(all.report);
-  logInfo(fmt::format("{}/index.html and report.json in {:.0f} s", options.output, all.report["seconds"].get<double>()));
+  logInfo(fmt::format("{}/index.html and report.json in {:.0f} s", options.output,
+                      all.report["seconds"].get<double>()));
   return {};
 }
 
@@ -161,7 +174,8 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addPaper(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("paper", "The source paper's tables and figures, beside its own numbers, as a page");
+  CLI::App* sub =
+      app.add_subcommand("paper", "The source paper's tables and figures, beside its own numbers, as a page");
   sub->footer(
       "Examples:\n"
       "  vasa paper -o paper\n"
@@ -172,12 +186,17 @@ void addPaper(CLI::App& app, Command& command) {
       "that move the body most.");
   addSceneOptions(*sub, options->scene);
   sub->add_option("-o,--output", options->output, "The folder to write to")->required();
-  sub->add_option("--mesh", options->meshes,
-                  "Surfaces that the network was converted from (.glb, .obj, .stl), for Table I and Figure 2 (default: the network's\n"
-                  "own, eight vertices a section)");
-  sub->add_option("--size", options->size, "Size of Table III's pictures in pixels; figures are scaled with its height")->capture_default_str();
-  sub->add_flag("--quick", options->quick, "Fewer frames and coarser pictures: in two minutes instead of ten");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->add_option(
+      "--mesh", options->meshes,
+      "Surfaces that the network was converted from (.glb, .obj, .stl), for Table I and Figure 2 (default: the network's\n"
+      "own, eight vertices a section)");
+  sub->add_option("--size", options->size,
+                  "Size of Table III's pictures in pixels; figures are scaled with its height")
+      ->capture_default_str();
+  sub->add_flag("--quick", options->quick,
+                "Fewer frames and coarser pictures: in two minutes instead of ten");
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <map>
 
-#include "core/cancellation.h"
 #include "convert/convert.h"
+#include "core/cancellation.h"
 #include "paper_easel.h"
 
-// Figure 2: a vessel with its branches as polygons and as sweeps, which the mesh is converted to here, in the paper's way
-// (a sweep between every two sections, through both) and in ours (the fewest that come near enough).
+// Figure 2: a vessel with its branches as polygons and as sweeps, which the mesh is converted to here, in the
+// paper's way (a sweep between every two sections, through both) and in ours (the fewest that come near
+// enough).
 namespace vasa::cli {
 namespace {
 
@@ -21,7 +22,8 @@ std::vector<std::string> namesOfGroup(const Network& network) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> branches;
   for (const Node& node : network.nodes())
     if (node.host)
-      for (const VesselEnd& end : network.ends(node)) branches[node.host->vessel.value].push_back(end.vessel.value);
+      for (const VesselEnd& end : network.ends(node))
+        branches[node.host->vessel.value].push_back(end.vessel.value);
   std::vector<std::string> names;
   if (branches.empty()) return {network.vessels().front().name};
   const auto thickness = [&](const auto& entry) {
@@ -47,7 +49,8 @@ std::vector<SourceElement> groupOf(const PaperStudy& study) {
   for (const SourceElement& element : study.meshes)
     if (isNamed(element, names)) group.push_back(element);
   if (group.empty())
-    group.push_back(*std::ranges::max_element(study.meshes, {}, [](const SourceElement& e) { return e.element.mesh.area(); }));
+    group.push_back(*std::ranges::max_element(study.meshes, {},
+                                              [](const SourceElement& e) { return e.element.mesh.area(); }));
   return group;
 }
 
@@ -61,7 +64,8 @@ std::vector<Piece> piecesOf(const Network& network) {
   for (const Vessel& vessel : network.vessels()) {
     const auto points = network.pointsOf(vessel);
     for (std::uint32_t i = 0; i < vessel.spanCount() * kPiecesPerSpan; ++i)
-      pieces.push_back({evaluate(points, float(i) / kPiecesPerSpan), evaluate(points, float(i + 1) / kPiecesPerSpan)});
+      pieces.push_back(
+          {evaluate(points, float(i) / kPiecesPerSpan), evaluate(points, float(i + 1) / kPiecesPerSpan)});
   }
   return pieces;
 }
@@ -71,7 +75,8 @@ float wallDistance(std::span<const Piece> pieces, vec3 p) {
   float least = 1e9f;
   for (const Piece& piece : pieces) {
     const vec3 along = vec3(piece.to) - vec3(piece.from);
-    const float t = glm::clamp(glm::dot(p - vec3(piece.from), along) / std::max(glm::dot(along, along), 1e-20f), 0.0f, 1.0f);
+    const float t = glm::clamp(
+        glm::dot(p - vec3(piece.from), along) / std::max(glm::dot(along, along), 1e-20f), 0.0f, 1.0f);
     const vec4 nearest = glm::mix(piece.from, piece.to, t);
     least = std::min(least, std::abs(glm::distance(p, vec3(nearest)) - nearest.w));
   }
@@ -93,7 +98,8 @@ void divide(const std::array<vec3, 3>& corners, int times, const auto& take) {
   if (times == 0) return take(corners);
   const auto& [a, b, c] = corners;
   const vec3 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
-  for (const std::array<vec3, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) divide(part, times - 1, take);
+  for (const std::array<vec3, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+    divide(part, times - 1, take);
 }
 
 std::vector<SkinnedMesh> colouredByDistance(std::span<const SourceElement> group, const Network& sweeps) {
@@ -103,18 +109,21 @@ std::vector<SkinnedMesh> colouredByDistance(std::span<const SourceElement> group
     const TriangleMesh& mesh = source.element.mesh;
     const int times = mesh.triangles.size() > 4000 ? 0 : 2;
     for (const uvec3& t : mesh.triangles)
-      divide({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]}, times, [&](const std::array<vec3, 3>& corners) {
-        const float distance = wallDistance(pieces, (corners[0] + corners[1] + corners[2]) / 3.0f);
-        const auto band = std::ranges::find_if(kBands, [&](const Band& b) { return distance <= b.within; });
-        TriangleMesh& part = parts[std::size_t(band - kBands.begin())];
-        const auto first = std::uint32_t(part.positions.size());
-        part.positions.insert(part.positions.end(), corners.begin(), corners.end());
-        part.triangles.push_back({first, first + 1, first + 2});
-      });
+      divide({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]}, times,
+             [&](const std::array<vec3, 3>& corners) {
+               const float distance = wallDistance(pieces, (corners[0] + corners[1] + corners[2]) / 3.0f);
+               const auto band =
+                   std::ranges::find_if(kBands, [&](const Band& b) { return distance <= b.within; });
+               TriangleMesh& part = parts[std::size_t(band - kBands.begin())];
+               const auto first = std::uint32_t(part.positions.size());
+               part.positions.insert(part.positions.end(), corners.begin(), corners.end());
+               part.triangles.push_back({first, first + 1, first + 2});
+             });
   }
   std::vector<SkinnedMesh> meshes;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    if (!parts[i].empty()) meshes.push_back(stillMesh(fmt::format("band {}", i), std::move(parts[i]), kBands[i].colour, false));
+    if (!parts[i].empty())
+      meshes.push_back(stillMesh(fmt::format("band {}", i), std::move(parts[i]), kBands[i].colour, false));
   return meshes;
 }
 
@@ -126,8 +135,9 @@ Report errorsOf(const ConvertReport& report) {
 
 std::string errorText(const char* what, const ConvertReport& report) {
   const ErrorStatistics& error = report.summary.error;
-  return fmt::format("{}: {} sweeps, {:.3f} mm from the mesh on average, 95 % within {:.2f} mm, {:.2f} mm at most. ", what, report.summary.sweeps, 1e3 * error.mean, 1e3 * error.p95,
-                     1e3 * error.max);
+  return fmt::format(
+      "{}: {} sweeps, {:.3f} mm from the mesh on average, 95 % within {:.2f} mm, {:.2f} mm at most. ", what,
+      report.summary.sweeps, 1e3 * error.mean, 1e3 * error.p95, 1e3 * error.max);
 }
 
 // What the colours mean, in millimetres.
@@ -136,8 +146,10 @@ std::string legend() {
   for (std::size_t i = 0; i < kBands.size(); ++i) {
     const auto hex = [](float c) { return int(std::lround(255 * c)); };
     const vec3 c = kBands[i].colour;
-    const std::string words = i + 1 < kBands.size() ? fmt::format("to {}", 1e3f * kBands[i].within) : fmt::format("more");
-    text += fmt::format("<span class=\"band\" style=\"background:#{:02x}{:02x}{:02x}\"></span>{}", hex(c.x), hex(c.y), hex(c.z), words);
+    const std::string words =
+        i + 1 < kBands.size() ? fmt::format("to {}", 1e3f * kBands[i].within) : fmt::format("more");
+    text += fmt::format("<span class=\"band\" style=\"background:#{:02x}{:02x}{:02x}\"></span>{}", hex(c.x),
+                        hex(c.y), hex(c.z), words);
   }
   return text;
 }
@@ -161,7 +173,11 @@ Aabb closeUp(const Network& network) {
 }  // namespace
 
 Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& device) {
-  PaperFigure figure{"Converting blood vessels from (a) a polygonal mesh model to (b) sweep surfaces; (c) how far the mesh is from them.", {}, {}, {}};
+  PaperFigure figure{
+      "Converting blood vessels from (a) a polygonal mesh model to (b) sweep surfaces; (c) how far the mesh is from them.",
+      {},
+      {},
+      {}};
   const std::vector<SourceElement> group = groupOf(study);
   ConvertOptions options;
   options.bodyHeight = study.scene.network.bodyHeight();
@@ -190,8 +206,13 @@ Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& devic
   checkpoint();
   Easel coloured(study, device, {.network = sweeps, .meshes = bands}, size);
   figure.panels.push_back({"(c) distance", coloured.draw(camera, meshLook())});
-  figure.facts = {{"elements", group.size()}, {"triangles", triangles}, {"interpolated", errorsOf(interpolated->report)}, {"fitted", errorsOf(fitted->report)}};
-  figure.note = legend() + "<br>" + errorText("Interpolated, as in the paper and shown here", interpolated->report) + errorText("Fitted, as vasa convert does", fitted->report) +
+  figure.facts = {{"elements", group.size()},
+                  {"triangles", triangles},
+                  {"interpolated", errorsOf(interpolated->report)},
+                  {"fitted", errorsOf(fitted->report)}};
+  figure.note = legend() + "<br>" +
+                errorText("Interpolated, as in the paper and shown here", interpolated->report) +
+                errorText("Fitted, as vasa convert does", fitted->report) +
                 (study.meshesGiven ? "" : "The mesh is the network's own, eight vertices a section.");
   return figure;
 }

@@ -42,7 +42,11 @@ void Easel::showOnly(std::span<const char> spans) {
 
 Image Easel::draw(const Camera& camera, const Look& look) {
   const mat4 still(1);
-  renderer_.draw({.points = points_, .knotFrames = frames_, .jointMatrices = {&still, 1}, .camera = camera, .look = look});
+  renderer_.draw({.points = points_,
+                  .knotFrames = frames_,
+                  .jointMatrices = {&still, 1},
+                  .camera = camera,
+                  .look = look});
   return renderer_.readBack();
 }
 
@@ -55,8 +59,9 @@ Look pageLook() {
 Camera cameraOn(const Aabb& box, vec3 direction, float aspect) {
   constexpr float kAngle = 0.35f;  // [rad] about that of a portrait lens: little perspective
   const vec3 up = std::abs(glm::normalize(direction).y) > 0.95f ? vec3(0, 0, 1) : vec3(0, 1, 0);
-  return focusOn({.position = box.centre() + direction, .target = box.centre(), .up = up, .verticalAngle = kAngle}, box,
-                 aspect);
+  return focusOn(
+      {.position = box.centre() + direction, .target = box.centre(), .up = up, .verticalAngle = kAngle}, box,
+      aspect);
 }
 
 Aabb boundsOf(const Network& network, std::span<const char> spans) {

@@ -9,9 +9,9 @@ class Easel {
  public:
   struct Subject {
     const Network& network;
-    const SweepTable* table = nullptr;            ///< of the network, where there is one already
-    std::span<const vec4> points = {};            ///< empty: at rest
-    std::span<const SkinnedMesh> meshes = {};     ///< all of joint 0
+    const SweepTable* table = nullptr;         ///< of the network, where there is one already
+    std::span<const vec4> points = {};         ///< empty: at rest
+    std::span<const SkinnedMesh> meshes = {};  ///< all of joint 0
     const Growth* growth = nullptr;
     std::uint32_t capillaryLevels = 0;
   };

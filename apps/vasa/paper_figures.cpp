@@ -13,9 +13,7 @@ namespace {
 
 constexpr std::uint32_t kLevels = 3;  // of capillaries, as in the paper
 
-std::vector<char> everySpan(const Network& network) {
-  return std::vector<char>(network.sweepCount(), 1);
-}
+std::vector<char> everySpan(const Network& network) { return std::vector<char>(network.sweepCount(), 1); }
 
 // Spans in which the rules of a region grow.
 std::vector<char> spansOfRegion(const PaperStudy& study, std::string_view name) {
@@ -39,9 +37,7 @@ std::vector<char> wholeVessels(const Network& network, std::span<const char> spa
   return whole;
 }
 
-bool hasAny(std::span<const char> spans) {
-  return std::ranges::find(spans, 1) != spans.end();
-}
+bool hasAny(std::span<const char> spans) { return std::ranges::find(spans, 1) != spans.end(); }
 
 // Those on the body's left: one hand of two.
 std::vector<char> onTheLeft(const Network& network, std::vector<char> spans) {
@@ -56,14 +52,21 @@ std::vector<char> onTheLeft(const Network& network, std::vector<char> spans) {
 }  // namespace
 
 Result<PaperFigure> wholeBodyFigure(const PaperStudy& study, gpu::Device& device) {
-  PaperFigure figure{"The whole-body network of blood vessels: (a) with and (b) without capillary vessels.", {}, {}, {}};
+  PaperFigure figure{
+      "The whole-body network of blood vessels: (a) with and (b) without capillary vessels.", {}, {}, {}};
   const Network& network = study.scene.network;
   const Aabb box = boundsOf(network, everySpan(network));
   std::uint64_t curves = 0;
   for (const std::uint32_t levels : {kLevels, 0u}) {
     checkpoint();
-    Easel easel(study, device, {.network = network, .table = &study.table, .growth = levels ? &study.growth : nullptr, .capillaryLevels = levels}, {420, 860});
-    figure.panels.push_back({levels ? "(a)" : "(b)", easel.draw(cameraOn(box, {0, 0, 1}, easel.aspect()), pageLook())});
+    Easel easel(study, device,
+                {.network = network,
+                 .table = &study.table,
+                 .growth = levels ? &study.growth : nullptr,
+                 .capillaryLevels = levels},
+                {420, 860});
+    figure.panels.push_back(
+        {levels ? "(a)" : "(b)", easel.draw(cameraOn(box, {0, 0, 1}, easel.aspect()), pageLook())});
     curves += easel.capillaries();
   }
   figure.facts = {{"capillaries", curves}, {"levels", kLevels}};
@@ -82,9 +85,14 @@ Result<PaperFigure> brainFigure(const PaperStudy& study, gpu::Device& device) {
   Report curves = Report::array();
   for (std::uint32_t levels = 1; levels <= kLevels; ++levels) {
     checkpoint();
-    Easel easel(study, device, {.network = network, .table = &study.table, .growth = &study.growth, .capillaryLevels = levels}, {420, 420});
+    Easel easel(
+        study, device,
+        {.network = network, .table = &study.table, .growth = &study.growth, .capillaryLevels = levels},
+        {420, 420});
     easel.showOnly(shown);
-    figure.panels.push_back({fmt::format("{} of 3", levels), easel.draw(cameraOn(boundsOf(network, spans), {0.9f, 0.25f, 0.45f}, easel.aspect()), pageLook())});
+    figure.panels.push_back(
+        {fmt::format("{} of 3", levels),
+         easel.draw(cameraOn(boundsOf(network, spans), {0.9f, 0.25f, 0.45f}, easel.aspect()), pageLook())});
     curves.push_back(easel.capillaries());
   }
   figure.facts = {{"capillaries", curves}};
@@ -103,7 +111,10 @@ Result<PaperFigure> capillaryFigure(const PaperStudy& study, gpu::Device& device
                                          {"hand", {0.1f, 0.05f, 1}, true},
                                          {"face", {0.35f, 0.05f, 1}, false}}};
   const Network& network = study.scene.network;
-  Easel easel(study, device, {.network = network, .table = &study.table, .growth = &study.growth, .capillaryLevels = kLevels}, {320, 320});
+  Easel easel(
+      study, device,
+      {.network = network, .table = &study.table, .growth = &study.growth, .capillaryLevels = kLevels},
+      {320, 320});
   for (const Place& place : places) {
     checkpoint();
     std::vector<char> spans = spansOfRegion(study, place.region);
@@ -113,7 +124,9 @@ Result<PaperFigure> capillaryFigure(const PaperStudy& study, gpu::Device& device
       continue;
     }
     easel.showOnly(wholeVessels(network, spans));
-    figure.panels.push_back({place.region, easel.draw(cameraOn(boundsOf(network, spans), place.from, easel.aspect()), pageLook())});
+    figure.panels.push_back(
+        {place.region,
+         easel.draw(cameraOn(boundsOf(network, spans), place.from, easel.aspect()), pageLook())});
   }
   return figure;
 }

@@ -5,8 +5,8 @@
 #include "paper_study.h"
 #include "render/profiler.h"
 
-// Table III: render, collision, total and frames a second at the paper's resolutions, leaving out what cannot be seen and,
-// as the paper does, drawing every triangle.
+// Table III: render, collision, total and frames a second at the paper's resolutions, leaving out what cannot
+// be seen and, as the paper does, drawing every triangle.
 namespace vasa::cli {
 namespace {
 
@@ -14,7 +14,8 @@ struct PaperRow {
   SweepShape shape;
   double render, collision, total, fps;
 };
-constexpr PaperRow kPaper[] = {{{4, 5}, 17, 4, 21, 48}, {{4, 10}, 21, 8, 29, 35}, {{8, 5}, 19, 8, 27, 37}, {{8, 10}, 32, 8, 40, 25}};
+constexpr PaperRow kPaper[] = {
+    {{4, 5}, 17, 4, 21, 48}, {{4, 10}, 21, 8, 29, 35}, {{8, 5}, 19, 8, 27, 37}, {{8, 10}, 32, 8, 40, 25}};
 
 double sumOf(const ProfileRow& row, std::initializer_list<const char*> names) {
   double sum = 0;
@@ -39,9 +40,16 @@ ProfileSetting settingOf(const PaperStudy& study, bool cull) {
   return {.scene = &study.scene,
           .clip = study.clip,
           .meshes = {},
-          .render = {.width = study.size.width, .height = study.size.height, .samples = 1, .table = &study.table, .cull = cull},
+          .render = {.width = study.size.width,
+                     .height = study.size.height,
+                     .samples = 1,
+                     .table = &study.table,
+                     .cull = cull},
           .look = {},
-          .camera = [&study](const FrameMaker& maker) { return study.camera.at(study.scene, maker.pose(), maker.points()); },
+          .camera =
+              [&study](const FrameMaker& maker) {
+                return study.camera.at(study.scene, maker.pose(), maker.points());
+              },
           .avoid = true,
           .frames = study.quick ? 6u : 40u};
 }
@@ -67,7 +75,11 @@ Result<Report> frameRateTable(const PaperStudy& study, gpu::Device& device) {
     rows.push_back({{"quads", fmt::format("{}x{}", paper.shape.around, paper.shape.along)},
                     {"ours", oursOf(measured[true][i])},
                     {"ours_every_triangle", oursOf(measured[false][i])},
-                    {"paper", {{"render_ms", paper.render}, {"collision_ms", paper.collision}, {"total_ms", paper.total}, {"fps", paper.fps}}}});
+                    {"paper",
+                     {{"render_ms", paper.render},
+                      {"collision_ms", paper.collision},
+                      {"total_ms", paper.total},
+                      {"fps", paper.fps}}}});
   }
   return rows;
 }

@@ -10,8 +10,8 @@
 #include "paper_study.h"
 #include "scene/frame.h"
 
-// Table II: hierarchies over a tessellated network against trees over its sweeps. All find the pairs that run through one
-// another in the same poses, before vessels are moved apart, neighbours left out, on one thread.
+// Table II: hierarchies over a tessellated network against trees over its sweeps. All find the pairs that run
+// through one another in the same poses, before vessels are moved apart, neighbours left out, on one thread.
 namespace vasa::cli {
 namespace {
 
@@ -91,11 +91,13 @@ Report boxRow(const Poses& poses, const Resolution& resolution, const char* what
   ours.update(timesOf(
       poses, [&](std::span<const Bezier> tubes) { surface.shape(tubes, positions); },
       [&](std::span<const Bezier>) { hierarchy.refit(positions); }, [&] { return hierarchy.detect(); }));
-  return {{"hierarchy", what}, {"over", resolution.name}, {"ours", std::move(ours)}, {"paper", std::move(paper)}};
+  return {
+      {"hierarchy", what}, {"over", resolution.name}, {"ours", std::move(ours)}, {"paper", std::move(paper)}};
 }
 
 template <class Detector>
-Report treeRow(const Poses& poses, Detector& detector, double build, std::size_t bytes, const char* what, Report paper) {
+Report treeRow(const Poses& poses, Detector& detector, double build, std::size_t bytes, const char* what,
+               Report paper) {
   Report ours{{"bytes", bytes}, {"build_ms", build}};
   ours.update(timesOf(
       poses, [](std::span<const Bezier>) {}, [&](std::span<const Bezier> tubes) { detector.update(tubes); },
@@ -126,16 +128,19 @@ Result<Report> hierarchyTable(const PaperStudy& study) {
     for (const bool oriented : {false, true}) {
       checkpoint();
       // PQP's boxes are oriented; the paper says nothing of others.
-      rows.push_back(oriented ? boxRow<OrientedBox>(poses, resolution, "oriented boxes", {{"bytes", resolution.paperBytes}})
+      rows.push_back(oriented ? boxRow<OrientedBox>(poses, resolution, "oriented boxes",
+                                                    {{"bytes", resolution.paperBytes}})
                               : boxRow<AlignedBox>(poses, resolution, "aligned boxes", nullptr));
     }
   }
   auto start = Clock::now();
   PaperDetector paper(poses.rest, exclusions, kPaperTolerance * study.scene.network.bodyHeight());
-  rows.push_back(treeRow(poses, paper, msSince(start), paper.tree().bytes(), "sphere tree, line-swept spheres (the paper's)", {{"bytes", 72e3}}));
+  rows.push_back(treeRow(poses, paper, msSince(start), paper.tree().bytes(),
+                         "sphere tree, line-swept spheres (the paper's)", {{"bytes", 72e3}}));
   start = Clock::now();
   TubeDetector exact(poses.rest, exclusions);
-  rows.push_back(treeRow(poses, exact, msSince(start), exact.treeBytes(), "tree of boxes over tubes, exact (ours)", nullptr));
+  rows.push_back(treeRow(poses, exact, msSince(start), exact.treeBytes(),
+                         "tree of boxes over tubes, exact (ours)", nullptr));
   return rows;
 }
 

@@ -57,12 +57,16 @@ Fork forkAt(const Network& network, const Node& node) {
     starts.push_back({end.vessel, end.last ? spans : 0, !end.last});
   }
   if (node.host)
-    for (const bool forwards : {true, false}) starts.push_back({node.host->vessel, node.host->parameter, forwards});
-  const auto sectionAt = [&](const Start& start) { return evaluate(network.pointsOf(network.vessel(start.vessel)), start.at); };
+    for (const bool forwards : {true, false})
+      starts.push_back({node.host->vessel, node.host->parameter, forwards});
+  const auto sectionAt = [&](const Start& start) {
+    return evaluate(network.pointsOf(network.vessel(start.vessel)), start.at);
+  };
   float thickest = 0;
   for (const Start& start : starts) thickest = std::max(thickest, sectionAt(start).w);
   Fork fork{vec3(sectionAt(starts.front())), {}};
-  for (const Start& start : starts) fork.arms.push_back(armAt(network, start.vessel, start.at, start.forwards, kArm * thickest));
+  for (const Start& start : starts)
+    fork.arms.push_back(armAt(network, start.vessel, start.at, start.forwards, kArm * thickest));
   return fork;
 }
 
@@ -119,10 +123,15 @@ std::vector<char> spansOf(const Network& network, const Fork& fork) {
 }  // namespace
 
 Result<PaperFigure> junctionFigure(const PaperStudy& study, gpu::Device& device) {
-  PaperFigure figure{"Visually smooth connection of sweep surfaces: (a) Y-junction, (b) T-junction and (c) crossing.", {}, Report::array(), {}};
+  PaperFigure figure{
+      "Visually smooth connection of sweep surfaces: (a) Y-junction, (b) T-junction and (c) crossing.",
+      {},
+      Report::array(),
+      {}};
   const Network& network = study.scene.network;
   Easel easel(study, device, {.network = network, .table = &study.table}, {360, 360});
-  for (const auto& [kind, name] : {std::pair{Kind::y, "(a) Y"}, {Kind::t, "(b) T"}, {Kind::crossing, "(c) crossing"}}) {
+  for (const auto& [kind, name] :
+       {std::pair{Kind::y, "(a) Y"}, {Kind::t, "(b) T"}, {Kind::crossing, "(c) crossing"}}) {
     checkpoint();
     const auto fork = choose(network, kind);
     if (!fork) {

@@ -41,8 +41,8 @@ PaperLook::Pairs PaperLook::at(std::span<const vec4> points) {
   layout_.shape(points, tubes_);
   const auto [exact, exactMs] = timed(exact_, tubes_);
   const auto [paper, paperMs] = timed(paper_, tubes_);
-  return {exact.size(), paper.size(), countOnlyInFirst(paper, exact), countOnlyInFirst(exact, paper), exactMs,
-          paperMs};
+  return {exact.size(), paper.size(), countOnlyInFirst(paper, exact), countOnlyInFirst(exact, paper),
+          exactMs,      paperMs};
 }
 
 void addPaperLook(const PaperLook::Pairs& before, const PaperLook::Pairs& after, Report& row) {

@@ -6,9 +6,10 @@
 
 namespace vasa::cli {
 
-/// A network's shapes as the source paper's detection sees them, beside the exact one: which pairs of tubes run through
-/// one another (neighbours along the network left out), and how long finding them takes. Tolerance: the paper's 1e-3 of
-/// the body height. The paper's takes one thread, the exact one as many as there are.
+/// A network's shapes as the source paper's detection sees them, beside the exact one: which pairs of tubes
+/// run through one another (neighbours along the network left out), and how long finding them takes.
+/// Tolerance: the paper's 1e-3 of the body height. The paper's takes one thread, the exact one as many as
+/// there are.
 class PaperLook {
  public:
   /// @param network  must outlive this
@@ -28,7 +29,8 @@ class PaperLook {
   PaperDetector paper_;
 };
 
-/// Adds a frame's counts: keys that begin with exact_ and paper_, of the posed network and of the one moved apart.
+/// Adds a frame's counts: keys that begin with exact_ and paper_, of the posed network and of the one moved
+/// apart.
 void addPaperLook(const PaperLook::Pairs& before, const PaperLook::Pairs& after, Report& row);
 
 }  // namespace vasa::cli

@@ -57,7 +57,13 @@ Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device) {
   const PictureSize size{study.pixels(330), study.pixels(460)};
   const float aspect = float(size.width) / float(size.height);
   Renderer renderer(device, scene.network, scene.body.meshes,
-                    {.width = size.width, .height = size.height, .pixelError = kAutoPixelError, .table = &study.table, .supersample = study.quick ? 1u : 2u, .occlusion = true, .timed = false});
+                    {.width = size.width,
+                     .height = size.height,
+                     .pixelError = kAutoPixelError,
+                     .table = &study.table,
+                     .supersample = study.quick ? 1u : 2u,
+                     .occlusion = true,
+                     .timed = false});
   ProgressLine progress("figure 7");
   for (const Still& still : stills) {
     FrameMaker maker(scene, {.avoid = true});
@@ -67,8 +73,14 @@ Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device) {
       progress.update(figure.panels.size() * 100 + 100 * frame / (still.frame + 1), count * 100);
     }
     const Camera camera = cameraOn(boundsOf(maker), {0.45f, 0.1f, 1}, aspect);
-    renderer.draw({.points = maker.points(), .knotFrames = maker.knotFrames(), .jointMatrices = maker.jointMatrices(), .camera = camera, .look = pageLook(), .heartScale = maker.heartScale()});
-    figure.panels.push_back({fmt::format("{}, frame {}", still.clip->name, still.frame), renderer.readBack()});
+    renderer.draw({.points = maker.points(),
+                   .knotFrames = maker.knotFrames(),
+                   .jointMatrices = maker.jointMatrices(),
+                   .camera = camera,
+                   .look = pageLook(),
+                   .heartScale = maker.heartScale()});
+    figure.panels.push_back(
+        {fmt::format("{}, frame {}", still.clip->name, still.frame), renderer.readBack()});
   }
   return figure;
 }

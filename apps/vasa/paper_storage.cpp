@@ -35,7 +35,8 @@ TriangleMesh ringMesh(std::span<const vec4> points) {
     const vec4 centre = evaluate(points, float(ring));
     for (std::uint32_t k = 0; k < kAround; ++k) {
       const float angle = 2 * kPi * float(k) / kAround;
-      mesh.positions.push_back(vec3(centre) + frames[ring] * (centre.w * vec3(std::cos(angle), std::sin(angle), 0)));
+      mesh.positions.push_back(vec3(centre) +
+                               frames[ring] * (centre.w * vec3(std::cos(angle), std::sin(angle), 0)));
     }
   }
   for (std::uint32_t ring = 0; ring + 1 < rings; ++ring)
@@ -52,7 +53,8 @@ TriangleMesh ringMesh(std::span<const vec4> points) {
 std::vector<SourceElement> meshesOf(const Network& network) {
   std::vector<SourceElement> elements;
   for (const Vessel& vessel : network.vessels())
-    elements.push_back({{vessel.name, {}, vessel.ontologyId, ringMesh(network.pointsOf(vessel))}, vessel.kind, vessel.name});
+    elements.push_back(
+        {{vessel.name, {}, vessel.ontologyId, ringMesh(network.pointsOf(vessel))}, vessel.kind, vessel.name});
   return elements;
 }
 
@@ -71,13 +73,19 @@ Report storageTable(const PaperStudy& study) {
   }
   const std::size_t file = encodeNetwork(network, {.quantise = true}).size();
   Report rows = Report::array();
-  rows.push_back(row("mesh: vertices", vertices.json(), {{"artery", 16344}, {"vein", 16548}, {"total", 32892}}));
-  rows.push_back(row("mesh: triangles", triangles.json(), {{"artery", 30334}, {"vein", 30312}, {"total", 60646}}));
-  rows.push_back(row("mesh: bytes", meshBytes.json(), {{"artery", 560'000}, {"vein", 562'000}, {"total", 1'120'000}}));
+  rows.push_back(
+      row("mesh: vertices", vertices.json(), {{"artery", 16344}, {"vein", 16548}, {"total", 32892}}));
+  rows.push_back(
+      row("mesh: triangles", triangles.json(), {{"artery", 30334}, {"vein", 30312}, {"total", 60646}}));
+  rows.push_back(
+      row("mesh: bytes", meshBytes.json(), {{"artery", 560'000}, {"vein", 562'000}, {"total", 1'120'000}}));
   rows.push_back(row("sweeps", sweeps.json(), {{"total", 4030}}));
-  rows.push_back(row("sweeps: bytes, (x, y, z, r) of 32 bits each", points.times(sizeof(vec4)).json(), {{"total", 84'000}}));
-  rows.push_back(row("sweeps: bytes of the file, of 16 bits each, names and forks included", {{"total", file}}, {{"total", 84'000}}));
-  rows.push_back(row("mesh : file", {{"total", double(meshBytes.total) / double(file)}}, {{"total", 1120.0 / 84.0}}));
+  rows.push_back(row("sweeps: bytes, (x, y, z, r) of 32 bits each", points.times(sizeof(vec4)).json(),
+                     {{"total", 84'000}}));
+  rows.push_back(row("sweeps: bytes of the file, of 16 bits each, names and forks included",
+                     {{"total", file}}, {{"total", 84'000}}));
+  rows.push_back(
+      row("mesh : file", {{"total", double(meshBytes.total) / double(file)}}, {{"total", 1120.0 / 84.0}}));
   rows.push_back(row("binding: bytes", {{"total", study.scene.binding.bytes()}}, {{"total", 66'000}}));
   return rows;
 }

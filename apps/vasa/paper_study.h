@@ -30,8 +30,8 @@ struct PaperStudy {
   std::uint32_t pixels(std::uint32_t at720) const { return std::max(8u, at720 * size.height / 720); }
 };
 
-/// The network as the polygonal model that the paper starts from: an element a vessel, at each section a ring of eight
-/// vertices, and two triangles between neighbours.
+/// The network as the polygonal model that the paper starts from: an element a vessel, at each section a ring
+/// of eight vertices, and two triangles between neighbours.
 std::vector<SourceElement> meshesOf(const Network& network);
 
 /// Rows of the paper's tables: each has `ours` and `paper`, null where the paper has none.
@@ -53,12 +53,12 @@ struct PaperFigure {
 };
 
 using FigureMaker = Result<PaperFigure> (*)(const PaperStudy& study, gpu::Device& device);
-Result<PaperFigure> wholeBodyFigure(const PaperStudy& study, gpu::Device& device);    ///< 1
-Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& device);   ///< 2
-Result<PaperFigure> brainFigure(const PaperStudy& study, gpu::Device& device);        ///< 3
-Result<PaperFigure> junctionFigure(const PaperStudy& study, gpu::Device& device);     ///< 4
-Result<PaperFigure> capillaryFigure(const PaperStudy& study, gpu::Device& device);    ///< 5
-Result<PaperFigure> hierarchyFigure(const PaperStudy& study, gpu::Device& device);    ///< 6
-Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device);         ///< 7
+Result<PaperFigure> wholeBodyFigure(const PaperStudy& study, gpu::Device& device);   ///< 1
+Result<PaperFigure> conversionFigure(const PaperStudy& study, gpu::Device& device);  ///< 2
+Result<PaperFigure> brainFigure(const PaperStudy& study, gpu::Device& device);       ///< 3
+Result<PaperFigure> junctionFigure(const PaperStudy& study, gpu::Device& device);    ///< 4
+Result<PaperFigure> capillaryFigure(const PaperStudy& study, gpu::Device& device);   ///< 5
+Result<PaperFigure> hierarchyFigure(const PaperStudy& study, gpu::Device& device);   ///< 6
+Result<PaperFigure> clipFigure(const PaperStudy& study, gpu::Device& device);        ///< 7
 
 }  // namespace vasa::cli

@@ -12,15 +12,17 @@
 #include "paper_easel.h"
 #include "scene/frame.h"
 
-// Figure 6: the paper's hierarchy drawn. Of two tubes that come into each other's way in a pose: the spheres around them
-// and their neighbours in the sphere tree, the spheres a level above, and the two's line-swept spheres as they are halved.
+// Figure 6: the paper's hierarchy drawn. Of two tubes that come into each other's way in a pose: the spheres
+// around them and their neighbours in the sphere tree, the spheres a level above, and the two's line-swept
+// spheres as they are halved.
 namespace vasa::cli {
 namespace {
 
 constexpr float kOpacity = 0.32f;
 
 struct Shape {
-  explicit Shape(const Network& network) : layout(network), points(network.points().begin(), network.points().end()), tubes(layout.count()) {
+  explicit Shape(const Network& network)
+      : layout(network), points(network.points().begin(), network.points().end()), tubes(layout.count()) {
     layout.shape(points, tubes);
   }
   NetworkTubes layout;
@@ -33,14 +35,16 @@ TriangleMesh capsuleMesh(const Capsule& capsule) {
   constexpr std::uint32_t kAround = 48, kRings = 12;  // rings a half ball
   const vec3 along = capsule.b - capsule.a;
   const float length = glm::length(along);
-  const vec3 axis = length > 0 ? along / length : vec3(0, 1, 0), u = anyPerpendicular(axis), v = glm::cross(axis, u);
+  const vec3 axis = length > 0 ? along / length : vec3(0, 1, 0), u = anyPerpendicular(axis),
+             v = glm::cross(axis, u);
   TriangleMesh mesh;
   for (std::uint32_t ring = 0; ring < 2 * kRings; ++ring) {
     const bool upper = ring >= kRings;
     const float latitude = kPi * (float(upper ? ring - 1 : ring) / float(2 * kRings - 2) - 0.5f);
     for (std::uint32_t k = 0; k < kAround; ++k) {
       const float longitude = 2 * kPi * float(k) / kAround;
-      const vec3 out = std::cos(latitude) * (std::cos(longitude) * u + std::sin(longitude) * v) + std::sin(latitude) * axis;
+      const vec3 out = std::cos(latitude) * (std::cos(longitude) * u + std::sin(longitude) * v) +
+                       std::sin(latitude) * axis;
       mesh.positions.push_back((upper ? capsule.b : capsule.a) + capsule.radius * out);
     }
   }
@@ -94,19 +98,23 @@ struct Volumes {
 
 constexpr vec3 kFirst{0.95f, 0.62f, 0.20f}, kSecond{0.25f, 0.62f, 0.42f};
 
-Volumes spheres(const Shape& shape, const SphereTree& tree, const TubePair& pair, std::uint32_t level, std::string caption) {
+Volumes spheres(const Shape& shape, const SphereTree& tree, const TubePair& pair, std::uint32_t level,
+                std::string caption) {
   Volumes volumes{std::move(caption), {}, std::vector<char>(shape.tubes.size(), 0), {}};
   std::vector<std::uint32_t> nodes;
   for (const std::uint32_t tube : {pair.i, pair.j}) nodes.push_back(leafOf(tree, tube) / SphereTree::kArity);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   for (const std::uint32_t node : nodes) {
     const vec3 colour = node == nodes.front() ? kFirst : kSecond;
-    const std::uint32_t first = node * SphereTree::kArity, end = std::min(tree.count(0), first + SphereTree::kArity);
+    const std::uint32_t first = node * SphereTree::kArity,
+                        end = std::min(tree.count(0), first + SphereTree::kArity);
     for (std::uint32_t leaf = first; leaf < end; ++leaf) {
       volumes.spans[tree.tube(leaf)] = 1;
-      if (level == 0) volumes.meshes.push_back(stillMesh("sphere", ballMesh(tree.sphere(0, leaf)), colour, true));
+      if (level == 0)
+        volumes.meshes.push_back(stillMesh("sphere", ballMesh(tree.sphere(0, leaf)), colour, true));
     }
-    if (level == 1) volumes.meshes.push_back(stillMesh("sphere", ballMesh(tree.sphere(1, node)), colour, true));
+    if (level == 1)
+      volumes.meshes.push_back(stillMesh("sphere", ballMesh(tree.sphere(1, node)), colour, true));
   }
   volumes.facts = {{"level", level}, {"spheres", volumes.meshes.size()}};
   return volumes;
@@ -117,7 +125,9 @@ Volumes sweptSpheres(const Shape& shape, const TubePair& pair, int level, std::s
   for (const std::uint32_t tube : {pair.i, pair.j}) {
     volumes.spans[tube] = 1;
     for (int piece = 0; piece < 1 << level; ++piece)
-      volumes.meshes.push_back(stillMesh("swept sphere", capsuleMesh(pieceCapsule(shape.tubes[tube], level, piece)), tube == pair.i ? kFirst : kSecond, true));
+      volumes.meshes.push_back(stillMesh("swept sphere",
+                                         capsuleMesh(pieceCapsule(shape.tubes[tube], level, piece)),
+                                         tube == pair.i ? kFirst : kSecond, true));
   }
   volumes.facts = {{"level", level}, {"swept_spheres", volumes.meshes.size()}};
   return volumes;
@@ -131,7 +141,9 @@ Aabb boundsOf(std::span<const SkinnedMesh> meshes) {
 
 // Across both chords.
 vec3 faceOn(const Shape& shape, const TubePair& pair) {
-  const auto chord = [&](std::uint32_t tube) { return vec3(shape.tubes[tube].b[3]) - vec3(shape.tubes[tube].b[0]); };
+  const auto chord = [&](std::uint32_t tube) {
+    return vec3(shape.tubes[tube].b[3]) - vec3(shape.tubes[tube].b[0]);
+  };
   const vec3 normal = glm::cross(chord(pair.i), chord(pair.j));
   if (!(glm::length(normal) > 0)) return {0, 0, 1};
   return normal.z < 0 ? -normal : normal;
@@ -148,7 +160,11 @@ void pose(const PaperStudy& study, Shape& shape) {
 }  // namespace
 
 Result<PaperFigure> hierarchyFigure(const PaperStudy& study, gpu::Device& device) {
-  PaperFigure figure{"Bounding volume hierarchy: (a), (b) spheres of two levels around sweep surfaces, (c) to (e) the line-swept spheres of one pair, halved.", {}, Report::array(), {}};
+  PaperFigure figure{
+      "Bounding volume hierarchy: (a), (b) spheres of two levels around sweep surfaces, (c) to (e) the line-swept spheres of one pair, halved.",
+      {},
+      Report::array(),
+      {}};
   const Network& network = study.scene.network;
   Shape shape(network);
   SphereTree tree(shape.tubes);
@@ -159,18 +175,24 @@ Result<PaperFigure> hierarchyFigure(const PaperStudy& study, gpu::Device& device
     figure.note = "No two vessels of this network come near one another.";
     return figure;
   }
-  const Volumes all[] = {spheres(shape, tree, *pair, 0, "(a) around each sweep"), spheres(shape, tree, *pair, 1, "(b) around eight"),
-                         sweptSpheres(shape, *pair, 0, "(c) whole"), sweptSpheres(shape, *pair, 1, "(d) halves"), sweptSpheres(shape, *pair, 2, "(e) quarters")};
+  const Volumes all[] = {
+      spheres(shape, tree, *pair, 0, "(a) around each sweep"),
+      spheres(shape, tree, *pair, 1, "(b) around eight"), sweptSpheres(shape, *pair, 0, "(c) whole"),
+      sweptSpheres(shape, *pair, 1, "(d) halves"), sweptSpheres(shape, *pair, 2, "(e) quarters")};
   Look look = pageLook();
   look.otherOpacity = kOpacity;
   // Both pictures of spheres, and all of swept spheres, are of one size.
   const Aabb wide = boundsOf(all[1].meshes), close = boundsOf(all[2].meshes);
   for (const Volumes& volumes : all) {
     checkpoint();
-    Easel easel(study, device, {.network = network, .table = &study.table, .points = shape.points, .meshes = volumes.meshes}, {300, 340});
+    Easel easel(study, device,
+                {.network = network, .table = &study.table, .points = shape.points, .meshes = volumes.meshes},
+                {300, 340});
     easel.showOnly(volumes.spans);
     const bool isWide = &volumes < all + 2;
-    figure.panels.push_back({volumes.caption, easel.draw(cameraOn(isWide ? wide : close, faceOn(shape, *pair), easel.aspect()), look)});
+    figure.panels.push_back(
+        {volumes.caption,
+         easel.draw(cameraOn(isWide ? wide : close, faceOn(shape, *pair), easel.aspect()), look)});
     figure.facts.push_back(volumes.facts);
   }
   return figure;

@@ -35,11 +35,16 @@ Result<void> makeAll(const Scene& scene, CapillaryChoice capillaries) {
 Result<void> run(const Globals& globals, const Options& options) {
   auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
-  const std::filesystem::path folder = options.output.empty() ? cacheFolder() : std::filesystem::path(options.output);
-  if (folder.empty()) return Error{Fault::usage, "no folder to keep anything in: set HOME or XDG_CACHE_HOME, or give -o FOLDER"};
+  const std::filesystem::path folder =
+      options.output.empty() ? cacheFolder() : std::filesystem::path(options.output);
+  if (folder.empty())
+    return Error{Fault::usage,
+                 "no folder to keep anything in: set HOME or XDG_CACHE_HOME, or give -o FOLDER"};
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return ioError(folder.string() + ": cannot make the folder: " + error.message() + "; choose one that you may write to");
+  if (error)
+    return ioError(folder.string() + ": cannot make the folder: " + error.message() +
+                   "; choose one that you may write to");
   KeptFolders folders = keptFolders(folder);
   folders.shipped.clear();  // all of it in one place
   setKeptFolders(folders);
@@ -71,7 +76,8 @@ void addPrepare(CLI::App& app, Command& command) {
       "  vasa prepare --body body.glb --network body.vasa");
   addSceneOptions(*sub, options->scene);
   sub->add_option("-o,--output", options->output, "Folder to keep it in (default: the cache)");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

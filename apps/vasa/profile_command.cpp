@@ -57,7 +57,8 @@ Report asReport(const ProfileRow& measured, bool growing) {
     row["capillary_trees"] = measured.capillaries.trees;
     row["capillary_bytes"] = measured.capillaries.bytes;
   }
-  if (measured.quads.pixelError > 0) row["triangles"] = row["triangles_drawn"];  // the picture decides, and leaves no others
+  // The picture decides, and leaves no others.
+  if (measured.quads.pixelError > 0) row["triangles"] = row["triangles_drawn"];
   row["fps"] = measured.fps();
   row["template_bytes"] = measured.templateBytes;
   return row;
@@ -66,7 +67,8 @@ Report asReport(const ProfileRow& measured, bool growing) {
 ProfileSetting profileSetting(const Setting& setting, const Options& options) {
   return {.scene = &setting.scene,
           .clip = setting.clip,
-          .meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes) : std::span<const SkinnedMesh>(),
+          .meshes = options.body ? std::span<const SkinnedMesh>(setting.scene.body.meshes)
+                                 : std::span<const SkinnedMesh>(),
           .render = {.width = setting.size.width,
                      .height = setting.size.height,
                      .samples = options.samples,
@@ -74,13 +76,16 @@ ProfileSetting profileSetting(const Setting& setting, const Options& options) {
                      .growth = setting.growth.get(),
                      .capillaries = wishOf(setting.capillaries)},
           .look = setting.look,
-          .camera = [&setting](const FrameMaker& maker) { return setting.camera.at(setting.scene, maker.pose(), maker.points()); },
+          .camera =
+              [&setting](const FrameMaker& maker) {
+                return setting.camera.at(setting.scene, maker.pose(), maker.points());
+              },
           .avoid = options.avoid,
           .frames = options.frames};
 }
 
-// What the network, its binding and the trees of detection (the paper's and ours) take, beside the triangle mesh that
-// would have to be stored at 8x5 instead (paper, Tables I, II).
+// What the network, its binding and the trees of detection (the paper's and ours) take, beside the triangle
+// mesh that would have to be stored at 8x5 instead (paper, Tables I, II).
 Report storageReport(const Scene& scene) {
   const SweepShape shape{8, 5};
   const std::size_t sweeps = scene.network.sweepCount(), vessels = scene.network.vessels().size();
@@ -98,20 +103,24 @@ Report storageReport(const Scene& scene) {
 }
 
 std::string asText(const Report& report) {
-  std::string text = fmt::format("{}, {}\n{}\n\n", report["device"].get<std::string>(), report["size"].get<std::string>(), kMeasured);
+  std::string text = fmt::format("{}, {}\n{}\n\n", report["device"].get<std::string>(),
+                                 report["size"].get<std::string>(), kMeasured);
   const Report& rows = report["rows"];
-  for (const auto& [name, unused] : rows.front().items()) text += fmt::format("{:>{}}", name, std::max<std::size_t>(name.size() + 2, 9));
+  for (const auto& [name, unused] : rows.front().items())
+    text += fmt::format("{:>{}}", name, std::max<std::size_t>(name.size() + 2, 9));
   text += "\n";
   for (const Report& row : rows) {
     for (const auto& [name, value] : row.items()) {
-      const std::string cell = value.is_string() ? value.get<std::string>()
-                               : value.is_number_float() ? fmt::format("{:.2f}", value.get<double>()) : value.dump();
+      const std::string cell = value.is_string()         ? value.get<std::string>()
+                               : value.is_number_float() ? fmt::format("{:.2f}", value.get<double>())
+                                                         : value.dump();
       text += fmt::format("{:>{}}", cell, std::max<std::size_t>(name.size() + 2, 9));
     }
     text += "\n";
   }
   text += "\n";
-  for (const auto& [name, value] : report["storage"].items()) text += fmt::format("{:<26}{:>12}\n", name, value.dump());
+  for (const auto& [name, value] : report["storage"].items())
+    text += fmt::format("{:<26}{:>12}\n", name, value.dump());
   return text;
 }
 
@@ -144,7 +153,8 @@ Result<Setting> prepare(const Options& options) {
   } else if (!setting.scene.body.clips.empty()) {
     setting.clip = &setting.scene.body.clips.front();
   }
-  auto camera = CameraMan::create(*cameraChoice, setting.scene, setting.clip, float(size->width) / float(size->height));
+  auto camera =
+      CameraMan::create(*cameraChoice, setting.scene, setting.clip, float(size->width) / float(size->height));
   if (!camera) return camera.error();
   setting.camera = *camera;
   return setting;
@@ -170,7 +180,8 @@ Result<void> run(const Globals& globals, const Options& options) {
       progress.update(profiler.done(), profiler.total());
       checkpoint();
     }
-    for (const ProfileRow& row : profiler.rows()) all["rows"].push_back(asReport(row, setting->growth != nullptr));
+    for (const ProfileRow& row : profiler.rows())
+      all["rows"].push_back(asReport(row, setting->growth != nullptr));
     all["storage"] = storageReport(setting->scene);
     return all;
   });
@@ -183,18 +194,26 @@ Result<void> run(const Globals& globals, const Options& options) {
 void addProfile(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("profile", "How long each stage takes at several tessellations");
-  sub->footer("Examples:\n  vasa profile\n  vasa profile --body b.glb --network b.vasa --clip walk --quads 4x5,8x10 --json");
+  sub->footer(
+      "Examples:\n  vasa profile\n  vasa profile --body b.glb --network b.vasa --clip walk --quads 4x5,8x10 --json");
   addSceneOptions(*sub, options->scene);
   addCameraOptions(*sub, options->camera);
   addCapillaryOptions(*sub, options->capillaries);
-  sub->add_option("--quads", options->quads, "Tessellations, MxN or auto, with commas between")->capture_default_str();
+  sub->add_option("--quads", options->quads, "Tessellations, MxN or auto, with commas between")
+      ->capture_default_str();
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
-  sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")->check(CLI::Range(1, 100000))->capture_default_str();
-  sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  sub->add_option("--frames", options->frames, "Frames to take the median of, each another pose")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")
+      ->check(CLI::IsMember({1, 4}))
+      ->capture_default_str();
   sub->add_flag("--avoid,!--no-avoid", options->avoid, "Move vessels apart, too (the default)");
-  sub->add_flag("--cull,!--no-cull", options->cull, "Leave out triangles that cannot be seen (the default); the paper draws them all");
+  sub->add_flag("--cull,!--no-cull", options->cull,
+                "Leave out triangles that cannot be seen (the default); the paper draws them all");
   sub->add_flag("--with-body", options->body, "Draw the body's meshes too");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -13,9 +13,9 @@
 #include "core/files_read.h"
 #include "core/hash.h"
 #include "core/log.h"
-#include "endings.h"
 #include "core/parallel.h"
 #include "core/stage_log.h"
+#include "endings.h"
 #include "frame_output.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
@@ -42,7 +42,8 @@ struct Options {
   std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
   bool beat = false;
-  bool resume = false, transparent = false, noVolume = false, noSlide = false, avoid = true, highlightContacts = false, skinWall = false;
+  bool resume = false, transparent = false, noVolume = false, noSlide = false, avoid = true,
+       highlightContacts = false, skinWall = false;
 };
 
 // What is to be drawn, settled before the first frame.
@@ -64,12 +65,18 @@ struct Job {
 Result<void> hide(const std::string& list, LookChoice& look) {
   std::stringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
-    if (word == "skin") look.skin = false;
-    else if (word == "bones") look.bones = false;
-    else if (word == "organs") look.organs = false;
-    else if (word == "arteries") look.arteries = false;
-    else if (word == "veins") look.veins = false;
-    else return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
+    if (word == "skin")
+      look.skin = false;
+    else if (word == "bones")
+      look.bones = false;
+    else if (word == "organs")
+      look.organs = false;
+    else if (word == "arteries")
+      look.arteries = false;
+    else if (word == "veins")
+      look.veins = false;
+    else
+      return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
   }
   return {};
 }
@@ -88,7 +95,8 @@ Look lookOf(const LookChoice& choice, bool transparent) {
 }
 
 FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume, .slide = !options.noSlide,
+  FrameOptions frame{.keepVolume = !options.noVolume,
+                     .slide = !options.noSlide,
                      .avoid = options.avoid || options.highlightContacts,
                      .beat = options.beat};
   frame.avoidance.skinWall = options.skinWall;
@@ -96,21 +104,24 @@ FrameOptions frameOptions(const Options& options) {
   return frame;
 }
 
-// What was asked for, but for where the pictures go and which of them this run makes. Of files it is what they hold that
-// counts (FilesRead), of a clip its poses (trackKey).
+// What was asked for, but for where the pictures go and which of them this run makes. Of files it is what
+// they hold that counts (FilesRead), of a clip its poses (trackKey).
 std::string settingsOf(const CLI::App& sub) {
-  static const std::set<std::string> otherwise{"SCENE",    "--body",  "--network", "--clip",   "--joint-map", "--growth", "--output",
-                                               "--frames", "--video", "--shard",   "--resume", "--track"};
+  static const std::set<std::string> otherwise{"SCENE",       "--body",   "--network", "--clip",
+                                               "--joint-map", "--growth", "--output",  "--frames",
+                                               "--video",     "--shard",  "--resume",  "--track"};
   std::string settings = VASA_VERSION;
   for (const CLI::Option* option : sub.get_options()) {
     if (otherwise.contains(option->get_name())) continue;
-    settings += fmt::format("|{}={}", option->get_name(),
-                            option->empty() ? option->get_default_str() : fmt::format("{}", fmt::join(option->results(), " ")));
+    settings += fmt::format(
+        "|{}={}", option->get_name(),
+        option->empty() ? option->get_default_str() : fmt::format("{}", fmt::join(option->results(), " ")));
   }
   return settings;
 }
 
-// Everything that decides a picture but the frame's number. The points tell in which order networks were given.
+// Everything that decides a picture but the frame's number. The points tell in which order networks were
+// given.
 std::uint64_t hashOfRun(const Job& job, const Options& options, std::uint64_t seed, const FilesRead& files) {
   const std::uint64_t scene =
       job.clip ? trackKey(job.scene, *job.clip, frameOptions(options)) : hashOf(job.scene.network.points());
@@ -168,7 +179,15 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!camera) return camera.error();
   job.camera = std::move(*camera);
   job.look = lookOf(job.choice.look, options.transparent);
-  job.render = {.width = size->width, .height = size->height, .samples = options.samples, .shape = {quads->around, quads->along}, .pixelError = quads->pixelError, .forks = options.forks == "on", .supersample = options.supersample, .occlusion = true, .timed = false};
+  job.render = {.width = size->width,
+                .height = size->height,
+                .samples = options.samples,
+                .shape = {quads->around, quads->along},
+                .pixelError = quads->pixelError,
+                .forks = options.forks == "on",
+                .supersample = options.supersample,
+                .occlusion = true,
+                .timed = false};
   job.range = *range;
   job.shard = *shard;
   job.render.growth = job.growth.get();
@@ -182,7 +201,11 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
 class Film {
  public:
   Film(const Job& job, const Options& options, const FrameOptions& frame, gpu::Device& device)
-      : job_(job), options_(options), making_(makerBeside(job, frame)), renderer_(rendererOf(job, device)), maker_(making_.get()) {}
+      : job_(job),
+        options_(options),
+        making_(makerBeside(job, frame)),
+        renderer_(rendererOf(job, device)),
+        maker_(making_.get()) {}
 
   Result<void> run() {
     ProgressLine progress("rendering");
@@ -233,7 +256,8 @@ class Film {
                     .heartScale = maker_->heartScale()});
     ++drawn;
     if (auto written = finishWriting(); !written) return written;
-    writing_ = std::async(std::launch::async, [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
+    writing_ = std::async(std::launch::async,
+                          [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
     return {};
   }
 
@@ -258,8 +282,10 @@ class Film {
     if (!std::filesystem::exists(path, ignored)) return false;
     const auto comment = readPngComment(path);
     if (comment && *comment == stamp()) return true;
-    return Error{Fault::resumeMismatch, path.string() + ": was made by another run (other scene, clip or settings), so --resume "
-                                        "cannot go on from it; choose another output or leave out --resume"};
+    return Error{Fault::resumeMismatch,
+                 path.string() +
+                     ": was made by another run (other scene, clip or settings), so --resume "
+                     "cannot go on from it; choose another output or leave out --resume"};
   }
 
   std::string stamp() const { return fmt::format("vasa run {:016x}", job_.runHash); }
@@ -285,7 +311,8 @@ class Film {
         if (step > largestStep) largestStep = step, largestStepFrame = frame;
       }
       for (std::size_t j = 0; j < previousPose_.world.size(); ++j)
-        largestJointStep = std::max(largestJointStep, glm::distance(vec3(maker_->pose().world[j][3]), vec3(previousPose_.world[j][3])));
+        largestJointStep = std::max(largestJointStep, glm::distance(vec3(maker_->pose().world[j][3]),
+                                                                    vec3(previousPose_.world[j][3])));
     }
     previous_.assign(points.begin(), points.end());
     previousPose_ = maker_->pose();
@@ -294,11 +321,12 @@ class Film {
 
   // Made on a thread of its own, unless one is to do everything.
   static std::future<std::unique_ptr<FrameMaker>> makerBeside(const Job& job, const FrameOptions& frame) {
-    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, [&job, frame, asked = CancellationScope::current()] {
-      const CancellationScope scope(asked);
-      const StageLog stage("preparing how vessels move");
-      return std::make_unique<FrameMaker>(job.scene, frame);
-    });
+    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred,
+                      [&job, frame, asked = CancellationScope::current()] {
+                        const CancellationScope scope(asked);
+                        const StageLog stage("preparing how vessels move");
+                        return std::make_unique<FrameMaker>(job.scene, frame);
+                      });
   }
 
   static Renderer rendererOf(const Job& job, gpu::Device& device) {
@@ -327,7 +355,9 @@ Result<void> makeFolders(const Options& options) {
     if (name == "-" || folder.empty() || folder.string().find('{') != std::string::npos) continue;
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) return ioError(folder.string() + ": cannot make the folder: " + error.message() + "; choose one that you may write to");
+    if (error)
+      return ioError(folder.string() + ": cannot make the folder: " + error.message() +
+                     "; choose one that you may write to");
   }
   return {};
 }
@@ -400,8 +430,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!*film) return film->error();
   const Report& report = **film;
   if (globals.json) return printJson(report);
-  logInfo(fmt::format("{} frames in {:.1f} s; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint", report["frames"].get<int>(),
-                      report["seconds"].get<double>(), 1000 * report["largest_step_m"].get<double>(), 1000 * report["largest_joint_step_m"].get<double>()));
+  logInfo(fmt::format(
+      "{} frames in {:.1f} s; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint",
+      report["frames"].get<int>(), report["seconds"].get<double>(),
+      1000 * report["largest_step_m"].get<double>(), 1000 * report["largest_joint_step_m"].get<double>()));
   return {};
 }
 
@@ -422,23 +454,38 @@ void addRender(CLI::App& app, Command& command) {
   addCapillaryOptions(*sub, options->capillaries);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
-  sub->add_option("-o,--output", options->output, "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");
+  sub->add_option("-o,--output", options->output,
+                  "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");
   sub->add_option("--video", options->video, "Video file (.mp4, .mov, .mkv, .webm), made by ffmpeg");
-  sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.25 pixels")->capture_default_str();
-  sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
-  sub->add_option("--forks", options->forks, "on: vessels join smoothly; off: they end inside one another, to compare")
+  sub->add_option("--quads", options->quads,
+                  "Quads around and along every sweep, MxN; auto: by its size on the picture, to 0.25 pixels")
+      ->capture_default_str();
+  sub->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")
+      ->check(CLI::IsMember({1, 4}))
+      ->capture_default_str();
+  sub->add_option("--forks", options->forks,
+                  "on: vessels join smoothly; off: they end inside one another, to compare")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  sub->add_option("--supersample", options->supersample, "Draw each pixel of the picture as NxN, 1 to 4: for stills")->check(CLI::Range(1, 4))->capture_default_str();
+  sub->add_option("--supersample", options->supersample,
+                  "Draw each pixel of the picture as NxN, 1 to 4: for stills")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
   sub->add_flag("--beat", options->beat, "The heart beats as the clip goes on");
-  sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas");
-  sub->add_option("--hide", options->hide, "Leave out skin, bones, organs, arteries, veins (a list with commas)");
-  sub->add_option("--shard", options->shard, "i/n: draw every n-th frame from the i-th, to share a film among processes");
-  sub->add_flag("--resume", options->resume, "Keep pictures that an earlier, stopped run of the same command made");
+  sub->add_option(
+      "--look", options->look,
+      "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas");
+  sub->add_option("--hide", options->hide,
+                  "Leave out skin, bones, organs, arteries, veins (a list with commas)");
+  sub->add_option("--shard", options->shard,
+                  "i/n: draw every n-th frame from the i-th, to share a film among processes");
+  sub->add_flag("--resume", options->resume,
+                "Keep pictures that an earlier, stopped run of the same command made");
   sub->add_flag("--transparent", options->transparent, "Pictures with alpha instead of a background");
   sub->add_flag("--avoid,!--no-avoid", options->avoid,
                 "Move vessels apart that run through one another or through bones (the default)");
-  sub->add_flag("--highlight-contacts", options->highlightContacts, "Vessels grey; yellow where they ran through one another, red where they still do");
+  sub->add_flag("--highlight-contacts", options->highlightContacts,
+                "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too");
   sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
   sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");

@@ -12,8 +12,8 @@ using Report = nlohmann::ordered_json;
 /// Prints a report on standard output, indented, with a line end; fails with io when it cannot be written.
 Result<void> printJson(const Report& report);
 
-/// The same for lines of text. What could steer a terminal is shown in words (core/visible.h); names go through visible()
-/// or plainText() before, so that they end no line.
+/// The same for lines of text. What could steer a terminal is shown in words (core/visible.h); names go
+/// through visible() or plainText() before, so that they end no line.
 Result<void> printText(const std::string& text);
 
 /// The same for bytes as they are.

@@ -28,8 +28,9 @@ std::string restRepairText(const RestRepair& repair) {
       repair.pairsBefore, repair.pairsAfter, 1e3 * repair.movedMax, 100 * repair.thinnedMax);
   for (const RestOverlap& overlap : repair.left)
     text += fmt::format("           {} and {}: {} pairs, {:.1f} mm deep ({})\n",
-                        visible(repair.network.vessel(overlap.first).name), visible(repair.network.vessel(overlap.second).name),
-                        overlap.pairs, 1e3 * overlap.depth, reasonName(overlap.reason));
+                        visible(repair.network.vessel(overlap.first).name),
+                        visible(repair.network.vessel(overlap.second).name), overlap.pairs,
+                        1e3 * overlap.depth, reasonName(overlap.reason));
   return text;
 }
 

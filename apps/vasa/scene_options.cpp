@@ -18,12 +18,15 @@ Result<std::filesystem::path> dataFolder() {
   if (!program.empty()) places.insert(places.end(), {prefix / "share" / "vasa", prefix / "data"});
   for (const auto& place : places)
     if (std::filesystem::exists(place / "human.glb", ignored)) return place;
-  return ioError("the built-in human (human.glb) is in none of its places; build the project or set VASA_DATA_DIR");
+  return ioError(
+      "the built-in human (human.glb) is in none of its places; build the project or set VASA_DATA_DIR");
 }
 
 std::filesystem::path cacheFolder() {
-  if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set == '/') return std::filesystem::path(set) / "vasa";
-  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::filesystem::path(home) / ".cache" / "vasa";
+  if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set == '/')
+    return std::filesystem::path(set) / "vasa";
+  if (const char* home = std::getenv("HOME"); home && *home == '/')
+    return std::filesystem::path(home) / ".cache" / "vasa";
   return {};
 }
 
@@ -37,20 +40,24 @@ KeptFolders keptFolders(std::filesystem::path own) {
 void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option("SCENE", options.scene, "Scene file (.json); nothing: the built-in human");
   sub.add_option("--body", options.body, "Body with skeleton (glTF)");
-  sub.add_option("--network", options.networks, "Vessels (.vasa, or anything that convert reads); may be given several times")
+  sub.add_option("--network", options.networks,
+                 "Vessels (.vasa, or anything that convert reads); may be given several times")
       ->take_all()
       ->allow_extra_args(false);
-  sub.add_option("--edits", options.edits, "Journal of edits to the vessels (.vedit, see vasa help edits); may be given several times")
+  sub.add_option("--edits", options.edits,
+                 "Journal of edits to the vessels (.vedit, see vasa help edits); may be given several times")
       ->take_all()
       ->allow_extra_args(false);
   sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it, or a .bvh file");
-  sub.add_option("--joint-map", options.jointMap,
-                 "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
+  sub.add_option(
+      "--joint-map", options.jointMap,
+      "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
 }
 
 namespace {
 
-// What a scene file names and is not there is the scene file's fault, unless something else is given in its place.
+// What a scene file names and is not there is the scene file's fault, unless something else is given in its
+// place.
 Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
   std::vector<std::filesystem::path> named;
   if (options.body.empty()) named.push_back(scene.body);
@@ -61,7 +68,8 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
   std::error_code ignored;
   for (const auto& file : named)
     if (!file.empty() && !std::filesystem::exists(file, ignored))
-      return badInput(options.scene + ": names " + file.string() + ", which is not there; mend the name, relative to the scene file");
+      return badInput(options.scene + ": names " + file.string() +
+                      ", which is not there; mend the name, relative to the scene file");
   return {};
 }
 
@@ -83,8 +91,9 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
   if (!scene.jointMap.empty() && !isMotionFile(scene.clip))
     return Error{Fault::usage, "a joint map belongs to a .bvh file; give one with --clip FILE.bvh"};
   if (scene.body.empty() != scene.networks.empty())
-    return Error{Fault::usage, scene.body.empty() ? "vessels are given but no body; add --body FILE.glb"
-                                                  : "a body is given but no vessels; add --network FILE.vasa"};
+    return Error{Fault::usage, scene.body.empty()
+                                   ? "vessels are given but no body; add --body FILE.glb"
+                                   : "a body is given but no vessels; add --network FILE.vasa"};
   if (scene.body.empty()) {
     const auto folder = dataFolder();
     if (!folder) return folder.error();

@@ -21,14 +21,15 @@ struct SceneOptions {
 /// The folder of what ships with the program: the built-in human, the rules of growth.
 Result<std::filesystem::path> dataFolder();
 
-/// Where results are kept between runs (core/kept.h): $XDG_CACHE_HOME/vasa or ~/.cache/vasa; empty without either.
+/// Where results are kept between runs (core/kept.h): $XDG_CACHE_HOME/vasa or ~/.cache/vasa; empty without
+/// either.
 std::filesystem::path cacheFolder();
 
 /// Declares SCENE, --body, --network, --edits, --clip and --joint-map.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 
-/// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes from the
-/// built-in human: a body given without a network, or the other way round, is refused as usage.
+/// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes
+/// from the built-in human: a body given without a network, or the other way round, is refused as usage.
 Result<SceneFile> chooseScene(const SceneOptions& options);
 
 }  // namespace vasa::cli

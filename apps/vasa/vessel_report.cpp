@@ -16,13 +16,9 @@ constexpr float kFinestStation = 1e-4f, kFewestStations = 200;
 // A table of healthy vessels is to be quiet: what is less is no finding. JSON has it all.
 constexpr double kShownStenosis = 0.1, kShownAneurysm = 1.2;
 
-Report maybe(bool there, double value) {
-  return there ? Report(value) : Report(nullptr);
-}
+Report maybe(bool there, double value) { return there ? Report(value) : Report(nullptr); }
 
-double degrees(float radians) {
-  return double(radians) * 180 / double(kPi);
-}
+double degrees(float radians) { return double(radians) * 180 / double(kPi); }
 
 std::string cell(const Report& value, double factor, int digits) {
   return value.is_null() ? "-" : fmt::format("{:.{}f}", factor * value.get<double>(), digits);
@@ -32,7 +28,8 @@ Report oneVessel(const Vessel& vessel, std::span<const vec4> points) {
   const CourseMeasures course = measureCourse(points);
   float thinnest = points[0].w;
   for (const vec4& p : points) thinnest = std::min(thinnest, p.w);
-  const float step = std::max(std::min(kStationsOfRadius * thinnest, course.arc / kFewestStations), kFinestStation);
+  const float step =
+      std::max(std::min(kStationsOfRadius * thinnest, course.arc / kFewestStations), kFinestStation);
   const auto stations = stationsOf(points, step);
   const auto [least, greatest] = std::ranges::minmax(stations, {}, &ProfileStation::radius);
   const auto stenosis = worstStenosis(stations);
@@ -72,7 +69,8 @@ Report oneVessel(const Vessel& vessel, std::span<const vec4> points) {
 
 Report vesselReport(const Network& network) {
   Report vessels = Report::array();
-  for (const Vessel& vessel : network.vessels()) vessels.push_back(oneVessel(vessel, network.pointsOf(vessel)));
+  for (const Vessel& vessel : network.vessels())
+    vessels.push_back(oneVessel(vessel, network.pointsOf(vessel)));
   return vessels;
 }
 
@@ -81,7 +79,10 @@ Report forkReport(const Network& network) {
   for (const ForkMeasures& fork : measureForks(network, network.points())) {
     Report arms = Report::array();
     for (const ForkArm& arm : fork.arms)
-      arms.push_back({{"name", network.vessel(arm.vessel).name}, {"goes_on", arm.host}, {"radius_m", arm.radius}, {"angle_deg", degrees(arm.angle)}});
+      arms.push_back({{"name", network.vessel(arm.vessel).name},
+                      {"goes_on", arm.host},
+                      {"radius_m", arm.radius},
+                      {"angle_deg", degrees(arm.angle)}});
     forks.push_back({{"name", network.vessel(fork.trunk).name},
                      {"radius_m", fork.trunkRadius},
                      {"parameter", fork.trunkParameter},
@@ -92,19 +93,23 @@ Report forkReport(const Network& network) {
 }
 
 std::string vesselTable(const Report& vessels) {
-  std::string text = fmt::format("{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "vessel", "kind", "mm long", "mm wide", "NASCET %",
-                                 "ECST %", "widened", "arc/ch", "bend mm");
+  std::string text =
+      fmt::format("{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "vessel", "kind", "mm long",
+                  "mm wide", "NASCET %", "ECST %", "widened", "arc/ch", "bend mm");
   for (const Report& vessel : vessels) {
-    const bool narrow = vessel["ecst"].get<double>() >= kShownStenosis, wide = vessel["aneurysm_ratio"].get<double>() >= kShownAneurysm;
+    const bool narrow = vessel["ecst"].get<double>() >= kShownStenosis,
+               wide = vessel["aneurysm_ratio"].get<double>() >= kShownAneurysm;
     text += fmt::format(
-        "{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", plainText(vessel["name"]), plainText(vessel["kind"]),
-        cell(vessel["length_m"], 1e3, 1),
-        cell(vessel["radius_least_m"], 2e3, 1) + " to " + cell(vessel["radius_greatest_m"], 2e3, 1), narrow ? cell(vessel["nascet"], 100, 1) : "",
-        narrow ? cell(vessel["ecst"], 100, 1) : "", wide ? cell(vessel["aneurysm_diameter_m"], 1e3, 1) : "", cell(vessel["tortuosity"], 1, 2),
+        "{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", plainText(vessel["name"]),
+        plainText(vessel["kind"]), cell(vessel["length_m"], 1e3, 1),
+        cell(vessel["radius_least_m"], 2e3, 1) + " to " + cell(vessel["radius_greatest_m"], 2e3, 1),
+        narrow ? cell(vessel["nascet"], 100, 1) : "", narrow ? cell(vessel["ecst"], 100, 1) : "",
+        wide ? cell(vessel["aneurysm_diameter_m"], 1e3, 1) : "", cell(vessel["tortuosity"], 1, 2),
         cell(vessel["least_bend_radius_m"], 1e3, 1));
   }
-  return text + "per cent of the diameter lost at the narrowest place, from 10 %; widened: mm of diameter where it is 1.2 times what\n"
-                "it would be, and more; all of the lumen. --json has every measure.\n";
+  return text +
+         "per cent of the diameter lost at the narrowest place, from 10 %; widened: mm of diameter where it is 1.2 times what\n"
+         "it would be, and more; all of the lumen. --json has every measure.\n";
 }
 
 std::string forkTable(const Report& forks) {
@@ -113,8 +118,9 @@ std::string forkTable(const Report& forks) {
     bool first = true;
     for (const Report& arm : fork["arms"]) {
       if (arm["goes_on"].get<bool>()) continue;
-      text += fmt::format("{:<44} {:<44} {:>8} {:>7}\n", first ? plainText(fork["name"]) : "", plainText(arm["name"]),
-                          cell(arm["radius_m"], 2e3, 1), cell(arm["angle_deg"], 1, 0));
+      text +=
+          fmt::format("{:<44} {:<44} {:>8} {:>7}\n", first ? plainText(fork["name"]) : "",
+                      plainText(arm["name"]), cell(arm["radius_m"], 2e3, 1), cell(arm["angle_deg"], 1, 0));
       first = false;
     }
   }
@@ -125,9 +131,11 @@ std::string profileCsv(std::span<const vec4> points, float step) {
   std::string text = "along_mm,share,x_mm,y_mm,z_mm,radius_mm,area_mm2,curvature_per_mm\n";
   const auto stations = stationsOf(points, step);
   for (const ProfileStation& station : stations)
-    text += fmt::format("{:.3f},{:.5f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.6f}\n", 1e3 * double(station.along),
-                        double(station.along) / std::max(double(stations.back().along), 1e-12), 1e3 * double(station.centre.x), 1e3 * double(station.centre.y),
-                        1e3 * double(station.centre.z), 1e3 * double(station.radius), 1e6 * double(station.area()), 1e-3 * double(station.curvature));
+    text += fmt::format(
+        "{:.3f},{:.5f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.6f}\n", 1e3 * double(station.along),
+        double(station.along) / std::max(double(stations.back().along), 1e-12),
+        1e3 * double(station.centre.x), 1e3 * double(station.centre.y), 1e3 * double(station.centre.z),
+        1e3 * double(station.radius), 1e6 * double(station.area()), 1e-3 * double(station.curvature));
   return text;
 }
 

@@ -6,7 +6,8 @@
 
 namespace vasa::cli {
 
-/// Each vessel with what is measured of it: sizes, stenosis, aneurysm, course. Keys end in their unit; null: there is none.
+/// Each vessel with what is measured of it: sizes, stenosis, aneurysm, course. Keys end in their unit; null:
+/// there is none.
 Report vesselReport(const Network& network);
 /// Each fork: trunk, arms with their angles, Murray's exponent.
 Report forkReport(const Network& network);

@@ -31,10 +31,11 @@ struct Options {
 
 const auto kStart = std::chrono::steady_clock::now();  // before main()
 
-constexpr const char* kDroppable = "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh)";
+constexpr const char* kDroppable =
+    "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh)";
 
-// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file with a
-// skeleton is a body, one without is vessels.
+// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file
+// with a skeleton is a body, one without is vessels.
 Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
   const std::string extension = path.extension().string();
   if (extension == ".json") return readSceneFile(path);
@@ -44,8 +45,10 @@ Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& no
   } else if (extension == ".glb" || extension == ".gltf") {
     const auto summary = checkGltf(path);
     if (!summary) return summary.error();
-    if (summary->skins == 0) scene.networks = {path};
-    else scene.body = path;
+    if (summary->skins == 0)
+      scene.networks = {path};
+    else
+      scene.body = path;
     if (summary->skins > 0 && !isMotionFile(scene.clip)) scene.clip.clear();
   } else if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) {
     scene.networks = {path};
@@ -76,7 +79,8 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   if (!options.script.empty()) {
     const auto bytes = readFile(options.script, 1 << 24);
     if (!bytes) return bytes.error();
-    auto script = viewer::parseScript({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.script);
+    auto script =
+        viewer::parseScript({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.script);
     if (!script) return script.error();
     for (viewer::ScriptStep& step : *script)
       if (auto* save = std::get_if<viewer::SavePicture>(&step)) {
@@ -111,7 +115,11 @@ Report asReport(const viewer::ViewReport& view) {
   }
   Report loads = Report::array();
   for (const viewer::LoadReport& load : view.loads)
-    loads.push_back({{"title", load.title}, {"outcome", load.outcome}, {"seconds", load.seconds}, {"frames", load.frames}, {"longest_ms", load.longestMs}});
+    loads.push_back({{"title", load.title},
+                     {"outcome", load.outcome},
+                     {"seconds", load.seconds},
+                     {"frames", load.frames},
+                     {"longest_ms", load.longestMs}});
   Report stages = Report::object();
   for (const auto& [name, ms] : view.stages) stages[name] = ms;
   return {{"frames", view.frames},
@@ -153,7 +161,8 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (auto printed = printJson(asReport(report)); !printed) return printed;
   if (stopRequested()) return stopError();
   if (!report.validation.empty())
-    return Error{Fault::failed, fmt::format("{} validation messages, the first: {}", report.validation.size(), report.validation.front())};
+    return Error{Fault::failed, fmt::format("{} validation messages, the first: {}", report.validation.size(),
+                                            report.validation.front())};
   return {};
 }
 
@@ -166,7 +175,8 @@ std::string footer() {
       "  vasa view --body b.glb --network b.vasa --record-script session.txt\n"
       "  xvfb-run -a vasa view --script session.txt --json\n"
       "Mouse and keys:\n";
-  for (const viewer::Shortcut& shortcut : viewer::shortcuts()) text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
+  for (const viewer::Shortcut& shortcut : viewer::shortcuts())
+    text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
   text +=
       "Drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh) on the\n"
       "window to open it; drop a body and its vessels together.\n"
@@ -183,16 +193,27 @@ void addView(CLI::App& app, Command& command) {
   sub->footer(footer());
   addSceneOptions(*sub, options->scene);
   addCapillaryOptions(*sub, options->capillaries);
-  sub->add_option("--look", options->look, "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas")
+  sub->add_option(
+         "--look", options->look,
+         "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas")
       ->check(CLI::IsMember({"atlas", "clinical", "xray"}));
-  sub->add_option("--size", options->size, "Window size in pixels (default: that of the last session, else 1280x720, more on a high-DPI screen)");
-  sub->add_option("--ui-scale", options->uiScale, "Size of panels and texts against those of an ordinary screen (default: as the screen says)")
+  sub->add_option(
+      "--size", options->size,
+      "Window size in pixels (default: that of the last session, else 1280x720, more on a high-DPI screen)");
+  sub->add_option(
+         "--ui-scale", options->uiScale,
+         "Size of panels and texts against those of an ordinary screen (default: as the screen says)")
       ->check(CLI::Range(0.5, 4.0));
-  sub->add_option("--script", options->script, "Replay a recorded session instead of listening to mouse and keys, then quit");
-  sub->add_option("--out", options->out, "Folder that the session's pictures and videos go to; a script writes nowhere else")->capture_default_str();
+  sub->add_option("--script", options->script,
+                  "Replay a recorded session instead of listening to mouse and keys, then quit");
+  sub->add_option("--out", options->out,
+                  "Folder that the session's pictures and videos go to; a script writes nowhere else")
+      ->capture_default_str();
   sub->add_option("--record-script", options->record, "Write this session down for --script");
-  sub->add_flag("--validate", options->validate, "Run under Vulkan's validation layer; a message of it fails the run");
-  sub->callback([options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
+  sub->add_flag("--validate", options->validate,
+                "Run under Vulkan's validation layer; a message of it fails the run");
+  sub->callback(
+      [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }
 
 }  // namespace vasa::cli

@@ -3,29 +3,32 @@
 #include <functional>
 #include <memory>
 
-#include "viewer/document.h"
 #include "gpu/instance.h"
 #include "render/profiler.h"
 #include "scene/scene_file.h"
+#include "viewer/document.h"
 #include "viewer/script.h"
 
 namespace vasa::viewer {
 
 struct ViewOptions {
-  SceneFile file;                ///< what is opened first; look.preset empty: as in the last session
-  std::filesystem::path rules;   ///< folder of the capillaries' rules; empty: there are none
+  SceneFile file;               ///< what is opened first; look.preset empty: as in the last session
+  std::filesystem::path rules;  ///< folder of the capillaries' rules; empty: there are none
   std::vector<std::filesystem::path> dropped;  ///< files that are opened at once, as if they had been dropped
-  std::string device;            ///< as --device
+  std::string device;                          ///< as --device
   std::uint32_t seed = 1;
-  std::uint32_t width = 0, height = 0;  ///< [pixels] of the window; 0: as in the last session, else Window::open()'s choice
-  float uiScale = 0;                    ///< pixels of panels and texts for one of an ordinary screen; 0: the screen's; scripts: 1
+  /// [pixels] of the window; 0: as in the last session, else Window::open()'s choice
+  std::uint32_t width = 0, height = 0;
+  /// Pixels of panels and texts for one of an ordinary screen; 0: the screen's; scripts: 1.
+  float uiScale = 0;
   gpu::Validation validation;
-  std::optional<std::vector<ScriptStep>> script;  ///< replayed in place of a person; the window's own input counts for nothing
+  std::optional<std::vector<ScriptStep>>
+      script;  ///< replayed in place of a person; the window's own input counts for nothing
   std::filesystem::path out = ".";  ///< folder of what the session writes: pictures, videos
-  std::filesystem::path record;                   ///< a script of this session is written here; empty: none
+  std::filesystem::path record;     ///< a script of this session is written here; empty: none
   /// The scene that a dropped file means where `now` is shown. Called on the loading thread.
   std::function<Result<SceneFile>(const std::filesystem::path&, const SceneFile& now)> open;
-  std::function<bool()> stopped;  ///< by a signal
+  std::function<bool()> stopped;                                                   ///< by a signal
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  ///< of the program
 };
 
@@ -33,15 +36,16 @@ struct ViewOptions {
 struct LoadReport {
   std::string title, outcome;  ///< "opened", "cancelled", or why it could not be opened
   double seconds = 0;
-  std::uint64_t frames = 0;    ///< of the window meanwhile
-  double longestMs = 0;        ///< between two of them, up to the first picture of what was opened
+  std::uint64_t frames = 0;  ///< of the window meanwhile
+  double longestMs = 0;      ///< between two of them, up to the first picture of what was opened
 };
 
 /// What a session was like.
 struct ViewReport {
   std::uint64_t frames = 0, pictures = 0, shapes = 0;
-  double firstPictureMs = 0;  ///< from the program's start until a picture of the body and its vessels was shown
-  double firstSolvedMs = 0;   ///< ... in which vessels are moved apart, too
+  /// From the program's start until a picture of the body and its vessels was shown.
+  double firstPictureMs = 0;
+  double firstSolvedMs = 0;                     ///< ... in which vessels are moved apart, too
   std::uint64_t slices = 0, stillsGivenUp = 0;  ///< of finer stills: slices made, and stills left half done
   double longestSliceMs = 0;
   double frameMs = 0;  ///< median between pictures shown while things moved
@@ -52,7 +56,7 @@ struct ViewReport {
   std::vector<std::filesystem::path> files;
   std::uint64_t videoFrames = 0;  ///< of all videos
   std::vector<LoadReport> loads;
-  std::vector<double> stopMs;  ///< how long loads that were cancelled went on
+  std::vector<double> stopMs;       ///< how long loads that were cancelled went on
   std::vector<ProfileRow> profile;  ///< of the latest run of Table III
   std::vector<std::string> validation;
 };

@@ -29,11 +29,14 @@ void showCutOutline(const PanelInput& in) {
   if (!in.state.cutPlane.on || !in.document) return;
   const Rect& picture = in.layout.picture;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.PushClipRect({picture.left, picture.top}, {picture.left + picture.width, picture.top + picture.height});
+  list.PushClipRect({picture.left, picture.top},
+                    {picture.left + picture.width, picture.top + picture.height});
   const auto corners = cutOutline(in.state.cutPlane, in.bodyBox);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto from = seenAt(corners[i], in.camera, picture), to = seenAt(corners[(i + 1) % corners.size()], in.camera, picture);
-    if (from && to) list.AddLine({from->x, from->y}, {to->x, to->y}, IM_COL32(255, 165, 20, 220), 1.5f * in.scale);
+    const auto from = seenAt(corners[i], in.camera, picture),
+               to = seenAt(corners[(i + 1) % corners.size()], in.camera, picture);
+    if (from && to)
+      list.AddLine({from->x, from->y}, {to->x, to->y}, IM_COL32(255, 165, 20, 220), 1.5f * in.scale);
   }
   list.PopClipRect();
 }

@@ -30,7 +30,8 @@ vec4 cutThrough(const CutPlane& cut, const Aabb& box) {
 
 std::array<vec3, 4> cutOutline(const CutPlane& cut, const Aabb& box) {
   const float turn = glm::radians(cut.turn);
-  const vec3 away = cutDirection(cut), across{std::cos(turn), 0, -std::sin(turn)}, up = glm::cross(away, across);
+  const vec3 away = cutDirection(cut), across{std::cos(turn), 0, -std::sin(turn)},
+             up = glm::cross(away, across);
   const vec3 middle = middleOf(cut, box), a = reachAlong(box, across) * across, b = reachAlong(box, up) * up;
   return {middle - a - b, middle + a - b, middle + a + b, middle - a + b};
 }

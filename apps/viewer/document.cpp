@@ -7,18 +7,19 @@
 namespace vasa::viewer {
 
 GrowthBehind::GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table)
-    : settled_(std::async(std::launch::async, [growth = std::make_unique<SceneGrowth>(std::move(rules)), &scene, &table,
-                                               cancellation = cancellation_]() mutable -> std::unique_ptr<const SceneGrowth> {
-        const CancellationScope scope(cancellation);
-        const StageLog stage("behind the picture: settling where capillaries grow");
-        giveWay();
-        try {
-          settleGrowth(*growth, scene, table);
-        } catch (const Cancelled&) {
-          return nullptr;
-        }
-        return std::move(growth);
-      })) {}
+    : settled_(std::async(std::launch::async,
+                          [growth = std::make_unique<SceneGrowth>(std::move(rules)), &scene, &table,
+                           cancellation = cancellation_]() mutable -> std::unique_ptr<const SceneGrowth> {
+                            const CancellationScope scope(cancellation);
+                            const StageLog stage("behind the picture: settling where capillaries grow");
+                            giveWay();
+                            try {
+                              settleGrowth(*growth, scene, table);
+                            } catch (const Cancelled&) {
+                              return nullptr;
+                            }
+                            return std::move(growth);
+                          })) {}
 
 GrowthBehind::~GrowthBehind() {
   if (!settled_.valid()) return;
@@ -30,7 +31,9 @@ std::string titleOf(const SceneFile& file) {
   return file.networks.empty() ? file.body.filename().string() : file.networks.front().filename().string();
 }
 
-Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, const std::filesystem::path& rules, const ReadingProgress& told) {
+Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
+                                                     const std::filesystem::path& rules,
+                                                     const ReadingProgress& told) {
   auto document = std::make_shared<Document>();
   document->file = file;
   document->title = titleOf(file);
@@ -47,8 +50,10 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   const StageLog stage(what);
   told(what, 0, 0);
   parallelFor(2, 1, [&](std::size_t part) {
-    if (part == 0) document->table = makeSweepTable(document->scene.network);
-    else document->levels = bodyLevels(document->scene.body.meshes);
+    if (part == 0)
+      document->table = makeSweepTable(document->scene.network);
+    else
+      document->levels = bodyLevels(document->scene.body.meshes);
   });
   document->bounds = measure(document->scene.network, document->scene.network.points()).bounds;
   for (const SkinnedMesh& mesh : document->scene.body.meshes) document->bounds.add(mesh.mesh.bounds());

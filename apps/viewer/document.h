@@ -34,19 +34,20 @@ class GrowthBehind {
 struct Document {
   SceneFile file;
   Scene scene;
-  SweepTable table;    ///< of the network, with the forks planned
-  BodyLevels levels;   ///< of the body's meshes
+  SweepTable table;   ///< of the network, with the forks planned
+  BodyLevels levels;  ///< of the body's meshes
   std::string title;
-  Aabb bounds;         ///< at rest [m]
+  Aabb bounds;          ///< at rest [m]
   GrowthBehind growth;  ///< of its capillaries; none where there are no rules for them
 };
 
 /// What a scene is called in the window.
 std::string titleOf(const SceneFile& file);
 
-/// Reads a document; can be cancelled. @param rules  folder of the capillaries' rules where the scene names none; empty:
-/// no capillaries
-Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, const std::filesystem::path& rules,
+/// Reads a document; can be cancelled. @param rules  folder of the capillaries' rules where the scene names
+/// none; empty: no capillaries
+Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
+                                                     const std::filesystem::path& rules,
                                                      const ReadingProgress& told);
 
 }  // namespace vasa::viewer

@@ -9,19 +9,51 @@
 // picture, from its top left corner.
 namespace vasa::viewer {
 
-/// Keys that mean something here, by what is written on them. Letters and digits are their upper-case characters.
+/// Keys that mean something here, by what is written on them. Letters and digits are their upper-case
+/// characters.
 enum class Key : std::uint16_t {
   none = 0,
-  space = ' ', comma = ',', period = '.', slash = '/',
-  digit0 = '0', letterA = 'A',
-  escape = 256, enter, tab, backspace, insert, del, right, left, down, up, pageUp, pageDown, home, end,
-  f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
-  leftShift, leftControl, leftAlt, rightShift, rightControl, rightAlt,
+  space = ' ',
+  comma = ',',
+  period = '.',
+  slash = '/',
+  digit0 = '0',
+  letterA = 'A',
+  escape = 256,
+  enter,
+  tab,
+  backspace,
+  insert,
+  del,
+  right,
+  left,
+  down,
+  up,
+  pageUp,
+  pageDown,
+  home,
+  end,
+  f1,
+  f2,
+  f3,
+  f4,
+  f5,
+  f6,
+  f7,
+  f8,
+  f9,
+  f10,
+  f11,
+  f12,
+  leftShift,
+  leftControl,
+  leftAlt,
+  rightShift,
+  rightControl,
+  rightAlt,
   last,
 };
-constexpr Key keyOf(char letterOrDigit) {
-  return Key(letterOrDigit);
-}
+constexpr Key keyOf(char letterOrDigit) { return Key(letterOrDigit); }
 
 enum class Button : std::uint8_t { left, right, middle };
 
@@ -50,6 +82,7 @@ struct FileDropped {
 };
 struct CloseAsked {};
 
-using InputEvent = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped, WindowResized, FileDropped, CloseAsked>;
+using InputEvent = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped, WindowResized,
+                                FileDropped, CloseAsked>;
 
 }  // namespace vasa::viewer

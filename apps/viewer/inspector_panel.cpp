@@ -30,7 +30,8 @@ void showSearch(const PanelInput& in) {
   if (state.wishSearch) ImGui::SetKeyboardFocusHere();
   state.wishSearch = false;
   ImGui::SetNextItemWidth(-1);
-  bool first = ImGui::InputTextWithHint("##search", "Search vessels (Ctrl F)", &state.search, ImGuiInputTextFlags_EnterReturnsTrue);
+  bool first = ImGui::InputTextWithHint("##search", "Search vessels (Ctrl F)", &state.search,
+                                        ImGuiInputTextFlags_EnterReturnsTrue);
   if (state.search.empty()) return;
   const std::string wanted = lower(state.search);
   const auto& vessels = in.document->scene.network.vessels();
@@ -43,7 +44,8 @@ void showSearch(const PanelInput& in) {
   if (ImGui::BeginChild("##found", {0, rows + 2 * ImGui::GetStyle().WindowPadding.y}, true)) {
     for (const std::uint32_t v : found) {
       ImGui::PushID(int(v));
-      const bool chosen = ImGui::Selectable(vessels[v].name.c_str(), state.selected && state.selected->vessel.value == v);
+      const bool chosen =
+          ImGui::Selectable(vessels[v].name.c_str(), state.selected && state.selected->vessel.value == v);
       if (chosen || std::exchange(first, false)) choose(in, {v}, true);
       ImGui::PopID();
     }
@@ -82,13 +84,18 @@ void showFacts(const PanelInput& in, VesselId id) {
   const VesselMeasures now = measureVessel(Network::pointsOf(vessel, in.body->points));
   const VesselMeasures rest = measureVessel(network.pointsOf(vessel));
   const auto mm = [](float metres) { return fmt::format("{:.2f} mm", 1000 * metres); };
-  const auto range = [](const VesselMeasures& m) { return fmt::format("{:.2f}–{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius); };
+  const auto range = [](const VesselMeasures& m) {
+    return fmt::format("{:.2f}–{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius);
+  };
   Facts facts(in.scale);
-  facts.row("Length", fmt::format("{:.1f} mm", 1000 * now.length), fmt::format("{:.1f} mm", 1000 * rest.length));
+  facts.row("Length", fmt::format("{:.1f} mm", 1000 * now.length),
+            fmt::format("{:.1f} mm", 1000 * rest.length));
   facts.row("Radius", range(now), range(rest));
   facts.row("Mean", mm(now.meanRadius), mm(rest.meanRadius));
-  facts.row("Volume", fmt::format("{:.3f} ml", 1e6 * now.volume), fmt::format("{:.3f} ml", 1e6 * rest.volume));
-  facts.row("Curvature", fmt::format("{:.0f} /m", now.greatestCurvature), fmt::format("{:.0f} /m", rest.greatestCurvature));
+  facts.row("Volume", fmt::format("{:.3f} ml", 1e6 * now.volume),
+            fmt::format("{:.3f} ml", 1e6 * rest.volume));
+  facts.row("Curvature", fmt::format("{:.0f} /m", now.greatestCurvature),
+            fmt::format("{:.0f} /m", rest.greatestCurvature));
   std::string clearance = "when paused";
   if (!in.body->measures.empty()) {
     const auto gap = in.body->measures[id.value].clearance;
@@ -112,7 +119,9 @@ void showMeasure(const PanelInput& in) {
   ImGui::Checkbox("Measure (M)", &state.measuring);
   if (!state.measuring) return;
   const Network& network = in.document->scene.network;
-  const auto name = [&](const std::optional<VesselPlace>& place) { return place ? network.vessel(place->vessel).name.c_str() : "click a vessel"; };
+  const auto name = [&](const std::optional<VesselPlace>& place) {
+    return place ? network.vessel(place->vessel).name.c_str() : "click a vessel";
+  };
   ImGui::TextDisabled("from");
   ImGui::SameLine(50 * in.scale);
   ImGui::TextUnformatted(name(state.from));
@@ -121,14 +130,18 @@ void showMeasure(const PanelInput& in) {
   ImGui::TextUnformatted(name(state.to));
   if (!state.from || !state.to) return;
   const auto route = RouteFinder(network, in.body->points).find(*state.from, *state.to);
-  if (!route) ImGui::TextUnformatted("No vessel joins them.");
-  else ImGui::Text("%.1f mm along %zu vessel%s", double(1000 * route->length), route->legs.size(), route->legs.size() == 1 ? "" : "s");
+  if (!route)
+    ImGui::TextUnformatted("No vessel joins them.");
+  else
+    ImGui::Text("%.1f mm along %zu vessel%s", double(1000 * route->length), route->legs.size(),
+                route->legs.size() == 1 ? "" : "s");
 }
 
 }  // namespace
 
 void showInspectorSection(const PanelInput& in) {
-  if (!in.document || !in.body || !ImGui::CollapsingHeader("Chosen vessel", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (!in.document || !in.body || !ImGui::CollapsingHeader("Chosen vessel", ImGuiTreeNodeFlags_DefaultOpen))
+    return;
   showSearch(in);
   if (in.state.selected) {
     const VesselId id = in.state.selected->vessel;
@@ -136,7 +149,8 @@ void showInspectorSection(const PanelInput& in) {
     ImGui::PushTextWrapPos();
     ImGui::TextUnformatted(vessel.name.c_str());
     ImGui::PopTextWrapPos();
-    ImGui::TextDisabled("%s%s%s", std::string(kindName(vessel.kind)).c_str(), vessel.ontologyId.empty() ? "" : ", ", vessel.ontologyId.c_str());
+    ImGui::TextDisabled("%s%s%s", std::string(kindName(vessel.kind)).c_str(),
+                        vessel.ontologyId.empty() ? "" : ", ", vessel.ontologyId.c_str());
     showFacts(in, id);
     if (ImGui::Button("Go to (F)")) in.state.wishFocus = true;
     ImGui::SameLine();
@@ -157,11 +171,13 @@ void showChosen(const PanelInput& in) {
   const auto points = Network::pointsOf(vessel, in.body->points);
   const Rect& picture = in.layout.picture;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.PushClipRect({picture.left, picture.top}, {picture.left + picture.width, picture.top + picture.height});
+  list.PushClipRect({picture.left, picture.top},
+                    {picture.left + picture.width, picture.top + picture.height});
   std::optional<vec2> before;
   for (std::uint32_t i = 0; i <= kStepsPerSpan * vessel.spanCount(); ++i) {
     const auto here = seenAt(vec3(evaluate(points, float(i) / kStepsPerSpan)), in.camera, picture);
-    if (before && here) list.AddLine({before->x, before->y}, {here->x, here->y}, IM_COL32(255, 176, 20, 200), 1.5f * in.scale);
+    if (before && here)
+      list.AddLine({before->x, before->y}, {here->x, here->y}, IM_COL32(255, 176, 20, 200), 1.5f * in.scale);
     before = here;
   }
   list.PopClipRect();

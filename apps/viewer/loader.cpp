@@ -9,39 +9,38 @@ bool ready(const std::future<Loader::Answer>& answer) {
 
 }  // namespace
 
-Loader::~Loader() {
-  stop();
-}
+Loader::~Loader() { stop(); }
 
 void Loader::start(Wanted wanted, std::function<void()> changed) {
   cancel();
   title_ = wanted.title;
   job_ = std::make_shared<Job>();
   Job* job = job_.get();
-  job->answer = std::async(std::launch::async, [job, wanted = std::move(wanted), changed = std::move(changed)]() -> Answer {
-    const auto told = [&](const char* what, std::size_t done, std::size_t total) {
-      job->what = what;
-      job->done = done;
-      job->total = total;
-      changed();
-    };
-    const auto load = [&]() -> Answer {
-      const CancellationScope scope(job->cancellation);
-      try {
-        const auto scene = wanted.scene();
-        if (!scene) return scene.error();
-        return loadDocument(*scene, wanted.rules, told);
-      } catch (const Cancelled&) {
-        return Error{Fault::failed, "cancelled"};
-      } catch (const std::exception& error) {
-        return Error{Fault::failed, error.what()};
-      }
-    };
-    Answer answer = load();
-    job->endedAt = Clock::now();
-    changed();
-    return answer;
-  });
+  job->answer = std::async(std::launch::async,
+                           [job, wanted = std::move(wanted), changed = std::move(changed)]() -> Answer {
+                             const auto told = [&](const char* what, std::size_t done, std::size_t total) {
+                               job->what = what;
+                               job->done = done;
+                               job->total = total;
+                               changed();
+                             };
+                             const auto load = [&]() -> Answer {
+                               const CancellationScope scope(job->cancellation);
+                               try {
+                                 const auto scene = wanted.scene();
+                                 if (!scene) return scene.error();
+                                 return loadDocument(*scene, wanted.rules, told);
+                               } catch (const Cancelled&) {
+                                 return Error{Fault::failed, "cancelled"};
+                               } catch (const std::exception& error) {
+                                 return Error{Fault::failed, error.what()};
+                               }
+                             };
+                             Answer answer = load();
+                             job->endedAt = Clock::now();
+                             changed();
+                             return answer;
+                           });
 }
 
 void Loader::cancel() {
@@ -71,9 +70,7 @@ std::vector<double> Loader::takeStopTimes() {
   return std::exchange(stopTimes_, {});
 }
 
-Loader::Stage Loader::stage() const {
-  return job_ ? Stage{job_->what, job_->done, job_->total} : Stage{};
-}
+Loader::Stage Loader::stage() const { return job_ ? Stage{job_->what, job_->done, job_->total} : Stage{}; }
 
 std::unique_ptr<Loader::Answer> Loader::take() {
   if (!job_ || !ready(job_->answer)) return nullptr;

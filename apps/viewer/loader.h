@@ -22,10 +22,11 @@ class Loader {
     SceneChoice scene;
     std::filesystem::path rules;  ///< as loadDocument()
   };
-  /// Starts; cancels what is being loaded. @param changed  called from the loading thread at every step and at the end
+  /// Starts; cancels what is being loaded. @param changed  called from the loading thread at every step and
+  /// at the end
   void start(Wanted wanted, std::function<void()> changed);
-  /// What is being loaded is wanted no longer. Its thread stops on its own, within some hundredths of a second
-  /// (core/cancellation.h); nobody waits for it but the destructor and stop().
+  /// What is being loaded is wanted no longer. Its thread stops on its own, within some hundredths of a
+  /// second (core/cancellation.h); nobody waits for it but the destructor and stop().
   void cancel();
   /// Cancels, and waits for whatever has been cancelled.
   void stop();
@@ -50,7 +51,8 @@ class Loader {
     Cancellation cancellation;
     std::atomic<const char*> what{"starting"};
     std::atomic<std::size_t> done{0}, total{0};
-    Clock::time_point cancelledAt, endedAt;  // the first is the window's thread's, the second the loading one's until it has ended
+    Clock::time_point cancelledAt,
+        endedAt;  // the first is the window's thread's, the second the loading one's until it has ended
     std::future<Answer> answer;
   };
   void collect();

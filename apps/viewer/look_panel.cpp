@@ -30,8 +30,10 @@ void showParts(const PanelInput& in, Look& look) {
   const auto row = [](const char* name, bool* shown, float& opacity) {
     ImGui::TableNextColumn();
     ImGui::PushID(name);
-    if (shown) ImGui::Checkbox(name, shown);
-    else ImGui::AlignTextToFramePadding(), ImGui::TextUnformatted(name);
+    if (shown)
+      ImGui::Checkbox(name, shown);
+    else
+      ImGui::AlignTextToFramePadding(), ImGui::TextUnformatted(name);
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-1);
     ImGui::SliderFloat("##opacity", &opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
@@ -58,13 +60,15 @@ void showLookSection(const PanelInput& in) {
   showParts(in, look);
   showCutControls(in);
   ImGui::SetNextItemWidth(-90 * in.scale);
-  ImGui::SliderFloat("Near cut", &in.state.cut, 0, 1, in.state.cut > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderFloat("Near cut", &in.state.cut, 0, 1, in.state.cut > 0 ? "%.2f" : "off",
+                     ImGuiSliderFlags_AlwaysClamp);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Cuts off what is nearer to you, wherever you look from");
   bool orthographic = in.state.orbit.orthographic();
   if (ImGui::Checkbox("Orthographic", &orthographic)) in.state.orbit.setOrthographic(orthographic);
   ImGui::SameLine();
   ImGui::Checkbox("Fine stills", &in.state.fineStills);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("What stands still is drawn anew with 4 samples a pixel and occlusion");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("What stands still is drawn anew with 4 samples a pixel and occlusion");
 }
 
 }  // namespace vasa::viewer

@@ -10,9 +10,7 @@ constexpr float kNearest = 0.005f, kFarthest = 200;  // [m]
 constexpr float kNearShare = 0.02f;
 constexpr float kStraightUp = 0.5f * kPi;
 
-float fitted(float angle) {
-  return std::remainder(angle, 2 * kPi);
-}
+float fitted(float angle) { return std::remainder(angle, 2 * kPi); }
 
 }  // namespace
 

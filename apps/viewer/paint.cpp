@@ -5,8 +5,8 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr vec4 kChosen{1, 0.74f, 0.10f, 1}, kRoute{0.15f, 0.75f, 0.35f, 1}, kQuiet{0.52f, 0.53f, 0.57f, 1}, kTouched{1, 0.72f, 0, 1},
-    kTouching{0.95f, 0.05f, 0.05f, 1};
+constexpr vec4 kChosen{1, 0.74f, 0.10f, 1}, kRoute{0.15f, 0.75f, 0.35f, 1}, kQuiet{0.52f, 0.53f, 0.57f, 1},
+    kTouched{1, 0.72f, 0, 1}, kTouching{0.95f, 0.05f, 0.05f, 1};
 
 // Spans are numbered vessel after vessel.
 std::vector<std::uint32_t> firstSpans(const Network& network) {
@@ -17,10 +17,13 @@ std::vector<std::uint32_t> firstSpans(const Network& network) {
 
 bool kindShown(VesselKind kind, const Look& look) {
   switch (kind) {
-    case VesselKind::artery: return look.drawArteries;
+    case VesselKind::artery:
+      return look.drawArteries;
     case VesselKind::vein:
-    case VesselKind::portalVein: return look.drawVeins;
-    default: return look.drawOtherVessels;
+    case VesselKind::portalVein:
+      return look.drawVeins;
+    default:
+      return look.drawOtherVessels;
   }
 }
 
@@ -32,20 +35,24 @@ std::vector<char> shownVessels(const Document& document, const ViewState& state)
   std::vector<char> shown(network.vessels().size(), !single);
   if (single)
     for (const VesselId vessel : treeBelow(network, state.selected->vessel)) shown[vessel.value] = 1;
-  for (std::size_t v = 0; v < shown.size(); ++v) shown[v] = shown[v] && kindShown(network.vessels()[v].kind, state.look);
+  for (std::size_t v = 0; v < shown.size(); ++v)
+    shown[v] = shown[v] && kindShown(network.vessels()[v].kind, state.look);
   return shown;
 }
 
-std::vector<std::uint32_t> coloursOf(const Document& document, const PosedBody& body, const ViewState& state) {
+std::vector<std::uint32_t> coloursOf(const Document& document, const PosedBody& body,
+                                     const ViewState& state) {
   const Network& network = document.scene.network;
   if (!state.selected && !state.contacts && !(state.from && state.to)) return {};
   const std::vector<std::uint32_t> first = firstSpans(network);
   std::vector<std::uint32_t> colours(first.back());
   const auto paint = [&](VesselId vessel, std::uint32_t from, std::uint32_t to, vec4 colour) {
-    std::fill(colours.begin() + first[vessel.value] + from, colours.begin() + first[vessel.value] + to, packColour(colour));
+    std::fill(colours.begin() + first[vessel.value] + from, colours.begin() + first[vessel.value] + to,
+              packColour(colour));
   };
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v)
-    paint({v}, 0, network.vessels()[v].spanCount(), state.contacts ? kQuiet : colourOf(network.vessels()[v].kind));
+    paint({v}, 0, network.vessels()[v].spanCount(),
+          state.contacts ? kQuiet : colourOf(network.vessels()[v].kind));
   if (state.contacts) {
     for (const std::uint32_t span : body.touched) colours[span] = packColour(kTouched);
     for (const std::uint32_t span : body.touching) colours[span] = packColour(kTouching);
@@ -55,9 +62,11 @@ std::vector<std::uint32_t> coloursOf(const Document& document, const PosedBody& 
       for (const Route::Leg& leg : route->legs) {
         const std::uint32_t spans = network.vessel(leg.vessel).spanCount();
         const auto [low, high] = std::minmax(leg.from, leg.to);
-        paint(leg.vessel, std::min(std::uint32_t(low), spans - 1), std::min(std::uint32_t(high) + 1, spans), kRoute);
+        paint(leg.vessel, std::min(std::uint32_t(low), spans - 1), std::min(std::uint32_t(high) + 1, spans),
+              kRoute);
       }
-  if (state.selected) paint(state.selected->vessel, 0, network.vessel(state.selected->vessel).spanCount(), kChosen);
+  if (state.selected)
+    paint(state.selected->vessel, 0, network.vessel(state.selected->vessel).spanCount(), kChosen);
   if (state.isolate && state.selected) {
     const std::vector<char> shown = shownVessels(document, state);
     for (std::uint32_t v = 0; v < shown.size(); ++v)

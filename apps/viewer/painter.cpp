@@ -38,7 +38,9 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                         .height = shot.height,
                         .samples = shot.fine ? 4u : 1u,
                         .shape = {std::uint32_t(detail_.around), std::uint32_t(detail_.along)},
-                        .pixelError = !detail_.automatic ? 0 : shot.fine ? kAutoPixelError : kMovingPixelError,
+                        .pixelError = !detail_.automatic ? 0
+                                      : shot.fine        ? kAutoPixelError
+                                                         : kMovingPixelError,
                         .levels = &document_->levels,
                         .table = &document_->table,
                         .bgra = true,
@@ -52,7 +54,8 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                          .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
                          .smallest = choice.smallest,
                          .fewerLevels = !shot.fine};
-  brush.renderer = std::make_unique<Renderer>(device_, document_->scene.network, document_->scene.body.meshes, options);
+  brush.renderer =
+      std::make_unique<Renderer>(device_, document_->scene.network, document_->scene.body.meshes, options);
   return brush;
 }
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "gpu/device.h"
-#include "viewer/pose_worker.h"
 #include "render/renderer.h"
+#include "viewer/pose_worker.h"
 #include "viewer/view_state.h"
 
 namespace vasa::viewer {
@@ -19,8 +19,9 @@ struct Shot {
   bool fine = false;                    ///< a still: 4 samples a pixel and ambient occlusion
 };
 
-/// Draws a document's pictures with two renderers: a fast one for what moves, with few capillaries, and one for stills, which
-/// are made in slices. They are made when they are first needed and when the detail changes.
+/// Draws a document's pictures with two renderers: a fast one for what moves, with few capillaries, and one
+/// for stills, which are made in slices. They are made when they are first needed and when the detail
+/// changes.
 class Painter {
  public:
   Painter(gpu::Device& device, std::uint32_t seed) : device_(device), seed_(seed) {}
@@ -30,7 +31,8 @@ class Painter {
 
   /// Draws and waits. The shot's body must be of the chosen document.
   void draw(const Shot& shot);
-  /// The same in slices: Renderer::begin() and step(). Until step() returns false picture() is the one before.
+  /// The same in slices: Renderer::begin() and step(). Until step() returns false picture() is the one
+  /// before.
   void begin(const Shot& shot);
   bool step();
   /// The latest picture, null before the first.

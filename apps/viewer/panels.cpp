@@ -10,9 +10,11 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse;
-constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoCollapse;
+constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
 
 void place(const Rect& rect) {
   ImGui::SetNextWindowPos({rect.left, rect.top});
@@ -30,10 +32,13 @@ void showProgress(const PanelInput& in, const Loader::Stage& stage) {
   const float from = known ? 0 : (1 - share) * std::min(phase, 2 - phase);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), size.y / 2);
-  list.AddRectFilled({at.x + from * size.x, at.y}, {at.x + (from + share) * size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab), size.y / 2);
+  list.AddRectFilled({at.x + from * size.x, at.y}, {at.x + (from + share) * size.x, at.y + size.y},
+                     ImGui::GetColorU32(ImGuiCol_SliderGrab), size.y / 2);
   ImGui::Dummy(size);
-  if (known) ImGui::TextDisabled("%s: %zu of %zu", stage.what, stage.done, stage.total);
-  else ImGui::TextDisabled("%s", stage.what);
+  if (known)
+    ImGui::TextDisabled("%s: %zu of %zu", stage.what, stage.done, stage.total);
+  else
+    ImGui::TextDisabled("%s", stage.what);
   if (ImGui::Button("Cancel (Esc)")) in.state.wishCancel = true;
 }
 
@@ -56,8 +61,10 @@ void showHeads(const PanelInput& in) {
   const vec4 page = in.state.look.background;
   const bool light = page.x > 0.5f;
   const float edge = 6 * in.scale;
-  ImGui::PushStyleColor(ImGuiCol_Text, light ? ImVec4(0.15f, 0.15f, 0.17f, 1) : ImVec4(0.85f, 0.86f, 0.88f, 1));
-  ImGui::PushStyleColor(ImGuiCol_TextDisabled, light ? ImVec4(0.36f, 0.37f, 0.40f, 1) : ImVec4(0.66f, 0.68f, 0.71f, 1));
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        light ? ImVec4(0.15f, 0.15f, 0.17f, 1) : ImVec4(0.85f, 0.86f, 0.88f, 1));
+  ImGui::PushStyleColor(ImGuiCol_TextDisabled,
+                        light ? ImVec4(0.36f, 0.37f, 0.40f, 1) : ImVec4(0.66f, 0.68f, 0.71f, 1));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(page.x, page.y, page.z, 0.82f));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, edge);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * in.scale, 6 * in.scale});
@@ -81,11 +88,15 @@ void showHeads(const PanelInput& in) {
 void showLoading(const PanelInput& in) {
   if (!in.loading && in.document) return;
   const Rect& picture = in.layout.picture;
-  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0, {0.5f, 0.5f});
+  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
+                          {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(360 * in.scale, picture.width), 0});
   if (ImGui::Begin("##loading", nullptr, kFixed)) {
-    if (in.loading) showProgress(in, *in.loading);
-    else ImGui::TextWrapped("Nothing is open. Drop a scene (.json), or a body (.glb) together with its vessels, here.");
+    if (in.loading)
+      showProgress(in, *in.loading);
+    else
+      ImGui::TextWrapped(
+          "Nothing is open. Drop a scene (.json), or a body (.glb) together with its vessels, here.");
   }
   ImGui::End();
 }
@@ -93,8 +104,10 @@ void showLoading(const PanelInput& in) {
 void showHelp(const PanelInput& in) {
   if (!in.state.help) return;
   const Rect& picture = in.layout.picture;
-  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0, {0.5f, 0.5f});
-  if (ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize) && ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
+                          {0.5f, 0.5f});
+  if (ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize) &&
+      ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const Shortcut& shortcut : shortcuts()) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(shortcut.keys);

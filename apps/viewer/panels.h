@@ -2,15 +2,15 @@
 #include <memory>
 #include <string>
 
-#include "viewer/loader.h"
 #include "render/profiler.h"
 #include "viewer/layout.h"
+#include "viewer/loader.h"
 #include "viewer/pose_worker.h"
 #include "viewer/timings.h"
 #include "viewer/view_state.h"
 
-// What is on the window beside the picture. Each function declares one panel with Dear ImGui: it shows what is, and
-// writes what a person changes into the state. Between UiContext::begin() and end() only.
+// What is on the window beside the picture. Each function declares one panel with Dear ImGui: it shows what
+// is, and writes what a person changes into the state. Between UiContext::begin() and end() only.
 namespace vasa::viewer {
 
 struct PanelInput {
@@ -19,13 +19,13 @@ struct PanelInput {
   const PosedBody* body = nullptr;     ///< null: no shape yet
   const Timings& timings;
   Layout layout;
-  float scale = 1;       ///< pixels for one of an ordinary screen
-  Camera camera;         ///< of the picture
-  Aabb bodyBox;          ///< where the body is [m]
-  JointId heldJoint;     ///< that is being dragged
+  float scale = 1;                     ///< pixels for one of an ordinary screen
+  Camera camera;                       ///< of the picture
+  Aabb bodyBox;                        ///< where the body is [m]
+  JointId heldJoint;                   ///< that is being dragged
   const Profiler* profiler = nullptr;  ///< running or done; null: never run
-  bool fine = false;     ///< the picture is a still
-  std::string message;   ///< the latest news, e.g. of a picture that was written
+  bool fine = false;                   ///< the picture is a still
+  std::string message;                 ///< the latest news, e.g. of a picture that was written
   std::optional<Loader::Stage> loading;
   std::string loadingTitle;
 };
@@ -41,7 +41,8 @@ void showCutControls(const PanelInput& in);
 void showCutOutline(const PanelInput& in);  ///< the cutting plane's, over the picture
 void showVesselSection(const PanelInput& in);
 void showInspectorSection(const PanelInput& in);
-void showChosen(const PanelInput& in);  ///< the chosen vessel's line over the picture, also where something hides it
+void showChosen(
+    const PanelInput& in);  ///< the chosen vessel's line over the picture, also where something hides it
 void showPoseSection(const PanelInput& in);
 void showHandles(const PanelInput& in);  ///< joints to drag, over the picture
 void showTimingSection(const PanelInput& in);

@@ -5,9 +5,9 @@ namespace vasa::viewer {
 
 /// Where in a clip we are, and how time goes on. A value; knows nothing of clocks.
 struct Playback {
-  int clip = -1;      ///< index into Body::clips; -1: the rest pose
-  float time = 0;     ///< [s] within the clip, from Clip::start
-  float speed = 1;    ///< < 0: backwards
+  int clip = -1;    ///< index into Body::clips; -1: the rest pose
+  float time = 0;   ///< [s] within the clip, from Clip::start
+  float speed = 1;  ///< < 0: backwards
   bool playing = false;
   bool loop = true;
 

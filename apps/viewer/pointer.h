@@ -13,16 +13,18 @@ struct Click {
   bool twice = false;  ///< shortly after another one there
 };
 
-/// What the pointer does in the picture: left or middle button turns, with shift or the right button it moves the
-/// picture, with control or the wheel it goes nearer. A left press that does not move is a click.
+/// What the pointer does in the picture: left or middle button turns, with shift or the right button it moves
+/// the picture, with control or the wheel it goes nearer. A left press that does not move is a click.
 class PointerTool {
  public:
   /// @param scale  pixels for one of an ordinary screen
   explicit PointerTool(float scale = 1) : scale_(scale) {}
 
-  /// @param free  the pointer belongs to the picture, not to a panel; a drag that began in the picture goes on anywhere
+  /// @param free  the pointer belongs to the picture, not to a panel; a drag that began in the picture goes
+  /// on anywhere
   /// @param now   [s]
-  std::optional<Click> feed(const InputEvent& event, const Rect& picture, bool free, double now, ViewState& state);
+  std::optional<Click> feed(const InputEvent& event, const Rect& picture, bool free, double now,
+                            ViewState& state);
   bool dragging() const { return held_.has_value() && moved_; }
   vec2 place() const { return place_; }
   bool shift() const { return shift_; }

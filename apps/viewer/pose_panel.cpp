@@ -23,7 +23,8 @@ void showJoint(const PanelInput& in, JointId joint, const JointMotion& motion) {
     float angle = glm::degrees(turn.angles[axis]);
     ImGui::SetNextItemWidth(-60 * in.scale);
     const float least = glm::degrees(motion.least[axis]), most = glm::degrees(motion.most[axis]);
-    if (ImGui::SliderFloat(axes[axis], &angle, least, most, "%.0f°", ImGuiSliderFlags_AlwaysClamp)) turn.angles[axis] = glm::radians(angle);
+    if (ImGui::SliderFloat(axes[axis], &angle, least, most, "%.0f°", ImGuiSliderFlags_AlwaysClamp))
+      turn.angles[axis] = glm::radians(angle);
   }
 }
 
@@ -34,7 +35,8 @@ void showTurned(ViewState& state, const std::vector<std::string>& names) {
     if (turn.angles == vec3(0) || turn.joint.value >= names.size()) continue;
     if (std::exchange(first, false)) ImGui::TextDisabled("turned beside the clip");
     ImGui::PushID(int(turn.joint.value));
-    if (ImGui::Selectable(names[turn.joint.value].c_str(), state.joint == turn.joint)) state.joint = turn.joint;
+    if (ImGui::Selectable(names[turn.joint.value].c_str(), state.joint == turn.joint))
+      state.joint = turn.joint;
     ImGui::PopID();
   }
 }
@@ -45,7 +47,8 @@ void showName(const PanelInput& in, const std::string& name, ImVec2 at) {
   const ImVec2 size = ImGui::CalcTextSize(name.c_str());
   const float gap = 4 * in.scale;
   const ImVec2 low{at.x + 10 * in.scale, at.y - size.y / 2};
-  list.AddRectFilled({low.x - gap, low.y - gap / 2}, {low.x + size.x + gap, low.y + size.y + gap / 2}, IM_COL32(30, 30, 34, 220), gap);
+  list.AddRectFilled({low.x - gap, low.y - gap / 2}, {low.x + size.x + gap, low.y + size.y + gap / 2},
+                     IM_COL32(30, 30, 34, 220), gap);
   list.AddText(low, IM_COL32(235, 236, 238, 255), name.c_str());
 }
 
@@ -61,12 +64,14 @@ void showPoseSection(const PanelInput& in) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("The clip's pose");
   const auto names = namesOf(skeleton);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##joint", state.joint.valid() ? names[state.joint.value].c_str() : "choose a joint", ImGuiComboFlags_HeightLarge)) {
+  if (ImGui::BeginCombo("##joint", state.joint.valid() ? names[state.joint.value].c_str() : "choose a joint",
+                        ImGuiComboFlags_HeightLarge)) {
     for (std::uint32_t j = 0; j < names.size(); ++j)
       if (ImGui::Selectable(names[j].c_str(), state.joint.value == j)) state.joint = {j};
     ImGui::EndCombo();
   }
-  if (state.joint.valid() && state.joint.value < names.size()) showJoint(in, state.joint, jointMotions(skeleton)[state.joint.value]);
+  if (state.joint.valid() && state.joint.value < names.size())
+    showJoint(in, state.joint, jointMotions(skeleton)[state.joint.value]);
   showTurned(state, names);
 }
 
@@ -75,7 +80,8 @@ void showHandles(const PanelInput& in) {
   const Skeleton& skeleton = in.document->scene.body.skeleton;
   const auto handles = jointHandles(skeleton, in.body->pose, in.camera, in.layout.picture, in.scale);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const auto under = ImGui::GetIO().WantCaptureMouse ? std::nullopt : handleAt(handles, {mouse.x, mouse.y}, in.scale);
+  const auto under =
+      ImGui::GetIO().WantCaptureMouse ? std::nullopt : handleAt(handles, {mouse.x, mouse.y}, in.scale);
   const JointId lit = in.heldJoint.valid() ? in.heldJoint : under ? under->joint : JointId{};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const JointHandle& handle : handles) {

@@ -13,20 +13,24 @@ constexpr float kReach = 9, kApart = 8;  // [pixels of an ordinary screen] of a 
 
 }  // namespace
 
-std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture, float scale) {
+std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera,
+                                      const Rect& picture, float scale) {
   std::vector<JointHandle> handles;
   for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) {
     if (!skeleton.joints[j].parent.valid()) continue;
     const auto place = seenAt(vec3(pose.world[j][3]), camera, picture);
     if (!place || !picture.holds(*place)) continue;
-    const auto covers = [&](const JointHandle& other) { return glm::distance(other.place, *place) < kApart * scale; };
+    const auto covers = [&](const JointHandle& other) {
+      return glm::distance(other.place, *place) < kApart * scale;
+    };
     if (std::ranges::none_of(handles, covers)) handles.push_back({{j}, *place});
   }
   return handles;
 }
 
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale) {
-  const auto nearest = std::ranges::min_element(handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place); });
+  const auto nearest = std::ranges::min_element(
+      handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place); });
   if (nearest == handles.end() || glm::distance(nearest->place, place) > kReach * scale) return std::nullopt;
   return *nearest;
 }
@@ -42,11 +46,12 @@ std::vector<JointMotion> jointMotions(const Skeleton& skeleton) {
 
 JointTurn& turnOfJoint(ViewState& state, JointId joint, const JointMotion& motion) {
   const auto found = std::ranges::find(state.turns, joint, &JointTurn::joint);
-  return found != state.turns.end() ? *found : state.turns.emplace_back(JointTurn{joint, vec3(0), motion.axes});
+  return found != state.turns.end() ? *found
+                                    : state.turns.emplace_back(JointTurn{joint, vec3(0), motion.axes});
 }
 
-bool PoseTool::feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
-                    ViewState& state) {
+bool PoseTool::feed(const InputEvent& event, const Document& document, const PosedBody& body,
+                    const Camera& camera, const Rect& picture, ViewState& state) {
   const Skeleton& skeleton = document.scene.body.skeleton;
   if (const auto* moved = std::get_if<PointerMoved>(&event)) {
     if (held_) drag(moved->place, document, body, camera, picture, state);
@@ -64,8 +69,8 @@ bool PoseTool::feed(const InputEvent& event, const Document& document, const Pos
   return true;
 }
 
-void PoseTool::drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
-                    ViewState& state) {
+void PoseTool::drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
+                    const Rect& picture, ViewState& state) {
   const Skeleton& skeleton = document.scene.body.skeleton;
   const JointId turning = skeleton.joints[held_->value].parent;
   const mat4& world = body.pose.world[turning.value];

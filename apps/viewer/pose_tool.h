@@ -19,7 +19,8 @@ struct JointHandle {
 };
 /// Of joints that would lie on one another only the one nearest to the root.
 /// @param scale  pixels for one of an ordinary screen
-std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera, const Rect& picture, float scale);
+std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera,
+                                      const Rect& picture, float scale);
 
 /// The handle that a press at a place takes hold of.
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale);
@@ -33,12 +34,13 @@ class PoseTool {
   /// Where the pointer is while it is somebody else's.
   void hover(vec2 place) { place_ = place; }
   /// @return whether the event was a drag's: then it is nobody else's
-  bool feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture,
-            ViewState& state);
+  bool feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera,
+            const Rect& picture, ViewState& state);
   std::optional<JointId> held() const { return held_; }
 
  private:
-  void drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera, const Rect& picture, ViewState& state);
+  void drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
+            const Rect& picture, ViewState& state);
 
   float scale_;
   vec2 place_{0};

@@ -15,14 +15,17 @@ constexpr float kLiveSeconds =
 
 std::vector<std::uint32_t> spansOf(std::span<const Interference::Place> places) {
   std::vector<std::uint32_t> spans;
-  for (const Interference::Place& place : places) spans.insert(spans.end(), {place.contact.i, place.contact.j});
+  for (const Interference::Place& place : places)
+    spans.insert(spans.end(), {place.contact.i, place.contact.j});
   std::ranges::sort(spans);
   spans.erase(std::unique(spans.begin(), spans.end()), spans.end());
   return spans;
 }
 
 bool sameTurns(std::span<const JointTurn> a, std::span<const JointTurn> b) {
-  return std::ranges::equal(a, b, [](const JointTurn& x, const JointTurn& y) { return x.joint == y.joint && x.angles == y.angles; });
+  return std::ranges::equal(a, b, [](const JointTurn& x, const JointTurn& y) {
+    return x.joint == y.joint && x.angles == y.angles;
+  });
 }
 
 bool sameOptions(const PoseOrder& a, const PoseOrder& b) {
@@ -32,14 +35,14 @@ bool sameOptions(const PoseOrder& a, const PoseOrder& b) {
 }  // namespace
 
 bool PoseOrder::operator==(const PoseOrder& other) const {
-  return sameOptions(*this, other) && clip == other.clip && time == other.time && measures == other.measures && sameTurns(turns, other.turns);
+  return sameOptions(*this, other) && clip == other.clip && time == other.time &&
+         measures == other.measures && sameTurns(turns, other.turns);
 }
 
 // Setting up avoidance takes a while, so the ways of making shapes that were used last are kept.
 struct PoseWorker::Maker {
   explicit Maker(const PoseOrder& like)
-      : order(like),
-        maker(like.document->scene, frameOptions(like.forces, like.contacts)) {}
+      : order(like), maker(like.document->scene, frameOptions(like.forces, like.contacts)) {}
 
   std::shared_ptr<PosedBody> make(const PoseOrder& wanted) {
     const auto start = Clock::now();
@@ -87,7 +90,7 @@ struct PoseWorker::Maker {
     return made;
   }
 
-  PoseOrder order;  // keeps the document alive
+  PoseOrder order;    // keeps the document alive
   bool live = false;  // something is on the screen: what is posed by hand goes on from there
   FrameMaker maker;
   std::optional<VesselMeter> meter;
@@ -139,7 +142,8 @@ void PoseWorker::wait() const {
 
 std::shared_ptr<const PosedBody> PoseWorker::make(const PoseOrder& order) {
   constexpr std::size_t kMostMakers = 3;
-  const auto found = std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, order); });
+  const auto found =
+      std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, order); });
   if (found != makers_.end()) {
     std::rotate(found, found + 1, makers_.end());
   } else {

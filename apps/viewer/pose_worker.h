@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/cancellation.h"
+#include "scene/frame.h"
+#include "scene/measurements.h"
 #include "viewer/document.h"
 #include "viewer/forces.h"
 #include "viewer/posing.h"
-#include "scene/frame.h"
-#include "scene/measurements.h"
 
 namespace vasa::viewer {
 
@@ -37,15 +37,17 @@ struct PosedBody {
   float heartScale = 1;
   FrameReport report;
   std::vector<std::uint32_t> touched, touching;  ///< spans that ran through others, and that still do
-  std::uint32_t contactsBefore = 0;              ///< pairs of tubes that ran through one another; only with contacts
-  std::vector<VesselMeasures> measures;          ///< one a vessel; empty unless ordered
-  double ms = 0;                                 ///< all of it but the measures
-  bool provisional = false;  ///< as the pose alone has it, for a document's first pictures: the order is being made
+  /// Pairs of tubes that ran through one another; only with contacts.
+  std::uint32_t contactsBefore = 0;
+  std::vector<VesselMeasures> measures;  ///< one a vessel; empty unless ordered
+  double ms = 0;                         ///< all of it but the measures
+  /// As the pose alone has it, for a document's first pictures: the order is being made.
+  bool provisional = false;
 };
 
-/// Makes shapes on a thread of its own while earlier ones are drawn. Before a document's first, for which more has to be
-/// set up, comes a provisional one. Of orders that come in faster than they are done
-/// only the latest is; one for another document cancels what is being done, and so does the end.
+/// Makes shapes on a thread of its own while earlier ones are drawn. Before a document's first, for which
+/// more has to be set up, comes a provisional one. Of orders that come in faster than they are done only the
+/// latest is; one for another document cancels what is being done, and so does the end.
 class PoseWorker {
  public:
   /// @param done           called from the worker's thread after each shape

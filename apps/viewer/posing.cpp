@@ -11,15 +11,15 @@ struct Range {
   vec3 least, most;       // [degrees]
 };
 constexpr Range kRanges[] = {
-    {"UpperLeg", {-20, -30, -45}, {125, 45, 45}},  {"LowerLeg", {-145, -5, -20}, {5, 5, 20}},
-    {"Foot", {-50, -25, -20}, {20, 25, 20}},       {"Toes", {-40, -10, -5}, {65, 10, 5}},
-    {"UpperArm", {-60, -45, -90}, {170, 85, 90}},  {"LowerArm", {-5, -5, -90}, {150, 5, 90}},
-    {"Hand", {-85, -30, -10}, {85, 30, 10}},       {"Shoulder", {-20, -10, -10}, {20, 40, 10}},
-    {"Thumb", {-70, -40, -15}, {70, 40, 15}},      {"Index", {-100, -20, -10}, {100, 20, 10}},
-    {"Middle", {-100, -20, -10}, {100, 20, 10}},   {"Ring", {-100, -20, -10}, {100, 20, 10}},
-    {"Little", {-100, -20, -10}, {100, 20, 10}},   {"head", {-50, -40, -50}, {45, 40, 50}},
-    {"neck", {-30, -30, -40}, {40, 30, 40}},       {"hest", {-20, -25, -30}, {35, 25, 30}},
-    {"spine", {-20, -25, -30}, {40, 25, 30}},      {"hips", {-180, -85, -180}, {180, 85, 180}},
+    {"UpperLeg", {-20, -30, -45}, {125, 45, 45}}, {"LowerLeg", {-145, -5, -20}, {5, 5, 20}},
+    {"Foot", {-50, -25, -20}, {20, 25, 20}},      {"Toes", {-40, -10, -5}, {65, 10, 5}},
+    {"UpperArm", {-60, -45, -90}, {170, 85, 90}}, {"LowerArm", {-5, -5, -90}, {150, 5, 90}},
+    {"Hand", {-85, -30, -10}, {85, 30, 10}},      {"Shoulder", {-20, -10, -10}, {20, 40, 10}},
+    {"Thumb", {-70, -40, -15}, {70, 40, 15}},     {"Index", {-100, -20, -10}, {100, 20, 10}},
+    {"Middle", {-100, -20, -10}, {100, 20, 10}},  {"Ring", {-100, -20, -10}, {100, 20, 10}},
+    {"Little", {-100, -20, -10}, {100, 20, 10}},  {"head", {-50, -40, -50}, {45, 40, 50}},
+    {"neck", {-30, -30, -40}, {40, 30, 40}},      {"hest", {-20, -25, -30}, {35, 25, 30}},
+    {"spine", {-20, -25, -30}, {40, 25, 30}},     {"hips", {-180, -85, -180}, {180, 85, 180}},
 };
 
 vec3 alongBone(const Skeleton& skeleton, JointId joint) {
@@ -40,16 +40,19 @@ mat3 axesAtRest(vec3 bone) {
 }
 
 quat turnOf(vec3 angles) {
-  return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) * glm::angleAxis(angles.x, vec3(1, 0, 0));
+  return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) *
+         glm::angleAxis(angles.x, vec3(1, 0, 0));
 }
 
 vec3 anglesOf(quat turn) {
   const mat3 m = glm::mat3_cast(turn);
-  return {std::atan2(m[1][2], m[2][2]), std::asin(std::clamp(-m[0][2], -1.0f, 1.0f)), std::atan2(m[0][1], m[0][0])};
+  return {std::atan2(m[1][2], m[2][2]), std::asin(std::clamp(-m[0][2], -1.0f, 1.0f)),
+          std::atan2(m[0][1], m[0][0])};
 }
 
 quat rotationOf(const mat4& world) {
-  return glm::quat_cast(mat3(glm::normalize(vec3(world[0])), glm::normalize(vec3(world[1])), glm::normalize(vec3(world[2]))));
+  return glm::quat_cast(
+      mat3(glm::normalize(vec3(world[0])), glm::normalize(vec3(world[1])), glm::normalize(vec3(world[2]))));
 }
 
 }  // namespace
@@ -59,10 +62,12 @@ Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTur
   Pose result = pose;
   std::vector<mat4> own(skeleton.joints.size(), mat4(1));
   for (const JointTurn& turn : turns)
-    if (turn.joint.value < own.size()) own[turn.joint.value] = glm::mat4_cast(turn.axes * turnOf(turn.angles) * glm::inverse(turn.axes));
+    if (turn.joint.value < own.size())
+      own[turn.joint.value] = glm::mat4_cast(turn.axes * turnOf(turn.angles) * glm::inverse(turn.axes));
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const JointId parent = skeleton.joints[j].parent;
-    const mat4 before = parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
+    const mat4 before =
+        parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
     result.world[j] = before * pose.world[j] * own[j];
   }
   return result;

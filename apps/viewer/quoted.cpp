@@ -7,12 +7,11 @@
 namespace vasa::viewer {
 namespace {
 
-bool isControl(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
+bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 bool isPlain(const std::string& name) {
-  return !name.empty() && name.front() != '"' && name.front() != ' ' && name.back() != ' ' && std::ranges::none_of(name, isControl);
+  return !name.empty() && name.front() != '"' && name.front() != ' ' && name.back() != ' ' &&
+         std::ranges::none_of(name, isControl);
 }
 
 }  // namespace
@@ -23,9 +22,12 @@ std::string quotedName(const std::string& name) {
   for (const char c : name) {
     char hex[8];
     std::snprintf(hex, sizeof hex, "\\x%02x", unsigned(static_cast<unsigned char>(c)));
-    if (isControl(c)) out += hex;
-    else if (c == '"' || c == '\\') out += std::string("\\") + c;
-    else out += c;
+    if (isControl(c))
+      out += hex;
+    else if (c == '"' || c == '\\')
+      out += std::string("\\") + c;
+    else
+      out += c;
   }
   return out + "\"";
 }
@@ -46,7 +48,8 @@ std::optional<std::string> unquotedName(std::string_view text) {
     if (after.starts_with('"') || after.starts_with('\\')) {
       out += after[0];
       i += 1;
-    } else if (after.size() >= 3 && after[0] == 'x' && std::from_chars(after.data() + 1, after.data() + 3, byte, 16).ptr == after.data() + 3) {
+    } else if (after.size() >= 3 && after[0] == 'x' &&
+               std::from_chars(after.data() + 1, after.data() + 3, byte, 16).ptr == after.data() + 3) {
       out += char(byte);
       i += 3;
     } else {

@@ -29,6 +29,7 @@ std::filesystem::path freeName(const std::filesystem::path& folder, const std::s
 
 /// Where a file of this name lies that may be written below a folder only; links count as where they lead.
 /// Fails with badInput where it lies elsewhere.
-Result<std::filesystem::path> placeBelow(const std::filesystem::path& folder, const std::filesystem::path& name);
+Result<std::filesystem::path> placeBelow(const std::filesystem::path& folder,
+                                         const std::filesystem::path& name);
 
 }  // namespace vasa::viewer

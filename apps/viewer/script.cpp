@@ -17,12 +17,30 @@ struct NamedKey {
   Key key;
 };
 constexpr NamedKey kKeys[] = {
-    {"space", Key::space},     {"comma", Key::comma},    {"period", Key::period},     {"slash", Key::slash},
-    {"escape", Key::escape},   {"enter", Key::enter},    {"tab", Key::tab},           {"backspace", Key::backspace},
-    {"insert", Key::insert},   {"delete", Key::del},     {"right", Key::right},       {"left", Key::left},
-    {"down", Key::down},       {"up", Key::up},          {"pageup", Key::pageUp},     {"pagedown", Key::pageDown},
-    {"home", Key::home},       {"end", Key::end},        {"shift", Key::leftShift},   {"control", Key::leftControl},
-    {"alt", Key::leftAlt},     {"rightshift", Key::rightShift}, {"rightcontrol", Key::rightControl}, {"rightalt", Key::rightAlt},
+    {"space", Key::space},
+    {"comma", Key::comma},
+    {"period", Key::period},
+    {"slash", Key::slash},
+    {"escape", Key::escape},
+    {"enter", Key::enter},
+    {"tab", Key::tab},
+    {"backspace", Key::backspace},
+    {"insert", Key::insert},
+    {"delete", Key::del},
+    {"right", Key::right},
+    {"left", Key::left},
+    {"down", Key::down},
+    {"up", Key::up},
+    {"pageup", Key::pageUp},
+    {"pagedown", Key::pageDown},
+    {"home", Key::home},
+    {"end", Key::end},
+    {"shift", Key::leftShift},
+    {"control", Key::leftControl},
+    {"alt", Key::leftAlt},
+    {"rightshift", Key::rightShift},
+    {"rightcontrol", Key::rightControl},
+    {"rightalt", Key::rightAlt},
 };
 constexpr const char* kButtons[] = {"left", "right", "middle"};
 
@@ -32,7 +50,8 @@ Key keyNamed(const std::string& name) {
   if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
     return keyOf(char(std::toupper(static_cast<unsigned char>(name[0]))));
   int number = 0;
-  if (name.size() >= 2 && name[0] == 'f' && std::from_chars(name.data() + 1, name.data() + name.size(), number).ptr == name.data() + name.size() &&
+  if (name.size() >= 2 && name[0] == 'f' &&
+      std::from_chars(name.data() + 1, name.data() + name.size(), number).ptr == name.data() + name.size() &&
       number >= 1 && number <= 12)
     return Key(int(Key::f1) + number - 1);
   return Key::none;
@@ -58,7 +77,8 @@ std::vector<std::uint32_t> codepoints(const std::string& utf8) {
     const auto lead = static_cast<unsigned char>(utf8[i]);
     const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
     std::uint32_t code = length == 1 ? lead : lead & (0xffu >> (length + 1));
-    for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k) code = code << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3fu);
+    for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k)
+      code = code << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3fu);
     codes.push_back(code);
     i += length;
   }
@@ -79,19 +99,25 @@ class LineReader {
     if (verb == "type") return readText();
     if (verb == "scroll") {
       Scrolled scrolled;
-      return words_ >> scrolled.steps && std::isfinite(scrolled.steps) ? addEvent(scrolled) : "scroll wants a number of steps";
+      return words_ >> scrolled.steps && std::isfinite(scrolled.steps) ? addEvent(scrolled)
+                                                                       : "scroll wants a number of steps";
     }
     if (verb == "frames") {
       LetFrames frames;
-      return words_ >> frames.count && frames.count >= 1 && frames.count <= 100000 ? add(frames) : "frames wants a number from 1 to 100000";
+      return words_ >> frames.count && frames.count >= 1 && frames.count <= 100000
+                 ? add(frames)
+                 : "frames wants a number from 1 to 100000";
     }
     if (verb == "live") {
       GoLive live;
-      return words_ >> live.seconds && live.seconds > 0 && live.seconds <= 3600 ? add(live) : "live wants seconds, 3600 at most";
+      return words_ >> live.seconds && live.seconds > 0 && live.seconds <= 3600
+                 ? add(live)
+                 : "live wants seconds, 3600 at most";
     }
     if (verb == "resize") {
       ResizeWindow size;
-      const bool good = words_ >> size.width >> size.height && size.width >= 1 && size.height >= 1 && size.width <= 16384 && size.height <= 16384;
+      const bool good = words_ >> size.width >> size.height && size.width >= 1 && size.height >= 1 &&
+                        size.width <= 16384 && size.height <= 16384;
       return good ? add(size) : "resize wants width and height in pixels";
     }
     if (verb == "settle") return add(Settle{});
@@ -121,14 +147,16 @@ class LineReader {
   }
   std::string readMove() {
     PointerMoved moved;
-    const bool good = words_ >> moved.place.x >> moved.place.y && std::isfinite(moved.place.x) && std::isfinite(moved.place.y);
+    const bool good = words_ >> moved.place.x >> moved.place.y && std::isfinite(moved.place.x) &&
+                      std::isfinite(moved.place.y);
     return good ? addEvent(moved) : "move wants x and y in pixels";
   }
   std::string readButton(bool down) {
     std::string name;
     words_ >> name;
     const auto button = buttonNamed(name);
-    return button ? addEvent(ButtonChanged{*button, down}) : "'" + name + "' is no button: left, middle or right";
+    return button ? addEvent(ButtonChanged{*button, down})
+                  : "'" + name + "' is no button: left, middle or right";
   }
   std::string readKey(const std::string& verb) {
     std::string name;
@@ -155,8 +183,10 @@ class LineReader {
     if (!name) return "quotes around a file's name are closed, and within them stand \\\\, \\\" and \\xHH";
     const std::string& path = *name;
     if (path.empty()) return verb + " wants a file";
-    if (verb == "drop") put(FileDropped{path});
-    else steps_.emplace_back(SavePicture{path, verb == "window"});
+    if (verb == "drop")
+      put(FileDropped{path});
+    else
+      steps_.emplace_back(SavePicture{path, verb == "window"});
     return "";
   }
 
@@ -174,8 +204,12 @@ std::string utf8Of(std::uint32_t code) {
 }
 
 struct EventWriter {
-  std::string operator()(const PointerMoved& e) const { return fmt::format("move {:g} {:g}", e.place.x, e.place.y); }
-  std::string operator()(const ButtonChanged& e) const { return fmt::format("{} {}", e.down ? "press" : "release", kButtons[int(e.button)]); }
+  std::string operator()(const PointerMoved& e) const {
+    return fmt::format("move {:g} {:g}", e.place.x, e.place.y);
+  }
+  std::string operator()(const ButtonChanged& e) const {
+    return fmt::format("{} {}", e.down ? "press" : "release", kButtons[int(e.button)]);
+  }
   std::string operator()(const Scrolled& e) const { return fmt::format("scroll {:g}", e.steps); }
   std::string operator()(const KeyChanged& e) const {
     const std::string name = nameOf(e.key);
@@ -185,7 +219,9 @@ struct EventWriter {
     const bool control = e.codepoint < 0x20 || (e.codepoint >= 0x7f && e.codepoint < 0xa0);
     return control ? "" : "type " + utf8Of(e.codepoint);  // a line end would begin a line of its own
   }
-  std::string operator()(const WindowResized& e) const { return e.width > 0 && e.height > 0 ? fmt::format("resize {} {}", e.width, e.height) : ""; }
+  std::string operator()(const WindowResized& e) const {
+    return e.width > 0 && e.height > 0 ? fmt::format("resize {} {}", e.width, e.height) : "";
+  }
   std::string operator()(const FileDropped& e) const { return "drop " + quotedName(e.path); }
   std::string operator()(const CloseAsked&) const { return "close"; }
 };
@@ -195,8 +231,12 @@ struct StepWriter {
   std::string operator()(const LetFrames& frames) const { return fmt::format("frames {}", frames.count); }
   std::string operator()(const GoLive& live) const { return fmt::format("live {:g}", live.seconds); }
   std::string operator()(const Settle&) const { return "settle"; }
-  std::string operator()(const ResizeWindow& size) const { return fmt::format("resize {} {}", size.width, size.height); }
-  std::string operator()(const SavePicture& save) const { return (save.panels ? "window " : "picture ") + quotedName(save.path.string()); }
+  std::string operator()(const ResizeWindow& size) const {
+    return fmt::format("resize {} {}", size.width, size.height);
+  }
+  std::string operator()(const SavePicture& save) const {
+    return (save.panels ? "window " : "picture ") + quotedName(save.path.string());
+  }
 };
 
 }  // namespace
@@ -211,9 +251,7 @@ Result<std::vector<ScriptStep>> parseScript(const std::string& text, const std::
   return steps;
 }
 
-std::string scriptLine(const ScriptStep& step) {
-  return std::visit(StepWriter{}, step);
-}
+std::string scriptLine(const ScriptStep& step) { return std::visit(StepWriter{}, step); }
 
 void ScriptRecorder::flush() {
   if (frames_ > 0) text_ += scriptLine(LetFrames{frames_}) + "\n";

@@ -10,7 +10,9 @@ namespace vasa::viewer {
 Session::Session(const ViewOptions& options, const Settings& settings, Window& window, Loader& loader)
     : options_(options),
       window_(window),
-      ui_(options.uiScale > 0 ? options.uiScale : options.script ? 1.0f : window.scale()),
+      ui_(options.uiScale > 0 ? options.uiScale
+          : options.script    ? 1.0f
+                              : window.scale()),
       device_({.choice = options.device,
                .validation = options.validation,
                .instanceExtensions = Window::instanceExtensions(),
@@ -47,11 +49,15 @@ Result<void> Session::keepScript() {
 Error Session::keepWhatIsThere(Error error) {
   if (!document_) return error;
   const auto path = options_.record;
-  if (const auto kept = keepScript(); !kept) error.message += "; " + kept.error().message;
-  else if (!path.empty()) error.message += "; the session until then is in " + path.string();
+  if (const auto kept = keepScript(); !kept)
+    error.message += "; " + kept.error().message;
+  else if (!path.empty())
+    error.message += "; the session until then is in " + path.string();
   if (recording_.running())
-    if (const auto film = recording_.finish()) error.message += "; the film until then is in " + film->string();
-  if (!options_.script && !saveSettings({width_, height_, state_})) error.message += "; the view's settings could not be kept";
+    if (const auto film = recording_.finish())
+      error.message += "; the film until then is in " + film->string();
+  if (!options_.script && !saveSettings({width_, height_, state_}))
+    error.message += "; the view's settings could not be kept";
   return error;
 }
 
@@ -92,7 +98,8 @@ double Session::pass() {
   const double seconds = steady() ? kScriptFrame : std::chrono::duration<double>(now - last_).count();
   last_ = now;
   if (document_ && state_.playback.clip >= 0 && state_.playback.playing)
-    state_.playback.advance(document_->scene.body.clips[std::size_t(state_.playback.clip)], std::min(seconds, 0.25));
+    state_.playback.advance(document_->scene.body.clips[std::size_t(state_.playback.clip)],
+                            std::min(seconds, 0.25));
   still_ += seconds;
   return seconds;
 }
@@ -161,8 +168,12 @@ void Session::rest(double drawn) {
     window_.wait(0);
     return;
   }
-  const bool waiting = worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
-  const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0) : moving || due ? std::max(kFrame - drawn, 0.0) : waiting ? 0.05 : 1.0;
+  const bool waiting =
+      worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
+  const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0)
+                         : moving || due           ? std::max(kFrame - drawn, 0.0)
+                         : waiting                 ? 0.05
+                                                   : 1.0;
   window_.wait(longest);
 }
 
@@ -171,10 +182,12 @@ ViewReport Session::report() const {
   result.frameMs = timings_.shown().median();
   result.shapeMs = timings_.shape().median();
   result.pictureMs = timings_.picture().median();
-  for (const Timings::Stage& stage : timings_.stages()) result.stages.emplace_back(stage.name, stage.history.median());
+  for (const Timings::Stage& stage : timings_.stages())
+    result.stages.emplace_back(stage.name, stage.history.median());
   result.device = device_.adapter().name;
   result.title = document_ ? document_->title : "";
-  if (document_ && state_.selected) result.selected = document_->scene.network.vessel(state_.selected->vessel).name;
+  if (document_ && state_.selected)
+    result.selected = document_->scene.network.vessel(state_.selected->vessel).name;
   if (shown_) result.width = shown_->width, result.height = shown_->height;
   result.validation = device_.validationMessages();
   return result;

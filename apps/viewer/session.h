@@ -18,7 +18,8 @@
 
 namespace vasa::viewer {
 
-constexpr double kScriptFrame = 1.0 / 30, kFrame = 1.0 / 60;  ///< [s] of a script's frames, least of a person's
+/// [s] of a script's frames, least of a person's
+constexpr double kScriptFrame = 1.0 / 30, kFrame = 1.0 / 60;
 constexpr int kRestingFrames = 3;  ///< pictures of the panels until they have come to rest
 
 /// What a session opens first.
@@ -27,7 +28,8 @@ Loader::Wanted firstWanted(const ViewOptions& options);
 /// A window's surface; goes before the device.
 class Surface {
  public:
-  Surface(const Window& window, VkInstance instance) : instance_(instance), surface_(window.makeSurface(instance)) {}
+  Surface(const Window& window, VkInstance instance)
+      : instance_(instance), surface_(window.makeSurface(instance)) {}
   ~Surface() { vkDestroySurfaceKHR(instance_, surface_, nullptr); }
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
@@ -38,9 +40,10 @@ class Surface {
   VkSurfaceKHR surface_;
 };
 
-/// One run of the app: the loop, and what it holds together. Shapes are made on a thread of their own (PoseWorker) while
-/// this one draws; nothing is drawn while nothing changes. With a script, time goes on by a thirtieth of a second a
-/// frame and shapes are waited for, so that the same script gives the same pictures.
+/// One run of the app: the loop, and what it holds together. Shapes are made on a thread of their own
+/// (PoseWorker) while this one draws; nothing is drawn while nothing changes. With a script, time goes on by
+/// a thirtieth of a second a frame and shapes are waited for, so that the same script gives the same
+/// pictures.
 class Session {
  public:
   /// @param loader  loads firstWanted() already
@@ -115,19 +118,19 @@ class Session {
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;
   std::vector<std::filesystem::path> dropped_;  // in this frame
-  std::size_t step_ = 0;            // of the script
-  std::uint32_t passing_ = 0;       // frames that it lets pass
+  std::size_t step_ = 0;                        // of the script
+  std::uint32_t passing_ = 0;                   // frames that it lets pass
   bool settling_ = false;
   std::optional<Clock::time_point> liveUntil_;
   std::optional<SavePicture> saving_;
   std::optional<Shot> shown_, making_;  // the latter: a still, slice by slice
   Detail detail_;                       // of both
   vec3 way_{0};
-  double now_ = 0, still_ = 0;      // [s]
+  double now_ = 0, still_ = 0;  // [s]
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
   Clock::time_point loadStart_, lastWatched_;
-  bool arriving_ = false;                       // loaded, but not seen yet
+  bool arriving_ = false;                 // loaded, but not seen yet
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;

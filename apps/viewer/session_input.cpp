@@ -1,9 +1,9 @@
 #include "viewer/session.h"
 #include "viewer/shortcuts.h"
 
-// How a session comes by its input: from the window or from a script, never more than one change of a button or key a
-// frame, and none in the frame of a move, because ImGui sees states, not changes, and learns in a frame what is under the
-// pointer.
+// How a session comes by its input: from the window or from a script, never more than one change of a button
+// or key a frame, and none in the frame of a move, because ImGui sees states, not changes, and learns in a
+// frame what is under the pointer.
 namespace vasa::viewer {
 namespace {
 
@@ -54,14 +54,16 @@ void Session::takeScript() {
       return;
     } else if (const auto* live = std::get_if<GoLive>(&step)) {
       last_ = Clock::now();
-      liveUntil_ = last_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(live->seconds));
+      liveUntil_ =
+          last_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(live->seconds));
       return;
     } else if (std::holds_alternative<Settle>(step)) {
       settling_ = true;
       return;
     } else if (const auto* size = std::get_if<ResizeWindow>(&step)) {
       window_.resize(size->width, size->height);
-      for (int i = 0; i < 40 && (window_.width() != size->width || window_.height() != size->height); ++i) window_.wait(0.05);
+      for (int i = 0; i < 40 && (window_.width() != size->width || window_.height() != size->height); ++i)
+        window_.wait(0.05);
       takeWindowEvents();
       return;
     } else {
@@ -79,15 +81,18 @@ void Session::handle(const InputEvent& event) {
     width_ = size->width;
     height_ = size->height;
   } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
-    if (key->down && key->key == Key::escape && loader_.busy()) state_.wishCancel = true;
-    else if (key->down && !ui_.wantsKeys()) applyShortcut(key->key, pointer_.control(), state_, document_.get());
+    if (key->down && key->key == Key::escape && loader_.busy())
+      state_.wishCancel = true;
+    else if (key->down && !ui_.wantsKeys())
+      applyShortcut(key->key, pointer_.control(), state_, document_.get());
   } else if (const auto* file = std::get_if<FileDropped>(&event)) {
     dropped_.emplace_back(file->path);
   } else if (std::holds_alternative<CloseAsked>(event)) {
     ending_ = true;
   }
   const bool free = !ui_.wantsPointer();
-  if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !poseTool_.held()) poseTool_.hover(moved->place);
+  if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !poseTool_.held())
+    poseTool_.hover(moved->place);
   const bool posing = state_.posing && document_ && body_ && (free || poseTool_.held());
   const bool posed = posing && poseTool_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
   if (posed && !std::holds_alternative<PointerMoved>(event)) return;

@@ -6,7 +6,8 @@ namespace vasa::viewer {
 namespace {
 
 // What is dropped together belongs together: a body and its vessels.
-Loader::Wanted wantedOf(const ViewOptions& options, std::vector<std::filesystem::path> files, const SceneFile& shown) {
+Loader::Wanted wantedOf(const ViewOptions& options, std::vector<std::filesystem::path> files,
+                        const SceneFile& shown) {
   std::string title;
   for (const auto& file : files) title += (title.empty() ? "" : ", ") + file.filename().string();
   const auto choice = [open = options.open, files = std::move(files), shown]() -> Result<SceneFile> {
@@ -49,7 +50,8 @@ void Session::watchLoading() {
   if (loader_.busy() || arriving_) {
     LoadReport& load = report_.loads.back();
     ++load.frames;
-    load.longestMs = std::max(load.longestMs, std::chrono::duration<double, std::milli>(now - lastWatched_).count());
+    load.longestMs =
+        std::max(load.longestMs, std::chrono::duration<double, std::milli>(now - lastWatched_).count());
     load.seconds = std::chrono::duration<double>(now - loadStart_).count();
     panelFrames_ = std::max(panelFrames_, 1);
   }
@@ -65,8 +67,10 @@ void Session::adopt() {
   report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
   if (!*answer) {
     constexpr double kTimeToRead = 15;
-    if (!document_ && report_.loads.size() == 1) failure_ = answer->error();
-    else say(answer->error().message, kTimeToRead);
+    if (!document_ && report_.loads.size() == 1)
+      failure_ = answer->error();
+    else
+      say(answer->error().message, kTimeToRead);
     return;
   }
   document_ = **answer;
@@ -90,8 +94,10 @@ void Session::takeChoices() {
   const auto& body = document_->scene.body;
   const SceneFile& choice = document_->file;
   const auto clip = choice.clip.empty() ? Result<const Clip*>(nullptr) : findClip(body, choice.clip);
-  if (clip && *clip) state_.playback.clip = int(*clip - body.clips.data());
-  else state_.playback.clip = body.clips.empty() ? -1 : 0;
+  if (clip && *clip)
+    state_.playback.clip = int(*clip - body.clips.data());
+  else
+    state_.playback.clip = body.clips.empty() ? -1 : 0;
   state_.playback.time = state_.playback.clip >= 0 ? body.clips[std::size_t(state_.playback.clip)].start : 0;
   state_.detail.capillaries = int(choice.capillaries.levels);
   if (!choice.look.preset.empty() && choice.look.preset != state_.preset) {
@@ -113,7 +119,8 @@ void Session::takeChoices() {
                        .target = choice.camera.target.value_or(document_->bounds.centre()),
                        .verticalAngle = glm::radians(choice.camera.angleDegrees)});
   if (choice.camera.focus.empty()) return;
-  if (const auto subject = findSubject(document_->scene, choice.camera.focus); subject && subject->vessel.valid()) {
+  if (const auto subject = findSubject(document_->scene, choice.camera.focus);
+      subject && subject->vessel.valid()) {
     state_.selected = VesselPlace{subject->vessel, 0};
     state_.wishFocus = true;
   }

@@ -30,7 +30,8 @@ Ray rayThrough(const Camera& camera, vec2 place, vec2 size) {
 
 // Leaves out what of the ray a plane cuts off before its visible part. @return where that ends
 float keepTo(Ray& ray, vec4 plane) {
-  const float there = glm::dot(vec3(plane), ray.origin) + plane.w, rate = glm::dot(vec3(plane), ray.direction);
+  const float there = glm::dot(vec3(plane), ray.origin) + plane.w,
+              rate = glm::dot(vec3(plane), ray.direction);
   if (rate > 0) ray.from = std::max(ray.from, -there / rate);
   return rate < 0 ? -there / rate : there < 0 && rate == 0 ? 0 : std::numeric_limits<float>::infinity();
 }
@@ -51,11 +52,16 @@ float meets(const Ray& ray, vec3 a, vec3 b, vec3 c) {
 bool hides(MeshRole role, const Look& look) {
   if (look.style == LookStyle::xray) return false;
   switch (role) {
-    case MeshRole::bones: return look.drawBones && look.boneOpacity >= kSeenThrough;
-    case MeshRole::heart: return look.drawHeart && look.heartOpacity >= kSeenThrough;
-    case MeshRole::other: return look.drawOther && look.otherOpacity >= kSeenThrough;
-    case MeshRole::skin: return look.drawSkin && look.skinOpacity >= kSeenThrough;
-    case MeshRole::organs: break;  // always let light through
+    case MeshRole::bones:
+      return look.drawBones && look.boneOpacity >= kSeenThrough;
+    case MeshRole::heart:
+      return look.drawHeart && look.heartOpacity >= kSeenThrough;
+    case MeshRole::other:
+      return look.drawOther && look.otherOpacity >= kSeenThrough;
+    case MeshRole::skin:
+      return look.drawSkin && look.skinOpacity >= kSeenThrough;
+    case MeshRole::organs:
+      break;  // always let light through
   }
   return false;
 }
@@ -67,7 +73,8 @@ float hiddenBehind(const Document& document, const PosedBody& body, const Look& 
   for (const SkinnedMesh& mesh : document.scene.body.meshes) {
     if (!hides(roleNamed(mesh.name), look)) continue;
     skinPositions(mesh, body.jointMatrices, places);
-    for (const uvec3& t : mesh.mesh.triangles) nearest = std::min(nearest, meets(ray, places[t.x], places[t.y], places[t.z]));
+    for (const uvec3& t : mesh.mesh.triangles)
+      nearest = std::min(nearest, meets(ray, places[t.x], places[t.y], places[t.z]));
   }
   return nearest + kSlack;
 }
@@ -93,12 +100,16 @@ void Session::click(const Click& click) {
   const float farthest = camera.cut ? keepTo(ray, *camera.cut) : std::numeric_limits<float>::infinity();
   const std::vector<char> shown = shownVessels(*document_, state_);
   const float slack = kReachPixels * ui_.scale() * 2 * std::tan(state_.orbit.angle() / 2) / rect.height;
-  auto hit = pick(document_->scene.network, body_->points, ray, [&](VesselId v) { return shown[v.value] != 0; }, slack);
-  if (hit && (hit->distance > farthest || hit->distance > hiddenBehind(*document_, *body_, state_.look, ray))) hit.reset();
+  auto hit = pick(
+      document_->scene.network, body_->points, ray, [&](VesselId v) { return shown[v.value] != 0; }, slack);
+  if (hit && (hit->distance > farthest || hit->distance > hiddenBehind(*document_, *body_, state_.look, ray)))
+    hit.reset();
   const auto place = hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;
   if (state_.measuring && place) {
-    if (!state_.from || state_.to) state_.from = place, state_.to.reset();
-    else state_.to = place;
+    if (!state_.from || state_.to)
+      state_.from = place, state_.to.reset();
+    else
+      state_.to = place;
   } else if (!state_.measuring) {
     state_.selected = place;
     if (!place) state_.isolate = false;

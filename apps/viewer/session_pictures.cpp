@@ -10,8 +10,8 @@
 #include "viewer/paint.h"
 #include "viewer/session.h"
 
-// What a session draws: the scene's picture when anything in it has changed, the window's around it, and copies of both
-// for files and videos.
+// What a session draws: the scene's picture when anything in it has changed, the window's around it, and
+// copies of both for files and videos.
 namespace vasa::viewer {
 namespace {
 
@@ -22,27 +22,29 @@ double msBetween(std::chrono::steady_clock::time_point from, std::chrono::steady
 constexpr double kStillAfter = 0.25;  // [s] without change
 
 bool same(const Camera& a, const Camera& b) {
-  return a.position == b.position && a.target == b.target && a.up == b.up && a.verticalAngle == b.verticalAngle &&
-         a.orthographicHeight == b.orthographicHeight && a.cut == b.cut && a.nearDistance == b.nearDistance && a.farDistance == b.farDistance;
+  return a.position == b.position && a.target == b.target && a.up == b.up &&
+         a.verticalAngle == b.verticalAngle && a.orthographicHeight == b.orthographicHeight &&
+         a.cut == b.cut && a.nearDistance == b.nearDistance && a.farDistance == b.farDistance;
 }
 
 auto shownParts(const Look& look) {
-  return std::array{look.drawArteries, look.drawVeins, look.drawOtherVessels, look.drawBones, look.drawHeart, look.drawSkin, look.drawOther};
+  return std::array{look.drawArteries, look.drawVeins, look.drawOtherVessels, look.drawBones,
+                    look.drawHeart,    look.drawSkin,  look.drawOther};
 }
 
 auto opacities(const Look& look) {
-  return std::array{look.skinOpacity, look.boneOpacity, look.heartOpacity, look.otherOpacity, look.arteryOpacity, look.veinOpacity,
-                    look.capillaryOpacity};
+  return std::array{look.skinOpacity,   look.boneOpacity, look.heartOpacity,    look.otherOpacity,
+                    look.arteryOpacity, look.veinOpacity, look.capillaryOpacity};
 }
 
 bool same(const Look& a, const Look& b) {
-  return a.style == b.style && a.background == b.background && a.transparent == b.transparent && shownParts(a) == shownParts(b) &&
-         opacities(a) == opacities(b) && a.occlusion == b.occlusion;
+  return a.style == b.style && a.background == b.background && a.transparent == b.transparent &&
+         shownParts(a) == shownParts(b) && opacities(a) == opacities(b) && a.occlusion == b.occlusion;
 }
 
 bool same(const Shot& a, const Shot& b) {
-  return a.body == b.body && same(a.camera, b.camera) && same(a.look, b.look) && a.width == b.width && a.height == b.height &&
-         a.colours == b.colours;
+  return a.body == b.body && same(a.camera, b.camera) && same(a.look, b.look) && a.width == b.width &&
+         a.height == b.height && a.colours == b.colours;
 }
 
 }  // namespace
@@ -81,7 +83,10 @@ Shot Session::shotNow() const {
 void Session::moveCamera() {
   if (state_.wishHome) {
     const Rect rect = pictureRect();
-    Aabb box = motionBounds(document_->scene, state_.playback.clip >= 0 ? &document_->scene.body.clips[std::size_t(state_.playback.clip)] : nullptr);
+    Aabb box =
+        motionBounds(document_->scene, state_.playback.clip >= 0
+                                           ? &document_->scene.body.clips[std::size_t(state_.playback.clip)]
+                                           : nullptr);
     box.low += way_;
     box.high += way_;
     state_.orbit.frame(box, rect.width / rect.height);
@@ -89,10 +94,13 @@ void Session::moveCamera() {
   }
   if (state_.wishFocus && state_.selected) {
     const Rect rect = pictureRect();
-    state_.orbit.frame(subjectBounds(document_->scene, {state_.selected->vessel, {}}, body_->pose, body_->points), rect.width / rect.height);
+    state_.orbit.frame(
+        subjectBounds(document_->scene, {state_.selected->vessel, {}}, body_->pose, body_->points),
+        rect.width / rect.height);
     const Vessel& vessel = document_->scene.network.vessel(state_.selected->vessel);
     const vec3 middle(evaluate(Network::pointsOf(vessel, body_->points), 0.5f * float(vessel.spanCount())));
-    if (isHidden(middle)) say("Something lies before it: lower the opacity of bones, heart or skin, or cut with Near cut", 8);
+    if (isHidden(middle))
+      say("Something lies before it: lower the opacity of bones, heart or skin, or cut with Near cut", 8);
   }
   state_.wishFocus = false;
 }
@@ -131,8 +139,8 @@ bool Session::drawScene() {
   return true;
 }
 
-// A slice of a finer still, so that whoever sits before the window is answered between two of them; all of them where time
-// goes on in steps. True with the last one.
+// A slice of a finer still, so that whoever sits before the window is answered between two of them; all of
+// them where time goes on in steps. True with the last one.
 bool Session::makeStill(const Shot& fine) {
   for (bool more = true; more;) {
     const auto start = Clock::now();
@@ -204,12 +212,14 @@ void Session::noteFirst() {
 // A picture of the video for every picture that is drawn.
 void Session::record() {
   if (state_.recording && !recording_.running() && shown_) {
-    if (const auto started = recording_.start(freeName(options_.out, "mp4"), shown_->width, shown_->height); !started) {
+    if (const auto started = recording_.start(freeName(options_.out, "mp4"), shown_->width, shown_->height);
+        !started) {
       state_.recording = false;
       say(started.error().message);
     }
   }
-  if (recording_.running() && shown_ && !recording_.fits(shown_->width, shown_->height)) state_.recording = false;
+  if (recording_.running() && shown_ && !recording_.fits(shown_->width, shown_->height))
+    state_.recording = false;
   if (recording_.running() && state_.recording && shown_)
     if (const auto added = recording_.add(painter_.readBack()); !added) {
       state_.recording = false;

@@ -1,6 +1,7 @@
 #include "viewer/session.h"
 
-// Table III: what `vasa profile` measures of a clip by default, a frame at a time, so that the window stays alive.
+// Table III: what `vasa profile` measures of a clip by default, a frame at a time, so that the window stays
+// alive.
 namespace vasa::viewer {
 namespace {
 
@@ -38,8 +39,9 @@ void Session::profile() {
       state_.playback.playing = false;
       const auto& clips = document_->scene.body.clips;
       const Clip* clip = state_.playback.clip >= 0 ? &clips[std::size_t(state_.playback.clip)] : nullptr;
-      profiler_ = std::make_unique<Profiler>(device_, settingOf(document_->scene, clip, state_.forces.avoid),
-                                             std::vector<ProfileQuads>{{{4, 5}}, {{4, 10}}, {{8, 5}}, {{8, 10}}, {{}, kAutoPixelError}});
+      profiler_ = std::make_unique<Profiler>(
+          device_, settingOf(document_->scene, clip, state_.forces.avoid),
+          std::vector<ProfileQuads>{{{4, 5}}, {{4, 10}}, {{8, 5}}, {{8, 10}}, {{}, kAutoPixelError}});
     }
     panelFrames_ = kRestingFrames;
   }

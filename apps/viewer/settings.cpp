@@ -11,7 +11,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void take(const Json& json, const char* key, bool& value) {
-  if (const auto found = json.find(key); found != json.end() && found->is_boolean()) value = found->get<bool>();
+  if (const auto found = json.find(key); found != json.end() && found->is_boolean())
+    value = found->get<bool>();
 }
 
 template <class Number>
@@ -25,8 +26,10 @@ void take(const Json& json, const char* key, Number& value, Number least, Number
 }  // namespace
 
 std::optional<std::filesystem::path> settingsFile() {
-  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config) return std::filesystem::path(config) / "vasa" / "view.json";
-  if (const char* home = std::getenv("HOME"); home && *home) return std::filesystem::path(home) / ".config" / "vasa" / "view.json";
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config)
+    return std::filesystem::path(config) / "vasa" / "view.json";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::filesystem::path(home) / ".config" / "vasa" / "view.json";
   return std::nullopt;
 }
 
@@ -34,7 +37,8 @@ void readSettings(const std::string& text, Settings& settings) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return;
   ViewState& state = settings.state;
-  if (const auto preset = json.find("preset"); preset != json.end() && preset->is_string() && lookNamed(preset->get<std::string>())) {
+  if (const auto preset = json.find("preset");
+      preset != json.end() && preset->is_string() && lookNamed(preset->get<std::string>())) {
     state.preset = preset->get<std::string>();
     state.look = *lookNamed(state.preset);
   }

@@ -22,7 +22,8 @@ std::optional<std::filesystem::path> settingsFile();
 void readSettings(const std::string& text, Settings& settings);
 std::string writeSettings(const Settings& settings);
 
-/// From and to the file. No file: nothing changes. A file that cannot be read or written is no reason not to work.
+/// From and to the file. No file: nothing changes. A file that cannot be read or written is no reason not to
+/// work.
 void loadSettings(Settings& settings);
 Result<void> saveSettings(const Settings& settings);
 

@@ -39,7 +39,8 @@ void chooseNext(ViewState& state, const Document& document, int way) {
 }
 
 void stepFrames(ViewState& state, const Document& document, int frames) {
-  if (state.playback.clip >= 0) state.playback.step(document.scene.body.clips[std::size_t(state.playback.clip)], frames);
+  if (state.playback.clip >= 0)
+    state.playback.step(document.scene.body.clips[std::size_t(state.playback.clip)], frames);
 }
 
 void choose(ViewState& state, bool measuring) {
@@ -49,19 +50,31 @@ void choose(ViewState& state, bool measuring) {
 
 }  // namespace
 
-std::span<const Shortcut> shortcuts() {
-  return kShortcuts;
-}
+std::span<const Shortcut> shortcuts() { return kShortcuts; }
 
 void applyShortcut(Key key, bool control, ViewState& state, const Document* document) {
   switch (key) {
-    case Key::space: state.playback.playing = document && state.playback.clip >= 0 && !state.playback.playing; return;
-    case Key::tab: state.panels = !state.panels; return;
-    case Key::f1: state.help = !state.help; return;
-    case Key::home: state.wishHome = true; return;
-    case Key::period: state.wishFocus = true; return;
-    case Key::f9: state.wishProfile = true; return;
-    case Key::f12: state.wishPicture = true; return;
+    case Key::space:
+      state.playback.playing = document && state.playback.clip >= 0 && !state.playback.playing;
+      return;
+    case Key::tab:
+      state.panels = !state.panels;
+      return;
+    case Key::f1:
+      state.help = !state.help;
+      return;
+    case Key::home:
+      state.wishHome = true;
+      return;
+    case Key::period:
+      state.wishFocus = true;
+      return;
+    case Key::f9:
+      state.wishProfile = true;
+      return;
+    case Key::f12:
+      state.wishPicture = true;
+      return;
     case Key::escape:
       state.selected.reset();
       state.isolate = state.help = false;
@@ -75,7 +88,8 @@ void applyShortcut(Key key, bool control, ViewState& state, const Document* docu
     case Key::down:
       if (document) chooseNext(state, *document, key == Key::up ? -1 : 1);
       return;
-    default: break;
+    default:
+      break;
   }
   if (key == keyOf('1')) state.orbit.look(control ? View::back : View::front);
   if (key == keyOf('3')) state.orbit.look(control ? View::right : View::left);

@@ -12,7 +12,8 @@ void plot(const char* id, const History& history, const std::string& label, floa
   const auto value = [](void* data, int i) { return static_cast<const History*>(data)->at(std::size_t(i)); };
   float most = 1;
   for (std::size_t i = 0; i < history.count(); ++i) most = std::max(most, history.at(i));
-  ImGui::PlotLines(id, value, const_cast<History*>(&history), int(history.count()), 0, label.c_str(), 0, 1.15f * most, {-1, height});
+  ImGui::PlotLines(id, value, const_cast<History*>(&history), int(history.count()), 0, label.c_str(), 0,
+                   1.15f * most, {-1, height});
 }
 
 void showTable(const Profiler& profiler) {
@@ -37,7 +38,8 @@ void showTable(const Profiler& profiler) {
 void showProfile(const PanelInput& in) {
   const bool running = in.profiler && in.profiler->done() < in.profiler->total();
   if (ImGui::Button(running ? "Stop" : "Profile")) in.state.wishProfile = true;
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("As vasa profile: vessels alone, 1280 x 720, at several quads (F9)");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("As vasa profile: vessels alone, 1280 x 720, at several quads (F9)");
   if (running) {
     ImGui::SameLine();
     ImGui::TextDisabled("row %zu of %zu", in.profiler->done() + 1, in.profiler->total());
@@ -52,7 +54,9 @@ void showTimingSection(const PanelInput& in) {
   if (!in.state.timing) return;
   const Timings& timings = in.timings;
   const float shown = timings.shown().median();
-  plot("##shown", timings.shown(), shown > 0 ? fmt::format("{:.1f} ms between pictures, {:.0f} FPS", shown, 1000 / shown) : "", 54 * in.scale);
+  plot("##shown", timings.shown(),
+       shown > 0 ? fmt::format("{:.1f} ms between pictures, {:.0f} FPS", shown, 1000 / shown) : "",
+       54 * in.scale);
   if (ImGui::BeginTable("##stages", 2, ImGuiTableFlags_RowBg)) {
     const auto row = [](const std::string& name, float ms) {
       ImGui::TableNextColumn();

@@ -32,12 +32,14 @@ void showTransport(const PanelInput& in) {
   if (playback.clip < 0) return;
   const Clip& clip = clips[std::size_t(playback.clip)];
   ImGui::SameLine();
-  if (ImGui::Button(playback.playing ? "Pause" : "Play", {64 * in.scale, 0})) playback.playing = !playback.playing;
+  if (ImGui::Button(playback.playing ? "Pause" : "Play", {64 * in.scale, 0}))
+    playback.playing = !playback.playing;
   ImGui::SameLine();
   const std::string frame = fmt::format("{} / {}", playback.frame(clip), clip.frameCount() - 1);
   const float rest = 230 * in.scale;
   ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - rest, 60 * in.scale));
-  if (ImGui::SliderFloat("##time", &playback.time, clip.start, clip.end, frame.c_str(), ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderFloat("##time", &playback.time, clip.start, clip.end, frame.c_str(),
+                         ImGuiSliderFlags_AlwaysClamp))
     playback.playing = false;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(90 * in.scale);

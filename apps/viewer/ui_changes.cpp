@@ -10,7 +10,8 @@ namespace vasa::viewer {
 namespace {
 
 bool overlap(const Rect& a, const Rect& b) {
-  return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height && b.top < a.top + a.height;
+  return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height &&
+         b.top < a.top + a.height;
 }
 
 template <class T>
@@ -54,7 +55,8 @@ void UiChanges::keepChanged(ImDrawData& panels, const Rect& overwritten) {
   // Where windows come, go, move or change places, what lay below them shows.
   const bool sameBoxes = std::ranges::equal(now, drawn_, {}, &Drawn::box, &Drawn::box);
   std::vector<bool> changed(count, !sameBoxes);
-  for (std::size_t i = 0; i < count; ++i) changed[i] = changed[i] || overlap(now[i].box, overwritten) || now[i].bytes != drawn_[i].bytes;
+  for (std::size_t i = 0; i < count; ++i)
+    changed[i] = changed[i] || overlap(now[i].box, overwritten) || now[i].bytes != drawn_[i].bytes;
   for (bool more = true; more;) {
     more = false;
     for (std::size_t i = 0; i < count; ++i)

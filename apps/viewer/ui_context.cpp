@@ -82,7 +82,8 @@ void setStyle(float scale) {
 }
 
 void addFonts(ImGuiIO& io, float scale) {
-  static const ImWchar letters[] = {0x20, 0x17f, 0x2010, 0x2027, 0x2030, 0x203a, 0x2080, 0x209c, 0x2190, 0x2193, 0x2248, 0x2265, 0};
+  static const ImWchar letters[] = {0x20,   0x17f,  0x2010, 0x2027, 0x2030, 0x203a, 0x2080,
+                                    0x209c, 0x2190, 0x2193, 0x2248, 0x2265, 0};
   std::error_code ignored;
   if (std::filesystem::exists(kFont, ignored)) {
     io.Fonts->AddFontFromFileTTF(kFont, kFontPixels * scale, nullptr, letters);
@@ -125,29 +126,26 @@ UiContext::UiContext(float scale) : scale_(scale) {
   addFonts(io, scale);
 }
 
-UiContext::~UiContext() {
-  ImGui::DestroyContext();
-}
+UiContext::~UiContext() { ImGui::DestroyContext(); }
 
-void UiContext::feed(const InputEvent& event) {
-  std::visit(Feeder{ImGui::GetIO()}, event);
-}
+void UiContext::feed(const InputEvent& event) { std::visit(Feeder{ImGui::GetIO()}, event); }
 
-bool UiContext::wantsPointer() const {
-  return ImGui::GetIO().WantCaptureMouse;
-}
+bool UiContext::wantsPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
-bool UiContext::wantsKeys() const {
-  return ImGui::GetIO().WantTextInput;
-}
+bool UiContext::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
 
 Window::Pointer UiContext::pointer() const {
   switch (ImGui::GetMouseCursor()) {
-    case ImGuiMouseCursor_TextInput: return Window::Pointer::text;
-    case ImGuiMouseCursor_Hand: return Window::Pointer::hand;
-    case ImGuiMouseCursor_ResizeEW: return Window::Pointer::resizeAcross;
-    case ImGuiMouseCursor_ResizeNS: return Window::Pointer::resizeDown;
-    default: return Window::Pointer::arrow;
+    case ImGuiMouseCursor_TextInput:
+      return Window::Pointer::text;
+    case ImGuiMouseCursor_Hand:
+      return Window::Pointer::hand;
+    case ImGuiMouseCursor_ResizeEW:
+      return Window::Pointer::resizeAcross;
+    case ImGuiMouseCursor_ResizeNS:
+      return Window::Pointer::resizeDown;
+    default:
+      return Window::Pointer::arrow;
   }
 }
 
@@ -166,7 +164,9 @@ ImDrawData& UiContext::end() {
 void UiContext::useClipboard(Window& window) {
   ImGuiIO& io = ImGui::GetIO();
   io.ClipboardUserData = &window;
-  io.SetClipboardTextFn = [](void* user, const char* text) { static_cast<Window*>(user)->setClipboard(text); };
+  io.SetClipboardTextFn = [](void* user, const char* text) {
+    static_cast<Window*>(user)->setClipboard(text);
+  };
   io.GetClipboardTextFn = [](void* user) {
     static std::string kept;  // ImGui reads it after the call
     kept = static_cast<Window*>(user)->clipboard();

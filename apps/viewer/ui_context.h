@@ -6,8 +6,8 @@ struct ImDrawData;
 
 namespace vasa::viewer {
 
-/// Dear ImGui's context, style and fonts, fed with our input events rather than by the window itself: what a script
-/// replays is all that the panels see. One at a time.
+/// Dear ImGui's context, style and fonts, fed with our input events rather than by the window itself: what a
+/// script replays is all that the panels see. One at a time.
 class UiContext {
  public:
   /// @param scale  pixels for one of an ordinary screen
@@ -17,8 +17,8 @@ class UiContext {
   UiContext& operator=(const UiContext&) = delete;
 
   void feed(const InputEvent& event);
-  bool wantsPointer() const;   ///< it is over a panel, or a panel has hold of it
-  bool wantsKeys() const;      ///< text is being typed
+  bool wantsPointer() const;  ///< it is over a panel, or a panel has hold of it
+  bool wantsKeys() const;     ///< text is being typed
   Window::Pointer pointer() const;
 
   /// Panels are declared between these two. @param seconds  since the last frame

@@ -11,16 +11,15 @@
 #include "gpu/transfer.h"
 #include "render/picture.h"
 
-// ImGui's colours are sRGB values, so the canvas is a UNORM image: the scene's sRGB picture is copied to it bit by bit.
+// ImGui's colours are sRGB values, so the canvas is a UNORM image: the scene's sRGB picture is copied to it
+// bit by bit.
 namespace vasa::viewer {
 namespace {
 
-constexpr VkFormat kFormat = VK_FORMAT_B8G8R8A8_UNORM;  // as most windows have
+constexpr VkFormat kFormat = VK_FORMAT_B8G8R8A8_UNORM;          // as most windows have
 constexpr VkClearColorValue kDesk{{0.13f, 0.135f, 0.145f, 1}};  // where there is no picture
 
-void checkImGui(VkResult result) {
-  gpu::check(result, "Dear ImGui's Vulkan back end");
-}
+void checkImGui(VkResult result) { gpu::check(result, "Dear ImGui's Vulkan back end"); }
 
 }  // namespace
 
@@ -98,8 +97,8 @@ void UiPass::resize(VkExtent2D size) {
   canvas_ = gpu::Image(device_, {.name = "canvas",
                                  .size = size,
                                  .format = kFormat,
-                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
   const VkImageView view = canvas_.view();
   VkFramebufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
@@ -114,7 +113,8 @@ void UiPass::resize(VkExtent2D size) {
   frame_ = {device_.handle(), frame};
 }
 
-void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, std::uint32_t left, std::uint32_t top) const {
+void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, std::uint32_t left,
+                           std::uint32_t top) const {
   constexpr VkPipelineStageFlags2 transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
   constexpr VkImageLayout target = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   gpu::changeLayout(commands, {.image = canvas_.handle(), .after = target, .to = transfer});
@@ -129,7 +129,8 @@ void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, 
     region.dstOffset = {std::int32_t(left), std::int32_t(top), 0};
     region.extent = {std::min(picture->size().width, canvas_.size().width - left),
                      std::min(picture->size().height, canvas_.size().height - top), 1};
-    vkCmdCopyImage(commands, picture->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, canvas_.handle(), target, 1, &region);
+    vkCmdCopyImage(commands, picture->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, canvas_.handle(),
+                   target, 1, &region);
   }
   gpu::changeLayout(commands, {.image = canvas_.handle(),
                                .before = target,
@@ -142,7 +143,9 @@ void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t t
   gpu::Commands commands = device_.queue().begin("panels");
   recordPicture(commands, picture, left, top);
   if (!picture || fresh_) changes_.forget();
-  changes_.keepChanged(panels, picture ? Rect{float(left), float(top), float(picture->size().width), float(picture->size().height)} : Rect{});
+  changes_.keepChanged(panels, picture ? Rect{float(left), float(top), float(picture->size().width),
+                                              float(picture->size().height)}
+                                       : Rect{});
   VkRenderPassBeginInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
   info.renderPass = renderPass_.get();
@@ -161,12 +164,14 @@ void UiPass::draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t t
 
 Image UiPass::readBack() {
   const VkExtent2D size = canvas_.size();
-  const gpu::Buffer host(device_, {"canvas, host", VkDeviceSize(size.width) * size.height * 4, gpu::MemoryRole::readBack});
+  const gpu::Buffer host(
+      device_, {"canvas, host", VkDeviceSize(size.width) * size.height * 4, gpu::MemoryRole::readBack});
   gpu::Commands commands = device_.queue().begin("read back");
   VkBufferImageCopy region{};
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {size.width, size.height, 1};
-  vkCmdCopyImageToBuffer(commands, canvas_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, host.handle(), 1, &region);
+  vkCmdCopyImageToBuffer(commands, canvas_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, host.handle(), 1,
+                         &region);
   device_.queue().wait(device_.queue().submit(std::move(commands)));
   host.invalidate();
   swapRedAndBlue(host.mapped<std::uint8_t>());

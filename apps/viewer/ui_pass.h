@@ -10,8 +10,9 @@ struct ImDrawData;
 
 namespace vasa::viewer {
 
-/// The whole window's picture: the scene's picture at its place, and Dear ImGui's panels over it. Drawn by ImGui's own
-/// Vulkan back end, which wants a render pass. An ImGui context must be there, and must outlive this.
+/// The whole window's picture: the scene's picture at its place, and Dear ImGui's panels over it. Drawn by
+/// ImGui's own Vulkan back end, which wants a render pass. An ImGui context must be there, and must outlive
+/// this.
 class UiPass {
  public:
   /// Uploads ImGui's fonts.
@@ -22,7 +23,8 @@ class UiPass {
 
   void resize(VkExtent2D size);
 
-  /// Draws and waits. @param picture  Renderer::picture(); nullptr: none yet. @param left, top  its place, within the canvas
+  /// Draws and waits. @param picture  Renderer::picture(); nullptr: none yet. @param left, top  its place,
+  /// within the canvas
   void draw(const gpu::Image* picture, std::uint32_t left, std::uint32_t top, ImDrawData& panels);
 
   /// sRGB values in B8G8R8A8_UNORM, in the layout that copies read from.
@@ -32,7 +34,8 @@ class UiPass {
  private:
   void makeRenderPass();
   void makePool();
-  void recordPicture(VkCommandBuffer commands, const gpu::Image* picture, std::uint32_t left, std::uint32_t top) const;
+  void recordPicture(VkCommandBuffer commands, const gpu::Image* picture, std::uint32_t left,
+                     std::uint32_t top) const;
 
   gpu::Device& device_;
   gpu::Unique<VkRenderPass> renderPass_;

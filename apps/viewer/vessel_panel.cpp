@@ -1,7 +1,7 @@
 #include <imgui.h>
 
-#include "viewer/panels.h"
 #include "shared/growth.h"
+#include "viewer/panels.h"
 
 namespace vasa::viewer {
 
@@ -23,8 +23,8 @@ void showVesselSection(const PanelInput& in) {
   }
   if (in.document && in.document->growth.any()) {
     ImGui::SetNextItemWidth(-90 * in.scale);
-    ImGui::SliderInt("Capillaries", &detail.capillaries, 0, int(shared::kMostGrowthLevels), detail.capillaries ? "%d generations" : "none",
-                     ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderInt("Capillaries", &detail.capillaries, 0, int(shared::kMostGrowthLevels),
+                     detail.capillaries ? "%d generations" : "none", ImGuiSliderFlags_AlwaysClamp);
   }
   Forces& forces = in.state.forces;
   if (ImGui::BeginTable("##forces", 2)) {
@@ -35,7 +35,8 @@ void showVesselSection(const PanelInput& in) {
     };
     item("Keep apart", forces.avoid, "Move vessels that run through one another or through bone");
     item("Keep volume", forces.volume, "A vessel that is stretched gets thinner");
-    item("Contacts (C)", in.state.contacts, "Grey vessels; yellow: ran through another before they were moved, red: still do");
+    item("Contacts (C)", in.state.contacts,
+         "Grey vessels; yellow: ran through another before they were moved, red: still do");
     item("Heartbeat", forces.beat, "The heart beats, and the vessels beside it go along");
     ImGui::EndTable();
   }

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "network/route.h"
+#include "render/look.h"
 #include "viewer/cut_plane.h"
 #include "viewer/forces.h"
 #include "viewer/orbit.h"
 #include "viewer/playback.h"
 #include "viewer/posing.h"
-#include "render/look.h"
 
 namespace vasa::viewer {
 
@@ -21,34 +21,34 @@ struct Detail {
   bool operator==(const Detail&) const = default;
 };
 
-/// Everything a person can set, apart from how it is set: panels and shortcuts write it, the loop reads it. Nothing in
-/// here knows of windows or of Vulkan.
+/// Everything a person can set, apart from how it is set: panels and shortcuts write it, the loop reads it.
+/// Nothing in here knows of windows or of Vulkan.
 struct ViewState {
   std::string preset = "atlas";
   Look look = *lookNamed("atlas");
   Detail detail;
-  bool fineStills = true;           ///< what stands still is drawn anew with 4 samples a pixel and occlusion
+  bool fineStills = true;  ///< what stands still is drawn anew with 4 samples a pixel and occlusion
   Forces forces;
   Playback playback;
   Orbit orbit;
-  float cut = 0;                    ///< Orbit::camera()
+  float cut = 0;  ///< Orbit::camera()
   CutPlane cutPlane;
-  bool follow = true;               ///< the camera goes along with a body that walks
-  bool contacts = false;            ///< vessels grey, those that touch in colour
+  bool follow = true;     ///< the camera goes along with a body that walks
+  bool contacts = false;  ///< vessels grey, those that touch in colour
   bool panels = true, timing = false, help = false;
   std::vector<JointTurn> turns;
-  bool posing = false;              ///< joints can be dragged
-  JointId joint;                    ///< whose sliders are shown
-  bool recording = false;           ///< pictures go to a video, a thirtieth of a second each
+  bool posing = false;     ///< joints can be dragged
+  JointId joint;           ///< whose sliders are shown
+  bool recording = false;  ///< pictures go to a video, a thirtieth of a second each
   std::optional<VesselPlace> selected;
-  bool isolate = false;             ///< only the selected vessel and its relatives are shown
-  bool measuring = false;           ///< clicks set `from` and `to`, by turns
+  bool isolate = false;    ///< only the selected vessel and its relatives are shown
+  bool measuring = false;  ///< clicks set `from` and `to`, by turns
   std::optional<VesselPlace> from, to;
   std::string search;
 
   // Wishes, taken back when they are met.
-  bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false, wishSearch = false,
-       wishCancel = false;
+  bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
+       wishSearch = false, wishCancel = false;
 };
 
 }  // namespace vasa::viewer

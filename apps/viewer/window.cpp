@@ -25,29 +25,51 @@ Key keyOfGlfw(int key) {
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return Key(int(Key::f1) + key - GLFW_KEY_F1);
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return Key('0' + key - GLFW_KEY_KP_0);
   switch (key) {
-    case GLFW_KEY_ESCAPE: return Key::escape;
+    case GLFW_KEY_ESCAPE:
+      return Key::escape;
     case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER: return Key::enter;
-    case GLFW_KEY_TAB: return Key::tab;
-    case GLFW_KEY_BACKSPACE: return Key::backspace;
-    case GLFW_KEY_INSERT: return Key::insert;
-    case GLFW_KEY_DELETE: return Key::del;
-    case GLFW_KEY_RIGHT: return Key::right;
-    case GLFW_KEY_LEFT: return Key::left;
-    case GLFW_KEY_DOWN: return Key::down;
-    case GLFW_KEY_UP: return Key::up;
-    case GLFW_KEY_PAGE_UP: return Key::pageUp;
-    case GLFW_KEY_PAGE_DOWN: return Key::pageDown;
-    case GLFW_KEY_HOME: return Key::home;
-    case GLFW_KEY_END: return Key::end;
-    case GLFW_KEY_KP_DECIMAL: return Key::period;
-    case GLFW_KEY_LEFT_SHIFT: return Key::leftShift;
-    case GLFW_KEY_LEFT_CONTROL: return Key::leftControl;
-    case GLFW_KEY_LEFT_ALT: return Key::leftAlt;
-    case GLFW_KEY_RIGHT_SHIFT: return Key::rightShift;
-    case GLFW_KEY_RIGHT_CONTROL: return Key::rightControl;
-    case GLFW_KEY_RIGHT_ALT: return Key::rightAlt;
-    default: return Key::none;
+    case GLFW_KEY_KP_ENTER:
+      return Key::enter;
+    case GLFW_KEY_TAB:
+      return Key::tab;
+    case GLFW_KEY_BACKSPACE:
+      return Key::backspace;
+    case GLFW_KEY_INSERT:
+      return Key::insert;
+    case GLFW_KEY_DELETE:
+      return Key::del;
+    case GLFW_KEY_RIGHT:
+      return Key::right;
+    case GLFW_KEY_LEFT:
+      return Key::left;
+    case GLFW_KEY_DOWN:
+      return Key::down;
+    case GLFW_KEY_UP:
+      return Key::up;
+    case GLFW_KEY_PAGE_UP:
+      return Key::pageUp;
+    case GLFW_KEY_PAGE_DOWN:
+      return Key::pageDown;
+    case GLFW_KEY_HOME:
+      return Key::home;
+    case GLFW_KEY_END:
+      return Key::end;
+    case GLFW_KEY_KP_DECIMAL:
+      return Key::period;
+    case GLFW_KEY_LEFT_SHIFT:
+      return Key::leftShift;
+    case GLFW_KEY_LEFT_CONTROL:
+      return Key::leftControl;
+    case GLFW_KEY_LEFT_ALT:
+      return Key::leftAlt;
+    case GLFW_KEY_RIGHT_SHIFT:
+      return Key::rightShift;
+    case GLFW_KEY_RIGHT_CONTROL:
+      return Key::rightControl;
+    case GLFW_KEY_RIGHT_ALT:
+      return Key::rightAlt;
+    default:
+      return Key::none;
   }
 }
 
@@ -59,7 +81,8 @@ std::string glfwError() {
 
 template <class Event>
 void report(GLFWwindow* window, Event event) {
-  static_cast<std::vector<InputEvent>*>(glfwGetWindowUserPointer(window))->emplace_back(std::in_place_type<Event>, std::move(event));
+  static_cast<std::vector<InputEvent>*>(glfwGetWindowUserPointer(window))
+      ->emplace_back(std::in_place_type<Event>, std::move(event));
 }
 
 // A window's coordinates are not its pixels on every system.
@@ -84,13 +107,16 @@ glm::ivec2 defaultSize() {
 }
 
 void listen(GLFWwindow* window) {
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { report(w, PointerMoved{vec2(x, y) * pixelsPerUnit(w)}); });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    report(w, PointerMoved{vec2(x, y) * pixelsPerUnit(w)});
+  });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
     if (button <= GLFW_MOUSE_BUTTON_MIDDLE) report(w, ButtonChanged{Button(button), action == GLFW_PRESS});
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { report(w, Scrolled{float(y)}); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-    if (const Key ours = keyOfGlfw(key); ours != Key::none) report(w, KeyChanged{ours, action != GLFW_RELEASE});
+    if (const Key ours = keyOfGlfw(key); ours != Key::none)
+      report(w, KeyChanged{ours, action != GLFW_RELEASE});
   });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned codepoint) { report(w, TextTyped{codepoint}); });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int width, int height) {
@@ -109,8 +135,10 @@ void listen(GLFWwindow* window) {
 
 Result<Window> Window::open(const std::string& title, std::uint32_t width, std::uint32_t height) {
   if (!glfwInit())
-    return Error{Fault::failed, "no window can be opened (" + glfwError() +
-                                    "); start vasa view on a desktop, or run it under xvfb-run; vasa render needs no window"};
+    return Error{
+        Fault::failed,
+        "no window can be opened (" + glfwError() +
+            "); start vasa view on a desktop, or run it under xvfb-run; vasa render needs no window"};
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   const glm::ivec2 size = width > 0 ? glm::ivec2(width, height) : defaultSize();
   GLFWwindow* window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
@@ -122,7 +150,8 @@ Result<Window> Window::open(const std::string& title, std::uint32_t width, std::
   glfwSetWindowSizeLimits(window, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   auto* state = new State{.window = window};
   glfwSetWindowUserPointer(window, &state->events);
-  const std::array shapes{GLFW_ARROW_CURSOR, GLFW_IBEAM_CURSOR, GLFW_HAND_CURSOR, GLFW_HRESIZE_CURSOR, GLFW_VRESIZE_CURSOR};
+  const std::array shapes{GLFW_ARROW_CURSOR, GLFW_IBEAM_CURSOR, GLFW_HAND_CURSOR, GLFW_HRESIZE_CURSOR,
+                          GLFW_VRESIZE_CURSOR};
   for (std::size_t i = 0; i < shapes.size(); ++i) state->pointers[i] = glfwCreateStandardCursor(shapes[i]);
   listen(window);
   return Window(state);
@@ -155,17 +184,15 @@ VkSurfaceKHR Window::makeSurface(VkInstance instance) const {
 }
 
 void Window::wait(double seconds) {
-  if (seconds > 0) glfwWaitEventsTimeout(seconds);
-  else glfwPollEvents();
+  if (seconds > 0)
+    glfwWaitEventsTimeout(seconds);
+  else
+    glfwPollEvents();
 }
 
-std::vector<InputEvent> Window::takeEvents() {
-  return std::exchange(state_->events, {});
-}
+std::vector<InputEvent> Window::takeEvents() { return std::exchange(state_->events, {}); }
 
-void Window::wake() {
-  glfwPostEmptyEvent();
-}
+void Window::wake() { glfwPostEmptyEvent(); }
 
 std::uint32_t Window::width() const {
   int width = 0, height = 0;
@@ -190,9 +217,7 @@ void Window::resize(std::uint32_t width, std::uint32_t height) {
   glfwSetWindowSize(state_->window, int(float(width) / pixels.x), int(float(height) / pixels.y));
 }
 
-void Window::setTitle(const std::string& title) {
-  glfwSetWindowTitle(state_->window, title.c_str());
-}
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
 
 void Window::setPointer(Pointer pointer) {
   if (pointer == state_->pointer) return;
@@ -200,17 +225,13 @@ void Window::setPointer(Pointer pointer) {
   glfwSetCursor(state_->window, state_->pointers[std::size_t(pointer)]);
 }
 
-GLFWwindow* Window::handle() const {
-  return state_->window;
-}
+GLFWwindow* Window::handle() const { return state_->window; }
 
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(state_->window);
   return text ? text : "";
 }
 
-void Window::setClipboard(const std::string& text) {
-  glfwSetClipboardString(state_->window, text.c_str());
-}
+void Window::setClipboard(const std::string& text) { glfwSetClipboardString(state_->window, text.c_str()); }
 
 }  // namespace vasa::viewer

@@ -20,39 +20,40 @@ constexpr int kLeastPieces = 3, kMostPieces = 6;  // of one tube
 constexpr std::size_t kTubesPerTask = 64;
 constexpr float kWidest = 0.6f;  // of the field's band: radius of a ball that is looked at
 constexpr int kRing = 8;
-constexpr float kStep = 0.001f;  // [m] of the search for the way out, at least
-constexpr float kStride = 0.8f;  // ... and of the distance
+constexpr float kStep = 0.001f;       // [m] of the search for the way out, at least
+constexpr float kStride = 0.8f;       // ... and of the distance
 constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
 constexpr float kWorthKeeping = 1.05f;  // that many times what was kept is kept instead
-constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
+constexpr float kMovedFar = 0.002f;     // [m] less brings no tube from beyond a field's band into a part
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
   const float length = glm::length(v);
   return length > 1e-9f ? v / length : otherwise;
 }
 
-vec3 placed(const mat4& matrix, vec3 p) {
-  return vec3(matrix * vec4(p, 1));
-}
+vec3 placed(const mat4& matrix, vec3 p) { return vec3(matrix * vec4(p, 1)); }
 
 // By control points, at most; wider or thinner counts, too.
 float distanceMoved(const Bezier& a, const Bezier& b) {
   float most = 0;
-  for (int k = 0; k < 4; ++k) most = std::max(most, glm::distance(vec3(a.b[k]), vec3(b.b[k])) + std::abs(a.b[k].w - b.b[k].w));
+  for (int k = 0; k < 4; ++k)
+    most = std::max(most, glm::distance(vec3(a.b[k]), vec3(b.b[k])) + std::abs(a.b[k].w - b.b[k].w));
   return most;
 }
 
 int piecesOf(const Bezier& rest) {
-  const float length = glm::distance(vec3(rest.b[0]), vec3(rest.b[3])), largest = std::max(rest.b[0].w, rest.b[3].w);
+  const float length = glm::distance(vec3(rest.b[0]), vec3(rest.b[3])),
+              largest = std::max(rest.b[0].w, rest.b[3].w);
   return largest > 0 ? std::clamp(int(std::ceil(length / largest)), kLeastPieces, kMostPieces) : kMostPieces;
 }
 
 Aabb placed(const mat4& matrix, const Aabb& box) {
   Aabb out;
   for (int corner = 0; corner < 8; ++corner)
-    out.add(placed(matrix, {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z}));
+    out.add(placed(matrix, {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                            corner & 4 ? box.high.z : box.low.z}));
   return out;
 }
 
@@ -70,8 +71,8 @@ struct Bones::State {
   struct Solid {
     std::uint32_t joint;
     DistanceField field;
-    mat4 matrix{1}, inverse{1};                            // as bound -> posed, and back
-    mat4 inverseBefore{1};                                 // of the pose before
+    mat4 matrix{1}, inverse{1};                                // as bound -> posed, and back
+    mat4 inverseBefore{1};                                     // of the pose before
     std::vector<std::pair<std::uint32_t, float>> atRest = {};  // tube, f < 0; sorted
 
     float allowed(std::uint32_t tube) const {
@@ -89,7 +90,9 @@ struct Bones::State {
     std::uint32_t part, tube;
     float f;
     Bezier shape;  // in the part's own space
-    bool before(std::uint32_t otherPart, std::uint32_t otherTube) const { return part != otherPart ? part < otherPart : tube < otherTube; }
+    bool before(std::uint32_t otherPart, std::uint32_t otherTube) const {
+      return part != otherPart ? part < otherPart : tube < otherTube;
+    }
   };
   struct Tubes {
     std::span<const Bezier> now, last;
@@ -97,11 +100,11 @@ struct Bones::State {
   };
   std::vector<Bezier> rest;  // tubes
   std::vector<Solid> solids;
-  std::vector<Bezier> base;   // the shape when all were looked at last
-  std::vector<int> pieces;    // a tube each
-  std::vector<Aabb> boxes;    // of the parts in the pose
-  std::vector<std::vector<BoneContact>> found;  // a task each
-  std::vector<std::vector<Near>> near;          // of the last look at all tubes, a task each
+  std::vector<Bezier> base;                         // the shape when all were looked at last
+  std::vector<int> pieces;                          // a tube each
+  std::vector<Aabb> boxes;                          // of the parts in the pose
+  std::vector<std::vector<BoneContact>> found;      // a task each
+  std::vector<std::vector<Near>> near;              // of the last look at all tubes, a task each
   std::vector<std::vector<Seen>> seen, seenBefore;  // likewise; by part, then tube
   std::vector<BoneContact> contacts;
   std::size_t restContacts = 0;
@@ -119,7 +122,8 @@ struct Bones::State {
 };
 
 // Where the way out is, in the part's own space.
-void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radius, BoneContact& contact) const {
+void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radius,
+                         BoneContact& contact) const {
   const DistanceField::Sample sample = solid.field.at(from);
   vec3 surface = from - sample.distance * unitOr(sample.gradient, vec3(0)), normal = sample.gradient;
   contact.nearestPoint = placed(solid.matrix, surface);
@@ -131,9 +135,13 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
   if (way > kStep && solid.field.distance(towards) > 0) {
     for (float at = 0; at < 1;) {
       const float distance = distanceAt(at);
-      if (distance < 0) inside = at;
-      else if (inside <= 1) { outside = at; break; }
-      else if (at * way > radius) break;
+      if (distance < 0)
+        inside = at;
+      else if (inside <= 1) {
+        outside = at;
+        break;
+      } else if (at * way > radius)
+        break;
       at += std::max(kStep, kStride * std::abs(distance)) / way;
     }
   }
@@ -160,12 +168,14 @@ vec3 Bones::State::home(const Near& at, float s, const Tubes& tubes) const {
 bool Bones::State::isFree(const vec4& ball, std::uint32_t own) const {
   const vec3 centre(ball);
   for (std::uint32_t part = 0; part < solids.size(); ++part)
-    if (part != own && boxes[part].overlaps({centre, centre}) && solids[part].field.clearance(placed(solids[part].inverse, centre)) < ball.w)
+    if (part != own && boxes[part].overlaps({centre, centre}) &&
+        solids[part].field.clearance(placed(solids[part].inverse, centre)) < ball.w)
       return false;
   return true;
 }
 
-// What most tubes need: the same for one that is thin and enters nowhere, all its places at once. Nothing for others.
+// What most tubes need: the same for one that is thin and enters nowhere, all its places at once. Nothing for
+// others.
 std::optional<bool> Bones::State::lookIfThin(Near& at, const Bezier& shape) const {
   const DistanceField& field = solids[at.part].field;
   std::array<vec4, kMostPieces + 1> balls;
@@ -194,7 +204,8 @@ Bezier Bones::State::inPart(std::uint32_t part, Bezier shape) const {
 }
 
 // Returns whether the tube is within the field's band somewhere. @param shape  in the part's own space
-bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes, std::vector<BoneContact>& out) const {
+bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes,
+                        std::vector<BoneContact>& out) const {
   const Solid& solid = solids[at.part];
   const DistanceField& field = solid.field;
   if (const std::optional<bool> isNear = lookIfThin(at, shape)) return *isNear;
@@ -236,12 +247,16 @@ bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes, std::
     leave(solid, from, home(at, s, tubes) + deepestAside, small, deepest);
     deepest.point -= mat3(solid.matrix) * deepestAside + off * deepest.normal;
     deepest.nearestPoint -= mat3(solid.matrix) * deepestAside + off * deepest.nearestNormal;
-    // Beyond where the straight way leaves the part, and in it even so; or into another part that way, and not the other.
+    // Beyond where the straight way leaves the part, and in it even so; or into another part that way, and
+    // not the other.
     const vec3 now(tubes.now[at.tube].at(s));
-    const auto leadsInto = [&](vec3 point, vec3 normal) { return !isFree({point + ball.w * normal, ball.w}, at.part); };
+    const auto leadsInto = [&](vec3 point, vec3 normal) {
+      return !isFree({point + ball.w * normal, ball.w}, at.part);
+    };
     if (deepest.nearestNormal != vec3(0) &&
         (glm::dot(deepest.normal, now - deepest.point) >= ball.w + at.allowed ||
-         (leadsInto(deepest.point, deepest.normal) && !leadsInto(deepest.nearestPoint, deepest.nearestNormal))))
+         (leadsInto(deepest.point, deepest.normal) &&
+          !leadsInto(deepest.nearestPoint, deepest.nearestNormal))))
       deepest.point = deepest.nearestPoint, deepest.normal = deepest.nearestNormal;
     out.push_back(deepest);
   }
@@ -256,7 +271,8 @@ void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
     const Aabb box = tubes.now[i].bounds();
     for (std::uint32_t part = 0; part < solids.size(); ++part) {
       if (!boxes[part].overlaps(box)) continue;
-      if (std::ranges::any_of(near[task], [&](const Near& at) { return at.tube == i && at.part == part; })) continue;
+      if (std::ranges::any_of(near[task], [&](const Near& at) { return at.tube == i && at.part == part; }))
+        continue;
       if (mayTouch(box, part)) near[task].push_back({i, part, solids[part].allowed(i), kUnknown});
     }
   }
@@ -268,8 +284,8 @@ bool Bones::State::mayTouch(const Aabb& box, std::uint32_t part) const {
   return solids[part].field.clearance(middle) <= 0.5f * glm::length(box.extent()) + kMovedFar;
 }
 
-// Pairs of tubes and parts that may be near one another. One that has moved less against the part, since it was looked at,
-// than it was from entering has not entered: most vessels go along with the bones beside them.
+// Pairs of tubes and parts that may be near one another. One that has moved less against the part, since it
+// was looked at, than it was from entering has not entered: most vessels go along with the bones beside them.
 void Bones::State::lookAtAll(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out) {
   const std::span<const Bezier> now = tubes.now;
   std::swap(seen[task], seenBefore[task]);
@@ -331,26 +347,22 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
   contacts(restTubes, restTubes);
   for (const BoneContact& contact : state_->contacts) {
     auto& atRest = state_->solids[contact.part].atRest;
-    if (atRest.empty() || atRest.back().first != contact.tube) atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
+    if (atRest.empty() || atRest.back().first != contact.tube)
+      atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
     atRest.back().second = std::min(atRest.back().second, contact.f);
   }
   std::uint32_t filledNow = 0;
   std::vector<const DistanceField*> now;
-  for (const State::Solid& solid : state_->solids) now.push_back(&solid.field), filledNow += solid.field.filledBricks();
+  for (const State::Solid& solid : state_->solids)
+    now.push_back(&solid.field), filledNow += solid.field.filledBricks();
   if (float(filledNow) > kWorthKeeping * float(filled)) parts.keepFields(now);
 }
 Bones::~Bones() = default;
 Bones::Bones(Bones&&) noexcept = default;
 
-std::uint32_t Bones::partCount() const {
-  return std::uint32_t(state_->solids.size());
-}
-JointId Bones::jointOf(std::uint32_t part) const {
-  return {std::uint16_t(state_->solids[part].joint)};
-}
-std::size_t Bones::restContactCount() const {
-  return state_->restContacts;
-}
+std::uint32_t Bones::partCount() const { return std::uint32_t(state_->solids.size()); }
+JointId Bones::jointOf(std::uint32_t part) const { return {std::uint16_t(state_->solids[part].joint)}; }
+std::size_t Bones::restContactCount() const { return state_->restContacts; }
 std::size_t Bones::bytes() const {
   std::size_t sum = 0;
   for (const State::Solid& solid : state_->solids) sum += solid.field.bytes();

@@ -12,24 +12,25 @@ namespace vasa {
 /// A place of a tube in a bone or the heart, or through the skin, deeper than at rest.
 struct BoneContact {
   std::uint32_t tube = 0, part = 0;
-  float s = 0;         ///< on the tube: one of a few parameters, the same in every pose
-  float f = 0;         ///< [m] signed distance of the centre line from the surface, less the radius there
-  float allowed = 0;   ///< [m] <= 0: the least f of this tube and this part at rest, where that is negative
-  vec3 point{0};       ///< as far from the centre line along the normal as that should be: n · (C(s) - point) >= r
-  vec3 normal{0};      ///< unit, the way out there
+  float s = 0;        ///< on the tube: one of a few parameters, the same in every pose
+  float f = 0;        ///< [m] signed distance of the centre line from the surface, less the radius there
+  float allowed = 0;  ///< [m] <= 0: the least f of this tube and this part at rest, where that is negative
+  vec3 point{0};  ///< as far from the centre line along the normal as that should be: n · (C(s) - point) >= r
+  vec3 normal{0};                          ///< unit, the way out there
   vec3 nearestPoint{0}, nearestNormal{0};  ///< the same by the nearest surface, whichever side that is
   /// Deeper than at rest by more than rounding.
   bool enters() const { return allowed - f > (allowed < 0 ? kRestTolerance : 0); }
 };
 
-/// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint that
-/// carries them. A part is rigid, so its distance field is made once, and tubes are looked at from the joint; the
-/// field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the joint with the
-/// largest weight at its first corner.
+/// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint
+/// that carries them. A part is rigid, so its distance field is made once, and tubes are looked at from the
+/// joint; the field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the
+/// joint with the largest weight at its first corner.
 ///
-/// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way to where
-/// the tube was in the pose before, as the part sees it, leaves the part, so that a vessel is not pushed through a
-/// bone. Where that way leads into another part and the nearest surface's does not, the nearest surface's is taken.
+/// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way
+/// to where the tube was in the pose before, as the part sees it, leaves the part, so that a vessel is not
+/// pushed through a bone. Where that way leads into another part and the nearest surface's does not, the
+/// nearest surface's is taken.
 class Bones {
  public:
   /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
@@ -45,7 +46,8 @@ class Bones {
   /// Places where tubes enter a part; sorted by tube, part and parameter. Tubes are
   /// looked at in four to seven places. Parallel.
   /// @param last   the tubes in the pose before
-  /// @param which  all tubes, or only those that were within a field's band when all were looked at last, and those that
+  /// @param which  all tubes, or only those that were within a field's band when all were looked at last, and
+  /// those that
   ///               were moved far since: what a round of corrections can bring into a bone, much faster
   enum class Which { all, nearAtLast };
   /// @param anew   a tube each: 1 where the way out is to the side of a part on which it was at rest; or none
@@ -54,7 +56,7 @@ class Bones {
 
   std::uint32_t partCount() const;
   JointId jointOf(std::uint32_t part) const;  ///< that carries a part
-  std::size_t restContactCount() const;  ///< tubes and parts that overlap at rest
+  std::size_t restContactCount() const;       ///< tubes and parts that overlap at rest
   std::size_t bytes() const;
 
  private:

@@ -9,7 +9,8 @@ Certificate certify(Interference& interference, std::span<const vec4> points,
   return certificateOf(interference.find(points), interfering);
 }
 
-Certificate certificateOf(std::span<const Interference::Place> places, std::vector<Interference::Place>* interfering) {
+Certificate certificateOf(std::span<const Interference::Place> places,
+                          std::vector<Interference::Place>* interfering) {
   Certificate certificate;
   if (interfering) interfering->clear();
   for (const Interference::Place& place : places) {

@@ -9,23 +9,24 @@
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
-// so that z is always the minimiser for the present multipliers. α is a little compliance: where there is no room the
-// multipliers stay finite.
+// so that z is always the minimiser for the present multipliers. α is a little compliance: where there is no
+// room the multipliers stay finite.
 namespace vasa {
 namespace {
 
-constexpr float kCompliance = 1e-3f;      // α as a share of a·g
-constexpr float kSettled = 1e-6f;         // [m]
-constexpr float kClearanceShare = 0.02f;  // of the sum of the radii
-constexpr float kLeastClearance = 1e-5f;  // [m]
-constexpr float kBoneClearance = 1e-4f;   // [m]
-constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
-constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
-constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
+constexpr float kCompliance = 1e-3f;           // α as a share of a·g
+constexpr float kSettled = 1e-6f;              // [m]
+constexpr float kClearanceShare = 0.02f;       // of the sum of the radii
+constexpr float kLeastClearance = 1e-5f;       // [m]
+constexpr float kBoneClearance = 1e-4f;        // [m]
+constexpr float kSameParameter = 0.04f;        // constraints of one pair closer than this in s and t are one
+constexpr float kSameDirection = 0.98f;        // ... if their normals are about the same too
+constexpr float kSameWay = 0.7f;               // ... of a bone, whose planes turn
 constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::carried)
-constexpr float kNegligible = 2e-6f;      // [m] of violation
-constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
-constexpr float kReach = 10;              // how far a multiplier may push on its own: times what is lacking and the radii
+constexpr float kNegligible = 2e-6f;           // [m] of violation
+constexpr float kLeastDiagonal = 1e-4f;        // below it nothing that may move can mend the place
+// How far a multiplier may push on its own: times what is lacking and the radii.
+constexpr float kReach = 10;
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
@@ -33,11 +34,10 @@ vec3 unitOr(vec3 v, vec3 otherwise) {
   return length > 1e-9f ? v / length : otherwise;
 }
 
-float widestOf(const Bezier& tube) {
-  return std::max({tube.b[0].w, tube.b[1].w, tube.b[2].w, tube.b[3].w});
-}
+float widestOf(const Bezier& tube) { return std::max({tube.b[0].w, tube.b[1].w, tube.b[2].w, tube.b[3].w}); }
 
-// The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared distance.
+// The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared
+// distance.
 float nearestParameter(const Bezier& tube, vec3 p) {
   float best = 0, least = std::numeric_limits<float>::infinity();
   for (int k = 0; k <= 8; ++k) {
@@ -45,16 +45,18 @@ float nearestParameter(const Bezier& tube, vec3 p) {
     if (glm::dot(gap, gap) < least) least = glm::dot(gap, gap), best = float(k) / 8;
   }
   for (int step = 0; step < 3; ++step) {
-    const vec3 gap = vec3(tube.at(best)) - p, first(tube.derivative(best)), second(tube.secondDerivative(best));
-    const float speed = glm::dot(first, first), curvature = std::max(speed + glm::dot(gap, second), 0.2f * speed);
+    const vec3 gap = vec3(tube.at(best)) - p, first(tube.derivative(best)),
+               second(tube.secondDerivative(best));
+    const float speed = glm::dot(first, first),
+                curvature = std::max(speed + glm::dot(gap, second), 0.2f * speed);
     if (!(curvature > 0)) break;
     best = std::clamp(best - glm::dot(gap, first) / curvature, 0.0f, 1.0f);
   }
   return best;
 }
 
-// Which way to part two tubes: along their gap, unless they have come nearer than half of what is asked for or passed
-// through one another since they were last apart; then towards the side on which they were.
+// Which way to part two tubes: along their gap, unless they have come nearer than half of what is asked for
+// or passed through one another since they were last apart; then towards the side on which they were.
 vec3 wayApart(vec3 gap, vec3 before, float distance, vec3 otherwise) {
   const float sure = std::min(glm::length(before) / (0.5f * distance), 1.0f);
   const vec3 side = unitOr(before, vec3(0));
@@ -82,7 +84,8 @@ vec3 ContactPool::motionOf(const Constraint& constraint, std::span<const vec3> z
   return motion;
 }
 
-void ContactPool::begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const {
+void ContactPool::begin(Constraint& constraint, std::span<const Bezier> shape,
+                        std::span<const vec3> z) const {
   const vec4 a = shape[constraint.i].at(constraint.s);
   const vec4 b = constraint.isBone() ? vec4(constraint.point, 0) : shape[constraint.other].at(constraint.t);
   constraint.distance = a.w + b.w + constraint.clearance;
@@ -94,7 +97,8 @@ void ContactPool::refresh(std::span<const Bezier> shape, std::span<const vec3> z
 }
 
 float ContactPool::clearanceFor(const Constraint& at, float radii) const {
-  const vec4 restA = interference_->restTubes()[at.i].at(at.s), restB = interference_->restTubes()[at.other].at(at.t);
+  const vec4 restA = interference_->restTubes()[at.i].at(at.s),
+             restB = interference_->restTubes()[at.other].at(at.t);
   const float atRest = glm::distance(vec3(restA), vec3(restB)) - restA.w - restB.w;
   const float wanted = std::max(kClearanceShare * radii, kLeastClearance);
   return std::min(wanted, atRest < 0 ? atRest : std::max(atRest, kLeastClearance));
@@ -103,7 +107,8 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
 // Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at
 // rest; where that is the less sure, the farther they were apart then, not quite to where it counts as
 // another side.
-bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Constraint& constraint) const {
+bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
+                            Constraint& constraint) const {
   const auto [i, j, s, t, f, contactNormal] = contact;
   const vec3 side = sides_->carried({i, j, s, t}, shape, last.rotations);
   const float sure = glm::length(side);
@@ -117,7 +122,8 @@ bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shap
   return a.w + b.w + constraint.clearance - glm::dot(constraint.normal, gap) > kNegligible;
 }
 
-void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found) {
+void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
+                          Proposals& found) {
   const auto [i, j, contactS, contactT, f, contactNormal] = contact;
   if (f > std::max(kClearanceShare * (widestOf(shape[i]) + widestOf(shape[j])), kLeastClearance)) return;
   std::array<std::pair<float, float>, kSamples.size() + 1> where{{{contactS, contactT}}};
@@ -141,10 +147,10 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
     const auto isHere = [&](const Constraint& other) {
-      return std::abs(other.s - constraint.s) < kSameParameter && std::abs(other.t - constraint.t) < kSameParameter;
+      return std::abs(other.s - constraint.s) < kSameParameter &&
+             std::abs(other.t - constraint.t) < kSameParameter;
     };
-    if (std::ranges::any_of(own, isHere) || known(constraint, kSameDirection))
-      continue;
+    if (std::ranges::any_of(own, isHere) || known(constraint, kSameDirection)) continue;
     found.constraints[found.count++] = constraint;
   }
 }
@@ -176,7 +182,8 @@ void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, st
   constraints_.push_back(constraint);
 }
 
-void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z) {
+void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape,
+                           const LastShape& last, std::span<const vec3> z) {
   const std::size_t before = constraints_.size();
   for (const Contact& contact : changed)
     if (Constraint constraint; wouldRoll(contact, shape, last, constraint)) take(constraint, shape, z);
@@ -201,8 +208,13 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
   const std::size_t before = constraints_.size();
   for (const BoneContact& place : bones) {
     const float radius = shape[place.tube].at(place.s).w;
-    Constraint constraint{.i = place.tube, .other = Constraint::kBone | place.part, .s = place.s, .normal = place.normal, .point = place.point};
-    constraint.clearance = place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
+    Constraint constraint{.i = place.tube,
+                          .other = Constraint::kBone | place.part,
+                          .s = place.s,
+                          .normal = place.normal,
+                          .point = place.point};
+    constraint.clearance =
+        place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
     constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
     // A bone's surface is not flat: the plane goes along with the place, and takes its push along.
     if (Constraint* own = known(constraint, kSameWay)) {
@@ -215,7 +227,8 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
     }
   }
   for (Proposals& proposals : std::span(proposals_).first(places.size()))
-    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count)) take(constraint, shape, z);
+    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count))
+      take(constraint, shape, z);
   const std::size_t added = constraints_.size() - before;
   sortIn(before);
   return added;
@@ -229,9 +242,11 @@ void ContactPool::push(const Constraint& constraint, vec3 force, std::span<vec3>
 
 // Returns how far that moved the place.
 float ContactPool::ascend(Constraint& constraint, std::span<vec3> z) {
-  const float diagonal = constraint.row.diagonal, present = constraint.start + glm::dot(constraint.normal, motionOf(constraint, z));
+  const float diagonal = constraint.row.diagonal,
+              present = constraint.start + glm::dot(constraint.normal, motionOf(constraint, z));
   const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
-  const float step = std::clamp(lack / ((1 + kCompliance) * diagonal), -constraint.multiplier, std::max(constraint.limit - constraint.multiplier, 0.0f));
+  const float step = std::clamp(lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
+                                std::max(constraint.limit - constraint.multiplier, 0.0f));
   if (step == 0) return 0;
   constraint.multiplier += step;
   push(constraint, step * constraint.normal, z);

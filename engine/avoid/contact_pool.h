@@ -10,46 +10,50 @@
 
 namespace vasa {
 
-/// The last admissible shape, seen from the present pose: what decides on which side of one another vessels lie.
+/// The last admissible shape, seen from the present pose: what decides on which side of one another vessels
+/// lie.
 struct LastShape {
-  std::span<const Bezier> tubes;  ///< as they were accepted
-  std::span<const quat> turns;    ///< how each tube's surroundings turned since then
+  std::span<const Bezier> tubes;    ///< as they were accepted
+  std::span<const quat> turns;      ///< how each tube's surroundings turned since then
   std::span<const quat> rotations;  ///< how each point's surroundings turned since rest
   std::span<const char> anew;       ///< a tube each: 1 where the shape at rest decides instead
 };
 
-/// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes; or a fixed point of a bone in place of C_j.
+/// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes; or a fixed point of a bone in
+/// place of C_j.
 struct Constraint {
-  std::uint32_t i = 0;       ///< tube
-  std::uint32_t other = 0;   ///< the other tube, or kBone and the bone's part
+  std::uint32_t i = 0;      ///< tube
+  std::uint32_t other = 0;  ///< the other tube, or kBone and the bone's part
   float s = 0, t = 0;
-  vec3 normal{0};            ///< unit, from the other to i
-  vec3 point{0};             ///< of the bone
-  float clearance = 0;       ///< [m] more than the radii; less where there was less at rest
-  float distance = 0;        ///< [m] radii and clearance
-  float start = 0;           ///< n · (C_i(s) - C_j(t)) where all variables are 0
-  float multiplier = 0;      ///< >= 0
-  float limit = 0;           ///< of the multiplier
+  vec3 normal{0};        ///< unit, from the other to i
+  vec3 point{0};         ///< of the bone
+  float clearance = 0;   ///< [m] more than the radii; less where there was less at rest
+  float distance = 0;    ///< [m] radii and clearance
+  float start = 0;       ///< n · (C_i(s) - C_j(t)) where all variables are 0
+  float multiplier = 0;  ///< >= 0
+  float limit = 0;       ///< of the multiplier
   MotionSpace::Row row;
   bool isBone() const { return other >= kBone; }
   static constexpr std::uint32_t kBone = 0x80000000u;
 };
 
-/// What holds vessels apart and out of bones in one step. Constraints only ever become more, and keep their multipliers.
+/// What holds vessels apart and out of bones in one step. Constraints only ever become more, and keep their
+/// multipliers.
 class ContactPool {
  public:
   /// All must outlive this.
   ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
   void clear();
-  /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes that run
-  /// side by side, at some more. @param shape  in which they were found @param z  its variables
+  /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes
+  /// that run side by side, at some more. @param shape  in which they were found @param z  its variables
   /// @return how many were added
   std::size_t add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
                   std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z);
 
   /// Turns vessels back that have rolled around one another. @param changed  RestSides::findChanged
-  void addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last, std::span<const vec3> z);
+  void addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last,
+                std::span<const vec3> z);
 
   /// To be called before add() in every round: distances for the radii of the given shape.
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
@@ -66,8 +70,10 @@ class ContactPool {
     std::size_t count = 0;
   };
   float clearanceFor(const Constraint& at, float radii) const;
-  bool wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Constraint& constraint) const;
-  void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last, Proposals& found);
+  bool wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
+                 Constraint& constraint) const;
+  void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
+               Proposals& found);
   Constraint* known(const Constraint& wanted, float cosine);
   void push(const Constraint& constraint, vec3 force, std::span<vec3> z) const;
   void take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z);

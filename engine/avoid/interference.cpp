@@ -13,9 +13,10 @@ namespace vasa {
 namespace {
 
 constexpr float kNearAtRest = 0.005f;  // [m]
-constexpr double kExact = 1e-8;         // [m]
+constexpr double kExact = 1e-8;        // [m]
 
-// Newton steps from the nearest chords may end in another local minimum than the one for which the pair was reported.
+// Newton steps from the nearest chords may end in another local minimum than the one for which the pair was
+// reported.
 Contact deepest(const Contact& contact, std::span<const Bezier> tubes, float margin = 0) {
   if (contact.f < margin) return contact;
   Contact found = closestOfTubes(tubes[contact.i], tubes[contact.j], kExact);
@@ -26,13 +27,15 @@ Contact deepest(const Contact& contact, std::span<const Bezier> tubes, float mar
 // By control points, at most; wider counts, too.
 float farthestMoved(const Bezier& a, const Bezier& b) {
   float most = 0;
-  for (int k = 0; k < 4; ++k) most = std::max(most, glm::distance(vec3(a.b[k]), vec3(b.b[k])) + std::abs(a.b[k].w - b.b[k].w));
+  for (int k = 0; k < 4; ++k)
+    most = std::max(most, glm::distance(vec3(a.b[k]), vec3(b.b[k])) + std::abs(a.b[k].w - b.b[k].w));
   return most;
 }
 
 }  // namespace
 
-Interference::Interference(const Network& network) : layout_(network), rest_(layout_.count()), tubes_(layout_.count()) {
+Interference::Interference(const Network& network)
+    : layout_(network), rest_(layout_.count()), tubes_(layout_.count()) {
   layout_.shape(network.points(), rest_);
   tubes_ = rest_;
   detector_ = std::make_unique<TubeDetector>(rest_, layout_.neighbours().exclusions());
@@ -47,7 +50,8 @@ std::vector<Contact> Interference::findNearAtRest() {
   detector_->update(rest_, kNearAtRest);
   if (detector_->detect().empty()) return near;
   for (const Contact& contact : detector_->contacts())
-    if (contact.f < rest_[contact.i].at(contact.s).w + rest_[contact.j].at(contact.t).w) near.push_back(contact);
+    if (contact.f < rest_[contact.i].at(contact.s).w + rest_[contact.j].at(contact.t).w)
+      near.push_back(contact);
   return near;
 }
 
@@ -63,15 +67,19 @@ void Interference::gather(float margin) {
     if (contact.f < margin) places_.push_back({contact, allowed({contact.i, contact.j})});
 }
 
-std::span<const Interference::Place> Interference::find(std::span<const vec4> points, float margin, bool beginsToFollow) {
+std::span<const Interference::Place> Interference::find(std::span<const vec4> points, float margin,
+                                                        bool beginsToFollow) {
   layout_.shape(points, tubes_);
   const float within = beginsToFollow ? std::max(kFollowed, margin) : margin;
   detector_->update(tubes_, within);
   near_.clear();
   if (!detector_->detect().empty())
-    for (const Contact& contact : detector_->contacts()) near_.push_back(beginsToFollow ? contact : deepest(contact, tubes_, margin));
-  if (beginsToFollow) tubesThen_ = tubes_;
-  else tubesThen_.clear();
+    for (const Contact& contact : detector_->contacts())
+      near_.push_back(beginsToFollow ? contact : deepest(contact, tubes_, margin));
+  if (beginsToFollow)
+    tubesThen_ = tubes_;
+  else
+    tubesThen_.clear();
   gather(margin);
   return places_;
 }
@@ -85,7 +93,8 @@ std::span<const Interference::Place> Interference::follow(std::span<const vec4> 
   std::atomic<bool> tooFar{false};
   parallelFor(tubes_.size(), 512, [&](std::size_t tube) {
     moved_[tube] = tubes_[tube].b != lastTubes_[tube].b;
-    if (moved_[tube] && farthestMoved(tubes_[tube], tubesThen_[tube]) > 0.5f * (kFollowed - margin)) tooFar.store(true, std::memory_order_relaxed);
+    if (moved_[tube] && farthestMoved(tubes_[tube], tubesThen_[tube]) > 0.5f * (kFollowed - margin))
+      tooFar.store(true, std::memory_order_relaxed);
   });
   if (tooFar) return find(points, margin, true);
   parallelFor(near_.size(), 64, [&](std::size_t k) {

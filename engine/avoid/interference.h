@@ -8,18 +8,19 @@
 
 namespace vasa {
 
-/// A pair that overlaps at rest may be deeper by so much before it counts [m]: network files round coordinates and
-/// radii by up to 15 µm, so that is how well the depth at rest is known.
+/// A pair that overlaps at rest may be deeper by so much before it counts [m]: network files round
+/// coordinates and radii by up to 15 µm, so that is how well the depth at rest is known.
 constexpr float kRestTolerance = 2e-5f;
 
-/// [m] How near tubes are to one another that are followed: more than what one round of a solver moves two by, less than
-/// what makes many pairs.
+/// [m] How near tubes are to one another that are followed: more than what one round of a solver moves two
+/// by, less than what makes many pairs.
 constexpr float kFollowed = 5e-4f;
 
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///
-/// Tubes near one another along the network (collide/neighbours.h) are left out: they belong together. Two other tubes
-/// that overlap at rest may stay as deep as they are there, no deeper: `allowed` is their f at rest.
+/// Tubes near one another along the network (collide/neighbours.h) are left out: they belong together. Two
+/// other tubes that overlap at rest may stay as deep as they are there, no deeper: `allowed` is their f at
+/// rest.
 class Interference {
  public:
   /// @param network  must outlive this
@@ -39,9 +40,10 @@ class Interference {
   /// @param beginsToFollow  for follow(), which then needs no second look at most pairs
   std::span<const Place> find(std::span<const vec4> points, float margin = 0, bool beginsToFollow = false);
 
-  /// The same as find() while a shape is changed bit by bit: pairs that were within kReach at the last find(points, margin,
-  /// true) are followed from one nearest place to the next, and only where one of the two has moved. Where a tube has moved
-  /// so far since that another may have come near, all is looked at again. O(pairs that moved)
+  /// The same as find() while a shape is changed bit by bit: pairs that were within kReach at the last
+  /// find(points, margin, true) are followed from one nearest place to the next, and only where one of the
+  /// two has moved. Where a tube has moved so far since that another may have come near, all is looked at
+  /// again. O(pairs that moved)
   std::span<const Place> follow(std::span<const vec4> points, float margin);
 
   /// A pair's f at rest [m], where that is negative; otherwise 0.
@@ -54,8 +56,8 @@ class Interference {
   /// Pairs that overlap at rest, and pairs that are left out as neighbours.
   std::size_t restPairCount() const { return restPairs_.size(); }
   std::size_t neighbourCount() const { return layout_.neighbours().pairs().size(); }
-  /// Pairs that lay near one another at rest: no further apart than the sum of their radii, nor 5 mm. With the places
-  /// where they came nearest, sorted by pair. Ends what find() has returned.
+  /// Pairs that lay near one another at rest: no further apart than the sum of their radii, nor 5 mm. With
+  /// the places where they came nearest, sorted by pair. Ends what find() has returned.
   std::vector<Contact> findNearAtRest();
 
  private:
@@ -70,10 +72,10 @@ class Interference {
   std::unique_ptr<TubeDetector> detector_;
   std::vector<RestPair> restPairs_;  // sorted
   std::vector<Place> places_;
-  std::vector<Contact> near_;        // within kReach when all was looked at last, and kept up to date since
-  std::vector<Bezier> tubesThen_;    // the shape in which it was
+  std::vector<Contact> near_;      // within kReach when all was looked at last, and kept up to date since
+  std::vector<Bezier> tubesThen_;  // the shape in which it was
   std::vector<Bezier> lastTubes_;
-  std::vector<char> moved_;          // since the last look, a tube each
+  std::vector<char> moved_;  // since the last look, a tube each
 };
 
 }  // namespace vasa

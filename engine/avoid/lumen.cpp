@@ -27,8 +27,10 @@ struct Narrower {
     const Vessel& vessel = network.vessel(at.vessel);
     for (std::uint32_t l = at.span; l < at.span + 4; ++l) {
       const NodeId node = l == 0 ? vessel.start : l + 1 == vessel.pointCount ? vessel.end : NodeId{};
-      if (!node.valid()) point(vessel.firstPoint + l, factor);
-      else if (ringsToo) ring(node, factor);
+      if (!node.valid())
+        point(vessel.firstPoint + l, factor);
+      else if (ringsToo)
+        ring(node, factor);
     }
   }
 };
@@ -36,7 +38,8 @@ struct Narrower {
 }  // namespace
 
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most) {
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo,
+            std::span<float> most) {
   const Narrower narrower{network, points, most};
   for (const Interference::Place& place : places) {
     const Contact& contact = place.contact;
@@ -49,15 +52,18 @@ void narrow(const Network& network, const NetworkTubes& layout, std::span<const 
 }
 
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const BoneContact> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most) {
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo,
+            std::span<float> most) {
   const Narrower narrower{network, points, most};
   for (const BoneContact& place : places) {
     const float radius = shape[place.tube].at(place.s).w;
-    narrower.tube(layout.address(place.tube), std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), ringsToo);
+    narrower.tube(layout.address(place.tube),
+                  std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), ringsToo);
   }
 }
 
-std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before, std::span<const vec4> points) {
+std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before,
+                                      std::span<const vec4> points) {
   std::vector<NarrowPlace> found;
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];

@@ -18,20 +18,23 @@ struct NarrowPlace {
 /// How thin a vessel may become: a share of its radius at rest.
 constexpr float kLeastLumen = 0.25f;
 
-/// Lowers what radii may be at each place, in both tubes, as far as the place asks for and kLeastLumen lets it. Points
-/// at nodes keep their radius unless `ringsToo`, and then all that share one get the same.
+/// Lowers what radii may be at each place, in both tubes, as far as the place asks for and kLeastLumen lets
+/// it. Points at nodes keep their radius unless `ringsToo`, and then all that share one get the same.
 /// @param places  that interfere (avoid/certificate.h)
 /// @param shape   the tubes in which they were found
 /// @param points  the network with them
 /// @param most    the largest radius a point may have, one a point
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most);
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo,
+            std::span<float> most);
 
 /// The same where a bone leaves a tube too little room.
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const BoneContact> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo, std::span<float> most);
+            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo,
+            std::span<float> most);
 
 /// Spans one of whose points is thinner than in `before`, in order.
-std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before, std::span<const vec4> points);
+std::vector<NarrowPlace> narrowPlaces(const Network& network, std::span<const vec4> before,
+                                      std::span<const vec4> points);
 
 }  // namespace vasa

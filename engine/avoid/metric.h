@@ -5,9 +5,9 @@
 
 namespace vasa {
 
-/// What a correction of one vessel's points costs: ½ zᵀ W z with W = I + β D2ᵀ D2 (D2: second differences along the
-/// vessel), so that a vessel is pushed aside in one smooth bow and not dented. A fixed end counts as z = 0 on and
-/// beyond it. Pentadiagonal, factored once (L D Lᵀ).
+/// What a correction of one vessel's points costs: ½ zᵀ W z with W = I + β D2ᵀ D2 (D2: second differences
+/// along the vessel), so that a vessel is pushed aside in one smooth bow and not dented. A fixed end counts
+/// as z = 0 on and beyond it. Pentadiagonal, factored once (L D Lᵀ).
 class BendingMetric {
  public:
   /// @param count  points that may move, at least 0
@@ -21,8 +21,8 @@ class BendingMetric {
   struct Range {
     std::uint32_t first, last;  ///< half open
   };
-  /// The same where only x[given] is not 0: W⁻¹ falls off within some points, and what is below `negligible` of the
-  /// largest value is left 0. Returns where x is not 0. O(result).
+  /// The same where only x[given] is not 0: W⁻¹ falls off within some points, and what is below `negligible`
+  /// of the largest value is left 0. Returns where x is not 0. O(result).
   Range solveNear(std::span<float> x, Range given, float negligible) const;
   /// zᵀ W z of any z, for a given bending weight: what carrying a shape along costs.
   static float energy(std::span<const float> z, float beta);

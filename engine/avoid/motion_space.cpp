@@ -6,9 +6,9 @@
 namespace vasa {
 namespace {
 
-constexpr float kSmallestWeight = 1e-3f;     // what a place owes to hosts of hosts is followed down to this
+constexpr float kSmallestWeight = 1e-3f;  // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
-constexpr float kSamePace = 1.0001f;         // of what is allowed: above rounding
+constexpr float kSamePace = 1.0001f;                 // of what is allowed: above rounding
 constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
 float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
@@ -49,12 +49,15 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::u
   std::size_t longest = 0;
   for (const Vessel& vessel : network.vessels()) longest = std::max<std::size_t>(longest, vessel.pointCount);
   work_.assign(longest, 0);
-  const std::vector<float> masses = byMass ? relativeMasses(network) : std::vector<float>(network.vessels().size(), 1.0f);
+  const std::vector<float> masses =
+      byMass ? relativeMasses(network) : std::vector<float>(network.vessels().size(), 1.0f);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];
     const bool start = vessel.start.valid(), end = vessel.end.valid();
-    blocks_.push_back({vessel.firstPoint + (start ? 1u : 0u),
-                       BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta), 1 / masses[v]});
+    blocks_.push_back(
+        {vessel.firstPoint + (start ? 1u : 0u),
+         BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta),
+         1 / masses[v]});
     const auto startShare = std::span(startShare_).subspan(vessel.firstPoint, vessel.pointCount);
     const auto endShare = std::span(endShare_).subspan(vessel.firstPoint, vessel.pointCount);
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
@@ -67,16 +70,19 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::u
   }
 }
 
-void MotionSpace::addPlace(VesselId vessel, std::uint32_t span, float t, float weight, std::vector<Term>& terms) const {
+void MotionSpace::addPlace(VesselId vessel, std::uint32_t span, float t, float weight,
+                           std::vector<Term>& terms) const {
   const Vessel& own = network_->vessel(vessel);
   const vec4 weights = deBoorWeights(span, own.spanCount(), t);
   for (std::uint32_t l = 0; l < 4; ++l) addPoint(own, span + l, weight * weights[int(l)], terms);
 }
 
-void MotionSpace::addPoint(const Vessel& vessel, std::uint32_t local, float weight, std::vector<Term>& terms) const {
+void MotionSpace::addPoint(const Vessel& vessel, std::uint32_t local, float weight,
+                           std::vector<Term>& terms) const {
   if (std::abs(weight) < kSmallestWeight) return;
   const std::uint32_t point = vessel.firstPoint + local;
-  const bool fixed = (local == 0 && vessel.start.valid()) || (local + 1 == vessel.pointCount && vessel.end.valid());
+  const bool fixed =
+      (local == 0 && vessel.start.valid()) || (local + 1 == vessel.pointCount && vessel.end.valid());
   if (!fixed) terms.push_back({point, weight});
   if (startShare_[point] > 0) addNode(vessel.start, weight * startShare_[point], terms);
   if (endShare_[point] > 0) addNode(vessel.end, weight * endShare_[point], terms);
@@ -95,10 +101,13 @@ MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
     return a.variable != b.variable ? a.variable < b.variable : a.weight < b.weight;
   });
-  Row row{std::uint32_t(rows.terms.size()), 0, std::uint32_t(rows.runs.size()), 0, std::uint32_t(rows.responses.size())};
+  Row row{std::uint32_t(rows.terms.size()), 0, std::uint32_t(rows.runs.size()), 0,
+          std::uint32_t(rows.responses.size())};
   for (const Term& term : terms) {
-    if (row.termCount > 0 && rows.terms.back().variable == term.variable) rows.terms.back().weight += term.weight;
-    else rows.terms.push_back(term), ++row.termCount;
+    if (row.termCount > 0 && rows.terms.back().variable == term.variable)
+      rows.terms.back().weight += term.weight;
+    else
+      rows.terms.push_back(term), ++row.termCount;
   }
   const std::span<const Term> own = rows.termsOf(row);
   for (std::size_t k = 0; k < own.size();) {
@@ -154,11 +163,13 @@ void MotionSpace::moveNodes(std::span<const vec3> z) {
 void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
   moveNodes(z);
   for (const Vessel& vessel : network_->vessels())
-    for (std::uint32_t l = 0; l < vessel.pointCount; ++l) points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z), 0);
+    for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
+      points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z), 0);
   pinEnds(*network_, points);
 }
 
-void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, const std::function<float(std::uint32_t, float)>& allowed) {
+void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z,
+                           const std::function<float(std::uint32_t, float)>& allowed) {
   difference_.resize(z.size());
   for (std::size_t v = 0; v < z.size(); ++v) difference_[v] = z[v] - other[v];
   const auto shorten = [&](vec3& variable, std::uint32_t point, vec3 motion) {
@@ -175,13 +186,15 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, const
     vec3& motion = difference_[pointCount_ + n];
     shorten(motion, vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0), motion);
   }
-  // What hangs on a vessel's side goes along with it, so that is known only once its host has been drawn nearer.
+  // What hangs on a vessel's side goes along with it, so that is known only once its host has been drawn
+  // nearer.
   for (bool again = true; again;) {
     again = false;
     moveNodes(difference_);
     for (const Vessel& vessel : network_->vessels())
       for (std::uint32_t l = vessel.start.valid(); l + vessel.end.valid() < vessel.pointCount; ++l)
-        again |= shorten(difference_[vessel.firstPoint + l], vessel.firstPoint + l, motionOf(vessel, l, difference_));
+        again |= shorten(difference_[vessel.firstPoint + l], vessel.firstPoint + l,
+                         motionOf(vessel, l, difference_));
   }
   for (std::size_t v = 0; v < z.size(); ++v) z[v] = other[v] + difference_[v];
 }

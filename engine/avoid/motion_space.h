@@ -10,20 +10,23 @@ namespace vasa {
 
 /// How vessels may be pushed aside without coming apart. A point p of a vessel moves by
 ///   Δq_p = z_p + φ_start(p) Δ(start node) + φ_end(p) Δ(end node),
-/// where z is free but 0 at an end that hangs on a node, and φ falls smoothly from 1 at the node to 0 some points on.
-/// A node on a host's side moves as the host's centre line there; any other node has a variable of its own. Whatever
-/// z is, every end stays on its node, and what branches off goes along. The price of a motion, ½ zᵀ W z, falls apart
-/// into one banded matrix a vessel and one number a node. The network must outlive it; one object serves one caller.
+/// where z is free but 0 at an end that hangs on a node, and φ falls smoothly from 1 at the node to 0 some
+/// points on. A node on a host's side moves as the host's centre line there; any other node has a variable of
+/// its own. Whatever z is, every end stays on its node, and what branches off goes along. The price of a
+/// motion, ½ zᵀ W z, falls apart into one banded matrix a vessel and one number a node. The network must
+/// outlive it; one object serves one caller.
 class MotionSpace {
  public:
-  /// @param byMass  what a motion costs grows with what it moves: the volume that belongs to a point, by the median
+  /// @param byMass  what a motion costs grows with what it moves: the volume that belongs to a point, by the
+  /// median
   /// @param carried  >= 1: over so many points φ falls to 0
   explicit MotionSpace(const Network& network, float beta, bool byMass = false, std::uint32_t carried = 8);
 
   /// One number a point, then one a node; those of fixed ends and hosted nodes stay 0.
   std::uint32_t variableCount() const { return std::uint32_t(pointCount_ + nodeWeight_.size()); }
 
-  /// A linear function of the variables, the same for x, y and z, with its W⁻¹ times: what a force on it does.
+  /// A linear function of the variables, the same for x, y and z, with its W⁻¹ times: what a force on it
+  /// does.
   struct Term {
     std::uint32_t variable;
     float weight;
@@ -41,14 +44,18 @@ class MotionSpace {
     std::vector<Run> runs;
     std::vector<float> responses;
     void clear() { terms.clear(), runs.clear(), responses.clear(); }
-    std::span<const Term> termsOf(const Row& row) const { return std::span(terms).subspan(row.firstTerm, row.termCount); }
-    std::span<const Run> runsOf(const Row& row) const { return std::span(runs).subspan(row.firstRun, row.runCount); }
+    std::span<const Term> termsOf(const Row& row) const {
+      return std::span(terms).subspan(row.firstTerm, row.termCount);
+    }
+    std::span<const Run> runsOf(const Row& row) const {
+      return std::span(runs).subspan(row.firstRun, row.runCount);
+    }
   };
 
   /// Adds weight · C(vessel at span, t) to a row's terms.
   void addPlace(VesselId vessel, std::uint32_t span, float t, float weight, std::vector<Term>& terms) const;
-  /// Makes a row of some terms, which it sorts and joins: its response and diagonal. Responses below a thousandth of
-  /// the largest are left out. O(points the response reaches).
+  /// Makes a row of some terms, which it sorts and joins: its response and diagonal. Responses below a
+  /// thousandth of the largest are left out. O(points the response reaches).
   Row finish(std::vector<Term>& terms, Rows& rows) const;
 
   /// points += Δq(z), ends exactly on their nodes; radii stay. @param z  variableCount()
@@ -56,7 +63,8 @@ class MotionSpace {
 
   /// Draws z nearer to another motion where a point would be farther from it than it may.
   /// @param allowed  (point, distance [m]) -> what it may be; for a node, that of an end there
-  void keepNear(std::span<const vec3> other, std::span<vec3> z, const std::function<float(std::uint32_t, float)>& allowed);
+  void keepNear(std::span<const vec3> other, std::span<vec3> z,
+                const std::function<float(std::uint32_t, float)>& allowed);
 
  private:
   struct Block {
@@ -71,11 +79,11 @@ class MotionSpace {
 
   const Network* network_;
   std::size_t pointCount_;
-  std::vector<Block> blocks_;              // a vessel each
-  std::vector<std::uint32_t> vesselOf_;    // of a point
+  std::vector<Block> blocks_;                 // a vessel each
+  std::vector<std::uint32_t> vesselOf_;       // of a point
   std::vector<float> startShare_, endShare_;  // φ, one a point
-  std::vector<float> nodeWeight_;          // W of a node's own variable
-  mutable std::vector<float> work_;        // of the longest vessel, zero between calls
+  std::vector<float> nodeWeight_;             // W of a node's own variable
+  mutable std::vector<float> work_;           // of the longest vessel, zero between calls
   std::vector<vec3> nodeMotion_, difference_;
 };
 

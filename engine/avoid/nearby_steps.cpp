@@ -6,7 +6,8 @@
 namespace vasa {
 namespace {
 
-// A power of two, so that dividing by it rounds nothing; what is near lies in the same cell or a neighbouring one.
+// A power of two, so that dividing by it rounds nothing; what is near lies in the same cell or a neighbouring
+// one.
 constexpr float kCell = 0.0625f;
 
 // Places so far out that their cells have no number of their own share the outermost.

@@ -7,16 +7,16 @@
 
 namespace vasa {
 
-/// The longest step of anything near a place: how fast what is there may be moved aside without seeming to jump.
-/// A grid that is never laid out: places are sorted by the number of their cell, and within it by their step, so that the
-/// first one near enough is all that a cell has to say.
+/// The longest step of anything near a place: how fast what is there may be moved aside without seeming to
+/// jump. A grid that is never laid out: places are sorted by the number of their cell, and within it by their
+/// step, so that the first one near enough is all that a cell has to say.
 class NearbySteps {
  public:
   /// @param near  [m] <= 0.0625: places are near that differ by less along each axis
   explicit NearbySteps(float near) : near_(near) {}
 
-  /// From anew. @param least  [m] shorter steps are not told  @param stepOf  index -> (where it ends, its length [m])
-  /// O(count log count)
+  /// From anew. @param least  [m] shorter steps are not told  @param stepOf  index -> (where it ends, its
+  /// length [m]) O(count log count)
   template <class StepOf>
   void set(float least, std::size_t count, const StepOf& stepOf) {
     least_ = least;

@@ -5,21 +5,30 @@
 
 #include "avoid/lumen.h"
 
-// Each step solves the whole problem anew about the present shape, for all motion from rest and not for one more bit of it:
+// Each step solves the whole problem anew about the present shape, for all motion from rest and not for one
+// more bit of it:
 //   least ½ zᵀ W z   with   n · J z >= clearance - f + n · J z_now   at each place,
 // and goes most of the way there. J is the place's row: how far apart a motion brings the two centre lines.
 namespace vasa {
 namespace {
 
-constexpr float kBending = 0.3f;           // β: a bow of some two points to either side, so that little else is moved
-constexpr std::uint32_t kCarried = 2;      // points at a moved node that go along; each more takes a wide vessel's next 3 cm
-constexpr unsigned kSweeps = 20;           // a step; forces last, so that steps go on where the last one ended
-constexpr float kStep = 0.5f;              // of the way to the solution: normals turn as tubes pass one another
-constexpr float kFarthest = 0.006f;        // [m] the motion of a point: out of the side of a vessel as wide as a vena cava
-constexpr float kWatched = 0.0003f;        // [m] what lay against one another is still told when it swings back by so much
-constexpr float kLeastLeverage = 1e-4f;    // n · J W⁻¹ Jᵀ n: below, a place moves with what it should move from
-constexpr float kThinningStep = 0.2f;      // of what is lacking, so that motion can do the rest
-constexpr float kTaper = 0.3f;             // most that the share of a radius changes from one point to the next
+// Β: a bow of some two points to either side, so that little else is moved.
+constexpr float kBending = 0.3f;
+// Points at a moved node that go along; each more takes a wide vessel's next 3 cm.
+constexpr std::uint32_t kCarried = 2;
+// A step; forces last, so that steps go on where the last one ended.
+constexpr unsigned kSweeps = 20;
+// Of the way to the solution: normals turn as tubes pass one another.
+constexpr float kStep = 0.5f;
+// [m] the motion of a point: out of the side of a vessel as wide as a vena cava
+constexpr float kFarthest = 0.006f;
+// [m] what lay against one another is still told when it swings back by so much
+constexpr float kWatched = 0.0003f;
+// N · J W⁻¹ Jᵀ n: below, a place moves with what it should move from.
+constexpr float kLeastLeverage = 1e-4f;
+constexpr float kThinningStep = 0.2f;  // of what is lacking, so that motion can do the rest
+// Most that the share of a radius changes from one point to the next.
+constexpr float kTaper = 0.3f;
 
 }  // namespace
 
@@ -31,9 +40,7 @@ RestParting::RestParting(const Network& network, float clearance)
       shares_(network.points().size(), 1),
       points_(network.points().begin(), network.points().end()) {}
 
-float RestParting::watched() const {
-  return clearance_ + kWatched;
-}
+float RestParting::watched() const { return clearance_ + kWatched; }
 
 float RestParting::forceOf(TubePair tubes) const {
   const auto found = std::ranges::lower_bound(forces_, tubes, {}, &Force::tubes);
@@ -49,7 +56,8 @@ RestParting::Push RestParting::pushAt(const Contact& contact, const NetworkTubes
   vec3 moved(0);
   for (const MotionSpace::Term& term : rows_.termsOf(row)) moved += term.weight * z_[term.variable];
   const TubePair tubes{contact.i, contact.j};
-  return {row, tubes, contact.normal, clearance_ - contact.f + glm::dot(moved, contact.normal), forceOf(tubes)};
+  return {row, tubes, contact.normal, clearance_ - contact.f + glm::dot(moved, contact.normal),
+          forceOf(tubes)};
 }
 
 void RestParting::ascend(std::span<Push> pushes, std::span<vec3> z) const {
@@ -75,7 +83,8 @@ void RestParting::move(std::span<const Interference::Place> places, const Networ
   rows_.clear();
   std::vector<Push> pushes;
   for (const Interference::Place& place : places)
-    if (const Push push = pushAt(place.contact, layout); push.row.diagonal > kLeastLeverage) pushes.push_back(push);
+    if (const Push push = pushAt(place.contact, layout); push.row.diagonal > kLeastLeverage)
+      pushes.push_back(push);
   std::vector<vec3> wanted(z_.size(), vec3(0));
   ascend(pushes, wanted);
   forces_.clear();
@@ -87,9 +96,11 @@ void RestParting::move(std::span<const Interference::Place> places, const Networ
   shape();
 }
 
-void RestParting::thin(std::span<const Interference::Place> places, const NetworkTubes& layout, std::span<const Bezier> tubes) {
+void RestParting::thin(std::span<const Interference::Place> places, const NetworkTubes& layout,
+                       std::span<const Bezier> tubes) {
   for (const auto& [contact, allowed] : places) {
-    const float lack = clearance_ - contact.f, radii = tubes[contact.i].at(contact.s).w + tubes[contact.j].at(contact.t).w;
+    const float lack = clearance_ - contact.f,
+                radii = tubes[contact.i].at(contact.s).w + tubes[contact.j].at(contact.t).w;
     if (lack <= 0 || radii <= 0) continue;
     const float factor = std::max(0.5f, 1 - kThinningStep * lack / radii);
     for (const std::uint32_t tube : {contact.i, contact.j}) {

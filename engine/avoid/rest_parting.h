@@ -9,12 +9,12 @@ namespace vasa {
 
 /// The least change of a network at rest that parts its tubes, found step by step.
 ///
-/// Motion: the least zᵀ W z (avoid/motion_space.h: smooth along a vessel, ends on their nodes, wide vessels move least) for
-/// which every two tubes keep the clearance between them, that linearised where they come nearest. By dual ascent whose
-/// forces last from step to step: what was pushed aside and need not be swings back, so that the vessels end where the least
-/// motion leads and not where all the pushes add up to.
-/// Thinning: both radii give way by the same factor, tapered along the vessel; ends that share a ring get the same.
-/// The network must outlive it; one object serves one caller.
+/// Motion: the least zᵀ W z (avoid/motion_space.h: smooth along a vessel, ends on their nodes, wide vessels
+/// move least) for which every two tubes keep the clearance between them, that linearised where they come
+/// nearest. By dual ascent whose forces last from step to step: what was pushed aside and need not be swings
+/// back, so that the vessels end where the least motion leads and not where all the pushes add up to.
+/// Thinning: both radii give way by the same factor, tapered along the vessel; ends that share a ring get the
+/// same. The network must outlive it; one object serves one caller.
 class RestParting {
  public:
   /// @param clearance  [m] between the walls of two tubes
@@ -22,11 +22,13 @@ class RestParting {
 
   /// [m] Places where tubes come so near one another must be told to move(), or their forces are forgotten.
   float watched() const;
-  /// One step. @param places in points(), sorted by pair  @param layout  of the network in points() or nearly so
+  /// One step. @param places in points(), sorted by pair  @param layout  of the network in points() or nearly
+  /// so
   void move(std::span<const Interference::Place> places, const NetworkTubes& layout);
-  /// Radii give way by a part of what is lacking at each place, down to kLeastLumen of what they were and by no more than
-  /// kMostThinning. @param tubes  in which the places were found
-  void thin(std::span<const Interference::Place> places, const NetworkTubes& layout, std::span<const Bezier> tubes);
+  /// Radii give way by a part of what is lacking at each place, down to kLeastLumen of what they were and by
+  /// no more than kMostThinning. @param tubes  in which the places were found
+  void thin(std::span<const Interference::Place> places, const NetworkTubes& layout,
+            std::span<const Bezier> tubes);
 
   /// The network as it is now; as Network::points().
   std::span<const vec4> points() const { return points_; }
@@ -36,7 +38,7 @@ class RestParting {
     MotionSpace::Row row;
     TubePair tubes;
     vec3 normal;
-    float distance;    // [m] that the two must be apart along the normal, from where z is 0
+    float distance;  // [m] that the two must be apart along the normal, from where z is 0
     float force = 0;
   };
   struct Force {
@@ -60,6 +62,7 @@ class RestParting {
   std::vector<vec4> points_;
 };
 
-constexpr float kMostThinning = 0.001f;  ///< [m] how well a source tells a radius: what its surface may be missed by
+/// [m] how well a source tells a radius: what its surface may be missed by
+constexpr float kMostThinning = 0.001f;
 
 }  // namespace vasa

@@ -16,12 +16,13 @@ namespace vasa {
 namespace {
 
 constexpr unsigned kPasses = 4, kSteps = 40;
-constexpr unsigned kStepsOfMotion = 20;  // the first, before anything is thinned
+constexpr unsigned kStepsOfMotion = 20;   // the first, before anything is thinned
 constexpr float kLeastClearance = 1e-6f;  // [m] well above what detection is exact to
-constexpr float kRoundings = 4.5f;        // of coordinates that two vessels may come nearer by, √3 each, and of radii
+// Of coordinates that two vessels may come nearer by, √3 each, and of radii.
+constexpr float kRoundings = 4.5f;
 
-// Two vessels are one told twice where they are so alike along so much of both. (An artery and a vein that are merely drawn
-// over one another can go side by side.)
+// Two vessels are one told twice where they are so alike along so much of both. (An artery and a vein that
+// are merely drawn over one another can go side by side.)
 constexpr float kSameAxis = 0.25f;      // of the smaller radius
 constexpr float kSameRadius = 1.25f;    // factor
 constexpr float kSameDirection = 0.8f;  // |cos|
@@ -63,7 +64,8 @@ std::set<VesselPair> toldTwice(const Network& network, Interference& interferenc
 }
 
 // One pass, with the neighbours of the network that the last one left. @return whether nothing was left to do
-bool part(RestParting& parting, const Network& now, const std::set<VesselPair>& twice, float clearance, bool thins) {
+bool part(RestParting& parting, const Network& now, const std::set<VesselPair>& twice, float clearance,
+          bool thins) {
   Interference interference(now);
   std::vector<Interference::Place> places;
   for (unsigned step = 0; step < kSteps; ++step) {
@@ -72,7 +74,8 @@ bool part(RestParting& parting, const Network& now, const std::set<VesselPair>& 
     for (const Interference::Place& place : interference.find(parting.points(), parting.watched()))
       if (!twice.contains(vesselsOf(place.contact, interference.layout()))) places.push_back(place);
     // A little of the clearance may be lacking: steps come ever nearer to it.
-    if (std::ranges::none_of(places, [&](const auto& place) { return place.contact.f < 0.9f * clearance; })) return step == 0;
+    if (std::ranges::none_of(places, [&](const auto& place) { return place.contact.f < 0.9f * clearance; }))
+      return step == 0;
     if (thins || step >= kStepsOfMotion) parting.thin(places, interference.layout(), interference.tubes());
     parting.move(places, interference.layout());
   }
@@ -85,10 +88,12 @@ std::vector<RestOverlap> overlapsOf(const Network& network, const std::set<Vesse
   for (const Interference::Place& place : interference.find(network.points())) {
     const Contact& contact = place.contact;
     const VesselPair vessels = vesselsOf(contact, interference.layout());
-    RestOverlap& overlap = found.try_emplace(vessels, RestOverlap{{vessels.first}, {vessels.second}}).first->second;
+    RestOverlap& overlap =
+        found.try_emplace(vessels, RestOverlap{{vessels.first}, {vessels.second}}).first->second;
     ++overlap.pairs;
     overlap.depth = std::max(overlap.depth, -contact.f);
-    const float thin = std::min(interference.tubes()[contact.i].at(contact.s).w, interference.tubes()[contact.j].at(contact.t).w);
+    const float thin = std::min(interference.tubes()[contact.i].at(contact.s).w,
+                                interference.tubes()[contact.j].at(contact.t).w);
     if (-contact.f >= 2 * thin) overlap.reason = OverlapReason::inside;
     if (twice.contains(vessels)) overlap.reason = OverlapReason::twice;
   }

@@ -6,7 +6,8 @@
 
 namespace vasa {
 
-/// Why two vessels still overlap: there is no room; the thinner lies wholly in the other; or both tell the same course.
+/// Why two vessels still overlap: there is no room; the thinner lies wholly in the other; or both tell the
+/// same course.
 enum class OverlapReason : std::uint8_t { noRoom, inside, twice };
 std::string_view reasonName(OverlapReason reason);  ///< "no room", "inside", "twice"
 
@@ -21,19 +22,20 @@ struct RestOverlap {
 /// A network at rest whose vessels have been moved apart.
 struct RestRepair {
   Network network;
-  std::size_t pairsBefore = 0, pairsAfter = 0;  ///< of tubes that overlap; neighbours along the network do not count
-  float movedMax = 0;                           ///< [m] the farthest that a de Boor point was moved
-  float thinnedMax = 0;                         ///< the largest share that a radius gave up
-  std::vector<RestOverlap> left;                ///< deepest first, then by vessel
+  /// Of tubes that overlap; neighbours along the network do not count.
+  std::size_t pairsBefore = 0, pairsAfter = 0;
+  float movedMax = 0;             ///< [m] the farthest that a de Boor point was moved
+  float thinnedMax = 0;           ///< the largest share that a radius gave up
+  std::vector<RestOverlap> left;  ///< deepest first, then by vessel
 };
 
-/// Parts vessels that overlap at rest, as sources draw them that were made one by one: what the certificate of a frame would
-/// have to leave out (avoid/certificate.h). They are moved aside, the thin more than the wide, and where there is no room
-/// for that, thinned (avoid/rest_parting.h). Between them stays what rounding them in a file may take away
-/// (network/file.h). Two vessels that run along the same course are one told twice: there is no side to go to, and both
-/// are left as they are. Thinner vessels have fewer neighbours along the network (collide/neighbours.h), so these are looked
-/// up anew between passes.
-/// O(steps · (tubes + overlaps · points that one moves)), deterministic. Can be cancelled (core/cancellation.h).
+/// Parts vessels that overlap at rest, as sources draw them that were made one by one: what the certificate
+/// of a frame would have to leave out (avoid/certificate.h). They are moved aside, the thin more than the
+/// wide, and where there is no room for that, thinned (avoid/rest_parting.h). Between them stays what
+/// rounding them in a file may take away (network/file.h). Two vessels that run along the same course are one
+/// told twice: there is no side to go to, and both are left as they are. Thinner vessels have fewer
+/// neighbours along the network (collide/neighbours.h), so these are looked up anew between passes. O(steps ·
+/// (tubes + overlaps · points that one moves)), deterministic. Can be cancelled (core/cancellation.h).
 RestRepair separateAtRest(const Network& network);
 /// Nothing done: only what overlaps is told.
 RestRepair overlapsAtRest(const Network& network);

@@ -10,13 +10,14 @@ namespace vasa {
 namespace {
 
 constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
-constexpr float kTooClose = 0.25f;              // sums of radii apart, below which the side at rest is the less sure
-constexpr float kCrossing = 0.7f;               // |u - v| from which two tubes cross (40 degrees)
-constexpr float kSure = 0.5f;                   // how sure the rest pose must be for a change of sides
-constexpr float kAhead = 0.34f;                 // cosine of the way to what lies ahead of an end (70 degrees)
-constexpr int kMostSteps = 4;                   // from tube to tube
-constexpr float kInto = 0.01f;                  // of a tube, where the search goes on in the next
-constexpr float kNearer = 1e-6f;                // [m]
+// Sums of radii apart, below which the side at rest is the less sure.
+constexpr float kTooClose = 0.25f;
+constexpr float kCrossing = 0.7f;  // |u - v| from which two tubes cross (40 degrees)
+constexpr float kSure = 0.5f;      // how sure the rest pose must be for a change of sides
+constexpr float kAhead = 0.34f;    // cosine of the way to what lies ahead of an end (70 degrees)
+constexpr int kMostSteps = 4;      // from tube to tube
+constexpr float kInto = 0.01f;     // of a tube, where the search goes on in the next
+constexpr float kNearer = 1e-6f;   // [m]
 constexpr std::size_t kGrain = 1024;
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
@@ -29,9 +30,7 @@ float fadeOut(float x, float from, float to) {
   return 1 - t * t * (3 - 2 * t);
 }
 
-vec3 directionOf(const Bezier& tube, float t) {
-  return unitOr(vec3(tube.derivative(t)), vec3(0));
-}
+vec3 directionOf(const Bezier& tube, float t) { return unitOr(vec3(tube.derivative(t)), vec3(0)); }
 
 }  // namespace
 
@@ -55,22 +54,27 @@ quat RestSides::rotationAt(std::uint32_t tube, float t, std::span<const quat> ro
   return glm::normalize((1 - t) * a + (glm::dot(a, b) < 0 ? -t : t) * b);
 }
 
-vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const {
+vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape,
+                        std::span<const quat> rotations) const {
   const vec4 a = interference_->restTubes()[at.i].at(at.s), b = interference_->restTubes()[at.j].at(at.t);
   const vec3 gap = vec3(a) - vec3(b);
   const float distance = glm::length(gap), radii = a.w + b.w;
   if (!(radii > 0) || distance >= kNothingFrom * radii || distance < 1e-9f) return vec3(0);
-  const vec3 turned = 0.5f * (rotationAt(at.i, at.s, rotations) * gap + rotationAt(at.j, at.t, rotations) * gap);
+  const vec3 turned =
+      0.5f * (rotationAt(at.i, at.s, rotations) * gap + rotationAt(at.j, at.t, rotations) * gap);
   const vec3 side = sideways(turned, directionOf(shape[at.i], at.s), directionOf(shape[at.j], at.t));
   const float apart = glm::length(side), together = glm::length(turned) / distance;
   if (!(apart > 1e-9f)) return vec3(0);
-  return side / apart * together * fadeOut(distance / radii, kSureTo, kNothingFrom) * std::min(1.0f, apart / (kTooClose * radii));
+  return side / apart * together * fadeOut(distance / radii, kSureTo, kNothingFrom) *
+         std::min(1.0f, apart / (kTooClose * radii));
 }
 
-// Where the two vessels are nearest now, near the place where they were at rest: over the ends of tubes into the next.
+// Where the two vessels are nearest now, near the place where they were at rest: over the ends of tubes into
+// the next.
 Contact RestSides::nearestAlong(const Contact& rest, std::span<const Bezier> shape) const {
   Contact now = rest;
-  const bool one = interference_->layout().address(rest.i).vessel == interference_->layout().address(rest.j).vessel;
+  const bool one =
+      interference_->layout().address(rest.i).vessel == interference_->layout().address(rest.j).vessel;
   for (int step = 0; step < kMostSteps; ++step) {
     const auto [i, j] = std::pair{now.i, now.j};
     now = nearestPlaceFrom(shape[i], shape[j], now.s, now.t);

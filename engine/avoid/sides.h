@@ -21,16 +21,19 @@ class RestSides {
     float s, t;
   };
 
-  /// On which side of tube j at t tube i at s lay at rest: the way from C_j(t) to C_i(s) then, turned with what is around
-  /// them, less what lies along the two tubes as they run now. Its length, at most 1, is how sure that is: it falls to 0
-  /// where the two were far from one another, or on one another's centre line, or their surroundings have turned apart.
+  /// On which side of tube j at t tube i at s lay at rest: the way from C_j(t) to C_i(s) then, turned with
+  /// what is around them, less what lies along the two tubes as they run now. Its length, at most 1, is how
+  /// sure that is: it falls to 0 where the two were far from one another, or on one another's centre line, or
+  /// their surroundings have turned apart.
   /// @param shape  the tubes now
   vec3 carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
 
-  /// Vessels that were near one another at rest and have changed sides, whether they overlap or have passed through: the
-  /// pairs of tubes in which they are nearest now (which may lie some tubes on), with the places; sorted. What lies ahead of a vessel's end, and not beside it, is on no side of it. f of the
+  /// Vessels that were near one another at rest and have changed sides, whether they overlap or have passed
+  /// through: the pairs of tubes in which they are nearest now (which may lie some tubes on), with the
+  /// places; sorted. What lies ahead of a vessel's end, and not beside it, is on no side of it. f of the
   /// result is the distance of the centre lines by which they are on the wrong side, negative.
-  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations, std::vector<Contact>& changed, float cosine = kChanged);
+  void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
+                   std::vector<Contact>& changed, float cosine = kChanged);
   /// Of the angle between the side at rest and that now, from which on it counts as changed: 120 degrees.
   static constexpr float kChanged = -0.5f;
 

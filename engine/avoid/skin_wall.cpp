@@ -11,7 +11,8 @@ namespace vasa {
 namespace {
 
 constexpr float kNearHeights = 0.012f;  // of the body's height: what lay deeper is not looked at
-constexpr float kFarthest = 0.025f;     // [m] what is farther out has its skin in a fold, where a plane is no wall
+// [m] what is farther out has its skin in a fold, where a plane is no wall
+constexpr float kFarthest = 0.025f;
 constexpr std::array<float, 3> kPlaces{0, 0.5f, 1};
 
 }  // namespace
@@ -29,7 +30,8 @@ SkinWall::SkinWall(const Body& body, std::span<const Bezier> restTubes) {
       const vec4 ball = restTubes[tube].at(s);
       const SkinShell::Place at = shell.look(vec3(ball));
       if (at.triangle >= skin->mesh.triangles.size() || at.depth > near + ball.w) continue;
-      found[tube].push_back({std::uint32_t(tube), s, std::min(at.depth - ball.w, 0.0f), skin->mesh.triangles[at.triangle]});
+      found[tube].push_back(
+          {std::uint32_t(tube), s, std::min(at.depth - ball.w, 0.0f), skin->mesh.triangles[at.triangle]});
     }
   });
   for (const auto& own : found) places_.insert(places_.end(), own.begin(), own.end());
@@ -54,13 +56,21 @@ void SkinWall::pose(std::span<const mat4> jointMatrices) {
   });
 }
 
-void SkinWall::addContacts(std::span<const Bezier> tubes, std::uint32_t part, std::vector<BoneContact>& contacts) const {
+void SkinWall::addContacts(std::span<const Bezier> tubes, std::uint32_t part,
+                           std::vector<BoneContact>& contacts) const {
   for (const Place& place : places_) {
     const vec4 ball = tubes[place.tube].at(place.s);
     const float f = glm::dot(place.inwards, vec3(ball) - place.point) - ball.w;
     if (place.inwards == vec3(0) || f < place.allowed - kFarthest) continue;
-    const BoneContact contact{.tube = place.tube, .part = part, .s = place.s, .f = f, .allowed = place.allowed, .point = place.point, .normal = place.inwards,
-                        .nearestPoint = place.point, .nearestNormal = place.inwards};
+    const BoneContact contact{.tube = place.tube,
+                              .part = part,
+                              .s = place.s,
+                              .f = f,
+                              .allowed = place.allowed,
+                              .point = place.point,
+                              .normal = place.inwards,
+                              .nearestPoint = place.point,
+                              .nearestNormal = place.inwards};
     if (contact.enters()) contacts.push_back(contact);
   }
 }

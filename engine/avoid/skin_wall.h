@@ -6,9 +6,9 @@
 
 namespace vasa {
 
-/// A body's skin as a wall that vessels stay inside of. Places of tubes that lay near the skin at rest are held by the
-/// triangle that was nearest then, wherever the pose has it: as deep below its plane as their radius, or as they were at
-/// rest where that was less. The skin is linearly blended, as it is drawn.
+/// A body's skin as a wall that vessels stay inside of. Places of tubes that lay near the skin at rest are
+/// held by the triangle that was nearest then, wherever the pose has it: as deep below its plane as their
+/// radius, or as they were at rest where that was less. The skin is linearly blended, as it is drawn.
 class SkinWall {
  public:
   /// @param restTubes  of the network
@@ -21,7 +21,8 @@ class SkinWall {
   /// Appends the places that are through the skin, sorted by tube and parameter.
   /// O(places)
   /// @param part  what to call the skin in BoneContact::part
-  void addContacts(std::span<const Bezier> tubes, std::uint32_t part, std::vector<BoneContact>& contacts) const;
+  void addContacts(std::span<const Bezier> tubes, std::uint32_t part,
+                   std::vector<BoneContact>& contacts) const;
 
   std::size_t placeCount() const { return places_.size(); }
 

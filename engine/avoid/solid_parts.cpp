@@ -29,7 +29,8 @@ SolidParts::SolidParts(const Body& body) {
 }
 
 void SolidParts::add(const SkinnedMesh& mesh) {
-  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> vertices;  // of a joint: mesh's number -> part's
+  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>>
+      vertices;  // of a joint: mesh's number -> part's
   std::map<std::uint32_t, Part> parts;
   for (const uvec3& triangle : mesh.mesh.triangles) {
     const std::uint32_t joint = carrierOf(mesh.influences[triangle.x]);
@@ -47,7 +48,8 @@ void SolidParts::add(const SkinnedMesh& mesh) {
 
 std::uint64_t SolidParts::key() const {
   std::uint64_t key = parts_.size();
-  for (const Part& part : parts_) key = hashOf(std::span(part.triangles), hashOf(std::span(part.positions), key));
+  for (const Part& part : parts_)
+    key = hashOf(std::span(part.triangles), hashOf(std::span(part.positions), key));
   return key;
 }
 
@@ -64,7 +66,9 @@ std::vector<DistanceField> SolidParts::fields() const {
   if (fields.size() == parts_.size()) return fields;
   fields.clear();
   std::vector<std::optional<DistanceField>> made(parts_.size());
-  parallelFor(parts_.size(), 1, [&](std::size_t k) { made[k].emplace(parts_[k].positions, parts_[k].triangles, DistanceField::Options{}); });
+  parallelFor(parts_.size(), 1, [&](std::size_t k) {
+    made[k].emplace(parts_[k].positions, parts_[k].triangles, DistanceField::Options{});
+  });
   for (auto& field : made) fields.push_back(std::move(*field));
   return fields;
 }

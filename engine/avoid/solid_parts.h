@@ -8,8 +8,8 @@
 
 namespace vasa {
 
-/// What vessels must not enter: a body's solid meshes (body/mesh_role.h), cut by the joint that carries each triangle,
-/// which is the one with the largest weight at the triangle's first corner.
+/// What vessels must not enter: a body's solid meshes (body/mesh_role.h), cut by the joint that carries each
+/// triangle, which is the one with the largest weight at the triangle's first corner.
 class SolidParts {
  public:
   explicit SolidParts(const Body& body);

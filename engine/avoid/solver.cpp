@@ -15,14 +15,20 @@
 namespace vasa {
 namespace {
 
-constexpr float kFading = 0.1f;         // [s] in which a correction that nothing asks for falls to a third ...
-constexpr float kFastestFading = 0.02f; // [m/s] ... but no faster than this
-constexpr float kWidening = 0.3f;       // [s] in which a lumen that gave way doubles where there is room again
-constexpr float kMargin = 1e-4f;        // [m] contacts are held from here on, not only once they overlap
-constexpr float kRolled = 0;            // cosine of the angle from which on vessels that roll around one another are turned back
-constexpr float kDeepest = 0.5f;        // of the radii: a step in which something comes deeper into another is too long
-constexpr float kPace = 0.04f;                 // [m/s] at which a vessel may be moved aside among others that stand still
-constexpr float kNear = 0.045f;         // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
+// [s] in which a correction that nothing asks for falls to a third ...
+constexpr float kFading = 0.1f;
+constexpr float kFastestFading = 0.02f;  // [m/s] ... but no faster than this
+// [s] in which a lumen that gave way doubles where there is room again
+constexpr float kWidening = 0.3f;
+constexpr float kMargin = 1e-4f;  // [m] contacts are held from here on, not only once they overlap
+// Cosine of the angle from which on vessels that roll around one another are turned back.
+constexpr float kRolled = 0;
+// Of the radii: a step in which something comes deeper into another is too long.
+constexpr float kDeepest = 0.5f;
+// [m/s] at which a vessel may be moved aside among others that stand still
+constexpr float kPace = 0.04f;
+// [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
+constexpr float kNear = 0.045f;
 constexpr float kFarthest =
     0.04f;  // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
@@ -41,7 +47,8 @@ std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
 BoneReport reportOf(std::span<const BoneContact> contacts) {
   const auto atRest = [](const BoneContact& contact) { return contact.allowed < 0; };
   BoneReport report{tubesOf(contacts, std::not_fn(atRest)), tubesOf(contacts, atRest)};
-  for (const BoneContact& contact : contacts) report.depth = std::max(report.depth, contact.allowed - contact.f);
+  for (const BoneContact& contact : contacts)
+    report.depth = std::max(report.depth, contact.allowed - contact.f);
   return report;
 }
 
@@ -64,7 +71,8 @@ struct Avoider::State {
         none(space.variableCount(), vec3(0)),
         isEnd(lastPosed.size(), false),
         shape(lastPosed) {
-    for (const Vessel& vessel : network.vessels()) isEnd[vessel.firstPoint] = isEnd[vessel.firstPoint + vessel.pointCount - 1] = true;
+    for (const Vessel& vessel : network.vessels())
+      isEnd[vessel.firstPoint] = isEnd[vessel.firstPoint + vessel.pointCount - 1] = true;
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
     accepted.motions.assign(space.variableCount(), vec3(0));
@@ -112,16 +120,17 @@ struct Avoider::State {
   RestSides sides;
   ContactPool pool;
   Correction accepted, correction;  // of the last step, and of this one
-  std::vector<Bezier> lastTubes;  // of the last admissible shape
+  std::vector<Bezier> lastTubes;    // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
   NearbySteps posedSteps{kNear};
   std::vector<char> anewTubes, anewPoints;  // of vessels that start from the pose alone ...
   bool mayJump = false;                     // ... and keep no pace
-  std::vector<vec3> none;   // no correction
-  std::vector<char> isEnd;  // of a vessel, a point each
-  std::vector<vec4> shape;  // being made
-  std::vector<Interference::Place> found, remaining, unsettled;  // by a look(), while a step is made, and after the last one
+  std::vector<vec3> none;                   // no correction
+  std::vector<char> isEnd;                  // of a vessel, a point each
+  std::vector<vec4> shape;                  // being made
+  std::vector<Interference::Place> found, remaining,
+      unsettled;                                // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
@@ -169,7 +178,8 @@ void Avoider::State::fade(float seconds) {
 void Avoider::State::carry(std::span<const quat> rotations) {
   for (std::size_t v = 0; v < correction.motions.size(); ++v) {
     vec3& motion = correction.motions[v];
-    if (motion != vec3(0)) motion = turnOf(v, rotations) * (glm::conjugate(turnOf(v, lastRotations)) * motion);
+    if (motion != vec3(0))
+      motion = turnOf(v, rotations) * (glm::conjugate(turnOf(v, lastRotations)) * motion);
   }
 }
 
@@ -192,7 +202,8 @@ void Avoider::State::keepPace(const Input& in) {
       });
     return posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
-  space.keepNear(none, correction.motions, [](std::uint32_t, float distance) { return std::min(distance, kFarthest); });
+  space.keepNear(none, correction.motions,
+                 [](std::uint32_t, float distance) { return std::min(distance, kFarthest); });
 }
 
 // The shape that belongs to a correction.
@@ -201,7 +212,8 @@ void Avoider::State::place(const Input& in) {
   for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p] = vec4(vec3(in.posed.points[p]), rest[p].w);
   space.apply(correction.motions, in.points);
   if (in.volume) volumeOutcome = in.volume->run(in.points, correction.widest);
-  for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p].w = std::min(in.points[p].w, correction.widest[p]);
+  for (std::size_t p = 0; p < in.points.size(); ++p)
+    in.points[p].w = std::min(in.points[p].w, correction.widest[p]);
 }
 
 // At first everything; then, from round to round, at what moved; in the end exactly, for the certificate.
@@ -257,8 +269,8 @@ void Avoider::State::separate(const Input& in) {
   }
 }
 
-// Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the end, where
-// that only moves the trouble about, volume is given up for the certificate.
+// Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the
+// end, where that only moves the trouble about, volume is given up for the certificate.
 void Avoider::State::giveWay(const Input& in, Look how) {
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
     const bool lastResort = 2 * round >= options.lumenRounds;
@@ -266,7 +278,8 @@ void Avoider::State::giveWay(const Input& in, Look how) {
     {
       StageClock clock(in.report.solveMs);
       std::vector<BoneContact> entered;
-      std::ranges::copy_if(boneContacts, std::back_inserter(entered), [](const BoneContact& contact) { return contact.allowed == 0; });
+      std::ranges::copy_if(boneContacts, std::back_inserter(entered),
+                           [](const BoneContact& contact) { return contact.allowed == 0; });
       if (lastResort)
         for (const Interference::Place& place : remaining)
           for (const std::uint32_t tube : {place.contact.i, place.contact.j}) {
@@ -274,8 +287,10 @@ void Avoider::State::giveWay(const Input& in, Look how) {
             for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p)
               correction.widest[p] = std::min(correction.widest[p], in.points[p].w);
           }
-      narrow(network, interference.layout(), entered, interference.tubes(), in.points, lastResort, correction.widest);
-      narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort, correction.widest);
+      narrow(network, interference.layout(), entered, interference.tubes(), in.points, lastResort,
+             correction.widest);
+      narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort,
+             correction.widest);
       place(in);
     }
     look(in, in.points, how);
@@ -337,14 +352,19 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   look(in, in.points, isLast ? Look::certain : Look::first);
 }
 
-// Whether the motion has brought something so far into one another's way that the side it came from is a guess.
+// Whether the motion has brought something so far into one another's way that the side it came from is a
+// guess.
 bool Avoider::State::isTooLong() const {
-  return std::ranges::any_of(remaining, [&](const Interference::Place& place) {
-           const Contact& contact = place.contact;
-           const float radii = interference.tubes()[contact.i].at(contact.s).w + interference.tubes()[contact.j].at(contact.t).w;
-           return place.excess() > kDeepest * radii;
-         }) || std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
-           return contact.allowed - contact.f > kDeepest * 2 * std::max(interference.tubes()[contact.tube].at(contact.s).w, 1e-3f);
+  return std::ranges::any_of(remaining,
+                             [&](const Interference::Place& place) {
+                               const Contact& contact = place.contact;
+                               const float radii = interference.tubes()[contact.i].at(contact.s).w +
+                                                   interference.tubes()[contact.j].at(contact.t).w;
+                               return place.excess() > kDeepest * radii;
+                             }) ||
+         std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
+           return contact.allowed - contact.f >
+                  kDeepest * 2 * std::max(interference.tubes()[contact.tube].at(contact.s).w, 1e-3f);
          });
 }
 
@@ -419,7 +439,8 @@ AvoidReport Avoider::start(const Correction& correction, const PosedVessels& pos
   return report;
 }
 
-std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride, std::span<vec4> points) {
+std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const VolumeKeeper* volume,
+                                         const Stride& stride, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
   const State::Input in{posed, volume, state.shape, report, stride.seconds};
@@ -448,38 +469,21 @@ PosedLook Avoider::look(const PosedVessels& posed, std::span<const vec4> points)
   AvoidReport report;
   std::vector<vec4> own(points.begin(), points.end());
   state.look({posed, nullptr, own, report}, points, State::Look::first);
-  return {certificateOf(state.places, &state.found), reportOf(state.boneContacts), tubesOf(state.skinContacts)};
+  return {certificateOf(state.places, &state.found), reportOf(state.boneContacts),
+          tubesOf(state.skinContacts)};
 }
 
-const Correction& Avoider::correction() const {
-  return state_->accepted;
-}
-std::span<const Interference::Place> Avoider::remaining() const {
-  return state_->unsettled;
-}
-std::span<const NarrowPlace> Avoider::narrowed() const {
-  return state_->narrowed;
-}
-std::span<const BoneContact> Avoider::inBones() const {
-  return state_->left;
-}
-JointId Avoider::jointOfBone(std::uint32_t part) const {
-  return state_->bones->jointOf(part);
-}
-std::span<const Interference::Place> Avoider::found() const {
-  return state_->found;
-}
-const NetworkTubes& Avoider::layout() const {
-  return state_->interference.layout();
-}
-std::size_t Avoider::restPairCount() const {
-  return state_->interference.restPairCount();
-}
+const Correction& Avoider::correction() const { return state_->accepted; }
+std::span<const Interference::Place> Avoider::remaining() const { return state_->unsettled; }
+std::span<const NarrowPlace> Avoider::narrowed() const { return state_->narrowed; }
+std::span<const BoneContact> Avoider::inBones() const { return state_->left; }
+JointId Avoider::jointOfBone(std::uint32_t part) const { return state_->bones->jointOf(part); }
+std::span<const Interference::Place> Avoider::found() const { return state_->found; }
+const NetworkTubes& Avoider::layout() const { return state_->interference.layout(); }
+std::size_t Avoider::restPairCount() const { return state_->interference.restPairCount(); }
 std::size_t Avoider::restBoneContactCount() const {
   return state_->bones ? state_->bones->restContactCount() : 0;
 }
-std::size_t Avoider::neighbourCount() const {
-  return state_->interference.neighbourCount();
-}
+std::size_t Avoider::neighbourCount() const { return state_->interference.neighbourCount(); }
 
 }  // namespace vasa

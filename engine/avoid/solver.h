@@ -40,12 +40,12 @@ struct AvoidReport {
   Certificate after;
   BoneReport bonesAfter;
   std::uint32_t skinContactsAfter = 0;
-  std::uint32_t constraints = 0;  ///< in the pool at the end
-  std::uint32_t rounds = 0;       ///< detections that asked for a correction
-  float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
-  VolumeKeeper::Outcome volume;      ///< after the last change of radii
-  std::uint32_t narrowSpans = 0;     ///< spans whose lumen gave way
-  float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
+  std::uint32_t constraints = 0;                 ///< in the pool at the end
+  std::uint32_t rounds = 0;                      ///< detections that asked for a correction
+  float movedMax = 0, movedRms = 0;              ///< [m] of de Boor points, by the correction
+  VolumeKeeper::Outcome volume;                  ///< after the last change of radii
+  std::uint32_t narrowSpans = 0;                 ///< spans whose lumen gave way
+  float leastLumen = 1;                          ///< the thinnest of them, by the radius at rest
   double detectMs = 0, boneMs = 0, solveMs = 0;  ///< over all rounds; bones are looked at apart
   double certifyMs = 0;                          ///< the last look, which is the certificate
   /// Of a frame that took several steps.
@@ -54,35 +54,39 @@ struct AvoidReport {
 
 /// How a pose is reached from the one before.
 struct Stride {
-  float seconds = 0;         ///< since then
-  bool atAnyLength = false;  ///< false: where that brings something far into something else's way it is not made
-  bool isLast = false;       ///< the result is shown: it is certified by a query of its own
+  float seconds = 0;  ///< since then
+  /// False: where that brings something far into something else's way it is not made.
+  bool atAnyLength = false;
+  bool isLast = false;  ///< the result is shown: it is certified by a query of its own
 };
 
 /// How far vessels are from where the pose alone would have them: all that one step hands to the next.
 struct Correction {
-  std::vector<vec3> motions;   ///< [m] one a variable (avoid/motion_space.h); empty: none
-  std::vector<float> widest;   ///< [m] one a point: what a lumen that gave way may be; infinity elsewhere
+  std::vector<vec3> motions;  ///< [m] one a variable (avoid/motion_space.h); empty: none
+  std::vector<float> widest;  ///< [m] one a point: what a lumen that gave way may be; infinity elsewhere
 };
 
-/// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each step starts
-/// from the last one's correction, which fades where nothing asks for it, and finds the nearest admissible shape,
+/// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each
+/// step starts from the last one's correction, which fades where nothing asks for it, and finds the nearest
+/// admissible shape,
 ///   least ½ (z - z0)ᵀ W (z - z0)  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
-/// with z0 the faded correction and W as in avoid/motion_space.h, so that branches stay joined. Contacts lie on the side on
-/// which the last admissible shape had them, so that no vessel passes through another. Method: dual coordinate ascent
-/// (Hildreth 1957) over a pool of contacts that is detected anew each round and only grows; then, where there is no room,
-/// thinner vessels. The certificate by an exact query comes last. Budgets are fixed and the order is that of the pairs:
-/// a step depends on the correction before and the two poses alone.
+/// with z0 the faded correction and W as in avoid/motion_space.h, so that branches stay joined. Contacts lie
+/// on the side on which the last admissible shape had them, so that no vessel passes through another. Method:
+/// dual coordinate ascent (Hildreth 1957) over a pool of contacts that is detected anew each round and only
+/// grows; then, where there is no room, thinner vessels. The certificate by an exact query comes last.
+/// Budgets are fixed and the order is that of the pairs: a step depends on the correction before and the two
+/// poses alone.
 class Avoider {
  public:
   /// @param network  must outlive this
-  /// @param body     whose bones and heart vessels must not enter, and whose skin they keep below; or null. Read, not kept
+  /// @param body     whose bones and heart vessels must not enter, and whose skin they keep below; or null.
+  /// Read, not kept
   explicit Avoider(const Network& network, const Body* body = nullptr, AvoidOptions options = {});
   ~Avoider();
   Avoider(Avoider&&) noexcept;
 
-  /// Takes a pose with a correction that it was given before, as the place to go on from; or without any, which is right at
-  /// rest. @param points  caller-owned, the network with the correction on return
+  /// Takes a pose with a correction that it was given before, as the place to go on from; or without any,
+  /// which is right at rest. @param points  caller-owned, the network with the correction on return
   AvoidReport start(const Correction& correction, const PosedVessels& posed, const VolumeKeeper* volume,
                     std::span<vec4> points);
 
@@ -91,7 +95,8 @@ class Avoider {
   /// @param volume   keeps the vessels' volume while they are moved, or null
   /// @param points   caller-owned; the result on return
   /// @return nothing if the step was not made, which leaves everything as it was
-  std::optional<AvoidReport> step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride, std::span<vec4> points);
+  std::optional<AvoidReport> step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride,
+                                  std::span<vec4> points);
 
   /// Looks at a shape, as a pose without any correction, and does nothing about it.
   PosedLook look(const PosedVessels& posed, std::span<const vec4> points);

@@ -36,7 +36,9 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
   const std::size_t samples = std::min(points.size(), kSamples);
   std::optional<SkinShell> shell;
   if (skin) shell.emplace(skin->mesh);
-  const auto outsideSkin = [&](vec3 p) { return !shell->contains(p) && std::abs(shell->look(p).depth) > kOutsideHeights * height; };
+  const auto outsideSkin = [&](vec3 p) {
+    return !shell->contains(p) && std::abs(shell->look(p).depth) > kOutsideHeights * height;
+  };
   std::size_t outside = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const vec3 p(points[i * points.size() / samples]);

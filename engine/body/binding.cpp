@@ -141,7 +141,8 @@ void appendRecords(std::span<const LimbShare> limbs, std::vector<BindingRecord>&
   }
 }
 
-Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::string_view name, std::span<const Tie> ties) {
+Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::string_view name,
+                       std::span<const Tie> ties) {
   Result<SpineSet> spines = deriveSpines(body.skeleton, body.name);
   if (!spines) return spines.error();
   if (points.empty()) return badInput(fmt::format("{}: there are no vessels to bind to {}", name, body.name));
@@ -168,9 +169,10 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
 
 Binding warned(Bound bound, const Body& body, std::string_view name) {
   if (bound.behind > kMostLeftBehind)
-    logWarning(fmt::format("{}: {:.0f} % of these vessels stay in the rest pose while {} moves; bind its skin's vertices "
-                           "to the joints that move it, or leave out meshes that follow other joints",
-                           name, 100 * bound.behind, body.name));
+    logWarning(fmt::format(
+        "{}: {:.0f} % of these vessels stay in the rest pose while {} moves; bind its skin's vertices "
+        "to the joints that move it, or leave out meshes that follow other joints",
+        name, 100 * bound.behind, body.name));
   return std::move(bound.binding);
 }
 

@@ -21,7 +21,9 @@ struct BindingRecord {
   std::uint16_t share;  ///< of kWholeShare; a point's records follow one another until theirs add up to it
 
   BindingRecord(const Station& station, std::uint16_t of)
-      : along(std::uint16_t(station.along * kAlongOne + 0.5f)), joint(std::uint16_t(station.joint.value)), share(of) {}
+      : along(std::uint16_t(station.along * kAlongOne + 0.5f)),
+        joint(std::uint16_t(station.joint.value)),
+        share(of) {}
   Station station() const { return {{joint}, float(along) / kAlongOne}; }
 };
 static_assert(sizeof(BindingRecord) == 6);

@@ -17,7 +17,8 @@ constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
 constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
-constexpr float kBonesShare = 0.5f;    // of the links' length must have rigid vertices: else they are eyes, shoes, a hat
+// Of the links' length must have rigid vertices: else they are eyes, shoes, a hat.
+constexpr float kBonesShare = 0.5f;
 
 constexpr double kStrayWeight = 1e-3;  // of all weights: a vertex or two that were left on the root
 
@@ -37,14 +38,16 @@ std::vector<Links> linksOf(const SpineSet& spines) {
   return links;
 }
 
-/// Joints above all that any mesh follows: a root on the floor, an armature's own node. Their links run through the body,
-/// but are no part of it: what hung on them would stay where it is while the body squats.
+/// Joints above all that any mesh follows: a root on the floor, an armature's own node. Their links run
+/// through the body, but are no part of it: what hung on them would stay where it is while the body squats.
 std::vector<bool> aboveBody(const Body& body) {
   std::vector<double> weight(body.skeleton.joints.size(), 0.0);
   double whole = 0;
   for (const SkinnedMesh& mesh : body.meshes)
     for (const SkinInfluence& influence : mesh.influences)
-      for (int k = 0; k < 4; ++k) weight[influence.joints[std::size_t(k)]] += double(influence.weights[k]), whole += double(influence.weights[k]);
+      for (int k = 0; k < 4; ++k)
+        weight[influence.joints[std::size_t(k)]] += double(influence.weights[k]),
+            whole += double(influence.weights[k]);
   std::vector<bool> above(weight.size(), false);
   for (std::size_t j = 0; j < above.size() && whole > 0; ++j) {
     const JointId parent = body.skeleton.joints[j].parent;
@@ -66,8 +69,8 @@ float lengthOf(const Links& links) {
   return length;
 }
 
-/// Whether rigid vertices, listed by joint, stand for the skeleton's bones. A few parts of it that move rigidly would
-/// otherwise be the nearest "bones" of the whole body, and everything would hang on them.
+/// Whether rigid vertices, listed by joint, stand for the skeleton's bones. A few parts of it that move
+/// rigidly would otherwise be the nearest "bones" of the whole body, and everything would hang on them.
 bool standForBones(const std::vector<std::vector<vec3>>& points, const std::vector<Links>& links) {
   float covered = 0, whole = 0;
   for (std::size_t i = 0; i < links.size(); ++i) {

@@ -10,10 +10,10 @@ namespace vasa {
 
 /// How far a place is from what each joint moves: the evidence for which part of the body it belongs to.
 ///
-/// Where the body has meshes that move rigidly by parts (bones, heart) along half of its links' length or more,
-/// these are the evidence, and joints without a bone of their own have none. Otherwise (a smooth skin with rigid
-/// eyes, say) each joint's links stand for its bones; a tip's link is taken to go on in the direction of the one
-/// before it. Joints above all that meshes follow (a root on the floor) have none.
+/// Where the body has meshes that move rigidly by parts (bones, heart) along half of its links' length or
+/// more, these are the evidence, and joints without a bone of their own have none. Otherwise (a smooth skin
+/// with rigid eyes, say) each joint's links stand for its bones; a tip's link is taken to go on in the
+/// direction of the one before it. Joints above all that meshes follow (a root on the floor) have none.
 class BoneField {
  public:
   static constexpr float kFar = 1e9f;  ///< distance to what does not exist

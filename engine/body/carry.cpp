@@ -16,31 +16,39 @@ namespace {
 
 constexpr std::uint32_t kNone = JointId::kNone;
 
-// In a hand with more fingers than the other body's, single fingers would be drawn aside: they go with the palm.
+// In a hand with more fingers than the other body's, single fingers would be drawn aside: they go with the
+// palm.
 void releaseLonely(const Skeleton& skeleton, std::vector<std::uint32_t>& match) {
   // Branches that end without a match are what counts: a free joint on the way to matched ones is no finger.
   std::vector<bool> leadsToMatch(match.size());
   for (std::size_t j = match.size(); j-- > 0;) {
     if (match[j] != kNone) leadsToMatch[j] = true;
-    if (const JointId parent = skeleton.joints[j].parent; leadsToMatch[j] && parent.valid()) leadsToMatch[parent.value] = true;
+    if (const JointId parent = skeleton.joints[j].parent; leadsToMatch[j] && parent.valid())
+      leadsToMatch[parent.value] = true;
   }
   std::vector<int> matched(match.size(), 0), released(match.size(), 0);
   for (std::size_t j = 0; j < match.size(); ++j)
-    if (skeleton.joints[j].parent.valid()) (leadsToMatch[j] ? matched : released)[skeleton.joints[j].parent.value]++;
+    if (skeleton.joints[j].parent.valid())
+      (leadsToMatch[j] ? matched : released)[skeleton.joints[j].parent.value]++;
   for (std::size_t j = 0; j < match.size(); ++j)
-    if (const JointId parent = skeleton.joints[j].parent; parent.valid() && released[parent.value] > matched[parent.value]) match[j] = kNone;
+    if (const JointId parent = skeleton.joints[j].parent;
+        parent.valid() && released[parent.value] > matched[parent.value])
+      match[j] = kNone;
 }
 
-vec3 centreIn(const Skeleton& skeleton, std::size_t joint) { return vec3(skeleton.joints[joint].restWorld[3]); }
+vec3 centreIn(const Skeleton& skeleton, std::size_t joint) {
+  return vec3(skeleton.joints[joint].restWorld[3]);
+}
 
 // How far from joint a to joint b a joint sits, as a share.
 float shareBetween(const Skeleton& skeleton, std::size_t a, std::size_t b, std::size_t joint) {
   const vec3 way = centreIn(skeleton, b) - centreIn(skeleton, a);
-  return glm::dot(centreIn(skeleton, joint) - centreIn(skeleton, a), way) / std::max(glm::dot(way, way), 1e-12f);
+  return glm::dot(centreIn(skeleton, joint) - centreIn(skeleton, a), way) /
+         std::max(glm::dot(way, way), 1e-12f);
 }
 
-// Rigs put the joints of a spine at other vertebrae, and those that only twist a limb at other places along it, under
-// the same names: the former go with the trunk as a whole, the latter with the limb.
+// Rigs put the joints of a spine at other vertebrae, and those that only twist a limb at other places along
+// it, under the same names: the former go with the trunk as a whole, the latter with the limb.
 void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std::uint32_t>& match) {
   constexpr float kSamePlace = 0.15f;
   const auto matched = [&](std::size_t j) { return j < match.size() && match[j] != kNone; };
@@ -52,26 +60,33 @@ void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std:
   std::vector<std::string> names;
   for (const auto& joint : from.joints) names.push_back(joint.name);
   const HumanoidNames parts = humanoidNames(names);
-  const auto jointOf = [&](std::string_view part) { return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin()); };
-  for (const std::string_view part : {"spine", "chest", "upperChest"}) release(jointOf("hips"), jointOf("neck"), jointOf(part));
+  const auto jointOf = [&](std::string_view part) {
+    return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin());
+  };
+  for (const std::string_view part : {"spine", "chest", "upperChest"})
+    release(jointOf("hips"), jointOf("neck"), jointOf(part));
   for (const std::string_view side : {"left", "right"})
     for (const auto& [upper, lower] : {std::pair("LowerArm", "Hand"), std::pair("UpperArm", "LowerArm")}) {
       const std::size_t a = jointOf(std::string(side) + upper), b = jointOf(std::string(side) + lower);
       if (!matched(a) || !matched(b)) continue;
-      for (JointId j = from.joints[b].parent; j.valid() && j.value != a; j = from.joints[j.value].parent) release(a, b, j.value);
+      for (JointId j = from.joints[b].parent; j.valid() && j.value != a; j = from.joints[j.value].parent)
+        release(a, b, j.value);
     }
 }
 
-// How long the ways from each matched joint to the matched one before it are in all. Unlike how far apart joints lie,
-// it does not change with how the arms are held at rest.
-float linksLength(const Skeleton& skeleton, const Skeleton& from, std::span<const std::uint32_t> match, bool matched) {
+// How long the ways from each matched joint to the matched one before it are in all. Unlike how far apart
+// joints lie, it does not change with how the arms are held at rest.
+float linksLength(const Skeleton& skeleton, const Skeleton& from, std::span<const std::uint32_t> match,
+                  bool matched) {
   double sum = 0;
   for (std::size_t j = 0; j < match.size(); ++j) {
     if (match[j] == kNone) continue;
     JointId before = from.joints[j].parent;
     while (before.valid() && match[before.value] == kNone) before = from.joints[before.value].parent;
     if (!before.valid()) continue;
-    const auto centre = [&](std::size_t joint) { return dvec3(centreIn(skeleton, matched ? match[joint] : joint)); };
+    const auto centre = [&](std::size_t joint) {
+      return dvec3(centreIn(skeleton, matched ? match[joint] : joint));
+    };
     sum += glm::distance(centre(j), centre(before.value));
   }
   return float(sum);
@@ -137,9 +152,12 @@ class Carrier {
 
   void measureSizes() {
     for (std::uint32_t j = 0; j < match_.size(); ++j)
-      if (match_[j] != kNone) ++out_.jointsMatched;
-      else out_.jointsFree.push_back(from_.skeleton.joints[j].name);
-    out_.radiusFactor = linksLength(to_.skeleton, from_.skeleton, match_, true) / linksLength(from_.skeleton, from_.skeleton, match_, false);
+      if (match_[j] != kNone)
+        ++out_.jointsMatched;
+      else
+        out_.jointsFree.push_back(from_.skeleton.joints[j].name);
+    out_.radiusFactor = linksLength(to_.skeleton, from_.skeleton, match_, true) /
+                        linksLength(from_.skeleton, from_.skeleton, match_, false);
   }
 
   vec3 centreOf(std::uint32_t joint) const { return vec3(pose_.world[joint][3]); }
@@ -147,8 +165,11 @@ class Carrier {
 
   // The next matched joint along the same limb.
   std::uint32_t nextMatched(std::uint32_t joint) const {
-    for (JointId next = binding_.spines.joints[joint].next; next.valid(); next = binding_.spines.joints[next.value].next)
-      if (match_[next.value] != kNone && glm::distance(centreOf(next.value), centreOf(joint)) > 0.01f * out_.radiusFactor) return next.value;
+    for (JointId next = binding_.spines.joints[joint].next; next.valid();
+         next = binding_.spines.joints[next.value].next)
+      if (match_[next.value] != kNone &&
+          glm::distance(centreOf(next.value), centreOf(joint)) > 0.01f * out_.radiusFactor)
+        return next.value;
     return kNone;
   }
 
@@ -163,8 +184,11 @@ class Carrier {
       Stretch& own = all[j];
       own.centre = centreOf(j), own.target = targetOf(j);
       const std::uint32_t next = nextMatched(j);
-      if (next != kNone) own.linear = turnAndStretch(centreOf(next) - own.centre, targetOf(next) - own.target, out_.radiusFactor);
-      else own.linear = mat3(out_.radiusFactor);
+      if (next != kNone)
+        own.linear =
+            turnAndStretch(centreOf(next) - own.centre, targetOf(next) - own.target, out_.radiusFactor);
+      else
+        own.linear = mat3(out_.radiusFactor);
     }
     return all;
   }
@@ -198,12 +222,13 @@ class Carrier {
     TriangleMesh target = skinAtRest(to_);
     if (skin_.empty() || target.empty()) return;
     shell_ = std::make_unique<SkinShell>(std::move(target));
-    for (std::size_t v = 0; v < skin_.positions.size(); ++v) skin_.positions[v] = vec3(points_[network_.points().size() + v]);
+    for (std::size_t v = 0; v < skin_.positions.size(); ++v)
+      skin_.positions[v] = vec3(points_[network_.points().size() + v]);
     SkinWarp(skin_, *shell_).run(std::span(points_).first(network_.points().size()));
   }
 
-  // Points outside the skin, or nearer to it than their radius and than they were, are moved in; their neighbours
-  // come along.
+  // Points outside the skin, or nearer to it than their radius and than they were, are moved in; their
+  // neighbours come along.
   void pushInside() {
     if (!shell_) return;
     constexpr int kRoundsInside = 3;
@@ -222,7 +247,9 @@ class Carrier {
         const auto place = shell_->look(vec3(p));
         if (place.depth < wanted[i] - 1e-5f) moves[i] = place.nearest - wanted[i] * place.normal - vec3(p);
       });
-      if (round == 0) out_.pushedIn = std::uint32_t(std::ranges::count_if(moves, [](const vec3& m) { return m != vec3(0); }));
+      if (round == 0)
+        out_.pushedIn =
+            std::uint32_t(std::ranges::count_if(moves, [](const vec3& m) { return m != vec3(0); }));
       spreadAlongVessels(moves);
       for (std::size_t i = 0; i < moves.size(); ++i) out_.points[i] += vec4(moves[i], 0);
     }
@@ -255,8 +282,8 @@ class Carrier {
 
 }  // namespace
 
-Result<CarriedNetwork> carryNetwork(const Network& network, const Body& from, const Body& to, std::string_view name,
-                                    const JointMap& map) {
+Result<CarriedNetwork> carryNetwork(const Network& network, const Body& from, const Body& to,
+                                    std::string_view name, const JointMap& map) {
   return Carrier(network, from, to, name).run(map);
 }
 

@@ -10,15 +10,11 @@
 namespace vasa {
 namespace {
 
-vec3 between(vec3 a, vec3 b, float u) {
-  return a + u * (b - a);
-}
+vec3 between(vec3 a, vec3 b, float u) { return a + u * (b - a); }
 quat between(quat a, quat b, float u) {
   return glm::slerp(a, b, u);  // along the shorter arc
 }
-vec3 finished(vec3 v) {
-  return v;
-}
+vec3 finished(vec3 v) { return v; }
 quat finished(quat q) {
   const float length = glm::length(q);
   return length > 0 ? q / length : quat(1, 0, 0, 0);

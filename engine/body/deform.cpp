@@ -54,9 +54,9 @@ void movePoints(const Binding& binding, std::span<const vec4> rest, std::span<ve
 std::vector<Station> mainStations(const Binding& binding) {
   std::vector<Station> stations(binding.pointCount);
   forEachPoint(binding, [&](std::size_t i, std::span<const BindingRecord> records) {
-    const auto greatest = std::max_element(records.begin(), records.end(), [](const BindingRecord& a, const BindingRecord& b) {
-      return a.share < b.share;
-    });
+    const auto greatest =
+        std::max_element(records.begin(), records.end(),
+                         [](const BindingRecord& a, const BindingRecord& b) { return a.share < b.share; });
     stations[i] = greatest->station();
   });
   return stations;

@@ -11,11 +11,12 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kFamilies = 7;
-constexpr std::array<std::string_view, kFamilies> kFamilyNames{"cmu", "mixamo", "makehuman game", "makehuman", "vrm", "vroid", "biovision"};
+constexpr std::array<std::string_view, kFamilies> kFamilyNames{"cmu", "mixamo", "makehuman game", "makehuman",
+                                                               "vrm", "vroid",  "biovision"};
 constexpr int kLeastKnown = 8;
 
-// A row for each part of the body, a column for each family. @ stands for the side: "left" or "l" as the column's
-// names have it.
+// A row for each part of the body, a column for each family. @ stands for the side: "left" or "l" as the
+// column's names have it.
 struct Row {
   std::string_view part;
   std::array<std::string_view, kFamilies> names;
@@ -29,17 +30,22 @@ constexpr Row kMiddle[] = {
     {"head", {"head", "head", "head", "head", "head", "jbipchead", "head"}},
 };
 constexpr Row kSide[] = {
-    {"Shoulder", {"@shoulder", "@shoulder", "clavicle@", "clavicle@", "@shoulder", "jbip@shoulder", "@collar"}},
+    {"Shoulder",
+     {"@shoulder", "@shoulder", "clavicle@", "clavicle@", "@shoulder", "jbip@shoulder", "@collar"}},
     {"UpperArm", {"@arm", "@arm", "upperarm@", "upperarm01@", "@upperarm", "jbip@upperarm", "@shoulder"}},
-    {"LowerArm", {"@forearm", "@forearm", "lowerarm@", "lowerarm01@", "@lowerarm", "jbip@lowerarm", "@elbow"}},
+    {"LowerArm",
+     {"@forearm", "@forearm", "lowerarm@", "lowerarm01@", "@lowerarm", "jbip@lowerarm", "@elbow"}},
     {"Hand", {"@hand", "@hand", "hand@", "wrist@", "@hand", "jbip@hand", "@wrist"}},
     {"UpperLeg", {"@upleg", "@upleg", "thigh@", "upperleg01@", "@upperleg", "jbip@upperleg", "@hip"}},
     {"LowerLeg", {"@leg", "@leg", "calf@", "lowerleg01@", "@lowerleg", "jbip@lowerleg", "@knee"}},
     {"Foot", {"@foot", "@foot", "foot@", "foot@", "@foot", "jbip@foot", "@ankle"}},
     {"Toes", {"@toebase", "@toebase", "ball@", "toe11@", "@toes", "jbip@toebase", "@toe"}},
-    {"ThumbProximal", {"#thumb", "@handthumb1", "thumb01@", "finger11@", "@thumbproximal", "jbip@thumb1", "@thumb"}},
-    {"IndexProximal", {"@handindex1", "@handindex1", "index01@", "finger21@", "@indexproximal", "jbip@index1", "@index"}},
-    {"MiddleProximal", {"@fingerbase", "@handmiddle1", "middle01@", "finger31@", "@middleproximal", "jbip@middle1", "@middle"}},
+    {"ThumbProximal",
+     {"#thumb", "@handthumb1", "thumb01@", "finger11@", "@thumbproximal", "jbip@thumb1", "@thumb"}},
+    {"IndexProximal",
+     {"@handindex1", "@handindex1", "index01@", "finger21@", "@indexproximal", "jbip@index1", "@index"}},
+    {"MiddleProximal",
+     {"@fingerbase", "@handmiddle1", "middle01@", "finger31@", "@middleproximal", "jbip@middle1", "@middle"}},
 };
 // Whether a family writes sides out.
 constexpr std::array<bool, kFamilies> kWholeSides{true, true, false, false, true, false, true};
@@ -47,9 +53,12 @@ constexpr std::array<bool, kFamilies> kWholeSides{true, true, false, false, true
 std::string withSide(std::string_view pattern, bool left, bool whole) {
   std::string name;
   for (const char c : pattern) {
-    if (c == '@') name += whole ? (left ? "left" : "right") : (left ? "l" : "r");
-    else if (c == '#') name += left ? "l" : "r";
-    else name += c;
+    if (c == '@')
+      name += whole ? (left ? "left" : "right") : (left ? "l" : "r");
+    else if (c == '#')
+      name += left ? "l" : "r";
+    else
+      name += c;
   }
   return name;
 }
@@ -70,7 +79,8 @@ const std::vector<Part>& parts() {
     for (const bool left : {true, false})
       for (const Row& row : kSide) {
         Part part{(left ? "left" : "right") + std::string(row.part), {}};
-        for (std::size_t f = 0; f < kFamilies; ++f) part.joints[f] = withSide(row.names[f], left, kWholeSides[f]);
+        for (std::size_t f = 0; f < kFamilies; ++f)
+          part.joints[f] = withSide(row.names[f], left, kWholeSides[f]);
         all.push_back(std::move(part));
       }
     return all;
@@ -86,7 +96,8 @@ std::string_view humanoidPart(std::string_view name) {
 }
 
 int humanoidKeys(std::span<const std::string_view> of) {
-  constexpr std::array<std::string_view, 6> kLimbs{"UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"};
+  constexpr std::array<std::string_view, 6> kLimbs{"UpperArm", "LowerArm", "Hand",
+                                                   "UpperLeg", "LowerLeg", "Foot"};
   const auto has = [&](std::string_view part) { return std::ranges::find(of, part) != of.end(); };
   int count = int(has("hips")) + int(has("neck") || has("head"));
   for (const std::string side : {"left", "right"})
@@ -123,7 +134,9 @@ HumanoidNames humanoidNames(const std::vector<std::string>& joints) {
     best = {kFamilyNames[f], std::move(known)};
   }
   // A convention that knows less of the limbs than plain words do is not the one.
-  if (auto words = humanoidWords(joints); humanoidKeys(words) > std::max(humanoidKeys(best.of), kLeastKnown - 1)) best = {"words", std::move(words)};
+  if (auto words = humanoidWords(joints);
+      humanoidKeys(words) > std::max(humanoidKeys(best.of), kLeastKnown - 1))
+    best = {"words", std::move(words)};
   return best;
 }
 

@@ -7,11 +7,11 @@
 
 namespace vasa {
 
-/// What a joint is in a human body, in the words of the VRM humanoid ("hips", "leftUpperArm", "rightToes" ...),
-/// judged by its name. Known families: CMU's mocap files, Mixamo, MakeHuman's game and default rigs, VRM,
-/// VRoid and Biovision's own (Collar, Shoulder, Elbow, Wrist; Hip, Knee, Ankle). The family is the one that knows most of
-/// the names; letters' case, prefixes up to a colon and marks between letters do not matter. Where words alone tell more
-/// (body/humanoid_words.h) the family is "words".
+/// What a joint is in a human body, in the words of the VRM humanoid ("hips", "leftUpperArm", "rightToes"
+/// ...), judged by its name. Known families: CMU's mocap files, Mixamo, MakeHuman's game and default rigs,
+/// VRM, VRoid and Biovision's own (Collar, Shoulder, Elbow, Wrist; Hip, Knee, Ankle). The family is the one
+/// that knows most of the names; letters' case, prefixes up to a colon and marks between letters do not
+/// matter. Where words alone tell more (body/humanoid_words.h) the family is "words".
 struct HumanoidNames {
   std::string_view family;           ///< "cmu", "mixamo" ...; empty where no family fits
   std::vector<std::string_view> of;  ///< one a joint; empty where unknown
@@ -21,8 +21,8 @@ HumanoidNames humanoidNames(const std::vector<std::string>& joints);
 /// The same word, for ever; empty where there is no such part.
 std::string_view humanoidPart(std::string_view name);
 
-/// How many of the fourteen parts that make a person move are there: hips, neck or head, and of each side upper and
-/// lower arm, hand, upper and lower leg, foot.
+/// How many of the fourteen parts that make a person move are there: hips, neck or head, and of each side
+/// upper and lower arm, hand, upper and lower leg, foot.
 int humanoidKeys(std::span<const std::string_view> of);
 constexpr int kHumanoidKeys = 14;
 

@@ -36,7 +36,9 @@ std::optional<Bound> findBound(std::uint64_t key, const Body& body) {
   using Raw = std::array<std::uint16_t, 3>;
   static_assert(sizeof(Raw) == sizeof(BindingRecord));
   std::vector<Raw> records;
-  if (!in.take(bound.behind) || !in.take(bound.binding.pointCount) || !in.takeAll(records) || !in.takeAll(bound.binding.firstRecord)) return {};
+  if (!in.take(bound.behind) || !in.take(bound.binding.pointCount) || !in.takeAll(records) ||
+      !in.takeAll(bound.binding.firstRecord))
+    return {};
   bound.binding.records.reserve(records.size());
   for (const Raw& raw : records) bound.binding.records.push_back(std::bit_cast<BindingRecord>(raw));
   return bound;

@@ -11,9 +11,11 @@ namespace vasa {
 
 MeshRole roleNamed(std::string_view name) {
   std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   const auto hasAny = [&](std::initializer_list<std::string_view> parts) {
-    return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return lower.find(part) != std::string::npos; });
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](std::string_view part) { return lower.find(part) != std::string::npos; });
   };
   if (lower.starts_with("skin")) return MeshRole::skin;
   if (hasAny({"bone", "skelet"})) return MeshRole::bones;
@@ -26,10 +28,13 @@ MeshRole roleNamed(std::string_view name) {
 bool isSolid(const SkinnedMesh& mesh) {
   switch (roleNamed(mesh.name)) {
     case MeshRole::bones:
-    case MeshRole::heart: return true;
+    case MeshRole::heart:
+      return true;
     case MeshRole::skin:
-    case MeshRole::organs: return false;
-    case MeshRole::other: break;
+    case MeshRole::organs:
+      return false;
+    case MeshRole::other:
+      break;
   }
   return movesByRigidParts(mesh);
 }

@@ -24,8 +24,12 @@ struct Motion {
   std::vector<quat> rotations;     ///< local, frame after frame, one a joint
   std::vector<vec3> translations;  ///< local, likewise; the offset where the joint does not move
 
-  const quat& rotation(std::uint32_t frame, std::size_t joint) const { return rotations[frame * joints.size() + joint]; }
-  const vec3& translation(std::uint32_t frame, std::size_t joint) const { return translations[frame * joints.size() + joint]; }
+  const quat& rotation(std::uint32_t frame, std::size_t joint) const {
+    return rotations[frame * joints.size() + joint];
+  }
+  const vec3& translation(std::uint32_t frame, std::size_t joint) const {
+    return translations[frame * joints.size() + joint];
+  }
 };
 
 }  // namespace vasa

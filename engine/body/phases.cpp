@@ -187,7 +187,8 @@ class TieTable {
     std::uint32_t to;
     float length;  ///< [m]
   };
-  TieTable(std::span<const vec4> points, std::span<const Tie> ties) : first_(points.size() + 1, 0), ways_(2 * ties.size()) {
+  TieTable(std::span<const vec4> points, std::span<const Tie> ties)
+      : first_(points.size() + 1, 0), ways_(2 * ties.size()) {
     for (const Tie& tie : ties) ++first_[tie.a], ++first_[tie.b];
     std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0u);
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
@@ -197,15 +198,17 @@ class TieTable {
       ways_[next[tie.b]++] = {tie.a, length};
     }
   }
-  std::span<const Way> from(std::uint32_t point) const { return std::span(ways_).subspan(first_[point], first_[point + 1] - first_[point]); }
+  std::span<const Way> from(std::uint32_t point) const {
+    return std::span(ways_).subspan(first_[point], first_[point + 1] - first_[point]);
+  }
 
  private:
   std::vector<std::uint32_t> first_;
   std::vector<Way> ways_;
 };
 
-/// Lowers values until none exceeds a neighbour's by more than the slope allows; raises them with sign = -1. From the
-/// least value on (Dijkstra), so that each is lowered once and what is flat is left alone.
+/// Lowers values until none exceeds a neighbour's by more than the slope allows; raises them with sign = -1.
+/// From the least value on (Dijkstra), so that each is lowered once and what is flat is left alone.
 /// @return whether there was any
 bool level(std::span<float> values, const TieTable& ties, float slope, float sign) {
   using Open = std::pair<float, std::uint32_t>;
@@ -214,7 +217,8 @@ bool level(std::span<float> values, const TieTable& ties, float slope, float sig
     return sign * (values[way.to] - values[point]) > slope * way.length;
   };
   for (std::uint32_t point = 0; point < values.size(); ++point)
-    if (std::ranges::any_of(ties.from(point), [&](const auto& way) { return exceeds(way, point); })) open.emplace(sign * values[point], point);
+    if (std::ranges::any_of(ties.from(point), [&](const auto& way) { return exceeds(way, point); }))
+      open.emplace(sign * values[point], point);
   const bool any = !open.empty();
   Checkpoints checkpoints;
   while (!open.empty()) {

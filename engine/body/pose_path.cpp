@@ -33,7 +33,11 @@ std::vector<JointTransform> localOf(const Skeleton& skeleton, const Pose& pose) 
 }  // namespace
 
 PosePath::PosePath(const Skeleton& skeleton, const Pose& from, const Pose& to)
-    : skeleton_(&skeleton), from_(from), to_(to), start_(localOf(skeleton, from)), end_(localOf(skeleton, to)) {}
+    : skeleton_(&skeleton),
+      from_(from),
+      to_(to),
+      start_(localOf(skeleton, from)),
+      end_(localOf(skeleton, to)) {}
 
 Pose PosePath::at(float share) const {
   if (share <= 0) return from_;
@@ -41,7 +45,8 @@ Pose PosePath::at(float share) const {
   std::vector<JointTransform> local;
   local.reserve(start_.size());
   for (std::size_t j = 0; j < start_.size(); ++j)
-    local.push_back({glm::mix(start_[j].translation, end_[j].translation, share), glm::slerp(start_[j].rotation, end_[j].rotation, share),
+    local.push_back({glm::mix(start_[j].translation, end_[j].translation, share),
+                     glm::slerp(start_[j].rotation, end_[j].rotation, share),
                      glm::mix(start_[j].scale, end_[j].scale, share)});
   return poseFromLocal(*skeleton_, local);
 }

@@ -3,8 +3,8 @@
 
 namespace vasa {
 
-/// The way from one pose to another: every joint turns about its parent along the shorter arc while it moves in a straight
-/// line, so limbs keep their length in between.
+/// The way from one pose to another: every joint turns about its parent along the shorter arc while it moves
+/// in a straight line, so limbs keep their length in between.
 class PosePath {
  public:
   /// @param skeleton  must outlive this
@@ -12,8 +12,8 @@ class PosePath {
 
   /// @param share  0: from, 1: to, both as they were given
   Pose at(float share) const;
-  /// How far the joint turns that turns farthest about its parent [rad]. That of a root, which moves everything alike, does
-  /// not count.
+  /// How far the joint turns that turns farthest about its parent [rad]. That of a root, which moves
+  /// everything alike, does not count.
   float largestTurn() const;
 
  private:

@@ -8,9 +8,9 @@
 #include "body/humanoid_shape.h"
 #include "body/motion_rest.h"
 
-// Rotations are kept relative to a pose in which the motion's skeleton stands (its zero pose, as a rule), in world
-// axes: Q = world · standing⁻¹. A joint that follows has Q_body = Q_motion · A, with A the constant turn that brings the
-// body's rest pose to the motion's standing one.
+// Rotations are kept relative to a pose in which the motion's skeleton stands (its zero pose, as a rule), in
+// world axes: Q = world · standing⁻¹. A joint that follows has Q_body = Q_motion · A, with A the constant
+// turn that brings the body's rest pose to the motion's standing one.
 namespace vasa {
 namespace {
 
@@ -20,14 +20,15 @@ constexpr float kKneeCapShare = 0.6f;
 constexpr float kLeastBend = 0.1f;  // sine of an elbow's bend
 constexpr float kMostHingeTurn = 1.0f;
 constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower than the floor, a little
-constexpr float kFacingDoubt = 0.87f;  // cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant
+// Cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant.
+constexpr float kFacingDoubt = 0.87f;
 constexpr std::uint32_t kFramesCompared = 12;
-constexpr float kLongBone = 2.5f;      // times the other bone of a limb: no person's
+constexpr float kLongBone = 2.5f;                   // times the other bone of a limb: no person's
 constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand and foot
-constexpr int kGross = 8;              // what no person has counts as much as this many doubts
-constexpr float kAlike = 0.25f;        // the share by which the bones of both sides may differ
+constexpr int kGross = 8;                           // what no person has counts as much as this many doubts
+constexpr float kAlike = 0.25f;                     // the share by which the bones of both sides may differ
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
-constexpr float kGoodAngle = 10, kLostAngle = 60;      // [degrees] between limbs: as good as right, and wrong
+constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
 const quat kIdentity(1, 0, 0, 0);
 
 vec3 unit(vec3 v) {
@@ -90,7 +91,8 @@ void placeIn(Rig& rig, const MotionPose& pose) { rig.centres = pose.places, rig.
 // In the first frame: a zero pose may have all bones along one line.
 Rig rigOf(const Motion& motion) {
   Rig rig;
-  for (const Motion::Joint& joint : motion.joints) rig.names.push_back(joint.name), rig.parents.push_back(joint.parent.value);
+  for (const Motion::Joint& joint : motion.joints)
+    rig.names.push_back(joint.name), rig.parents.push_back(joint.parent.value);
   placeIn(rig, motionPose(motion, 0));
   nameParts(rig);
   return rig;
@@ -114,10 +116,12 @@ Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& bod
   std::vector<bool> told(motion.names.size()), taken(body.names.size());
   for (const auto& [from, to] : map) {
     const auto a = std::ranges::find(motion.names, from), b = std::ranges::find(body.names, to);
-    if (a == motion.names.end()) return badInput(motionName + " has no joint '" + from + "' that the joint map names");
+    if (a == motion.names.end())
+      return badInput(motionName + " has no joint '" + from + "' that the joint map names");
     told[std::size_t(a - motion.names.begin())] = true;
     if (to.empty()) continue;
-    if (b == body.names.end()) return badInput(bodyName + " has no joint '" + to + "' that the joint map names");
+    if (b == body.names.end())
+      return badInput(bodyName + " has no joint '" + to + "' that the joint map names");
     source[std::size_t(b - body.names.begin())] = std::uint32_t(a - motion.names.begin());
     taken[std::size_t(b - body.names.begin())] = true;
   }
@@ -142,7 +146,8 @@ std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_vi
     if (to == kNone) to = rig.partNamed(part);
   vec3 left(0);
   for (const std::string_view pair : pairs) {
-    const std::uint32_t a = rig.partNamed("left" + std::string(pair)), b = rig.partNamed("right" + std::string(pair));
+    const std::uint32_t a = rig.partNamed("left" + std::string(pair)),
+                        b = rig.partNamed("right" + std::string(pair));
     if (a != kNone && b != kNone) left += rig.centres[a] - rig.centres[b];
   }
   if (from == kNone || to == kNone) return std::nullopt;
@@ -156,8 +161,8 @@ std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<
   return glm::normalize(glm::quat_cast(*to * glm::transpose(*from)));
 }
 
-// The share of what must hold between the parts of a person that does: lower bones behind upper ones, both sides alike,
-// legs away from the trunk. Names alone may mean anything.
+// The share of what must hold between the parts of a person that does: lower bones behind upper ones, both
+// sides alike, legs away from the trunk. Names alone may mean anything.
 float plausibility(const Rig& rig) {
   int held = 0, asked = 0;
   float arm = 0, leg = 0;
@@ -166,9 +171,13 @@ float plausibility(const Rig& rig) {
     while (joint != kNone && joint != above) joint = rig.parents[joint];
     return joint == above;
   };
-  const auto part = [&](const char* side, const char* name) { return rig.partNamed(std::string(side) + name); };
-  const std::uint32_t hips = rig.partNamed("hips"), top = rig.partNamed(rig.partNamed("neck") == kNone ? "head" : "neck");
-  for (const auto& limb : {std::array{"UpperArm", "LowerArm", "Hand"}, std::array{"UpperLeg", "LowerLeg", "Foot"}}) {
+  const auto part = [&](const char* side, const char* name) {
+    return rig.partNamed(std::string(side) + name);
+  };
+  const std::uint32_t hips = rig.partNamed("hips"),
+                      top = rig.partNamed(rig.partNamed("neck") == kNone ? "head" : "neck");
+  for (const auto& limb :
+       {std::array{"UpperArm", "LowerArm", "Hand"}, std::array{"UpperLeg", "LowerLeg", "Foot"}}) {
     std::array<float, 2> lengths[2] = {{0, 0}, {0, 0}};
     for (int s = 0; s < 2; ++s)
       for (std::size_t k = 0; k < 2; ++k) {
@@ -186,7 +195,8 @@ float plausibility(const Rig& rig) {
       if (upper > 0 && lower > 0) ask(upper < kLongBone * lower && lower < kLongBone * upper, kGross);
       (limb[0] == std::string_view("UpperArm") ? arm : leg) += upper > 0 && lower > 0 ? upper + lower : 0;
     }
-    for (const auto& [left, right] : {std::pair(lengths[0][0], lengths[0][1]), std::pair(lengths[1][0], lengths[1][1])})
+    for (const auto& [left, right] :
+         {std::pair(lengths[0][0], lengths[0][1]), std::pair(lengths[1][0], lengths[1][1])})
       if (left > 0 && right > 0) ask(std::abs(left - right) < kAlike * std::max(left, right));
     const std::uint32_t l = part("left", limb[0]), r = part("right", limb[0]);
     if (l != kNone && r != kNone) ask(!below(l, r) && !below(r, l));
@@ -197,19 +207,23 @@ float plausibility(const Rig& rig) {
 
 class Retargeter {
  public:
-  Retargeter(const Motion& motion, const Body& body) : given_(motion), body_(body), from_(rigOf(motion)), to_(rigOf(body.skeleton)) {}
+  Retargeter(const Motion& motion, const Body& body)
+      : given_(motion), body_(body), from_(rigOf(motion)), to_(rigOf(body.skeleton)) {}
 
   Result<Retargeting> run(const JointMap& map) {
     auto matched = matchJoints(from_, to_, map, given_.name, body_.name);
     if (!matched) return matched.error();
     source_ = std::move(*matched);
-    const auto count = std::size_t(std::ranges::count_if(source_, [](std::uint32_t s) { return s != kNone; }));
+    const auto count =
+        std::size_t(std::ranges::count_if(source_, [](std::uint32_t s) { return s != kNone; }));
     hips_ = hipsOf();
-    const std::string remedy = "; `vasa map BODY MOTION -o map.txt` writes the pairs that it finds, to be mended and given with --joint-map";
+    const std::string remedy =
+        "; `vasa map BODY MOTION -o map.txt` writes the pairs that it finds, to be mended and given with --joint-map";
     if (count < kLeastJoints)
-      return badInput(body_.name + " and " + given_.name + " have " + std::to_string(count) + " joints in common, fewer than " +
-                      std::to_string(kLeastJoints) + remedy);
-    if (hips_ == kNone) return badInput(body_.name + " has no joint that follows the hips of " + given_.name + remedy);
+      return badInput(body_.name + " and " + given_.name + " have " + std::to_string(count) +
+                      " joints in common, fewer than " + std::to_string(kLeastJoints) + remedy);
+    if (hips_ == kNone)
+      return badInput(body_.name + " has no joint that follows the hips of " + given_.name + remedy);
     partsFromSource();
     stand();
     align();
@@ -219,8 +233,9 @@ class Retargeter {
     out.source = source_;
     describe(out, !map.empty());
     if (map.empty() && out.sureness < kLeastSureness)
-      return badInput(given_.name + " does not fit " + body_.name + ": " + describeMatch(out) + ", less than the " +
-                      std::to_string(int(std::lround(100 * kLeastSureness))) + " % that is asked for" + remedy);
+      return badInput(given_.name + " does not fit " + body_.name + ": " + describeMatch(out) +
+                      ", less than the " + std::to_string(int(std::lround(100 * kLeastSureness))) +
+                      " % that is asked for" + remedy);
     return out;
   }
 
@@ -233,9 +248,11 @@ class Retargeter {
     const MotionPose pose = motionPose(motion(), standing_);
     placeIn(from_, pose);
     standingTurns_ = pose.world;
-    const auto hips = turnOf(trunkOf(to_, {"UpperLeg", "UpperArm"}), trunkOf(from_, {"UpperLeg", "UpperArm"}));
+    const auto hips =
+        turnOf(trunkOf(to_, {"UpperLeg", "UpperArm"}), trunkOf(from_, {"UpperLeg", "UpperArm"}));
     const auto chest = turnOf(trunkOf(to_, {"UpperArm"}), trunkOf(from_, {"UpperArm"}));
-    if (!hips || (standing_ == MotionPose::kZero && hips->w > 0 && 2 * hips->w * hips->w - 1 > kFacingDoubt)) return;
+    if (!hips || (standing_ == MotionPose::kZero && hips->w > 0 && 2 * hips->w * hips->w - 1 > kFacingDoubt))
+      return;
     hipsTurn_ = *hips;
     chestTurn_ = standing_ != MotionPose::kZero && chest ? *chest : *hips;
   }
@@ -244,24 +261,31 @@ class Retargeter {
   // The hips, or the first joint that follows one which moves.
   std::uint32_t hipsOf() const {
     for (std::uint32_t j = 0; j < source_.size(); ++j)
-      if (source_[j] != kNone && (to_.parts.of[j] == "hips" || from_.parts.of[source_[j]] == "hips")) return j;
+      if (source_[j] != kNone && (to_.parts.of[j] == "hips" || from_.parts.of[source_[j]] == "hips"))
+        return j;
     for (std::uint32_t j = 0; j < source_.size(); ++j)
-      if (source_[j] != kNone && (given_.joints[source_[j]].moves || from_.parents[source_[j]] == kNone)) return j;
+      if (source_[j] != kNone && (given_.joints[source_[j]].moves || from_.parents[source_[j]] == kNone))
+        return j;
     return kNone;
   }
 
   // Joints that only the map knows are the parts that their counterparts are.
   void partsFromSource() {
     for (std::uint32_t j = 0; j < source_.size(); ++j)
-      if (source_[j] != kNone && to_.parts.of[j].empty()) to_.parts.of[j] = from_.parts.of[source_[j]];
-      else if (source_[j] != kNone && from_.parts.of[source_[j]].empty()) from_.parts.of[source_[j]] = to_.parts.of[j];
+      if (source_[j] != kNone && to_.parts.of[j].empty())
+        to_.parts.of[j] = from_.parts.of[source_[j]];
+      else if (source_[j] != kNone && from_.parts.of[source_[j]].empty())
+        from_.parts.of[source_[j]] = to_.parts.of[j];
   }
 
   // Direction of a limb's bone: to the joint that is the next part.
   static vec3 boneOf(const Rig& rig, std::uint32_t joint, std::string_view part) {
     const std::string side(part.starts_with("left") ? "left" : "right");
     std::string_view next;
-    for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"}, {"LowerArm", "Hand"}, {"UpperLeg", "LowerLeg"}, {"LowerLeg", "Foot"}})
+    for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"},
+                                      {"LowerArm", "Hand"},
+                                      {"UpperLeg", "LowerLeg"},
+                                      {"LowerLeg", "Foot"}})
       if (endsWith(part, own)) next = behind;
     if (next.empty()) return vec3(0);
     const std::uint32_t end = rig.partNamed(side + std::string(next));
@@ -279,7 +303,8 @@ class Retargeter {
     const std::uint32_t root = rig.partNamed(side + "ThumbProximal");
     for (std::uint32_t j = hand + 1; j < rig.names.size(); ++j) {
       bool inHand = false, inThumb = false;
-      for (std::uint32_t at = j; at != kNone && at >= hand; at = rig.parents[at]) inHand = inHand || at == hand, inThumb = inThumb || at == root;
+      for (std::uint32_t at = j; at != kNone && at >= hand; at = rig.parents[at])
+        inHand = inHand || at == hand, inThumb = inThumb || at == root;
       if (inHand) (inThumb ? thumb : fingers) += rig.tips[j] - rig.centres[hand];
     }
     const vec3 along = unit(fingers), aside = unit(thumb - glm::dot(thumb, along) * along);
@@ -308,23 +333,30 @@ class Retargeter {
     if (!endsWith(part, "Foot")) return trunk;
     const std::uint32_t ownToes = toesOf(to_, j), toes = toesOf(from_, s);
     if (ownToes == kNone || toes == kNone) return above;
-    return turnBetween(above * (to_.centres[ownToes] - to_.centres[j]), from_.centres[toes] - from_.centres[s]) * above;
+    return turnBetween(above * (to_.centres[ownToes] - to_.centres[j]),
+                       from_.centres[toes] - from_.centres[s]) *
+           above;
   }
 
-  // The turn about an upper arm that makes the elbow bend about the axis it is bent about at rest: no direction
-  // of a bone tells how an arm is turned. None where the body's arm is straight at rest or the motion never bends.
+  // The turn about an upper arm that makes the elbow bend about the axis it is bent about at rest: no
+  // direction of a bone tells how an arm is turned. None where the body's arm is straight at rest or the
+  // motion never bends.
   quat hingeTurn(std::uint32_t upper, const quat& turn) const {
     const std::string side(to_.parts.of[upper].starts_with("left") ? "left" : "right");
     const std::uint32_t lower = to_.partNamed(side + "LowerArm");
-    if (lower == kNone || source_[lower] == kNone || from_.parents[source_[lower]] != source_[upper]) return kIdentity;
-    const vec3 along = unit(boneOf(to_, upper, side + "UpperArm")), on = unit(boneOf(to_, lower, side + "LowerArm"));
-    const vec3 sourceAlong = unit(boneOf(from_, source_[upper], side + "UpperArm")), sourceOn = unit(boneOf(from_, source_[lower], side + "LowerArm"));
+    if (lower == kNone || source_[lower] == kNone || from_.parents[source_[lower]] != source_[upper])
+      return kIdentity;
+    const vec3 along = unit(boneOf(to_, upper, side + "UpperArm")),
+               on = unit(boneOf(to_, lower, side + "LowerArm"));
+    const vec3 sourceAlong = unit(boneOf(from_, source_[upper], side + "UpperArm")),
+               sourceOn = unit(boneOf(from_, source_[lower], side + "LowerArm"));
     vec3 bends(0);
     const std::uint32_t foreArm = source_[lower], arm = source_[upper];
     const quat toForeArm = glm::conjugate(standingTurns_[arm]) * standingTurns_[foreArm];
     for (std::uint32_t frame = 0; frame < motion().frameCount; ++frame) {
       // The forearm's turn beyond its standing one, seen from the arm as it stands.
-      const quat bend = standingTurns_[arm] * motion().rotation(frame, foreArm) * glm::conjugate(toForeArm) * glm::conjugate(standingTurns_[arm]);
+      const quat bend = standingTurns_[arm] * motion().rotation(frame, foreArm) * glm::conjugate(toForeArm) *
+                        glm::conjugate(standingTurns_[arm]);
       bends += glm::cross(sourceAlong, bend * sourceOn);
     }
     const vec3 own = glm::cross(along, on), wanted = bends / float(motion().frameCount);
@@ -343,9 +375,11 @@ class Retargeter {
   static float legOf(const Rig& rig) {
     float length = 0;
     for (const std::string side : {"left", "right"}) {
-      const std::uint32_t thigh = rig.partNamed(side + "UpperLeg"), knee = rig.partNamed(side + "LowerLeg"), foot = rig.partNamed(side + "Foot");
+      const std::uint32_t thigh = rig.partNamed(side + "UpperLeg"), knee = rig.partNamed(side + "LowerLeg"),
+                          foot = rig.partNamed(side + "Foot");
       if (thigh == kNone || knee == kNone || foot == kNone) return 0;
-      length += glm::distance(rig.centres[thigh], rig.centres[knee]) + glm::distance(rig.centres[knee], rig.centres[foot]);
+      length += glm::distance(rig.centres[thigh], rig.centres[knee]) +
+                glm::distance(rig.centres[knee], rig.centres[foot]);
     }
     return length;
   }
@@ -357,16 +391,21 @@ class Retargeter {
   // Legs where both have them, else the skeletons' heights.
   void measureScale() {
     const float own = legOf(to_), theirs = legOf(from_);
-    if (own > 0 && theirs > 0) scale_ = own / theirs;
-    else if (extentOf(from_) > 0) scale_ = extentOf(to_) / extentOf(from_);
+    if (own > 0 && theirs > 0)
+      scale_ = own / theirs;
+    else if (extentOf(from_) > 0)
+      scale_ = extentOf(to_) / extentOf(from_);
   }
 
   // Turns relative to rest of all of the body's joints.
   std::vector<quat> bodyTurns(const MotionPose& frame) const {
     std::vector<quat> turns(source_.size(), kIdentity);
     for (std::uint32_t j = 0; j < source_.size(); ++j) {
-      if (source_[j] != kNone) turns[j] = glm::normalize(frame.world[source_[j]] * glm::conjugate(standingTurns_[source_[j]]) * alignment_[j]);
-      else if (to_.parents[j] != kNone) turns[j] = turns[to_.parents[j]];
+      if (source_[j] != kNone)
+        turns[j] = glm::normalize(frame.world[source_[j]] * glm::conjugate(standingTurns_[source_[j]]) *
+                                  alignment_[j]);
+      else if (to_.parents[j] != kNone)
+        turns[j] = turns[to_.parents[j]];
     }
     for (std::uint32_t j = 0; j < source_.size(); ++j)
       if (source_[j] == kNone && to_.parents[j] != kNone) settleFree(j, turns);
@@ -379,8 +418,11 @@ class Retargeter {
     for (std::uint32_t k = 0; k < source_.size(); ++k) {
       if (source_[k] == kNone) continue;
       const bool sibling = to_.parents[k] == parent && to_.centres[k] == to_.centres[j];
-      if (sibling) turns[j] = turns[parent] * glm::slerp(kIdentity, glm::conjugate(turns[parent]) * turns[k], kKneeCapShare);
-      const bool roll = to_.parents[k] == j && endsWith(to_.parts.of[k], "Hand") && endsWith(to_.parts.of[parent], "LowerArm");
+      if (sibling)
+        turns[j] =
+            turns[parent] * glm::slerp(kIdentity, glm::conjugate(turns[parent]) * turns[k], kKneeCapShare);
+      const bool roll = to_.parents[k] == j && endsWith(to_.parts.of[k], "Hand") &&
+                        endsWith(to_.parts.of[parent], "LowerArm");
       if (!roll) continue;
       const quat turn = glm::conjugate(turns[parent]) * turns[k];
       const vec3 axis = unit(to_.centres[k] - to_.centres[j]);
@@ -405,7 +447,8 @@ class Retargeter {
       const MotionPose source = motionPose(motion(), frame);
       const std::vector<quat> turns = bodyTurns(source);
       for (std::uint32_t j = 0; j < source_.size(); ++j) {
-        const quat above = to_.parents[j] == kNone ? rotationOf(body_.skeleton.rootTransform) : turns[to_.parents[j]] * restRotations_[to_.parents[j]];
+        const quat above = to_.parents[j] == kNone ? rotationOf(body_.skeleton.rootTransform)
+                                                   : turns[to_.parents[j]] * restRotations_[to_.parents[j]];
         quat local = glm::normalize(glm::conjugate(above) * turns[j] * restRotations_[j]);
         auto& values = tracks[j].rotation.values;
         if (!values.empty() && glm::dot(values.back(), local) < 0) local = -local;
@@ -416,7 +459,8 @@ class Retargeter {
     }
     placeHips(hips, lowest, tracks[hips_].translation);
     std::vector<float> times;
-    for (std::uint32_t frame = 0; frame < given_.frameCount; ++frame) times.push_back(float(double(frame) / double(given_.framesPerSecond)));
+    for (std::uint32_t frame = 0; frame < given_.frameCount; ++frame)
+      times.push_back(float(double(frame) / double(given_.framesPerSecond)));
     clip.end = times.back();
     tracks[hips_].translation.times = times;
     for (JointTracks& track : tracks) {
@@ -437,7 +481,8 @@ class Retargeter {
         for (std::uint32_t at = j; at != kNone && !below; at = to_.parents[at]) below = at == hips_;
       }
       const std::string_view part = to_.parts.of[j];
-      if (below && (endsWith(part, "Foot") || endsWith(part, "Toes"))) least = std::min(least, places[j].y - to_.centres[j].y);
+      if (below && (endsWith(part, "Foot") || endsWith(part, "Toes")))
+        least = std::min(least, places[j].y - to_.centres[j].y);
     }
     return least < 1e8f ? least : -to_.centres[hips_].y;
   }
@@ -447,7 +492,8 @@ class Retargeter {
     std::nth_element(lowest.begin(), lowest.begin() + std::ptrdiff_t(floor), lowest.end());
     const vec3 shift(to_.centres[hips_].x - hips[0].x, -lowest[floor], to_.centres[hips_].z - hips[0].z);
     const std::uint32_t parent = to_.parents[hips_];
-    const mat4 toLocal = glm::inverse(parent == kNone ? body_.skeleton.rootTransform : body_.skeleton.joints[parent].restWorld);
+    const mat4 toLocal = glm::inverse(parent == kNone ? body_.skeleton.rootTransform
+                                                      : body_.skeleton.joints[parent].restWorld);
     for (const vec3& place : hips) track.values.push_back(vec3(toLocal * vec4(place + shift, 1)));
   }
 
@@ -469,14 +515,17 @@ class Retargeter {
       for (std::uint32_t j = 0; j < source_.size(); ++j) {
         const auto end = nextOf(to_, j), sourceEnd = source_[j] == kNone ? kNone : nextOf(from_, source_[j]);
         if (end == kNone || sourceEnd == kNone) continue;
-        const vec3 own = unit(vec3(pose.world[end][3]) - vec3(pose.world[j][3])), wanted = unit(source.places[sourceEnd] - source.places[source_[j]]);
+        const vec3 own = unit(vec3(pose.world[end][3]) - vec3(pose.world[j][3])),
+                   wanted = unit(source.places[sourceEnd] - source.places[source_[j]]);
         const float angle = std::acos(std::clamp(glm::dot(own, wanted), -1.0f, 1.0f)) * 180 / kPi;
         out.worstAngle = std::max(out.worstAngle, angle);
         sum += double(angle), ++measured;
       }
     }
     out.meanAngle = measured > 0 ? float(sum / measured) : 0;
-    const auto sure = [](std::string_view family) { return family == "shape" ? kShapeSure : family == "words" ? kWordsSure : 1.0f; };
+    const auto sure = [](std::string_view family) {
+      return family == "shape" ? kShapeSure : family == "words" ? kWordsSure : 1.0f;
+    };
     const int most = std::max({humanoidKeys(from_.parts.of), humanoidKeys(to_.parts.of), 1});
     const float names = told ? 1.0f : std::min(sure(out.motionNames), sure(out.bodyNames));
     out.sureness = names * std::min(1.0f, float(out.keys) / float(most));
@@ -488,8 +537,12 @@ class Retargeter {
   // The joint at which a limb's bone ends.
   static std::uint32_t nextOf(const Rig& rig, std::uint32_t joint) {
     const std::string_view part = rig.parts.of[joint];
-    for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"}, {"LowerArm", "Hand"}, {"UpperLeg", "LowerLeg"}, {"LowerLeg", "Foot"}})
-      if (endsWith(part, own)) return rig.partNamed(std::string(part.starts_with("left") ? "left" : "right") + behind);
+    for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"},
+                                      {"LowerArm", "Hand"},
+                                      {"UpperLeg", "LowerLeg"},
+                                      {"LowerLeg", "Foot"}})
+      if (endsWith(part, own))
+        return rig.partNamed(std::string(part.starts_with("left") ? "left" : "right") + behind);
     return kNone;
   }
 
@@ -501,7 +554,7 @@ class Retargeter {
   std::uint32_t standing_ = MotionPose::kZero;
   std::vector<quat> standingTurns_;  // of the motion's joints, in the pose that they stand in
   quat hipsTurn_ = kIdentity, chestTurn_ = kIdentity;  // from the body's trunk to the motion's
-  std::vector<std::uint32_t> source_;  // motion's joint that each of the body's follows
+  std::vector<std::uint32_t> source_;                  // motion's joint that each of the body's follows
   std::vector<quat> alignment_, restRotations_;
   std::uint32_t hips_ = kNone;
   float scale_ = 1;
@@ -509,16 +562,24 @@ class Retargeter {
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> matchedJoints(const Motion& motion, const Body& body, const JointMap& map) {
+Result<std::vector<std::uint32_t>> matchedJoints(const Motion& motion, const Body& body,
+                                                 const JointMap& map) {
   return matchJoints(rigOf(motion), rigOf(body.skeleton), map, motion.name, body.name);
 }
 
 std::string describeMatch(const Retargeting& done) {
-  std::string text = std::to_string(done.joints) + " joints matched, " + std::to_string(done.keys) + " of the " + std::to_string(kHumanoidKeys) +
-                     " that make a person move (names: motion " + (done.motionNames.empty() ? "unknown" : std::string(done.motionNames)) + ", body " +
-                     (done.bodyNames.empty() ? "unknown" : std::string(done.bodyNames)) + "), " + std::to_string(int(std::lround(100 * done.sureness))) + " % sure";
-  if (done.up != vec3(0, 1, 0)) text += ", up is " + std::string(done.up.x + done.up.y + done.up.z < 0 ? "-" : "+") + (done.up.x != 0 ? "X" : done.up.y != 0 ? "Y" : "Z");
-  if (done.standingFrame != Retargeting::kZeroPose) text += ", compared with rest in frame " + std::to_string(done.standingFrame);
+  std::string text = std::to_string(done.joints) + " joints matched, " + std::to_string(done.keys) +
+                     " of the " + std::to_string(kHumanoidKeys) + " that make a person move (names: motion " +
+                     (done.motionNames.empty() ? "unknown" : std::string(done.motionNames)) + ", body " +
+                     (done.bodyNames.empty() ? "unknown" : std::string(done.bodyNames)) + "), " +
+                     std::to_string(int(std::lround(100 * done.sureness))) + " % sure";
+  if (done.up != vec3(0, 1, 0))
+    text += ", up is " + std::string(done.up.x + done.up.y + done.up.z < 0 ? "-" : "+") +
+            (done.up.x != 0   ? "X"
+             : done.up.y != 0 ? "Y"
+                              : "Z");
+  if (done.standingFrame != Retargeting::kZeroPose)
+    text += ", compared with rest in frame " + std::to_string(done.standingFrame);
   return text;
 }
 

@@ -20,10 +20,10 @@ struct JointTransform {
 struct Skeleton {
   struct Joint {
     std::string name;
-    JointId parent;          ///< invalid at a root
-    JointTransform rest;     ///< local transform in the rest pose
-    mat4 restWorld{1};       ///< model space, rest pose
-    mat4 inverseBind{1};     ///< model space of the skinned meshes -> joint space at binding
+    JointId parent;       ///< invalid at a root
+    JointTransform rest;  ///< local transform in the rest pose
+    mat4 restWorld{1};    ///< model space, rest pose
+    mat4 inverseBind{1};  ///< model space of the skinned meshes -> joint space at binding
   };
   std::vector<Joint> joints;
   mat4 rootTransform{1};  ///< of nodes above the root joints

@@ -15,11 +15,10 @@ TriangleMesh skinAtRest(const Body& body) {
   return mesh;
 }
 
-SkinShell::SkinShell(TriangleMesh mesh) : mesh_(std::move(mesh)), tree_(mesh_), winding_(mesh_.positions, mesh_.triangles) {}
+SkinShell::SkinShell(TriangleMesh mesh)
+    : mesh_(std::move(mesh)), tree_(mesh_), winding_(mesh_.positions, mesh_.triangles) {}
 
-bool SkinShell::contains(vec3 p) const {
-  return std::abs(winding_.at(p)) >= 0.5f;
-}
+bool SkinShell::contains(vec3 p) const { return std::abs(winding_.at(p)) >= 0.5f; }
 
 SkinShell::Place SkinShell::look(vec3 p) const {
   const auto nearest = tree_.nearest(p);

@@ -5,8 +5,8 @@
 
 namespace vasa {
 
-/// A body's skin at rest as the boundary between inside and outside. Skins have holes (eyes, mouth) and overlap
-/// themselves (an arm against the chest); inside is where the surface winds around a place.
+/// A body's skin at rest as the boundary between inside and outside. Skins have holes (eyes, mouth) and
+/// overlap themselves (an arm against the chest); inside is where the surface winds around a place.
 class SkinShell {
  public:
   /// @param mesh  closed but for small holes, outward
@@ -16,9 +16,9 @@ class SkinShell {
 
   struct Place {
     vec3 nearest{0};
-    vec3 normal{0};      ///< of the surface there, outward
+    vec3 normal{0};  ///< of the surface there, outward
     std::uint32_t triangle = 0;
-    float depth = 0;     ///< [m] below the surface; negative outside
+    float depth = 0;  ///< [m] below the surface; negative outside
   };
   /// Expected O(log n), as the next.
   Place look(vec3 p) const;

@@ -9,19 +9,21 @@ namespace vasa {
 namespace {
 
 constexpr int kRounds = 4;
-constexpr int kSmoothing = 24;        // rounds of averaging over edges
-constexpr float kFacing = 0.2f;       // least cosine between two skins' normals that belong together
-constexpr float kFarthest = 0.12f;    // of the body's height, that a wish may ask for
+constexpr int kSmoothing = 24;      // rounds of averaging over edges
+constexpr float kFacing = 0.2f;     // least cosine between two skins' normals that belong together
+constexpr float kFarthest = 0.12f;  // of the body's height, that a wish may ask for
 constexpr std::size_t kSamples = 3000;
-constexpr float kBlur = 0.012f;       // of the body's height
+constexpr float kBlur = 0.012f;  // of the body's height
 
 struct Wishes {
   std::vector<vec3> move;
   std::vector<float> weight;  // 0: none of its own
 };
 
-Wishes askAll(const TriangleMesh& skin, const std::vector<vec3>& normals, const SkinShell& target, float farthest) {
-  Wishes wishes{std::vector<vec3>(skin.positions.size(), vec3(0)), std::vector<float>(skin.positions.size(), 0)};
+Wishes askAll(const TriangleMesh& skin, const std::vector<vec3>& normals, const SkinShell& target,
+              float farthest) {
+  Wishes wishes{std::vector<vec3>(skin.positions.size(), vec3(0)),
+                std::vector<float>(skin.positions.size(), 0)};
   const TriangleTree tree(target.mesh());
   parallelFor(skin.positions.size(), 64, [&](std::size_t v) {
     const auto near = tree.nearest(skin.positions[v], farthest);

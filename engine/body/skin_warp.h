@@ -7,9 +7,9 @@ namespace vasa {
 
 /// A smooth displacement of space that brings one skin onto another.
 ///
-/// Each vertex of the first wants to go to the nearest place of the second that faces the same way; the wishes are
-/// smoothed over the surface, done in part, and asked again. Space between follows: a point moves by the mean of
-/// what the vertices that face away from it move, weighted by 1 / (distance² + a little)².
+/// Each vertex of the first wants to go to the nearest place of the second that faces the same way; the
+/// wishes are smoothed over the surface, done in part, and asked again. Space between follows: a point moves
+/// by the mean of what the vertices that face away from it move, weighted by 1 / (distance² + a little)².
 class SkinWarp {
  public:
   /// @param skin    of the first body, as near to the second's as it is known; vertices move with the warp

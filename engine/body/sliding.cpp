@@ -72,9 +72,7 @@ vec3 placeAt(const Sampled& course, float along, std::size_t from) {
 
 }  // namespace
 
-float VesselSlider::slidingLength(float radius) {
-  return kSlidingLength * std::sqrt(radius / kOfRadius);
-}
+float VesselSlider::slidingLength(float radius) { return kSlidingLength * std::sqrt(radius / kOfRadius); }
 
 VesselSlider::VesselSlider(const Network& network) : network_(&network) {
   const auto nodeOf = [&](VesselEnd end) {

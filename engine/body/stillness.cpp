@@ -20,7 +20,8 @@ std::vector<JointId> nearLinks(const SpineSet& spines, vec3 p, float blur) {
   for (const SpineJoint& joint : spines.joints) {
     if (!joint.parent.valid()) continue;
     const vec3 from = spines.joints[joint.parent.value].centre;
-    const float distance = glm::distance(p, glm::mix(from, joint.centre, closestOnSegment(p, from, joint.centre)));
+    const float distance =
+        glm::distance(p, glm::mix(from, joint.centre, closestOnSegment(p, from, joint.centre)));
     all.emplace_back(distance, joint.parent);
     least = std::min(least, distance);
   }
@@ -54,7 +55,8 @@ float shareLeftBehind(const Body& body, const Binding& binding, std::span<const 
         if (links[i].empty()) continue;
         const vec3 p(points[samples[i]]);
         float linkWay = 1e30f;  // of the one that moves least
-        for (const JointId link : links[i]) linkWay = std::min(linkWay, glm::distance(spine.placeAfter(link, p), p));
+        for (const JointId link : links[i])
+          linkWay = std::min(linkWay, glm::distance(spine.placeAfter(link, p), p));
         const float own = glm::distance(spine.place(stations[samples[i]], p), p);
         if (linkWay > goes && own < kStaysShare * linkWay) behind[i] = true;
       }

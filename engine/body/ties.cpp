@@ -8,8 +8,9 @@
 namespace vasa {
 namespace {
 
-constexpr float kBesideRadii = 2;          // of both vessels together
-constexpr float kBesideSteps = 0.5f;       // of the way to the next point: points of two vessels do not lie face to face
+constexpr float kBesideRadii = 2;  // of both vessels together
+// Of the way to the next point: points of two vessels do not lie face to face.
+constexpr float kBesideSteps = 0.5f;
 constexpr float kFarthestHeights = 0.0045f;  // of the body's height
 
 void addBeside(const Network& network, std::vector<Tie>& ties) {

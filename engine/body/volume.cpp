@@ -50,7 +50,8 @@ Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points, const 
 
 VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
   for (const Vessel& vessel : network.vessels())
-    restVolumes_.push_back(quadraticOf(vessel, network.pointsOf(vessel), [](std::uint32_t) { return 0.0f; }).volume);
+    restVolumes_.push_back(
+        quadraticOf(vessel, network.pointsOf(vessel), [](std::uint32_t) { return 0.0f; }).volume);
 }
 
 VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const float> most) const {
@@ -65,12 +66,15 @@ VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const 
   return all;
 }
 
-void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const float> most, Outcome& outcome) const {
+void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const float> most,
+                        Outcome& outcome) const {
   const Vessel& vessel = network_->vessel(id);
   const double restVolume = restVolumes_[id.value];
   const auto own = Network::pointsOf(vessel, points);
   const auto rest = network_->pointsOf(vessel);
-  const auto limit = [&](std::uint32_t l) { return most.empty() ? std::numeric_limits<float>::infinity() : most[vessel.firstPoint + l]; };
+  const auto limit = [&](std::uint32_t l) {
+    return most.empty() ? std::numeric_limits<float>::infinity() : most[vessel.firstPoint + l];
+  };
   // A point that has come to its limit stays there, and the others share what it lacks.
   const auto held = [&](std::uint32_t l) { return pinned(vessel, l) || own[l].w >= limit(l); };
   for (std::uint32_t l = 0; l < vessel.pointCount && !most.empty(); ++l)
@@ -86,7 +90,9 @@ void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const flo
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
       if (held(l)) continue;
       const double now = own[l].w;
-      if (now > 0) kept = std::clamp(kept, kLowestFactor * rest[l].w / now - 1, std::max(kHighestFactor * rest[l].w / now - 1, 0.0));
+      if (now > 0)
+        kept = std::clamp(kept, kLowestFactor * rest[l].w / now - 1,
+                          std::max(kHighestFactor * rest[l].w / now - 1, 0.0));
     }
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
       if (held(l)) continue;

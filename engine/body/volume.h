@@ -5,10 +5,11 @@
 
 namespace vasa {
 
-/// Keeps each vessel's volume as its centre line is stretched, squeezed and bent: radii inside the vessel change,
-/// r_l <- r_l + λ w_l r_l, while the rings at its nodes stay as they are (w = 0), so that vessels still fit where
-/// they meet. One λ a vessel, from a quadratic in closed form: exact to the quadrature (4 Gauss points a span).
-/// After Hyun, Yoon, Chang, Seong, Kim, Jüttler 2005, "Sweep-based human deformation" (the paper's §3.2).
+/// Keeps each vessel's volume as its centre line is stretched, squeezed and bent: radii inside the vessel
+/// change, r_l <- r_l + λ w_l r_l, while the rings at its nodes stay as they are (w = 0), so that vessels
+/// still fit where they meet. One λ a vessel, from a quadratic in closed form: exact to the quadrature (4
+/// Gauss points a span). After Hyun, Yoon, Chang, Seong, Kim, Jüttler 2005, "Sweep-based human deformation"
+/// (the paper's §3.2).
 class VolumeKeeper {
  public:
   /// The volumes of the network at rest are the ones to keep.

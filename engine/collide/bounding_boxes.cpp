@@ -21,9 +21,7 @@ mat3 principalAxes(std::span<const vec3> points, vec3 mean) {
   return {vec3(v(0, 0), v(1, 0), v(2, 0)), vec3(v(0, 1), v(1, 1), v(2, 1)), vec3(v(0, 2), v(1, 2), v(2, 2))};
 }
 
-int largest(vec3 v) {
-  return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
-}
+int largest(vec3 v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
 
 }  // namespace
 
@@ -62,13 +60,15 @@ OrientedBox OrientedBox::around(std::span<const vec3> points) {
 }
 
 bool OrientedBox::meets(const OrientedBox& other) const {
-  constexpr float kParallel = 1e-6f;  // keeps products of parallel axes, which separate nothing, from deciding
+  // Keeps products of parallel axes, which separate nothing, from deciding.
+  constexpr float kParallel = 1e-6f;
   const mat3 r = glm::transpose(axes) * other.axes;  // r[j][i]: this box's axis i along the other's j
   const vec3 t = (other.centre - centre) * axes;
   mat3 s;
   for (int j = 0; j < 3; ++j) s[j] = glm::abs(r[j]) + kParallel;
   for (int i = 0; i < 3; ++i)
-    if (std::abs(t[i]) > half[i] + other.half.x * s[0][i] + other.half.y * s[1][i] + other.half.z * s[2][i]) return false;
+    if (std::abs(t[i]) > half[i] + other.half.x * s[0][i] + other.half.y * s[1][i] + other.half.z * s[2][i])
+      return false;
   for (int j = 0; j < 3; ++j)
     if (std::abs(glm::dot(t, r[j])) > other.half[j] + glm::dot(half, s[j])) return false;
   for (int i = 0; i < 3; ++i)
@@ -86,8 +86,6 @@ void OrientedBox::corners(std::span<vec3, 8> out) const {
     out[i] = centre + axes * (half * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
 }
 
-vec3 OrientedBox::longest() const {
-  return axes[largest(half)];
-}
+vec3 OrientedBox::longest() const { return axes[largest(half)]; }
 
 }  // namespace vasa

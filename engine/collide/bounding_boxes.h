@@ -3,8 +3,8 @@
 
 #include "math/aabb.h"
 
-// The boxes of conventional hierarchies (collide/box_hierarchy.h): each is fitted to points, tells whether it meets
-// another, gives its corners, and says along which direction what it holds is best cut in two.
+// The boxes of conventional hierarchies (collide/box_hierarchy.h): each is fitted to points, tells whether it
+// meets another, gives its corners, and says along which direction what it holds is best cut in two.
 namespace vasa {
 
 /// A box along the axes: 24 bytes.
@@ -21,9 +21,9 @@ struct AlignedBox {
 
 /// A box along the principal axes of its points (Gottschalk, Lin, Manocha 1996, "OBBTree"): 60 bytes.
 struct OrientedBox {
-  mat3 axes{1};      ///< unit, a column each
+  mat3 axes{1};  ///< unit, a column each
   vec3 centre{0};
-  vec3 half{0};      ///< [m] half extents along the axes, grown by rounding
+  vec3 half{0};  ///< [m] half extents along the axes, grown by rounding
 
   static OrientedBox around(std::span<const vec3> points);
   /// By the 15 axes that can separate two boxes.

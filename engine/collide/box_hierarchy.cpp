@@ -7,12 +7,13 @@
 
 #include "math/triangle_pair.h"
 
-// A part with `count` items of `leaves` triangles each has 2 · count · leaves - 1 boxes in one run: its own, those of its
-// left half, those of its right half. The left half has count / 2 items.
+// A part with `count` items of `leaves` triangles each has 2 · count · leaves - 1 boxes in one run: its own,
+// those of its left half, those of its right half. The left half has count / 2 items.
 namespace vasa {
 
 template <class Box>
-BoxHierarchy<Box>::BoxHierarchy(const TubeSurface& surface, std::span<const vec3> positions, const Exclusions& exclusions)
+BoxHierarchy<Box>::BoxHierarchy(const TubeSurface& surface, std::span<const vec3> positions,
+                                const Exclusions& exclusions)
     : surface_(surface), exclusions_(exclusions), tubes_(exclusions.tubeCount()) {
   const std::uint32_t count = exclusions.tubeCount(), each = surface.trianglesPerTube();
   assert(positions.size() == std::size_t(count) * surface.verticesPerTube());
@@ -139,7 +140,8 @@ void BoxHierarchy<Box>::meetTubes(const Part& a, const Part& b) {
 }
 
 template <class Box>
-bool BoxHierarchy<Box>::meetTriangles(const Part& a, std::uint32_t tubeA, const Part& b, std::uint32_t tubeB) const {
+bool BoxHierarchy<Box>::meetTriangles(const Part& a, std::uint32_t tubeA, const Part& b,
+                                      std::uint32_t tubeB) const {
   if (!boxes_[a.box].meets(boxes_[b.box])) return false;
   if (a.count == 1 && b.count == 1) return cross(tubeA, triangles_[a.first], tubeB, triangles_[b.first]);
   if (a.count >= b.count)
@@ -148,7 +150,8 @@ bool BoxHierarchy<Box>::meetTriangles(const Part& a, std::uint32_t tubeA, const 
 }
 
 template <class Box>
-bool BoxHierarchy<Box>::cross(std::uint32_t tubeA, std::uint32_t a, std::uint32_t tubeB, std::uint32_t b) const {
+bool BoxHierarchy<Box>::cross(std::uint32_t tubeA, std::uint32_t a, std::uint32_t tubeB,
+                              std::uint32_t b) const {
   const uvec3 u = surface_.triangle(tubeA, a), v = surface_.triangle(tubeB, b);
   return trianglesCross({positions_[u.x], positions_[u.y], positions_[u.z]},
                         {positions_[v.x], positions_[v.y], positions_[v.z]});

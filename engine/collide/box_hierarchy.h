@@ -8,13 +8,13 @@
 
 namespace vasa {
 
-/// A conventional hierarchy of boxes over the triangles of a tessellated network, as libraries for polygon soups build it:
-/// what the paper's Table II compares with. A yardstick, not what the program uses.
+/// A conventional hierarchy of boxes over the triangles of a tessellated network, as libraries for polygon
+/// soups build it: what the paper's Table II compares with. A yardstick, not what the program uses.
 ///
-/// A binary tree, halved at the median along its box's longest direction, first tubes and then the triangles of each, so
-/// that whole pairs of tubes can be left out; a triangle a leaf. The halves follow from the counts, so that a node is its
-/// box and nothing else. A node within a tube is fitted to the vertices below it, one above to its children's corners.
-/// One thread.
+/// A binary tree, halved at the median along its box's longest direction, first tubes and then the triangles
+/// of each, so that whole pairs of tubes can be left out; a triangle a leaf. The halves follow from the
+/// counts, so that a node is its box and nothing else. A node within a tube is fitted to the vertices below
+/// it, one above to its children's corners. One thread.
 template <class Box>
 class BoxHierarchy {
  public:
@@ -25,8 +25,8 @@ class BoxHierarchy {
   /// Fits all boxes to another shape of the same tubes, which must stay in place until detect() is done.
   void refit(std::span<const vec3> positions);
 
-  /// Pairs of tubes, not excluded, of which two triangles cross; sorted; valid until the next call. One tube inside another
-  /// is not found: no triangles cross.
+  /// Pairs of tubes, not excluded, of which two triangles cross; sorted; valid until the next call. One tube
+  /// inside another is not found: no triangles cross.
   std::span<const TubePair> detect();
 
   /// Boxes, and the order of triangles and tubes; without the mesh.

@@ -10,8 +10,9 @@ namespace vasa {
 constexpr std::uint32_t kGroup = 8;  ///< children of a node, and lanes that are tested together
 
 /// Where boxes are measured: coordinate v lies at step (v - middle) stepsPerMetre of an axis, held to kMost
-/// either way and cut to a whole number. All of that never falls where v grows, so that boxes that meet still do in
-/// steps, whatever the grid and the rounding; a grid that is too coarse or lies elsewhere only costs time.
+/// either way and cut to a whole number. All of that never falls where v grows, so that boxes that meet still
+/// do in steps, whatever the grid and the rounding; a grid that is too coarse or lies elsewhere only costs
+/// time.
 struct BoxGrid {
   static constexpr std::int16_t kMost = 32766;
   float middle[3] = {};
@@ -38,14 +39,14 @@ struct BoxTreeView {
 };
 
 /// The fast detector's tree: topology fixed at rest and implicit (group g of a level holds the boxes of
-/// groups 8g .. 8g+7 of the level below; groups of level 0 hold tubes), structure of arrays, no pointers, 18 bytes a
-/// tube. Tubes are read where the caller has them. Filled by the kernels (collide/kernels.h).
+/// groups 8g .. 8g+7 of the level below; groups of level 0 hold tubes), structure of arrays, no pointers, 18
+/// bytes a tube. Tubes are read where the caller has them. Filled by the kernels (collide/kernels.h).
 struct BoxTree {
   /// Order and topology from the tubes at rest; boxes are not filled yet.
   explicit BoxTree(std::span<const Bezier> rest);
 
-  /// The tubes' present shape, which must stay in place while the tree is used, and a grid around it: around the
-  /// starts of some 500 tubes and an eighth of their extent more on either side.
+  /// The tubes' present shape, which must stay in place while the tree is used, and a grid around it: around
+  /// the starts of some 500 tubes and an eighth of their extent more on either side.
   void setShape(std::span<const Bezier> present, float grow);
 
   std::uint32_t tubeCount = 0;

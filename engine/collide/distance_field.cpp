@@ -42,7 +42,8 @@ const DistanceField::Exact& DistanceField::exact() const {
   return *exact_;
 }
 
-DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options, Unfilled)
+DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles,
+                             Options options, Unfilled)
     : options_(options), exact_(std::make_unique<Exact>()) {
   exact_->mesh = {{positions.begin(), positions.end()}, {triangles.begin(), triangles.end()}};
   for (const uvec3& triangle : triangles)
@@ -56,7 +57,8 @@ DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uv
   for (std::size_t k = 0; k < brickCount_; ++k) bricks_[k].store(kUndecided, std::memory_order_relaxed);
 }
 
-DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options)
+DistanceField::DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles,
+                             Options options)
     : DistanceField(positions, triangles, options, Unfilled{}) {
   if (box_.empty()) return;
   markBand();
@@ -87,12 +89,15 @@ void DistanceField::save(ByteWriter& out) const {
   out.addAll(std::span(std::as_const(values)));
 }
 
-std::optional<DistanceField> DistanceField::restored(std::span<const vec3> positions, std::span<const uvec3> triangles,
-                                                     Options options, ByteReader& in) {
+std::optional<DistanceField> DistanceField::restored(std::span<const vec3> positions,
+                                                     std::span<const uvec3> triangles, Options options,
+                                                     ByteReader& in) {
   DistanceField field(positions, triangles, options, Unfilled{});
   std::vector<std::uint32_t> bricks;
   std::vector<float> values;
-  if (!in.takeAll(bricks) || !in.takeAll(values) || bricks.size() != field.brickCount_ || values.size() % kValues != 0) return {};
+  if (!in.takeAll(bricks) || !in.takeAll(values) || bricks.size() != field.brickCount_ ||
+      values.size() % kValues != 0)
+    return {};
   if (bricks.empty()) return field;
   const std::uint32_t filled = std::uint32_t(values.size() / kValues);
   for (std::size_t k = 0; k < bricks.size(); ++k) {
@@ -114,7 +119,8 @@ void DistanceField::markBand() {
     checkpoints.pass();
     Aabb box;
     for (int k = 0; k < 3; ++k) box.add(positions[triangle[k]], options_.band);
-    const ivec3 low = ivec3((box.low - origin_) / side), high = glm::min(ivec3((box.high - origin_) / side), counts_ - 1);
+    const ivec3 low = ivec3((box.low - origin_) / side),
+                high = glm::min(ivec3((box.high - origin_) / side), counts_ - 1);
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) set({x, y, z}, kEmpty);
@@ -144,7 +150,8 @@ std::uint32_t DistanceField::fill(ivec3 at) const {
   std::array<vec3, kValues> corners;
   const vec3 low = origin_ + options_.cell * kBrick * vec3(at);
   for (int k = 0; k < kValues; ++k)
-    corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners), float(k / (kCorners * kCorners)));
+    corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners),
+                                                         float(k / (kCorners * kCorners)));
   const std::span<float, kValues> values(values_.get() + std::size_t(place) * kValues, kValues);
   exact().surface->distances(corners, options_.band, near, values);
   giveSigns(corners, values);
@@ -152,9 +159,10 @@ std::uint32_t DistanceField::fill(ivec3 at) const {
   return place;
 }
 
-// No surface passes between two corners of a brick if one is farther from it than the other corner is from that: they
-// are on one side, which one winding number tells for all that hang together so.
-void DistanceField::giveSigns(std::span<const vec3, kValues> corners, std::span<float, kValues> distances) const {
+// No surface passes between two corners of a brick if one is farther from it than the other corner is from
+// that: they are on one side, which one winding number tells for all that hang together so.
+void DistanceField::giveSigns(std::span<const vec3, kValues> corners,
+                              std::span<float, kValues> distances) const {
   constexpr int kStrides[] = {1, kCorners, kCorners * kCorners};
   std::array<std::uint8_t, kValues> together;
   std::array<bool, kValues> known{};
@@ -170,17 +178,21 @@ void DistanceField::giveSigns(std::span<const vec3, kValues> corners, std::span<
         for (const int step : {-1, 1}) {
           if (corner[axis] + step < 0 || corner[axis] + step >= kCorners) continue;
           const int to = from + step * kStrides[axis];
-          if (!known[std::size_t(to)] && std::max(distances[std::size_t(from)], distances[std::size_t(to)]) > kStepMargin * options_.cell) take(to);
+          if (!known[std::size_t(to)] && std::max(distances[std::size_t(from)], distances[std::size_t(to)]) >
+                                             kStepMargin * options_.cell)
+            take(to);
         }
     }
     const auto own = std::span(together).first(count);
-    const int farthest = *std::ranges::max_element(own, {}, [&](int at) { return distances[std::size_t(at)]; });
+    const int farthest =
+        *std::ranges::max_element(own, {}, [&](int at) { return distances[std::size_t(at)]; });
     if (exact().winding->at(corners[std::size_t(farthest)]) > kInsideFrom)
       for (const int at : own) distances[std::size_t(at)] = -distances[std::size_t(at)];
   }
 }
 
-// Bricks beyond the band hang together in regions, each all outside or all inside, as one winding number tells.
+// Bricks beyond the band hang together in regions, each all outside or all inside, as one winding number
+// tells.
 void DistanceField::sortOutInside() {
   const float side = options_.cell * kBrick;
   std::vector<ivec3> region;
@@ -208,7 +220,8 @@ void DistanceField::sortOutInside() {
 void DistanceField::measureRings() {
   constexpr std::uint8_t kFarthest = 255;
   std::vector<std::uint8_t> rings(brickCount_);
-  for (std::size_t k = 0; k < brickCount_; ++k) rings[k] = bricks_[k].load(std::memory_order_relaxed) == kOutside ? kFarthest : 0;
+  for (std::size_t k = 0; k < brickCount_; ++k)
+    rings[k] = bricks_[k].load(std::memory_order_relaxed) == kOutside ? kFarthest : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const int first = (axis + 1) % 3, second = (axis + 2) % 3, count = counts_[axis];
     std::vector<std::uint8_t> line(static_cast<std::size_t>(count));
@@ -218,7 +231,8 @@ void DistanceField::measureRings() {
         for (int k = 0; k < count; ++k) at[axis] = k, line[std::size_t(k)] = rings[indexOf(at)];
         for (int k = 0; k < count; ++k) {
           int least = kFarthest;
-          for (int other = 0; other < count; ++other) least = std::min(least, std::max(int(line[std::size_t(other)]), std::abs(other - k)));
+          for (int other = 0; other < count; ++other)
+            least = std::min(least, std::max(int(line[std::size_t(other)]), std::abs(other - k)));
           at[axis] = k, rings[indexOf(at)] = std::uint8_t(least);
         }
       }
@@ -234,11 +248,13 @@ float DistanceField::clearance(vec3 point) const {
 }
 
 DistanceField::Cell DistanceField::cellAt(vec3 point) const {
-  if (glm::any(glm::lessThan(point, box_.low)) || glm::any(glm::greaterThan(point, box_.high))) return {nullptr, options_.band, {}, {}};
+  if (glm::any(glm::lessThan(point, box_.low)) || glm::any(glm::greaterThan(point, box_.high)))
+    return {nullptr, options_.band, {}, {}};
   const vec3 cells = (point - origin_) / options_.cell;
   const ivec3 cell = glm::clamp(ivec3(cells), ivec3(0), counts_ * kBrick - 1);
   std::uint32_t place = brick(cell / kBrick);
-  if (place >= kOutside) return {nullptr, options_.band + float(place - kOutside - 1) * options_.cell * kBrick, {}, {}};
+  if (place >= kOutside)
+    return {nullptr, options_.band + float(place - kOutside - 1) * options_.cell * kBrick, {}, {}};
   if (place == kInside) return {nullptr, -options_.band, {}, {}};
   if (place >= kBeingFilled) place = fill(cell / kBrick);
   return {values_.get() + std::size_t(place) * kValues, 0, cell % kBrick, cells - vec3(cell)};
@@ -252,9 +268,7 @@ float DistanceField::distanceIn(const Cell& cell) {
   return glm::mix(alongY(0), alongY(kCorners * kCorners), cell.share.z);
 }
 
-float DistanceField::distance(vec3 point) const {
-  return distanceIn(cellAt(point));
-}
+float DistanceField::distance(vec3 point) const { return distanceIn(cellAt(point)); }
 
 // Step by step for all, so that they wait for memory together.
 void DistanceField::distances(std::span<const vec4> balls, std::span<float> out) const {
@@ -276,7 +290,8 @@ DistanceField::Sample DistanceField::at(vec3 point) const {
   const float x00 = glm::mix(v[0], v[1], f.x), x10 = glm::mix(v[kY], v[kY + 1], f.x);
   const float x01 = glm::mix(v[kZ], v[kZ + 1], f.x), x11 = glm::mix(v[kZ + kY], v[kZ + kY + 1], f.x);
   const float y0 = glm::mix(x00, x10, f.y), y1 = glm::mix(x01, x11, f.y);
-  const float dx = glm::mix(glm::mix(v[1] - v[0], v[kY + 1] - v[kY], f.y), glm::mix(v[kZ + 1] - v[kZ], v[kZ + kY + 1] - v[kZ + kY], f.y), f.z);
+  const float dx = glm::mix(glm::mix(v[1] - v[0], v[kY + 1] - v[kY], f.y),
+                            glm::mix(v[kZ + 1] - v[kZ], v[kZ + kY + 1] - v[kZ + kY], f.y), f.z);
   return {glm::mix(y0, y1, f.z), vec3(dx, glm::mix(x10 - x00, x11 - x01, f.z), y1 - y0) / options_.cell};
 }
 

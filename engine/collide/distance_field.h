@@ -13,11 +13,11 @@ namespace vasa {
 class ByteReader;
 class ByteWriter;
 
-/// The signed distance from a rigid closed surface, sampled near it: bricks of 4x4x4 cells that share their corners,
-/// values in between trilinear. Error: h²/8R over a surface that bends with radius R, up to half a cell at sharp edges. A
-/// look-up costs some nanoseconds, however many triangles there are; that is what it is for (collide/obstacle.h is exact, and
-/// a thousand times slower). A brick is filled when it is first looked at, by whichever thread comes first; what is in it does
-/// not depend on that.
+/// The signed distance from a rigid closed surface, sampled near it: bricks of 4x4x4 cells that share their
+/// corners, values in between trilinear. Error: h²/8R over a surface that bends with radius R, up to half a
+/// cell at sharp edges. A look-up costs some nanoseconds, however many triangles there are; that is what it
+/// is for (collide/obstacle.h is exact, and a thousand times slower). A brick is filled when it is first
+/// looked at, by whichever thread comes first; what is in it does not depend on that.
 class DistanceField {
  public:
   struct Options {
@@ -34,8 +34,9 @@ class DistanceField {
   /// What is filled so far, for a later run.
   void save(ByteWriter& out) const;
   /// The field of the same surface and options with what save() gave; nothing where that is not whole.
-  static std::optional<DistanceField> restored(std::span<const vec3> positions, std::span<const uvec3> triangles,
-                                               Options options, ByteReader& in);
+  static std::optional<DistanceField> restored(std::span<const vec3> positions,
+                                               std::span<const uvec3> triangles, Options options,
+                                               ByteReader& in);
   std::uint32_t filledBricks() const;
 
   struct Sample {
@@ -43,8 +44,8 @@ class DistanceField {
     vec3 gradient;   ///< of the trilinear field; 0 beyond the band
   };
   Sample at(vec3 point) const;
-  /// Outside beyond the band: no less than the band, no more than the distance. Inside beyond it: -band. The slope along
-  /// an axis is at most 1.
+  /// Outside beyond the band: no less than the band, no more than the distance. Inside beyond it: -band. The
+  /// slope along an axis is at most 1.
   float distance(vec3 point) const;
   /// The same for the centres of some balls at once, faster than one after the other. @param out  as many
   void distances(std::span<const vec4> balls, std::span<float> out) const;
@@ -58,9 +59,10 @@ class DistanceField {
 
  private:
   static constexpr int kBrick = 4, kCorners = kBrick + 1, kValues = kCorners * kCorners * kCorners;
-  // Of a brick: where its values are, or what else it is. Outside, the last byte tells how many bricks off the nearest
-  // with values is.
-  static constexpr std::uint32_t kOutside = 0xffffff00u, kInside = 0xfffffeffu, kEmpty = 0xfffffefeu, kBeingFilled = 0xfffffefdu, kUndecided = 0xfffffefcu;
+  // Of a brick: where its values are, or what else it is. Outside, the last byte tells how many bricks off
+  // the nearest with values is.
+  static constexpr std::uint32_t kOutside = 0xffffff00u, kInside = 0xfffffeffu, kEmpty = 0xfffffefeu,
+                                 kBeingFilled = 0xfffffefdu, kUndecided = 0xfffffefcu;
   struct Exact;
   struct Unfilled {};
   DistanceField(std::span<const vec3> positions, std::span<const uvec3> triangles, Options options, Unfilled);
@@ -72,7 +74,9 @@ class DistanceField {
   };
   Cell cellAt(vec3 point) const;
   static float distanceIn(const Cell& cell);
-  std::size_t indexOf(ivec3 brick) const { return std::size_t((brick.z * counts_.y + brick.y) * counts_.x + brick.x); }
+  std::size_t indexOf(ivec3 brick) const {
+    return std::size_t((brick.z * counts_.y + brick.y) * counts_.x + brick.x);
+  }
   std::uint32_t brick(ivec3 at) const { return bricks_[indexOf(at)].load(std::memory_order_acquire); }
   void set(ivec3 at, std::uint32_t what) { bricks_[indexOf(at)].store(what, std::memory_order_relaxed); }
   const Exact& exact() const;

@@ -22,9 +22,9 @@ struct NeighbourPair {
   std::uint32_t firstLink = 0, linkCount = 0;
 };
 
-/// Tubes that lie close to one another along the network: the arc length between some of their points is below
-/// `reach` times the sum of the radii there. They belong together and are left out of detection, as whole tubes: where
-/// a vessel folds over itself so tightly, that is a kink (network/kinks.h). Immutable.
+/// Tubes that lie close to one another along the network: the arc length between some of their points is
+/// below `reach` times the sum of the radii there. They belong together and are left out of detection, as
+/// whole tubes: where a vessel folds over itself so tightly, that is a kink (network/kinks.h). Immutable.
 class Neighbours {
  public:
   Neighbours() : exclusions_(0) {}

@@ -9,8 +9,9 @@
 
 // Neighbours come from a graph whose places are the spans' ends and the points where side branches sit, and
 // whose edges are the stretches between places of one span, as long as the arc. A node's ends are one place.
-// From the places of each tube a shortest-path search runs as far as it and tubes no wider than it may reach; each of
-// these that has a place within reach is linked. So many narrow tubes cost no more for a wide one somewhere.
+// From the places of each tube a shortest-path search runs as far as it and tubes no wider than it may reach;
+// each of these that has a place within reach is linked. So many narrow tubes cost no more for a wide one
+// somewhere.
 namespace vasa {
 namespace {
 
@@ -70,7 +71,8 @@ class LinkSearch {
  public:
   LinkSearch(const Graph& graph, std::span<const Bezier> tubes, std::span<const float> lengths, float reach)
       : graph_(graph), lengths_(lengths), reach_(reach), searched_(graph.tubesAt.size(), 0) {
-    for (const Bezier& tube : tubes) radii_.push_back(std::max(std::max(tube.b[0].w, tube.b[1].w), std::max(tube.b[2].w, tube.b[3].w)));
+    for (const Bezier& tube : tubes)
+      radii_.push_back(std::max(std::max(tube.b[0].w, tube.b[1].w), std::max(tube.b[2].w, tube.b[3].w)));
   }
 
   void linksOf(std::uint32_t tube, std::vector<TubeLink>& links) {
@@ -80,8 +82,10 @@ class LinkSearch {
         for (const auto& [other, t] : graph_.tubesAt[place]) {
           if (std::tie(radii_[other], other) >= std::tie(radii_[tube], tube)) continue;
           if (gap >= reach_ * (radii_[tube] + radii_[other])) continue;
-          if (other > tube) links.push_back({tube, other, start.t, t, gap});
-          else links.push_back({other, tube, t, start.t, gap});
+          if (other > tube)
+            links.push_back({tube, other, start.t, t, gap});
+          else
+            links.push_back({other, tube, t, start.t, gap});
         }
     }
   }
@@ -102,7 +106,8 @@ class LinkSearch {
       settled_.emplace_back(distance, place);
       for (const auto& [tube, t] : graph_.tubesAt[place])
         for (const Place& next : graph_.placesOf[tube])
-          if (searched_[next.id] != searches_) open.push({distance + std::abs(next.t - t) * lengths_[tube], next.id});
+          if (searched_[next.id] != searches_)
+            open.push({distance + std::abs(next.t - t) * lengths_[tube], next.id});
     }
   }
 

@@ -239,16 +239,15 @@ Obstacle::Obstacle(std::span<const vec3> rest, std::span<const uvec3> triangles)
 Obstacle::~Obstacle() = default;
 Obstacle::Obstacle(Obstacle&&) noexcept = default;
 
-std::uint32_t Obstacle::triangleCount() const {
-  return std::uint32_t(state_->triangles.size());
-}
+std::uint32_t Obstacle::triangleCount() const { return std::uint32_t(state_->triangles.size()); }
 
 void Obstacle::distances(std::span<const vec3> points, float reach, std::vector<std::uint32_t>& near,
                          std::span<float> distances) const {
   Aabb box;
   for (const vec3& p : points) box.add(p, reach);
   state_->trianglesNear(box, near);
-  // Balls around the triangles, as arrays of plain numbers: most of them are told too far in vector registers.
+  // Balls around the triangles, as arrays of plain numbers: most of them are told too far in vector
+  // registers.
   const std::size_t count = near.size();
   std::vector<float> x(count), y(count), z(count), radius(count), squared(count);
   for (std::size_t k = 0; k < count; ++k) {

@@ -177,8 +177,8 @@ void SphereTree::refit(std::span<const Bezier> tubes) {
     }
 }
 
-// All centres lie in the box of the leaves' centres, and no sphere reaches farther than twice across it and the
-// widest leaf: half the grid's 65,536 steps are the box, so that radii fit too.
+// All centres lie in the box of the leaves' centres, and no sphere reaches farther than twice across it and
+// the widest leaf: half the grid's 65,536 steps are the box, so that radii fit too.
 void SphereTree::chooseGrid(std::span<const Bezier> tubes) {
   Aabb box;
   for (const Bezier& tube : tubes) {

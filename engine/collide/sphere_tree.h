@@ -10,8 +10,8 @@ namespace vasa {
 /// Built once at rest, bottom-up: neighbours are merged pair by pair, smallest merged sphere first, three
 /// rounds a level. Nodes are always full but for the last of a level, so topology needs no storage: level
 /// after level, children before parents; 4,030 sweeps have 4,606 spheres. A sphere is 8 bytes, half of the
-/// paper's: centre and radius in steps of a grid over all tubes, a 32,000th of their extent, the radius rounded
-/// up so that it covers the rounding. refit() is one linear pass.
+/// paper's: centre and radius in steps of a grid over all tubes, a 32,000th of their extent, the radius
+/// rounded up so that it covers the rounding. refit() is one linear pass.
 class SphereTree {
  public:
   explicit SphereTree(std::span<const Bezier> rest);
@@ -23,7 +23,9 @@ class SphereTree {
   static constexpr std::uint32_t kArity = 8;
   std::uint32_t levels() const { return std::uint32_t(start_.size()) - 1; }
   std::uint32_t count(std::uint32_t level) const { return start_[level + 1] - start_[level]; }
-  Sphere sphere(std::uint32_t level, std::uint32_t node) const { return unpacked(spheres_[start_[level] + node]); }
+  Sphere sphere(std::uint32_t level, std::uint32_t node) const {
+    return unpacked(spheres_[start_[level] + node]);
+  }
   /// The tube of a leaf (level 0).
   std::uint32_t tube(std::uint32_t leaf) const { return order_[leaf]; }
   /// Memory of the spheres.

@@ -161,9 +161,7 @@ TubeDetector::TubeDetector(std::span<const Bezier> rest, const Exclusions& exclu
 TubeDetector::~TubeDetector() = default;
 TubeDetector::TubeDetector(TubeDetector&&) noexcept = default;
 
-void TubeDetector::update(std::span<const Bezier> tubes, float margin) {
-  state_->update(tubes, margin);
-}
+void TubeDetector::update(std::span<const Bezier> tubes, float margin) { state_->update(tubes, margin); }
 
 std::span<const TubePair> TubeDetector::detect() {
   State& state = *state_;

@@ -6,8 +6,9 @@
 
 namespace vasa {
 
-/// Tubes as a mesh of m x n quads each, two triangles a quad, without caps: what hierarchies over triangles are built on
-/// (collide/box_hierarchy.h). A tube's vertices follow one another, ring after ring; neighbours share none.
+/// Tubes as a mesh of m x n quads each, two triangles a quad, without caps: what hierarchies over triangles
+/// are built on (collide/box_hierarchy.h). A tube's vertices follow one another, ring after ring; neighbours
+/// share none.
 class TubeSurface {
  public:
   /// @param around  m >= 3  @param along  n >= 1
@@ -16,7 +17,9 @@ class TubeSurface {
   std::uint32_t verticesPerTube() const { return around_ * (along_ + 1); }
   std::uint32_t trianglesPerTube() const { return std::uint32_t(triangles_.size()); }
   /// Vertices of triangle t of n.
-  uvec3 triangle(std::uint32_t tube, std::uint32_t t) const { return triangles_[t] + uvec3(tube * verticesPerTube()); }
+  uvec3 triangle(std::uint32_t tube, std::uint32_t t) const {
+    return triangles_[t] + uvec3(tube * verticesPerTube());
+  }
 
   /// The vertices of tubes in some shape: rings about rotation-minimising frames (curve/frame.h).
   /// @param positions  [m] resized to tubes.size() · verticesPerTube()

@@ -47,19 +47,22 @@ float nearestParameter(std::span<const vec4> points, vec3 p) {
   constexpr float kGolden = 0.618034f;
   for (int step = 0; step < 24; ++step) {
     const float a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    if (distance(a) < distance(b)) high = b;
-    else low = a;
+    if (distance(a) < distance(b))
+      high = b;
+    else
+      low = a;
   }
   const float refined = 0.5f * (low + high);
   return distance(refined) < least ? refined : best;
 }
 
-Result<Assembly> assembleNetwork(StrandGraph graph, std::span<const SourceElement> elements, const StrandFitOptions& fit,
-                                 float bodyHeight) {
+Result<Assembly> assembleNetwork(StrandGraph graph, std::span<const SourceElement> elements,
+                                 const StrandFitOptions& fit, float bodyHeight) {
   graph.breakCircles();
   const std::vector<std::uint32_t> order = strandOrder(graph);
   std::vector<std::vector<vec4>> splines(order.size());
-  parallelFor(order.size(), 1, [&](std::size_t i) { splines[i] = fitStrand(graph.strands[order[i]].sections, fit); });
+  parallelFor(order.size(), 1,
+              [&](std::size_t i) { splines[i] = fitStrand(graph.strands[order[i]].sections, fit); });
 
   Assembly assembly;
   assembly.vesselsOf.resize(elements.size());
@@ -69,8 +72,9 @@ Result<Assembly> assembleNetwork(StrandGraph graph, std::span<const SourceElemen
     const std::uint32_t element = graph.strands[order[i]].element;
     auto& vessels = assembly.vesselsOf[element];
     const SourceElement& source = elements[element];
-    const VesselId vessel = builder.addVessel(
-        {numbered(source.label, vessels.size()), source.element.ontologyId, source.kind}, std::move(splines[i]));
+    const VesselId vessel =
+        builder.addVessel({numbered(source.label, vessels.size()), source.element.ontologyId, source.kind},
+                          std::move(splines[i]));
     vessels.push_back(vessel.value);
     vesselOf[order[i]] = vessel.value;
     assembly.elementOf.push_back(element);

@@ -1,6 +1,6 @@
 // Costs are gaps over what is allowed there, so 1 is the limit everywhere and joins of all sorts compare.
-// All candidates are collected first and then taken cheapest first; taking one changes the strands a little (a
-// tip is cut back or led on), so places are looked up again when a candidate is taken.
+// All candidates are collected first and then taken cheapest first; taking one changes the strands a little
+// (a tip is cut back or led on), so places are looked up again when a candidate is taken.
 #include "convert/attach.h"
 
 #include <algorithm>
@@ -17,26 +17,27 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kNone = StrandGraph::kNone;
-constexpr float kSnapRadii = 1.0f;       // a side place this near to an end is that end
-constexpr float kFacing = 0.2f;          // least -cos between outward directions for ends to meet as ends
-constexpr float kAligned = 0.82f;        // 35 degrees
-constexpr float kNamedAligned = 0.7f;    // 45 degrees: the names speak for it too
+constexpr float kSnapRadii = 1.0f;     // a side place this near to an end is that end
+constexpr float kFacing = 0.2f;        // least -cos between outward directions for ends to meet as ends
+constexpr float kAligned = 0.82f;      // 35 degrees
+constexpr float kNamedAligned = 0.7f;  // 45 degrees: the names speak for it too
 constexpr float kNamedRatio = 3.5f;
-constexpr float kLargestRatio = 2.5f;    // of radii: a thick vessel does not go on in a thin one, nor hang on it
-constexpr float kAheadCost = 0.25f;      // straight-ahead joins cost this much more than touching ones
+// Of radii: a thick vessel does not go on in a thin one, nor hang on it.
+constexpr float kLargestRatio = 2.5f;
+constexpr float kAheadCost = 0.25f;  // straight-ahead joins cost this much more than touching ones
 constexpr int kAheadSteps = 12;
 constexpr float kTouchRadii = 0.15f;
 constexpr std::size_t kNoSection = std::size_t(-1);
-constexpr float kClosingCost = 0.6f;     // limit for joins that close a ring
+constexpr float kClosingCost = 0.6f;  // limit for joins that close a ring
 
 struct Candidate {
   StrandEnd end;
-  std::uint32_t strand;             // to join to
-  std::optional<bool> otherLast;    // the other strand's end; none: its side
+  std::uint32_t strand;           // to join to
+  std::optional<bool> otherLast;  // the other strand's end; none: its side
   float cost;
   float gap;
   bool bridge = false;
-  std::size_t cutTo = 0;            // sections to take off the end first
+  std::size_t cutTo = 0;  // sections to take off the end first
 };
 
 struct Tip {
@@ -48,7 +49,8 @@ struct Tip {
 
 class Attacher {
  public:
-  Attacher(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight, const AttachOptions& options)
+  Attacher(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight,
+           const AttachOptions& options)
       : graph_(graph), elements_(elements), bodyHeight_(bodyHeight), options_(options) {}
 
   AttachReport run() {
@@ -88,10 +90,12 @@ class Attacher {
   }
   Tip tipOf(StrandEnd end) const {
     const Sections& sections = graph_.strands[end.strand].sections;
-    return {end, vec3(graph_.sectionAt(end)), outwardDirection(sections, end.last), endRadius(sections, end.last)};
+    return {end, vec3(graph_.sectionAt(end)), outwardDirection(sections, end.last),
+            endRadius(sections, end.last)};
   }
   bool mayJoin(std::uint32_t a, std::uint32_t b) const {
-    return a != b && !graph_.strands[b].dropped() && sameFamily(graph_.strands[a].kind, graph_.strands[b].kind);
+    return a != b && !graph_.strands[b].dropped() &&
+           sameFamily(graph_.strands[a].kind, graph_.strands[b].kind);
   }
 
   std::vector<Candidate> candidatesOf(const Tip& tip) const {
@@ -163,7 +167,8 @@ class Attacher {
     const vec3 between = other.place - tip.place;
     const float gap = glm::length(between), large = std::max(tip.radius, other.radius);
     const float far = std::clamp(options_.facingRadii * large, options_.facingMin, options_.facingMax);
-    if (gap > std::max(far, 1.2f * large) || glm::dot(tip.outward, other.outward) > -kFacing) return std::nullopt;
+    if (gap > std::max(far, 1.2f * large) || glm::dot(tip.outward, other.outward) > -kFacing)
+      return std::nullopt;
     Candidate candidate{tip.end, other.end.strand, other.end.last, 0.5f * gap / (1.2f * large), gap};
     if (large > kLargestRatio * std::min(tip.radius, other.radius)) return std::nullopt;
     if (gap <= 1.2f * large) return candidate;
@@ -184,8 +189,10 @@ class Attacher {
         const float gap = glm::distance(tip.place, other.place), large = std::max(tip.radius, other.radius);
         const float limit = std::min(options_.bridgeRadii * large, options_.bridgeBodyHeights * bodyHeight_);
         if (gap > limit || large > kNamedRatio * std::min(tip.radius, other.radius) ||
-            !aligned(tip, other, kNamedAligned)) continue;
-        const std::uint32_t a = graph_.strands[tip.end.strand].element, b = graph_.strands[other.end.strand].element;
+            !aligned(tip, other, kNamedAligned))
+          continue;
+        const std::uint32_t a = graph_.strands[tip.end.strand].element,
+                            b = graph_.strands[other.end.strand].element;
         if (a != b && !namesContinue(elements_[a].label, elements_[b].label)) continue;
         found.push_back({tip.end, other.end.strand, other.end.last, gap / limit, gap, true});
       }
@@ -208,16 +215,16 @@ class Attacher {
     }
   }
 
-  // Of elements that nothing says the kind of, one may be an artery and the other a vein: across a gap they are joined
-  // only where their names go on in one another.
+  // Of elements that nothing says the kind of, one may be an artery and the other a vein: across a gap they
+  // are joined only where their names go on in one another.
   bool isGuess(const Candidate& candidate) const {
     const Strand &a = graph_.strands[candidate.end.strand], &b = graph_.strands[candidate.strand];
     if (candidate.gap <= kToldGap || a.element == b.element || a.kind != VesselKind::other) return false;
     return !namesContinue(elements_[a.element].label, elements_[b.element].label);
   }
 
-  // The lungs' arteries touch the body's here and there without meeting them. Anastomoses are real, but an element's own skeleton knows its rings, and between elements a ring wants ends
-  // that touch.
+  // The lungs' arteries touch the body's here and there without meeting them. Anastomoses are real, but an
+  // element's own skeleton knows its rings, and between elements a ring wants ends that touch.
   bool mayClose(const Candidate& candidate) {
     const Circuit a = circuit_[root(candidate.end.strand)], b = circuit_[root(candidate.strand)];
     if (a != b && a != Circuit::unknown && b != Circuit::unknown) return false;
@@ -229,9 +236,11 @@ class Attacher {
     parts_.resize(graph_.strands.size());
     std::iota(parts_.begin(), parts_.end(), 0u);
     circuit_.clear();
-    for (const Strand& strand : graph_.strands) circuit_.push_back(circuitOf(elements_[strand.element].label));
+    for (const Strand& strand : graph_.strands)
+      circuit_.push_back(circuitOf(elements_[strand.element].label));
     for (const Joint& joint : graph_.joints)
-      for (const StrandEnd& end : joint.ends) unite(end.strand, joint.host ? *joint.host : joint.ends.front().strand);
+      for (const StrandEnd& end : joint.ends)
+        unite(end.strand, joint.host ? *joint.host : joint.ends.front().strand);
   }
   void unite(std::uint32_t a, std::uint32_t b) {
     a = root(a), b = root(b);
@@ -289,7 +298,8 @@ class Attacher {
       const std::uint32_t joint = graph_.jointAt(other);
       const auto& ends = graph_.joints[joint].ends;
       const bool sameHost = graph_.joints[joint].host == candidate.end.strand;
-      const bool already = std::ranges::any_of(ends, [&](const StrandEnd& e) { return e.strand == candidate.end.strand; });
+      const bool already =
+          std::ranges::any_of(ends, [&](const StrandEnd& e) { return e.strand == candidate.end.strand; });
       if (sameHost || already || candidate.bridge) return false;
       graph_.addEnd(joint, candidate.end);
       ++report_.endToEnd;
@@ -345,7 +355,8 @@ class Attacher {
     const std::uint32_t joint = graph_.jointAt({end.strand, !end.last});
     if (joint == kNone) return false;
     const Joint& far = graph_.joints[joint];
-    const bool touches = far.host == other || std::ranges::any_of(far.ends, [&](const StrandEnd& e) { return e.strand == other; });
+    const bool touches = far.host == other ||
+                         std::ranges::any_of(far.ends, [&](const StrandEnd& e) { return e.strand == other; });
     return touches && glm::distance(far.place, place) < 0.5f * lengthOf(graph_.strands[end.strand].sections);
   }
 

@@ -2,8 +2,8 @@
 #include "convert/source.h"
 #include "convert/strand.h"
 
-// Joins separate elements: end to side where an end lies on or near another vessel's tube, end to end where two
-// ends face one another. Arteries join arteries and veins join veins only.
+// Joins separate elements: end to side where an end lies on or near another vessel's tube, end to end where
+// two ends face one another. Arteries join arteries and veins join veins only.
 namespace vasa {
 
 struct AttachOptions {
@@ -34,8 +34,9 @@ struct AttachReport {
 constexpr float kToldGap = 0.001f;  ///< [m]
 
 /// Joins free ends, best first: cost is the gap over what is allowed in its direction. An end joins once; the
-/// same two strands do not join twice within half the shorter one's length. Sections of an end that lie inside
-/// the host's lumen are cut off before the end is led to the host's centre line. Unknown kinds join across no gap, but by name.
+/// same two strands do not join twice within half the shorter one's length. Sections of an end that lie
+/// inside the host's lumen are cut off before the end is led to the host's centre line. Unknown kinds join
+/// across no gap, but by name.
 /// @param bodyHeight  [m]
 AttachReport attachEnds(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight,
                         const AttachOptions& options = {});

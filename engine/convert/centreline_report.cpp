@@ -4,7 +4,8 @@ namespace vasa {
 
 ConvertReport reportOfCentrelines(const Centrelines& centrelines, const CentrelineNetwork& made) {
   const auto count = std::uint32_t(centrelines.lines.size());
-  Assembly assembly{made.network, std::vector<std::uint32_t>(count), std::vector<std::vector<std::uint32_t>>(count)};
+  Assembly assembly{made.network, std::vector<std::uint32_t>(count),
+                    std::vector<std::vector<std::uint32_t>>(count)};
   std::vector<SourceElement> elements(count);
   std::vector<ElementError> errors(count);
   for (std::uint32_t i = 0; i < count; ++i) {

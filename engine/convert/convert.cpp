@@ -64,7 +64,8 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
   if (graph.strands.empty()) return nothingFound(elements, outcomes);
   const float bodyHeight = options.bodyHeight > 0 ? options.bodyHeight : heightOf(elements);
   for (const Absorbed& absorbed : removeOverlaps(graph, options.overlaps))
-    if (auto& standIn = outcomes[absorbed.element].standIn; std::ranges::find(standIn, absorbed.into) == standIn.end())
+    if (auto& standIn = outcomes[absorbed.element].standIn;
+        std::ranges::find(standIn, absorbed.into) == standIn.end())
       standIn.push_back(absorbed.into);
   const AttachReport joins = attachEnds(graph, elements, bodyHeight, options.attach);
   for (std::uint32_t strand = 0; strand < graph.strands.size(); ++strand)

@@ -19,7 +19,8 @@ struct ConvertOptions {
   StrandFitOptions fit;
   SurfaceErrorOptions error;
   float bodyHeight = 0;  ///< [m]; 0: the vertical extent of the input
-  std::function<Result<Network>(const Network&)> mend;  ///< what is done to the network before it is measured; may be empty
+  std::function<Result<Network>(const Network&)>
+      mend;  ///< what is done to the network before it is measured; may be empty
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< elements, from any thread
 };
 
@@ -32,7 +33,9 @@ struct Conversion {
 /// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and
 /// separate elements, fit splines, measure. The result does not depend on the number of threads. Shows a
 /// progress line on a terminal.
-/// Fails with badInput where no element gives a vessel; can be cancelled (core/cancellation.h), also within an element.
-Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options = {});
+/// Fails with badInput where no element gives a vessel; can be cancelled (core/cancellation.h), also within
+/// an element.
+Result<Conversion> convertElements(std::span<const SourceElement> elements,
+                                   const ConvertOptions& options = {});
 
 }  // namespace vasa

@@ -67,7 +67,9 @@ std::vector<std::optional<std::uint32_t>> findDuplicates(std::span<const SourceE
   // Smallest first: what is left at the end covers whatever was dropped on the way.
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return areas[a] != areas[b] ? areas[a] < areas[b] : a > b; });
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return areas[a] != areas[b] ? areas[a] < areas[b] : a > b;
+  });
   std::vector<std::optional<std::uint32_t>> coveredBy(count);
   for (const std::uint32_t i : order) {
     const Cover* best = nullptr;

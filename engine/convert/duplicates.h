@@ -16,15 +16,15 @@ struct DuplicateOptions {
   std::uint32_t samples = 400;
 };
 
-/// Which elements repeat others: an element whose surface lies (nearly) wholly on one other kept element of its
-/// family. Of two that cover each other the one with the smaller area goes, of equals the later one.
+/// Which elements repeat others: an element whose surface lies (nearly) wholly on one other kept element of
+/// its family. Of two that cover each other the one with the smaller area goes, of equals the later one.
 /// @return for each element the index of the one that covers it, a kept one; nothing for those to keep.
 /// Every element is compared with those whose boxes it overlaps; parallel.
 std::vector<std::optional<std::uint32_t>> findDuplicates(std::span<const SourceElement> elements,
                                                          const DuplicateOptions& options = {});
 
-/// A tube's mean radius [m] judged from its mesh alone: twice the enclosed volume over the area; open ends and
-/// tears make it rough. At least a thousandth of the box's diagonal.
+/// A tube's mean radius [m] judged from its mesh alone: twice the enclosed volume over the area; open ends
+/// and tears make it rough. At least a thousandth of the box's diagonal.
 float roughRadius(const TriangleMesh& mesh);
 
 }  // namespace vasa

@@ -27,7 +27,8 @@ ForkOpening openingAt(const Network& network, ForkOpening opening, float paramet
   opening.section = evaluate(points, parameter);
   opening.direction = towards(parameter);
   const float speed = std::max(glm::length(vec3(evaluateDerivative(points, parameter))), 1e-9f);
-  const float inset = std::clamp(parameter - opening.outward * kInset * opening.section.w / speed, 0.0f, float(spanCount(points)));
+  const float inset = std::clamp(parameter - opening.outward * kInset * opening.section.w / speed, 0.0f,
+                                 float(spanCount(points)));
   const vec4 inner = evaluate(points, inset);
   opening.cut = {vec3(inner), towards(inset), inner.w};
   return opening;
@@ -55,7 +56,8 @@ bool oneSection(std::span<const LooseWall* const> walls, const WallOpening& cut)
       if (glm::length(place) < kMiddle) return false;
       continue;
     }
-    if (std::abs(at.x) == kGrid || std::abs(at.y) == kGrid || glm::length(place) > kGridStep * kGrid) return false;
+    if (std::abs(at.x) == kGrid || std::abs(at.y) == kGrid || glm::length(place) > kGridStep * kGrid)
+      return false;
     ++within;
     for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
       if (!seen[numbered(at + step)]) seen[numbered(at + step)] = true, queue.push_back(at + step);
@@ -85,12 +87,14 @@ void addBridge(vec4 end, std::size_t trunkCores, std::vector<Capsule>& cores) {
 
 }  // namespace
 
-std::vector<ForkOpening> forkOpenings(const Network& network, const ForkPlan& plan, const shared::ForkRecord& fork) {
+std::vector<ForkOpening> forkOpenings(const Network& network, const ForkPlan& plan,
+                                      const shared::ForkRecord& fork) {
   const ForkRings rings = ringsOf(plan, fork);
   std::vector<ForkOpening> openings;
   for (std::size_t i = 0; i < rings.count; ++i) {
     const float parameter = forkRingParameter(network, *rings.ring[i], rings.vessel[i]);
-    ForkOpening opening{.vessel = {rings.vessel[i]}, .outward = rings.outward(i), .farthest = parameter, .cut = {}};
+    ForkOpening opening{
+        .vessel = {rings.vessel[i]}, .outward = rings.outward(i), .farthest = parameter, .cut = {}};
     if (const auto tube = tubeBehind(plan, rings.vessel[i], parameter, opening.outward))
       opening.farthest = glm::mix(tube->near, tube->far, tube->capped ? kAlmostAll : kHalf);
     openings.push_back(openingAt(network, opening, parameter));
@@ -106,7 +110,8 @@ ForkOpening movedOut(const Network& network, ForkOpening opening, float distance
   return openingAt(network, opening, beyond ? opening.farthest : further);
 }
 
-void moveBeyondUnion(const Network& network, std::span<const LooseWall* const> walls, std::span<ForkOpening> openings) {
+void moveBeyondUnion(const Network& network, std::span<const LooseWall* const> walls,
+                     std::span<ForkOpening> openings) {
   for (ForkOpening& opening : openings) {
     ForkOpening moved = opening;
     for (int step = 0; step <= int(kFarthest / kStep); ++step) {
@@ -124,9 +129,14 @@ void moveBeyondUnion(const Network& network, std::span<const LooseWall* const> w
 std::vector<Capsule> forkCores(const Network& network, std::span<const ForkOpening> openings) {
   std::vector<Capsule> cores;
   const ForkOpening &a = openings[0], &b = openings[1];
-  const auto pointsOf = [&](const ForkOpening& opening) { return network.pointsOf(network.vessel(opening.vessel)); };
-  const auto inner = [&](const ForkOpening& opening) { return opening.outward > 0 ? 0.0f : float(spanCount(pointsOf(opening))); };
-  if (a.vessel == b.vessel) addCore(pointsOf(a), a.parameter, b.parameter, cores);
+  const auto pointsOf = [&](const ForkOpening& opening) {
+    return network.pointsOf(network.vessel(opening.vessel));
+  };
+  const auto inner = [&](const ForkOpening& opening) {
+    return opening.outward > 0 ? 0.0f : float(spanCount(pointsOf(opening)));
+  };
+  if (a.vessel == b.vessel)
+    addCore(pointsOf(a), a.parameter, b.parameter, cores);
   else {
     addCore(pointsOf(a), a.parameter, inner(a), cores);
     const std::size_t before = cores.size();

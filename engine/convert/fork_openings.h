@@ -19,18 +19,21 @@ struct ForkOpening {
   WallOpening cut;
 };
 
-/// A fork's openings where it was planned, the trunk's two first. The tube behind a ring may be used up by half, and
-/// almost all of it where no other fork follows.
-std::vector<ForkOpening> forkOpenings(const Network& network, const ForkPlan& plan, const shared::ForkRecord& fork);
+/// A fork's openings where it was planned, the trunk's two first. The tube behind a ring may be used up by
+/// half, and almost all of it where no other fork follows.
+std::vector<ForkOpening> forkOpenings(const Network& network, const ForkPlan& plan,
+                                      const shared::ForkRecord& fork);
 
 /// The opening so much further out [m], or as far as it may go.
 ForkOpening movedOut(const Network& network, ForkOpening opening, float distance);
 
-/// Moves openings out until what the walls enclose in the plane of the cut is one vessel's section about its axis: real
-/// walls of two vessels part later than their round tubes. One that finds no such place stays.
-void moveBeyondUnion(const Network& network, std::span<const LooseWall* const> walls, std::span<ForkOpening> openings);
+/// Moves openings out until what the walls enclose in the plane of the cut is one vessel's section about its
+/// axis: real walls of two vessels part later than their round tubes. One that finds no such place stays.
+void moveBeyondUnion(const Network& network, std::span<const LooseWall* const> walls,
+                     std::span<ForkOpening> openings);
 
-/// Thin tubes around the axes of a fork's vessels, between its openings: what joins its walls where the source has gaps.
+/// Thin tubes around the axes of a fork's vessels, between its openings: what joins its walls where the
+/// source has gaps.
 std::vector<Capsule> forkCores(const Network& network, std::span<const ForkOpening> openings);
 
 }  // namespace vasa

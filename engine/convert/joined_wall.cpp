@@ -12,11 +12,12 @@ namespace vasa {
 namespace {
 
 constexpr float kMostCells = 200000;
-constexpr int kBlock = 4;            // cells: blocks far from any wall are not looked at more closely
-constexpr float kSure = 0.3f;        // of the winding number from 1/2, there
-constexpr float kClear = 1.2f;      // cells: a node this far from any wall has the next one on its side
-constexpr float kAside = 0.06f;      // of an edge: crossings stay this far from its ends, so that no triangle has no area
-constexpr int kRounds = 2;           // of smoothing
+constexpr int kBlock = 4;       // cells: blocks far from any wall are not looked at more closely
+constexpr float kSure = 0.3f;   // of the winding number from 1/2, there
+constexpr float kClear = 1.2f;  // cells: a node this far from any wall has the next one on its side
+// Of an edge: crossings stay this far from its ends, so that no triangle has no area.
+constexpr float kAside = 0.06f;
+constexpr int kRounds = 2;  // of smoothing
 using ivec3 = glm::ivec3;
 
 // The six tetrahedra around a cell's diagonal: one for each order of the axes.
@@ -67,7 +68,8 @@ class Field {
     const float reach = 0.9f * cell_ * float(kBlock);
     const float winding = inside(middle);
     const float core = coreDistance(middle);
-    const bool far = distance(middle, 2 * reach) > 1.5f * reach && std::abs(winding - 0.5f) > kSure && core > 1.5f * reach;
+    const bool far =
+        distance(middle, 2 * reach) > 1.5f * reach && std::abs(winding - 0.5f) > kSure && core > 1.5f * reach;
     const ivec3 end = glm::min(first + kBlock, count_);
     for (int z = first.z; z < end.z; ++z)
       for (int y = first.y; y < end.y; ++y) {
@@ -125,7 +127,8 @@ class Polygoniser {
 
   std::uint32_t vertex(const Corner& a, const Corner& b) {
     const Corner &low = a.node < b.node ? a : b, &high = a.node < b.node ? b : a;
-    const auto [found, fresh] = vertices_.emplace(std::uint64_t(low.node) << 32 | high.node, std::uint32_t(mesh_.positions.size()));
+    const auto [found, fresh] =
+        vertices_.emplace(std::uint64_t(low.node) << 32 | high.node, std::uint32_t(mesh_.positions.size()));
     if (fresh) {
       const float t = std::clamp(low.value / (low.value - high.value), kAside, 1 - kAside);
       mesh_.positions.push_back(glm::mix(low.place, high.place, t));
@@ -142,7 +145,9 @@ class Polygoniser {
   void tetrahedron(ivec3 cell, const std::array<int, 3>& order) {
     std::array<Corner, 4> in, out;
     std::size_t within = 0, outside = 0;
-    const auto sort = [&](const Corner& corner) { (corner.value < 0 ? in[within++] : out[outside++]) = corner; };
+    const auto sort = [&](const Corner& corner) {
+      (corner.value < 0 ? in[within++] : out[outside++]) = corner;
+    };
     sort(cornerAt(cell));
     for (const int axis : order) {
       ++cell[axis];
@@ -151,7 +156,8 @@ class Polygoniser {
     if (within == 1) emit(vertex(in[0], out[0]), vertex(in[0], out[1]), vertex(in[0], out[2]), in[0].place);
     if (within == 3) emit(vertex(in[0], out[0]), vertex(in[1], out[0]), vertex(in[2], out[0]), in[0].place);
     if (within != 2) return;
-    const std::uint32_t a = vertex(in[0], out[0]), b = vertex(in[0], out[1]), c = vertex(in[1], out[1]), d = vertex(in[1], out[0]);
+    const std::uint32_t a = vertex(in[0], out[0]), b = vertex(in[0], out[1]), c = vertex(in[1], out[1]),
+                        d = vertex(in[1], out[0]);
     const vec3 inside = 0.5f * (in[0].place + in[1].place);
     emit(a, b, c, inside);
     emit(a, c, d, inside);
@@ -162,12 +168,14 @@ class Polygoniser {
   std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
 };
 
-// Vertices move to their neighbours' mean: takes off the steps where a skin closes a tear, and where walls meet.
+// Vertices move to their neighbours' mean: takes off the steps where a skin closes a tear, and where walls
+// meet.
 void smooth(TriangleMesh& mesh) {
   for (int round = 0; round < kRounds; ++round) {
     std::vector<vec4> sums(mesh.positions.size(), vec4(0));
     for (const uvec3& t : mesh.triangles)
-      for (int k = 0; k < 3; ++k) sums[t[k]] += vec4(mesh.positions[t[(k + 1) % 3]] + mesh.positions[t[(k + 2) % 3]], 2);
+      for (int k = 0; k < 3; ++k)
+        sums[t[k]] += vec4(mesh.positions[t[(k + 1) % 3]] + mesh.positions[t[(k + 2) % 3]], 2);
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (sums[i].w > 0) mesh.positions[i] = glm::mix(mesh.positions[i], vec3(sums[i]) / sums[i].w, 0.7f);
   }
@@ -175,9 +183,11 @@ void smooth(TriangleMesh& mesh) {
 
 }  // namespace
 
-LooseWall::LooseWall(TriangleMesh mesh) : mesh_(std::move(mesh)), tree_(mesh_), winding_(mesh_.positions, mesh_.triangles) {}
+LooseWall::LooseWall(TriangleMesh mesh)
+    : mesh_(std::move(mesh)), tree_(mesh_), winding_(mesh_.positions, mesh_.triangles) {}
 
-TriangleMesh joinedWall(std::span<const LooseWall* const> walls, std::span<const Capsule> cores, const Aabb& box, float cell) {
+TriangleMesh joinedWall(std::span<const LooseWall* const> walls, std::span<const Capsule> cores,
+                        const Aabb& box, float cell) {
   TriangleMesh mesh = Polygoniser(Field(walls, cores, box, cell)).run();
   smooth(mesh);
   return mesh;

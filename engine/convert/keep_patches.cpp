@@ -16,16 +16,19 @@
 namespace vasa {
 namespace {
 
-constexpr float kWeld = 1e-5f;        // [m] as converting does
-constexpr float kNear = 1.5f;         // radii: the wall beside an opening
-constexpr float kAround = 2.3f;       // radii: how far from an opening walls are joined
-constexpr float kCell = 0.28f;        // of the least radius, for joining walls
-constexpr float kThin = 0.15f;        // of the least radius: what a joined wall may be off for having fewer triangles
-constexpr float kAxisStep = 0.25f;    // spans
-constexpr float kOff = 0.3f;          // of the least radius: farther from the source a wall is not the source's
-constexpr float kMostMade = 0.25f;    // of the wall's area may be that,
-constexpr float kLongestGap = 2;      // and as much of it as a tube of the least radius has, in radii
-constexpr float kFurther = 0.5f;      // radii: openings move out, where the wall between them cannot be cut out
+constexpr float kWeld = 1e-5f;   // [m] as converting does
+constexpr float kNear = 1.5f;    // radii: the wall beside an opening
+constexpr float kAround = 2.3f;  // radii: how far from an opening walls are joined
+constexpr float kCell = 0.28f;   // of the least radius, for joining walls
+// Of the least radius: what a joined wall may be off for having fewer triangles.
+constexpr float kThin = 0.15f;
+constexpr float kAxisStep = 0.25f;  // spans
+// Of the least radius: farther from the source a wall is not the source's.
+constexpr float kOff = 0.3f;
+constexpr float kMostMade = 0.25f;  // of the wall's area may be that,
+constexpr float kLongestGap = 2;    // and as much of it as a tube of the least radius has, in radii
+// Radii: openings move out, where the wall between them cannot be cut out.
+constexpr float kFurther = 0.5f;
 
 struct Kept {
   PatchOutcome outcome = PatchOutcome::apart;
@@ -35,12 +38,17 @@ struct Kept {
 
 PatchOutcome outcomeOf(WallFault fault) {
   switch (fault) {
-    case WallFault::none: return PatchOutcome::kept;
+    case WallFault::none:
+      return PatchOutcome::kept;
     case WallFault::noWall:
-    case WallFault::apart: return PatchOutcome::apart;
-    case WallFault::torn: return PatchOutcome::torn;
-    case WallFault::open: return PatchOutcome::open;
-    case WallFault::crowded: return PatchOutcome::crowded;
+    case WallFault::apart:
+      return PatchOutcome::apart;
+    case WallFault::torn:
+      return PatchOutcome::torn;
+    case WallFault::open:
+      return PatchOutcome::open;
+    case WallFault::crowded:
+      return PatchOutcome::crowded;
   }
   return PatchOutcome::apart;
 }
@@ -73,12 +81,14 @@ bool isSources(const TriangleMesh& mesh, std::span<const LooseWall* const> walls
     const float area = glm::length(glm::cross(b - a, c - a)) / 2;
     const vec3 middle = (a + b + c) / 3.0f;
     all += area;
-    if (std::ranges::none_of(walls, [&](const LooseWall* wall) { return wall->distance(middle, off) < off; })) made += area;
+    if (std::ranges::none_of(walls, [&](const LooseWall* wall) { return wall->distance(middle, off) < off; }))
+      made += area;
   }
   return made < kMostMade * all && made < kLongestGap * 2 * kPi * least * least;
 }
 
-Kept cutOutJoined(const Network& network, std::span<const LooseWall* const> walls, std::span<const ForkOpening> openings) {
+Kept cutOutJoined(const Network& network, std::span<const LooseWall* const> walls,
+                  std::span<const ForkOpening> openings) {
   Aabb box;
   float least = openings[0].cut.radius;
   for (const ForkOpening& opening : openings) {
@@ -106,7 +116,8 @@ bool holdsAll(const Aabb& box, std::span<const ForkOpening> openings) {
 }
 
 // Places on the axes of the vessels that an element became.
-std::vector<vec3> axesOf(const Network& network, std::span<const std::uint32_t> elementOf, std::uint32_t element) {
+std::vector<vec3> axesOf(const Network& network, std::span<const std::uint32_t> elementOf,
+                         std::uint32_t element) {
   std::vector<vec3> axes;
   for (std::uint32_t v = 0; v < elementOf.size(); ++v) {
     if (elementOf[v] != element) continue;
@@ -122,13 +133,15 @@ struct Surfaces {
   std::vector<Aabb> boxes;
   std::vector<std::unique_ptr<LooseWall>> loose;
 
-  Surfaces(const Network& network, std::span<const SourceElement> elements, std::span<const std::uint32_t> elementOf)
+  Surfaces(const Network& network, std::span<const SourceElement> elements,
+           std::span<const std::uint32_t> elementOf)
       : meshes(elements.size()), loose(elements.size()) {
     parallelFor(elements.size(), 1, [&](std::size_t e) {
       TriangleMesh welded = weld(elements[e].element.mesh, kWeld);
       const MeshEdges edges = buildEdges(welded);
       meshes[e] = fillLoops(welded, edges, boundaryLoops(welded, edges));
-      if (const std::vector<vec3> axes = axesOf(network, elementOf, std::uint32_t(e)); !axes.empty()) turnOutward(welded, axes);
+      if (const std::vector<vec3> axes = axesOf(network, elementOf, std::uint32_t(e)); !axes.empty())
+        turnOutward(welded, axes);
       loose[e] = std::make_unique<LooseWall>(std::move(welded));
     });
     for (const TriangleMesh& mesh : meshes) boxes.push_back(mesh.bounds());
@@ -162,23 +175,26 @@ struct Keeper {
   std::vector<const LooseWall*> wallsOf(std::span<const ForkOpening> openings) const {
     std::vector<const LooseWall*> walls;
     for (const ForkOpening& opening : openings)
-      if (const LooseWall* wall = surfaces.loose[elementOf[opening.vessel.value]].get(); std::ranges::find(walls, wall) == walls.end())
+      if (const LooseWall* wall = surfaces.loose[elementOf[opening.vessel.value]].get();
+          std::ranges::find(walls, wall) == walls.end())
         walls.push_back(wall);
     return walls;
   }
 
-  // From one surface, or else from what its vessels' surfaces make together: behind where these part, further out, and where
-  // it was planned.
+  // From one surface, or else from what its vessels' surfaces make together: behind where these part, further
+  // out, and where it was planned.
   Kept keep(const std::vector<ForkOpening>& planned) const {
     const std::vector<const LooseWall*> walls = wallsOf(planned);
     std::vector<ForkOpening> openings = planned;
     moveBeyondUnion(network, walls, openings);
-    const bool moved = !std::ranges::equal(openings, planned, {}, &ForkOpening::parameter, &ForkOpening::parameter);
+    const bool moved =
+        !std::ranges::equal(openings, planned, {}, &ForkOpening::parameter, &ForkOpening::parameter);
     Kept kept = fromOne(openings);
     if (kept.outcome == PatchOutcome::kept) return kept;
     kept = cutOutJoined(network, walls, openings);
     if (kept.outcome == PatchOutcome::open || kept.outcome == PatchOutcome::crowded) {
-      for (ForkOpening& opening : openings) opening = movedOut(network, opening, kFurther * opening.section.w);
+      for (ForkOpening& opening : openings)
+        opening = movedOut(network, opening, kFurther * opening.section.w);
       kept = cutOutJoined(network, walls, openings);
     }
     return kept.outcome == PatchOutcome::kept || !moved ? kept : cutOutJoined(network, walls, planned);
@@ -189,13 +205,20 @@ struct Keeper {
 
 std::string_view outcomeName(PatchOutcome outcome) {
   switch (outcome) {
-    case PatchOutcome::kept: return "kept";
-    case PatchOutcome::noMesh: return "the source is centre lines, without a wall";
-    case PatchOutcome::apart: return "the walls of its vessels do not meet in the source";
-    case PatchOutcome::torn: return "the wall is torn there";
-    case PatchOutcome::open: return "the wall goes on between its vessels";
-    case PatchOutcome::crowded: return "its vessels end too near to one another";
-    case PatchOutcome::notRound: return "the wall is far from the vessels' tubes";
+    case PatchOutcome::kept:
+      return "kept";
+    case PatchOutcome::noMesh:
+      return "the source is centre lines, without a wall";
+    case PatchOutcome::apart:
+      return "the walls of its vessels do not meet in the source";
+    case PatchOutcome::torn:
+      return "the wall is torn there";
+    case PatchOutcome::open:
+      return "the wall goes on between its vessels";
+    case PatchOutcome::crowded:
+      return "its vessels end too near to one another";
+    case PatchOutcome::notRound:
+      return "the wall is far from the vessels' tubes";
   }
   return "";
 }
@@ -205,7 +228,8 @@ std::uint32_t PatchReport::count(PatchOutcome outcome) const {
 }
 
 std::uint32_t PatchReport::joined() const {
-  return std::uint32_t(std::ranges::count_if(forks, [](const Fork& f) { return f.joined && f.outcome == PatchOutcome::kept; }));
+  return std::uint32_t(std::ranges::count_if(
+      forks, [](const Fork& f) { return f.joined && f.outcome == PatchOutcome::kept; }));
 }
 
 KeptPatches keepPatches(const Network& network, std::span<const SourceElement> elements,

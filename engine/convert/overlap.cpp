@@ -39,8 +39,9 @@ class OverlapFinder {
     std::vector<std::uint32_t> by(own.sections.size(), kNone);
     for (std::uint32_t other = 0; other < graph_.strands.size(); ++other) {
       const Strand& host = graph_.strands[other];
-      if (other == strand || host.dropped() || host.element == own.element || !sameFamily(own.kind, host.kind) ||
-          !boxes_[strand].overlaps(boxes_[other]) || lengths_[other] < lengths_[strand])
+      if (other == strand || host.dropped() || host.element == own.element ||
+          !sameFamily(own.kind, host.kind) || !boxes_[strand].overlaps(boxes_[other]) ||
+          lengths_[other] < lengths_[strand])
         continue;
       for (std::size_t i = 0; i < by.size(); ++i)
         if (by[i] == kNone && runsInside(own.sections, i, host.sections)) by[i] = other;

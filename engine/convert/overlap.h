@@ -15,9 +15,9 @@ struct Absorbed {
   std::uint32_t into;     ///< the element whose strand it ran inside
 };
 
-/// Anatomical data tells some stretches twice: the descending aorta, and its thoracic and abdominal parts. Where
-/// a strand of another element of the same family runs along the same axis, the shorter one is dropped when
-/// nearly all of it is told already, and otherwise cut back where its free ends run inside the other.
+/// Anatomical data tells some stretches twice: the descending aorta, and its thoracic and abdominal parts.
+/// Where a strand of another element of the same family runs along the same axis, the shorter one is dropped
+/// when nearly all of it is told already, and otherwise cut back where its free ends run inside the other.
 std::vector<Absorbed> removeOverlaps(StrandGraph& graph, const OverlapOptions& options = {});
 
 }  // namespace vasa

@@ -12,12 +12,14 @@
 namespace vasa {
 namespace {
 
-constexpr float kEased = 0.5f;        // weight from which on the wall turns into the tube
-constexpr float kEaseLimit = 0.6f;    // of the radius: farther from the tube it stays as it is
-constexpr int kRounds = 400;          // of relaxation
+constexpr float kEased = 0.5f;      // weight from which on the wall turns into the tube
+constexpr float kEaseLimit = 0.6f;  // of the radius: farther from the tube it stays as it is
+constexpr int kRounds = 400;        // of relaxation
 
 // Vertices on the wall's loops: its first ones.
-std::size_t onLoops(const WallPiece& wall) { return std::accumulate(wall.loops.begin(), wall.loops.end(), std::size_t(0)); }
+std::size_t onLoops(const WallPiece& wall) {
+  return std::accumulate(wall.loops.begin(), wall.loops.end(), std::size_t(0));
+}
 
 // Each vertex' share of each loop, by relaxation: neighbours count by their nearness.
 std::vector<vec4> harmonicWeights(const WallPiece& wall) {
@@ -27,12 +29,14 @@ std::vector<vec4> harmonicWeights(const WallPiece& wall) {
   for (std::size_t loop = 0; loop < wall.loops.size(); ++loop)
     for (std::uint32_t k = 0; k < wall.loops[loop]; ++k) weights[fixed++][int(loop)] = 1;
   for (std::size_t i = fixed; i < weights.size(); ++i)
-    for (std::size_t loop = 0; loop < wall.loops.size(); ++loop) weights[i][int(loop)] = 1.0f / float(wall.loops.size());
+    for (std::size_t loop = 0; loop < wall.loops.size(); ++loop)
+      weights[i][int(loop)] = 1.0f / float(wall.loops.size());
   for (int round = 0; round < kRounds; ++round) {
     std::vector<vec4> sum(weights.size(), vec4(0));
     std::vector<float> total(weights.size());
     for (const uvec2& e : edges.vertices) {
-      const float nearness = 1 / std::max(glm::distance(wall.mesh.positions[e.x], wall.mesh.positions[e.y]), 1e-9f);
+      const float nearness =
+          1 / std::max(glm::distance(wall.mesh.positions[e.x], wall.mesh.positions[e.y]), 1e-9f);
       sum[e.x] += nearness * weights[e.y], total[e.x] += nearness;
       sum[e.y] += nearness * weights[e.x], total[e.y] += nearness;
     }
@@ -73,7 +77,8 @@ std::vector<vec3> loopNormals(std::span<const ForkOpening> openings, const WallP
   for (std::size_t i = 0; i < openings.size(); ++i)
     for (std::uint32_t k = 0; k < wall.loops[i]; ++k) {
       const vec3 d = wall.mesh.positions[normals.size()] - vec3(openings[i].section);
-      normals.push_back(unitOr(d - glm::dot(d, openings[i].direction) * openings[i].direction, openings[i].direction));
+      normals.push_back(
+          unitOr(d - glm::dot(d, openings[i].direction) * openings[i].direction, openings[i].direction));
     }
   return normals;
 }
@@ -85,7 +90,8 @@ bool runsAround(std::span<const ForkOpening> openings, const WallPiece& wall) {
     const WallOpening& o = openings[i].cut;
     const std::uint32_t count = wall.loops[i];
     for (std::uint32_t k = 0; k < count; ++k) {
-      const vec3 a = wall.mesh.positions[first + k] - o.centre, b = wall.mesh.positions[first + (k + 1) % count] - o.centre;
+      const vec3 a = wall.mesh.positions[first + k] - o.centre,
+                 b = wall.mesh.positions[first + (k + 1) % count] - o.centre;
       if (glm::dot(glm::cross(a, b), o.outward) < 0) return false;
     }
     first += count;

@@ -37,9 +37,7 @@ bool shadowed(const AxisChain& chain, const AxisChain& other, float detail) {
   return true;
 }
 
-void erase(AxisGraph& graph, std::uint32_t chain) {
-  graph.chains.erase(graph.chains.begin() + chain);
-}
+void erase(AxisGraph& graph, std::uint32_t chain) { graph.chains.erase(graph.chains.begin() + chain); }
 
 // The shortest leaf chain below the radius of its parent, counted in those radii.
 bool pruneOne(AxisGraph& graph, float detail) {

@@ -9,9 +9,7 @@
 namespace vasa {
 namespace {
 
-std::string percent(double share) {
-  return std::to_string(int(std::floor(100 * share))) + " %";
-}
+std::string percent(double share) { return std::to_string(int(std::floor(100 * share))) + " %"; }
 
 void append(std::string& reason, const std::string& more) {
   if (more.empty()) return;
@@ -26,23 +24,32 @@ void judge(ElementReport& report, float meanRadius) {
     return;
   }
   report.status = report.coverage >= kPartialCoverage ? ElementStatus::partial : ElementStatus::failed;
-  if (!report.error.measured && report.reason.empty()) append(report.reason, "no vessel was found in the mesh");
-  else if (report.coverage < kOkCoverage) append(report.reason, "covers " + percent(report.coverage) + " of the surface");
-  else append(report.reason, "5 % of the surface lie more than " + std::to_string(1000 * report.error.p95).substr(0, 4) + " mm off");
+  if (!report.error.measured && report.reason.empty())
+    append(report.reason, "no vessel was found in the mesh");
+  else if (report.coverage < kOkCoverage)
+    append(report.reason, "covers " + percent(report.coverage) + " of the surface");
+  else
+    append(report.reason, "5 % of the surface lie more than " +
+                              std::to_string(1000 * report.error.p95).substr(0, 4) + " mm off");
 }
 
 // The radius of a tube of the same area and the length of the element's vessels.
 float meanRadius(const Assembly& assembly, std::uint32_t element, double area) {
   double length = 0;
-  for (const std::uint32_t v : assembly.vesselsOf[element]) length += lengthOf(assembly.network.pointsOf(assembly.network.vessels()[v]));
+  for (const std::uint32_t v : assembly.vesselsOf[element])
+    length += lengthOf(assembly.network.pointsOf(assembly.network.vessels()[v]));
   return length > 0 ? float(area / (2 * double(kPi) * length)) : 0.0f;
 }
 
 void doubt(ElementReport& report, float radius) {
-  if (report.status == ElementStatus::failed || report.vessels == 0 || (radius >= kThinnestVessel && radius <= kWidestVessel)) return;
+  if (report.status == ElementStatus::failed || report.vessels == 0 ||
+      (radius >= kThinnestVessel && radius <= kWidestVessel))
+    return;
   report.status = ElementStatus::doubtful;
-  append(report.reason, radius > kWidestVessel ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) + " mm is that of no vessel: a solid or a chamber, or another unit (--scale)"
-                                               : "it is thinner than any vessel that a mesh shows: another unit? (--scale)");
+  append(report.reason, radius > kWidestVessel
+                            ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) +
+                                  " mm is that of no vessel: a solid or a chamber, or another unit (--scale)"
+                            : "it is thinner than any vessel that a mesh shows: another unit? (--scale)");
 }
 
 ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,
@@ -55,7 +62,8 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   report.method = outcome.method;
   report.reason = outcome.reason;
   report.vessels = std::uint32_t(assembly.vesselsOf[index].size());
-  for (const std::uint32_t v : assembly.vesselsOf[index]) report.sweeps += assembly.network.vessels()[v].spanCount();
+  for (const std::uint32_t v : assembly.vesselsOf[index])
+    report.sweeps += assembly.network.vessels()[v].spanCount();
   report.duplicate = report.vessels == 0 && !outcome.standIn.empty();
   if (!outcome.standIn.empty())
     append(report.reason, (report.duplicate ? "repeats '" : "in part repeats '") +

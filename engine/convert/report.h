@@ -8,11 +8,12 @@
 namespace vasa {
 
 /// ok: at least kOkCoverage of the mesh's area is covered and 95 % of it lies within kOkError, or within half
-/// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest. doubtful: what
-/// would be ok or partial and is no human vessel by its size: wider than kWidestVessel, or thinner than any that a mesh
-/// shows (another unit, a solid, a heart's chamber).
+/// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest.
+/// doubtful: what would be ok or partial and is no human vessel by its size: wider than kWidestVessel, or
+/// thinner than any that a mesh shows (another unit, a solid, a heart's chamber).
 enum class ElementStatus { ok, partial, failed, doubtful };
-constexpr float kWidestVessel = 0.03f, kThinnestVessel = 2e-5f;  ///< [m] mean radius: a large aneurysm of the aorta, an arteriole
+/// [m] mean radius: a large aneurysm of the aorta, an arteriole
+constexpr float kWidestVessel = 0.03f, kThinnestVessel = 2e-5f;
 constexpr double kOkCoverage = 0.9, kPartialCoverage = 0.25;
 constexpr float kOkError = 0.002f;  ///< [m]
 std::string_view statusName(ElementStatus status);
@@ -36,8 +37,8 @@ struct ConvertSummary {
   double coverage = 0;               ///< share of the area of all elements, failed ones included
   ErrorStatistics error, backError;  ///< over all elements that were measured
   double length = 0, arteryLength = 0, largestArterialTree = 0;  ///< [m]
-  std::size_t meshBytes = 0;         ///< of all elements read
-  float bodyHeight = 0;              ///< [m]
+  std::size_t meshBytes = 0;                                     ///< of all elements read
+  float bodyHeight = 0;                                          ///< [m]
   AttachReport joins;
 };
 

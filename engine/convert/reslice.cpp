@@ -12,9 +12,7 @@ constexpr int kMostEndCuts = 200;
 constexpr float kEndPrecision = 0.04f;  // of where the surface ends, in radii
 constexpr float kSliceReach = 3.0f;     // triangles considered around a centre, in radii
 
-float centreDistance(const vec4& a, const vec4& b) {
-  return glm::distance(vec3(a), vec3(b));
-}
+float centreDistance(const vec4& a, const vec4& b) { return glm::distance(vec3(a), vec3(b)); }
 
 // A polyline by its arc length.
 class ArcLength {

@@ -54,7 +54,8 @@ std::size_t partsWithout(const StrandGraph& graph, std::span<const Wall> walls, 
 
 }  // namespace
 
-std::uint32_t pruneSlivers(StrandGraph& graph, std::span<const std::uint32_t> strands, const SliverOptions& options) {
+std::uint32_t pruneSlivers(StrandGraph& graph, std::span<const std::uint32_t> strands,
+                           const SliverOptions& options) {
   if (strands.size() < 2) return 0;
   std::vector<Wall> walls;
   for (const std::uint32_t strand : strands) walls.push_back(wallOf(graph, strand));
@@ -72,10 +73,12 @@ std::uint32_t pruneSlivers(StrandGraph& graph, std::span<const std::uint32_t> st
     again = false;
     for (const Wall& wall : walls) {
       if (graph.strands[wall.strand].dropped() || wall.area > options.areaShare * area) continue;
-      if (wall.radius() > options.radiusShare * radius && wall.length > options.lengthRadii * radius) continue;
+      if (wall.radius() > options.radiusShare * radius && wall.length > options.lengthRadii * radius)
+        continue;
       if (gone + wall.area > options.pruned * area) break;
       if (partsWithout(graph, walls, wall.strand) > partsWithout(graph, walls, StrandGraph::kNone)) continue;
-      const bool hosts = std::ranges::any_of(graph.joints, [&](const Joint& j) { return j.host == wall.strand; });
+      const bool hosts =
+          std::ranges::any_of(graph.joints, [&](const Joint& j) { return j.host == wall.strand; });
       if (hosts) continue;
       graph.drop(wall.strand);
       gone += wall.area;

@@ -12,8 +12,8 @@ struct SliverOptions {
   float pruned = 0.06f;       ///< share of the wall that may go in all
 };
 
-/// Torn and decimated surfaces break into threads: drops an element's strands that tell next to nothing of its
-/// surface, the least first, as long as what is left hangs together as before.
+/// Torn and decimated surfaces break into threads: drops an element's strands that tell next to nothing of
+/// its surface, the least first, as long as what is left hangs together as before.
 /// @param strands  the element's
 /// @return how many were dropped
 std::uint32_t pruneSlivers(StrandGraph& graph, std::span<const std::uint32_t> strands,

@@ -13,13 +13,16 @@ std::string vesselLabel(std::string_view name) {
   const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
   const auto numberAt = std::ranges::find_if_not(word, letter);
   const auto suffixAt = std::find_if_not(numberAt, word.end(), digit);
-  const bool catalogued = numberAt != word.begin() && suffixAt - numberAt >= 3 && std::all_of(suffixAt, word.end(), letter);
+  const bool catalogued =
+      numberAt != word.begin() && suffixAt - numberAt >= 3 && std::all_of(suffixAt, word.end(), letter);
   const std::size_t start = name.find_first_not_of(' ', space);
   return std::string(catalogued && start != name.npos ? name.substr(start) : name);
 }
 
 bool sameFamily(VesselKind a, VesselKind b) {
-  const auto family = [](VesselKind kind) { return kind == VesselKind::portalVein ? VesselKind::vein : kind; };
+  const auto family = [](VesselKind kind) {
+    return kind == VesselKind::portalVein ? VesselKind::vein : kind;
+  };
   return family(a) == family(b);
 }
 

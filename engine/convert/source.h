@@ -15,11 +15,11 @@ struct SourceElement {
   std::string label;  ///< the vessel's name: the element's without its leading catalogue number
 };
 
-/// The kind of vessel: by what the file says of the element, else by an ontology's number (FMA, UBERON) of a great
-/// vessel, else by words in the element's own name (aorta, vena cava, sinus ...; names of others are divided at marks,
-/// capitals and numbers), else by the file's name ("bp3d_arteries.glb"), else by what it belongs to (its mesh, the nodes
-/// above it, its materials), else by its colour: red an artery, blue a vein. A vein whose name says "portal" is a portal
-/// vein. `other` where nothing tells.
+/// The kind of vessel: by what the file says of the element, else by an ontology's number (FMA, UBERON) of a
+/// great vessel, else by words in the element's own name (aorta, vena cava, sinus ...; names of others are
+/// divided at marks, capitals and numbers), else by the file's name ("bp3d_arteries.glb"), else by what it
+/// belongs to (its mesh, the nodes above it, its materials), else by its colour: red an artery, blue a vein.
+/// A vein whose name says "portal" is a portal vein. `other` where nothing tells.
 VesselKind kindOf(const MeshElement& element, std::string_view fileName);
 
 /// "FJ1654M left anterior cerebral artery" -> "left anterior cerebral artery"; other names stay as they are.

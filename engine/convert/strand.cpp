@@ -16,7 +16,8 @@ Along nearestAlong(const Sections& sections, vec3 p) {
     const vec3 a(sections[i]), b(sections[i + 1]);
     const float length = glm::distance(a, b), t = closestOnSegment(p, a, b);
     const float distance = glm::distance(p, a + t * (b - a));
-    if (distance < best.distance) best = {i, t, arc + t * length, glm::mix(sections[i], sections[i + 1], t), distance};
+    if (distance < best.distance)
+      best = {i, t, arc + t * length, glm::mix(sections[i], sections[i + 1], t), distance};
     arc += length;
   }
   return best;
@@ -24,7 +25,8 @@ Along nearestAlong(const Sections& sections, vec3 p) {
 
 float lengthOf(const Sections& sections) {
   float sum = 0;
-  for (std::size_t i = 1; i < sections.size(); ++i) sum += glm::distance(vec3(sections[i - 1]), vec3(sections[i]));
+  for (std::size_t i = 1; i < sections.size(); ++i)
+    sum += glm::distance(vec3(sections[i - 1]), vec3(sections[i]));
   return sum;
 }
 
@@ -88,8 +90,10 @@ void StrandGraph::extendTo(StrandEnd end, vec3 place) {
   const bool replace = glm::distance(vec3(tip), place) < 0.25f * tip.w && sections.size() > 2;
   const vec4 section(place, tip.w);
   if (glm::distance(vec3(tip), place) == 0) return;
-  if (replace) (end.last ? sections.back() : sections.front()) = section;
-  else sections.insert(end.last ? sections.end() : sections.begin(), section);
+  if (replace)
+    (end.last ? sections.back() : sections.front()) = section;
+  else
+    sections.insert(end.last ? sections.end() : sections.begin(), section);
 }
 
 void StrandGraph::addEnd(std::uint32_t joint, StrandEnd end) {
@@ -99,7 +103,8 @@ void StrandGraph::addEnd(std::uint32_t joint, StrandEnd end) {
   extendTo(end, joints[joint].place);
 }
 
-std::uint32_t StrandGraph::join(std::optional<std::uint32_t> host, vec3 place, std::span<const StrandEnd> ends) {
+std::uint32_t StrandGraph::join(std::optional<std::uint32_t> host, vec3 place,
+                                std::span<const StrandEnd> ends) {
   const std::uint32_t joint = std::uint32_t(joints.size());
   joints.push_back({host, place, {}});
   for (const StrandEnd& end : ends) addEnd(joint, end);

@@ -39,9 +39,9 @@ struct Joint {
 /// A place along a strand's polyline.
 struct Along {
   std::uint32_t segment = 0;
-  float t = 0;      ///< in [0, 1] on that segment
-  float arc = 0;    ///< [m] from the first section
-  vec4 section{0};  ///< centre and radius there
+  float t = 0;         ///< in [0, 1] on that segment
+  float arc = 0;       ///< [m] from the first section
+  vec4 section{0};     ///< centre and radius there
   float distance = 0;  ///< of the point asked about from the centre
 };
 
@@ -51,15 +51,17 @@ float lengthOf(const Sections& sections);
 /// The place at an arc length from the first section, clamped.
 Along atArc(const Sections& sections, float arc);
 
-/// The strand's radius near an end [m]: the largest within two radii of the tip, since sections taper where the
-/// surface is cut at a slant.
+/// The strand's radius near an end [m]: the largest within two radii of the tip, since sections taper where
+/// the surface is cut at a slant.
 float endRadius(const Sections& sections, bool last);
 
-/// Unit direction in which the strand leaves its end, judged between about half and two and a half radii from it.
+/// Unit direction in which the strand leaves its end, judged between about half and two and a half radii from
+/// it.
 vec3 outwardDirection(const Sections& sections, bool last);
 
-/// Takes sections off an end where the radius falls off because the surface is cut at a slant: those thinner than
-/// 70 % of the radius behind them, over one radius of length at most. A ball-shaped cap stands there anyway.
+/// Takes sections off an end where the radius falls off because the surface is cut at a slant: those thinner
+/// than 70 % of the radius behind them, over one radius of length at most. A ball-shaped cap stands there
+/// anyway.
 void trimTaper(Sections& sections, bool last);
 
 class StrandGraph {

@@ -15,13 +15,12 @@ constexpr float kRadiusWeight = 0.5f;
 
 // One end of a branch: 2 * branch + (1 at its last section).
 using Tip = std::uint32_t;
-Tip otherTip(Tip tip) {
-  return tip ^ 1u;
-}
+Tip otherTip(Tip tip) { return tip ^ 1u; }
 
 class Strokes {
  public:
-  explicit Strokes(const ElementSkeleton& skeleton) : skeleton_(skeleton), next_(2 * skeleton.branches.size(), kNone) {
+  explicit Strokes(const ElementSkeleton& skeleton)
+      : skeleton_(skeleton), next_(2 * skeleton.branches.size(), kNone) {
     at_.resize(skeleton.nodes.size());
     for (Tip tip = 0; tip < next_.size(); ++tip) at_[nodeOf(tip)].push_back(tip);
     for (std::uint32_t node = 0; node < at_.size(); ++node) pairAt(node);
@@ -48,7 +47,8 @@ class Strokes {
   const Sections& sectionsOf(Tip tip) const { return skeleton_.branches[tip / 2].sections; }
   float radiusNear(Tip tip) const { return endRadius(sectionsOf(tip), tip % 2); }
   float continuity(Tip a, Tip b) const {
-    const float straight = -glm::dot(outwardDirection(sectionsOf(a), a % 2), outwardDirection(sectionsOf(b), b % 2));
+    const float straight =
+        -glm::dot(outwardDirection(sectionsOf(a), a % 2), outwardDirection(sectionsOf(b), b % 2));
     const float ra = radiusNear(a), rb = radiusNear(b);
     if (straight < kLeastStraight) return -1;
     return straight + kRadiusWeight * std::min(ra, rb) / std::max(ra, rb);
@@ -65,7 +65,8 @@ class Strokes {
     for (std::size_t i = 0; i < tips.size(); ++i)
       for (std::size_t j = i + 1; j < tips.size(); ++j) {
         if (tips[i] == otherTip(tips[j])) continue;
-        if (const float value = continuity(tips[i], tips[j]); value > best) best = value, pair = {tips[i], tips[j]};
+        if (const float value = continuity(tips[i], tips[j]); value > best)
+          best = value, pair = {tips[i], tips[j]};
       }
     if (pair.first != kNone) link(pair.first, pair.second);
   }
@@ -114,8 +115,8 @@ Sections sectionsAlong(const ElementSkeleton& skeleton, std::span<const Tip> cha
 
 }  // namespace
 
-std::vector<std::uint32_t> addSkeleton(StrandGraph& graph, const ElementSkeleton& skeleton, std::uint32_t element,
-                                       VesselKind kind) {
+std::vector<std::uint32_t> addSkeleton(StrandGraph& graph, const ElementSkeleton& skeleton,
+                                       std::uint32_t element, VesselKind kind) {
   const Strokes strokes(skeleton);
   struct Run {
     std::vector<Tip> chain;
@@ -132,8 +133,8 @@ std::vector<std::uint32_t> addSkeleton(StrandGraph& graph, const ElementSkeleton
   std::ranges::stable_sort(runs, std::greater{}, &Run::length);
 
   std::vector<std::uint32_t> added;
-  std::map<std::uint32_t, std::uint32_t> hostAt;                 // node -> the strand that passes through it
-  std::map<std::uint32_t, std::vector<StrandEnd>> endsAt;        // node -> strand ends
+  std::map<std::uint32_t, std::uint32_t> hostAt;           // node -> the strand that passes through it
+  std::map<std::uint32_t, std::vector<StrandEnd>> endsAt;  // node -> strand ends
   for (Run& run : runs) {
     const std::uint32_t strand = graph.add({std::move(run.sections), element, kind, kNone, kNone});
     added.push_back(strand);

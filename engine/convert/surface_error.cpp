@@ -15,8 +15,8 @@
 namespace vasa {
 namespace {
 
-constexpr float kFarthest = 0.5f;          // [m] no error is told larger
-constexpr float kInsideMargin = 1e-5f;     // [m]
+constexpr float kFarthest = 0.5f;       // [m] no error is told larger
+constexpr float kInsideMargin = 1e-5f;  // [m]
 
 // For each vessel those that share a node with it, itself included.
 std::vector<std::set<std::uint32_t>> neighboursOf(const Network& network) {
@@ -73,7 +73,8 @@ struct Measurer {
                 ElementError& error) const {
     double wallArea = 0;
     for (const std::uint32_t v : own) wallArea += wallAreaOf(pointsOf(v));
-    const double wanted = std::clamp(wallArea / options.sampleArea, double(options.samplesMin), double(options.samplesMax));
+    const double wanted =
+        std::clamp(wallArea / options.sampleArea, double(options.samplesMin), double(options.samplesMax));
     const double areaEach = wallArea / wanted;
     double reached = 0, next = 0.5 * areaEach;
     for (const std::uint32_t v : own) {
@@ -92,7 +93,8 @@ struct Measurer {
           const float angle = 2.3999632f * float(error.backward.distances.size() + turn + i);
           const vec3 normal = std::cos(angle) * u + std::sin(angle) * glm::cross(tangent, u);
           const vec3 p = vec3(section) + section.w * normal;
-          if (!whole.insideAnother(p, v, kInsideMargin)) error.backward.distances.push_back(distanceTo(meshes, p));
+          if (!whole.insideAnother(p, v, kInsideMargin))
+            error.backward.distances.push_back(distanceTo(meshes, p));
         }
       }
     }
@@ -107,7 +109,8 @@ struct Measurer {
     double sum = 0;
     for (std::uint32_t i = 0; i < 16 * spanCount(points); ++i) {
       const float parameter = (float(i) + 0.5f) / 16;
-      sum += double(glm::length(vec3(evaluateDerivative(points, parameter)))) / 16 * 2 * kPi * evaluate(points, parameter).w;
+      sum += double(glm::length(vec3(evaluateDerivative(points, parameter)))) / 16 * 2 * kPi *
+             evaluate(points, parameter).w;
     }
     return sum;
   }
@@ -135,15 +138,18 @@ ErrorStatistics statisticsOf(std::span<const WeightedErrors> parts) {
   return {float(sum / area), p95, all.back().first, true};
 }
 
-std::vector<ElementError> measureSurfaceErrors(const Assembly& assembly, std::span<const SourceElement> elements,
+std::vector<ElementError> measureSurfaceErrors(const Assembly& assembly,
+                                               std::span<const SourceElement> elements,
                                                std::span<const std::vector<std::uint32_t>> standIn,
                                                const SurfaceErrorOptions& options) {
   std::vector<TubePiece> pieces;
   for (std::uint32_t v = 0; v < assembly.network.vessels().size(); ++v)
     appendPieces(assembly.network.pointsOf(assembly.network.vessels()[v]), v, pieces);
-  const Measurer measurer{assembly, elements, options, neighboursOf(assembly.network), TubeTree(std::move(pieces))};
+  const Measurer measurer{assembly, elements, options, neighboursOf(assembly.network),
+                          TubeTree(std::move(pieces))};
   std::vector<std::unique_ptr<TriangleTree>> trees(elements.size());
-  parallelFor(elements.size(), 8, [&](std::size_t e) { trees[e] = std::make_unique<TriangleTree>(elements[e].element.mesh); });
+  parallelFor(elements.size(), 8,
+              [&](std::size_t e) { trees[e] = std::make_unique<TriangleTree>(elements[e].element.mesh); });
   std::vector<ElementError> errors(elements.size());
   parallelFor(elements.size(), 1, [&](std::size_t e) {
     const TriangleMesh& mesh = elements[e].element.mesh;

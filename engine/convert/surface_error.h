@@ -32,12 +32,13 @@ struct ElementError {
   double coverage = 0;      ///< share of that area
 };
 
-/// Errors of every element, in parallel. An element's mesh is measured against the walls of its own vessels and
-/// of those they are joined to; its vessels' walls against its own mesh and the meshes of those. Parts of a wall
-/// inside another tube of the network are no surface of the whole and are left out. An element without vessels
-/// of its own is measured against those of standIn[element].
-/// Walls are taken across straight pieces of axis, kPiecesPerSpan a span, and ends as half balls.
-std::vector<ElementError> measureSurfaceErrors(const Assembly& assembly, std::span<const SourceElement> elements,
+/// Errors of every element, in parallel. An element's mesh is measured against the walls of its own vessels
+/// and of those they are joined to; its vessels' walls against its own mesh and the meshes of those. Parts of
+/// a wall inside another tube of the network are no surface of the whole and are left out. An element without
+/// vessels of its own is measured against those of standIn[element]. Walls are taken across straight pieces
+/// of axis, kPiecesPerSpan a span, and ends as half balls.
+std::vector<ElementError> measureSurfaceErrors(const Assembly& assembly,
+                                               std::span<const SourceElement> elements,
                                                std::span<const std::vector<std::uint32_t>> standIn,
                                                const SurfaceErrorOptions& options = {});
 

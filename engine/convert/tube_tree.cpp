@@ -83,7 +83,8 @@ TubeTree::Hit TubeTree::nearestWall(vec3 p, float limit) const {
     }
     if (branch.count) continue;
     std::uint32_t near = index + 1, far = branch.first;
-    if (distanceOutside(branches_[far].box, p) < distanceOutside(branches_[near].box, p)) std::swap(near, far);
+    if (distanceOutside(branches_[far].box, p) < distanceOutside(branches_[near].box, p))
+      std::swap(near, far);
     stack[depth++] = far;
     stack[depth++] = near;
   }

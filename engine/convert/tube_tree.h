@@ -27,7 +27,8 @@ class TubeTree {
     float radius;    ///< there
     std::uint32_t vessel;
   };
-  /// The wall nearest to p, inside or outside; `limit` and no vessel (0xffffffff) if none is nearer than that.
+  /// The wall nearest to p, inside or outside; `limit` and no vessel (0xffffffff) if none is nearer than
+  /// that.
   Hit nearestWall(vec3 p, float limit) const;
   /// Whether p lies deeper than `margin` inside a tube of another vessel than `own`.
   bool insideAnother(vec3 p, std::uint32_t own, float margin) const;

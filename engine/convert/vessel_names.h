@@ -8,7 +8,8 @@ namespace vasa {
 /// not tell. Names without a side continue their like only.
 bool namesContinue(std::string_view a, std::string_view b);
 
-/// Which side of the heart a vessel's name puts it on, where it says so: the aorta's tree or the pulmonary one.
+/// Which side of the heart a vessel's name puts it on, where it says so: the aorta's tree or the pulmonary
+/// one.
 enum class Circuit { unknown, systemic, pulmonary };
 Circuit circuitOf(std::string_view name);
 

@@ -11,13 +11,12 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr float kReachRadii = 4;                       // around the openings: what is cut out does not go beyond
-constexpr float kNearest = 0.45f, kFarthest = 2.0f;    // of a contour from the axis, in radii of the opening
+// Around the openings: what is cut out does not go beyond.
+constexpr float kReachRadii = 4;
+constexpr float kNearest = 0.45f, kFarthest = 2.0f;  // of a contour from the axis, in radii of the opening
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
-Edge edgeOf(std::uint32_t a, std::uint32_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
+Edge edgeOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 struct Contour {
   std::vector<std::uint32_t> edges;      // that it crosses
@@ -39,7 +38,8 @@ class Cutter {
       if (!box.overlaps(near)) continue;
       for (int k = 0; k < 3; ++k) {
         std::uint32_t& n = number[t[k]];
-        if (n == kNone) n = std::uint32_t(mesh_.positions.size()), mesh_.positions.push_back(surface.positions[t[k]]);
+        if (n == kNone)
+          n = std::uint32_t(mesh_.positions.size()), mesh_.positions.push_back(surface.positions[t[k]]);
         t[k] = n;
       }
       mesh_.triangles.push_back(t);
@@ -54,9 +54,11 @@ class Cutter {
   }
 
  private:
-  // Distance of a vertex beyond the plane; never 0. All that asks for a side asks here: so all agree on vertices beside it.
+  // Distance of a vertex beyond the plane; never 0. All that asks for a side asks here: so all agree on
+  // vertices beside it.
   float sideOf(const WallOpening& opening, std::uint32_t vertex) const {
-    const float least = 1e-4f * opening.radius, side = glm::dot(mesh_.positions[vertex] - opening.centre, opening.outward);
+    const float least = 1e-4f * opening.radius,
+                side = glm::dot(mesh_.positions[vertex] - opening.centre, opening.outward);
     return std::abs(side) < least ? least : side;
   }
   std::vector<float> sidesOf(const WallOpening& opening) const {
@@ -71,7 +73,8 @@ class Cutter {
   }
 
   // From an edge on through triangles; open where it comes to a border.
-  static bool follow(const MeshEdges& edges, const std::vector<bool>& crossed, std::uint32_t start, Contour& contour) {
+  static bool follow(const MeshEdges& edges, const std::vector<bool>& crossed, std::uint32_t start,
+                     Contour& contour) {
     std::uint32_t edge = start, triangle = edges.trianglesOf(start)[0];
     do {
       if (edges.trianglesOf(edge).size() != 2) return false;
@@ -94,7 +97,8 @@ class Cutter {
     const std::vector<float> sides = sidesOf(opening);
     const MeshEdges edges = buildEdges(mesh_);
     std::vector<bool> crossed(edges.size()), seen(edges.size());
-    for (std::uint32_t e = 0; e < edges.size(); ++e) crossed[e] = (sides[edges.vertices[e].x] < 0) != (sides[edges.vertices[e].y] < 0);
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+      crossed[e] = (sides[edges.vertices[e].x] < 0) != (sides[edges.vertices[e].y] < 0);
     const auto place = [&](std::uint32_t e) {
       const auto [a, b] = std::pair(edges.vertices[e].x, edges.vertices[e].y);
       return glm::mix(mesh_.positions[a], mesh_.positions[b], sides[a] / (sides[a] - sides[b]));
@@ -117,7 +121,9 @@ class Cutter {
         area += cross / 2;
         nearest = std::min(nearest, glm::length(a)), farthest = std::max(farthest, glm::length(a));
       }
-      if (std::abs(turn) < kPi || nearest < kNearest * opening.radius || farthest > kFarthest * opening.radius) continue;
+      if (std::abs(turn) < kPi || nearest < kNearest * opening.radius ||
+          farthest > kFarthest * opening.radius)
+        continue;
       if (std::abs(area) < least) least = std::abs(area), best = std::move(contour), turned = area < 0;
     }
     if (best.edges.empty()) return WallFault::noWall;
@@ -128,8 +134,8 @@ class Cutter {
   }
 
   template <class Place>
-  void split(const Contour& contour, const MeshEdges& edges, const std::vector<float>& sides, const Place& place,
-             bool turned) {
+  void split(const Contour& contour, const MeshEdges& edges, const std::vector<float>& sides,
+             const Place& place, bool turned) {
     std::map<std::uint32_t, std::uint32_t> vertexOn;
     std::vector<std::uint32_t> loop;
     for (const std::uint32_t e : contour.edges) {
@@ -140,7 +146,9 @@ class Cutter {
     for (const std::uint32_t index : contour.triangles) {
       const uvec3 t = mesh_.triangles[index], on = edges.ofTriangle[index];
       int apex = 0;
-      while ((sides[t[apex]] < 0) == (sides[t[(apex + 1) % 3]] < 0) || (sides[t[apex]] < 0) == (sides[t[(apex + 2) % 3]] < 0)) ++apex;
+      while ((sides[t[apex]] < 0) == (sides[t[(apex + 1) % 3]] < 0) ||
+             (sides[t[apex]] < 0) == (sides[t[(apex + 2) % 3]] < 0))
+        ++apex;
       const std::uint32_t a = t[apex], b = t[(apex + 1) % 3], c = t[(apex + 2) % 3];
       const std::uint32_t ab = vertexOn[on[apex]], ca = vertexOn[on[(apex + 2) % 3]];
       mesh_.triangles[index] = {a, ab, ca};
@@ -148,7 +156,8 @@ class Cutter {
       mesh_.triangles.push_back({ab, c, ca});
     }
     if (turned) std::reverse(loop.begin(), loop.end());
-    for (std::size_t k = 0; k < loop.size(); ++k) barrier_.insert(edgeOf(loop[k], loop[(k + 1) % loop.size()]));
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      barrier_.insert(edgeOf(loop[k], loop[(k + 1) % loop.size()]));
     loops_.push_back(std::move(loop));
   }
 
@@ -201,7 +210,8 @@ class Cutter {
     std::set<std::uint32_t> vertices;
     std::size_t faces = 0;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-      if (inside_[t]) ++faces, vertices.insert({mesh_.triangles[t].x, mesh_.triangles[t].y, mesh_.triangles[t].z});
+      if (inside_[t])
+        ++faces, vertices.insert({mesh_.triangles[t].x, mesh_.triangles[t].y, mesh_.triangles[t].z});
     const auto euler = std::ptrdiff_t(vertices.size() + faces) - std::ptrdiff_t(walls);
     if (border != barrier_.size() || euler != 2 - std::ptrdiff_t(loops_.size())) return WallFault::open;
     return WallFault::none;
@@ -211,7 +221,9 @@ class Cutter {
     WallPiece piece{WallFault::none, {}, {}};
     std::vector<std::uint32_t> number(mesh_.positions.size(), kNone);
     const auto numbered = [&](std::uint32_t v) {
-      if (number[v] == kNone) number[v] = std::uint32_t(piece.mesh.positions.size()), piece.mesh.positions.push_back(mesh_.positions[v]);
+      if (number[v] == kNone)
+        number[v] = std::uint32_t(piece.mesh.positions.size()),
+        piece.mesh.positions.push_back(mesh_.positions[v]);
       return number[v];
     };
     for (const auto& loop : loops_) {

@@ -15,23 +15,23 @@ struct WallOpening {
 /// Why a piece of wall could not be cut out.
 enum class WallFault {
   none,
-  noWall,    ///< no contour of the surface goes around an opening at about its radius
-  apart,     ///< the openings are on surfaces that do not hang together
-  torn,      ///< the wall between them has holes, or edges of more than two triangles
-  open,      ///< it goes on elsewhere, or has a handle
-  crowded    ///< the cuts cross
+  noWall,  ///< no contour of the surface goes around an opening at about its radius
+  apart,   ///< the openings are on surfaces that do not hang together
+  torn,    ///< the wall between them has holes, or edges of more than two triangles
+  open,    ///< it goes on elsewhere, or has a handle
+  crowded  ///< the cuts cross
 };
 
 /// The wall between openings.
 struct WallPiece {
   WallFault fault = WallFault::noWall;
-  TriangleMesh mesh;                  ///< the loops' vertices first, each loop counter-clockwise about its outward direction
-  std::vector<std::uint32_t> loops;   ///< vertices of each opening's loop
+  TriangleMesh mesh;  ///< the loops' vertices first, each loop counter-clockwise about its outward direction
+  std::vector<std::uint32_t> loops;  ///< vertices of each opening's loop
 };
 
-/// Cuts a surface along its contours in the openings' planes and takes the piece between them: a sphere with as many holes
-/// as there are openings, its triangles counter-clockwise from outside.
-/// O(triangles + near ones · log).
+/// Cuts a surface along its contours in the openings' planes and takes the piece between them: a sphere with
+/// as many holes as there are openings, its triangles counter-clockwise from outside. O(triangles + near ones
+/// · log).
 WallPiece cutWall(const TriangleMesh& surface, std::span<const WallOpening> openings);
 
 }  // namespace vasa

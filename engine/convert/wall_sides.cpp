@@ -25,7 +25,8 @@ bool runsAlong(const uvec3& triangle, std::uint32_t from, std::uint32_t to) {
 }
 
 // Makes the triangles around `first` look the same way as it. @return them
-std::vector<std::uint32_t> align(TriangleMesh& mesh, const MeshEdges& edges, std::uint32_t first, std::vector<bool>& done) {
+std::vector<std::uint32_t> align(TriangleMesh& mesh, const MeshEdges& edges, std::uint32_t first,
+                                 std::vector<bool>& done) {
   std::vector<std::uint32_t> piece{first};
   done[first] = true;
   for (std::size_t next = 0; next < piece.size(); ++next) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kPasses = 16;
 constexpr std::uint32_t kFewestOnLoop = 8;
-constexpr float kTurned = 0.6f;    // least cosine between a triangle before and after
-constexpr float kNeedle = 0.1f;    // least double area, in squares of the longest edge
+constexpr float kTurned = 0.6f;  // least cosine between a triangle before and after
+constexpr float kNeedle = 0.1f;  // least double area, in squares of the longest edge
 
 class Thinner {
  public:
@@ -41,16 +41,19 @@ class Thinner {
     std::vector<std::uint32_t> all;
     for (const std::uint32_t t : around_[u])
       for (int k = 0; k < 3; ++k)
-        if (const std::uint32_t v = mesh_.triangles[t][k]; v != u && std::ranges::find(all, v) == all.end()) all.push_back(v);
+        if (const std::uint32_t v = mesh_.triangles[t][k]; v != u && std::ranges::find(all, v) == all.end())
+          all.push_back(v);
     return all;
   }
 
   bool moveAway(std::uint32_t u) {
-    if (around_[u].empty() || (loopOf_[u] >= 0 && loops_[std::size_t(loopOf_[u])] <= kFewestOnLoop)) return false;
+    if (around_[u].empty() || (loopOf_[u] >= 0 && loops_[std::size_t(loopOf_[u])] <= kFewestOnLoop))
+      return false;
     std::vector<std::uint32_t> to = neighbours(u);
     const std::vector<std::uint32_t> own = to;
     std::ranges::sort(to, [&](std::uint32_t a, std::uint32_t b) {
-      const float da = glm::distance(mesh_.positions[a], mesh_.positions[u]), db = glm::distance(mesh_.positions[b], mesh_.positions[u]);
+      const float da = glm::distance(mesh_.positions[a], mesh_.positions[u]),
+                  db = glm::distance(mesh_.positions[b], mesh_.positions[u]);
       return da != db ? da < db : a < b;
     });
     for (const std::uint32_t v : to)
@@ -75,7 +78,8 @@ class Thinner {
     const bool onLoop = loopOf_[u] >= 0;
     if (onLoop ? loopOf_[v] != loopOf_[u] || both != 1 : both != 2) return -1;
     const std::vector<std::uint32_t> others = neighbours(v);
-    if (std::size_t(std::ranges::count_if(own, [&](std::uint32_t n) { return std::ranges::find(others, n) != others.end(); })) != both)
+    if (std::size_t(std::ranges::count_if(
+            own, [&](std::uint32_t n) { return std::ranges::find(others, n) != others.end(); })) != both)
       return -1;
     const vec3 &from = mesh_.positions[u], &to = mesh_.positions[v];
     float cost = 0;
@@ -83,7 +87,8 @@ class Thinner {
       for (const std::uint32_t w : own)
         if (w != v && loopOf_[w] == loopOf_[u] && shared(u, w) == 1) {
           const vec3 before = mesh_.positions[w];
-          cost = std::max(cost, glm::distance(from, glm::mix(before, to, closestOnSegment(from, before, to))));
+          cost =
+              std::max(cost, glm::distance(from, glm::mix(before, to, closestOnSegment(from, before, to))));
         }
     for (const std::uint32_t t : around_[u]) {
       if (holds(t, v)) continue;
@@ -92,9 +97,11 @@ class Thinner {
         old[std::size_t(k)] = mesh_.positions[mesh_.triangles[t][k]];
         now[std::size_t(k)] = mesh_.triangles[t][k] == u ? to : old[std::size_t(k)];
       }
-      const vec3 a = glm::cross(old[1] - old[0], old[2] - old[0]), b = glm::cross(now[1] - now[0], now[2] - now[0]);
+      const vec3 a = glm::cross(old[1] - old[0], old[2] - old[0]),
+                 b = glm::cross(now[1] - now[0], now[2] - now[0]);
       const float size = glm::length(b);
-      const float longest = std::max({glm::distance(now[0], now[1]), glm::distance(now[1], now[2]), glm::distance(now[2], now[0])});
+      const float longest = std::max(
+          {glm::distance(now[0], now[1]), glm::distance(now[1], now[2]), glm::distance(now[2], now[0])});
       if (size < kNeedle * longest * longest || glm::dot(a, b) < kTurned * glm::length(a) * size) return -1;
       cost = std::max(cost, std::abs(glm::dot(from - now[0], b)) / size);
     }
@@ -141,8 +148,6 @@ class Thinner {
 
 }  // namespace
 
-WallPiece thinned(const WallPiece& wall, float error) {
-  return Thinner(wall, error).run();
-}
+WallPiece thinned(const WallPiece& wall, float error) { return Thinner(wall, error).run(); }
 
 }  // namespace vasa

@@ -86,9 +86,7 @@ int openInProgress(const std::filesystem::path& folder, std::filesystem::path& n
   return descriptor;
 }
 
-std::filesystem::path handleOf(int descriptor) {
-  return "/proc/self/fd/" + std::to_string(descriptor);
-}
+std::filesystem::path handleOf(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 int linkAt(int descriptor, const char* name) {
   return linkat(AT_FDCWD, handleOf(descriptor).c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);

@@ -16,11 +16,12 @@ class Cancellation {
   std::shared_ptr<std::atomic<bool>> asked_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// What checkpoint() throws. It is no std::exception, so that readers which answer for damaged files let it through.
+/// What checkpoint() throws. It is no std::exception, so that readers which answer for damaged files let it
+/// through.
 struct Cancelled {};
 
-/// What its thread does while it lives heeds a wish, and so does what that hands to other threads by parallelFor(). Scopes
-/// nest: the innermost counts.
+/// What its thread does while it lives heeds a wish, and so does what that hands to other threads by
+/// parallelFor(). Scopes nest: the innermost counts.
 class CancellationScope {
  public:
   explicit CancellationScope(const Cancellation& wish) : CancellationScope(wish.asked_.get()) {}
@@ -36,8 +37,9 @@ class CancellationScope {
   const std::atomic<bool>* before_;
 };
 
-/// Leaves work that is no longer wanted by throwing Cancelled; nothing happens outside of a scope. For loops that may
-/// take more than some hundredths of a second; what throws must leave nothing behind that others see. A nanosecond.
+/// Leaves work that is no longer wanted by throwing Cancelled; nothing happens outside of a scope. For loops
+/// that may take more than some hundredths of a second; what throws must leave nothing behind that others
+/// see. A nanosecond.
 void checkpoint();
 
 /// checkpoint() every so many calls, for loops whose rounds are cheaper than that.

@@ -13,9 +13,7 @@ std::atomic<FilesRead*> listener = nullptr;
 
 FilesRead::FilesRead() : before_(listener.exchange(this)) {}
 
-FilesRead::~FilesRead() {
-  listener = before_;
-}
+FilesRead::~FilesRead() { listener = before_; }
 
 void FilesRead::note(std::span<const std::byte> bytes) {
   if (FilesRead* files = listener) files->sum_ += hashBytes(bytes, bytes.size());

@@ -47,7 +47,8 @@ std::optional<std::vector<std::byte>> readWhole(const fs::path& path, std::uint6
   return bytes;
 }
 
-// By the clock that is read here: a file system's own may lag behind it, and what is new would seem the oldest.
+// By the clock that is read here: a file system's own may lag behind it, and what is new would seem the
+// oldest.
 void markUsed(const fs::path& path) {
   std::error_code ignored;
   fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
@@ -83,8 +84,8 @@ Result<void> write(std::string_view kind, std::uint64_t key, std::span<const std
   const fs::path path = folders.own / nameOf(kind, key);
   const std::uintmax_t size = sizeof(Header) + bytes.size();
   if (size > folders.most)
-    return ioError(path.string() + ": " + std::to_string(size) + " bytes, more than the " + std::to_string(folders.most) +
-                   " that are kept in all");
+    return ioError(path.string() + ": " + std::to_string(size) + " bytes, more than the " +
+                   std::to_string(folders.most) + " that are kept in all");
   std::error_code ignored;  // writing tells
   fs::create_directories(folders.own, ignored);
   ByteWriter file;

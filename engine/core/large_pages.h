@@ -10,8 +10,9 @@
 
 namespace vasa {
 
-/// Memory that is read all over the place every frame: from 4 MiB on it asks the system for large pages, so that most
-/// reads find their page's address in the processor. Only speed depends on whether the system gives them.
+/// Memory that is read all over the place every frame: from 4 MiB on it asks the system for large pages, so
+/// that most reads find their page's address in the processor. Only speed depends on whether the system gives
+/// them.
 template <class T>
 struct LargePages {
   using value_type = T;

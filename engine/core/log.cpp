@@ -25,19 +25,16 @@ bool colourful() {
 void write(const char* colour, std::string_view label, std::string_view message) {
   const std::lock_guard lock(outputMutex);
   const bool paint = colourful() && *colour;
-  const std::string text = visibleLines(message);  // names of files, and of what is in them, are others' words
+  // Names of files, and of what is in them, are others' words.
+  const std::string text = visibleLines(message);
   std::fprintf(stderr, "%s%.*s%s%s\n", paint ? colour : "", int(label.size()), label.data(),
                paint ? "\x1b[0m" : "", text.c_str());
 }
 
 }  // namespace
 
-void setLogLevel(LogLevel value) {
-  level = value;
-}
-LogLevel logLevel() {
-  return level;
-}
+void setLogLevel(LogLevel value) { level = value; }
+LogLevel logLevel() { return level; }
 
 void logInfo(std::string_view message) {
   if (level != LogLevel::quiet) write("", "", message);
@@ -45,9 +42,7 @@ void logInfo(std::string_view message) {
 void logWarning(std::string_view message) {
   if (level != LogLevel::quiet) write("\x1b[33m", "warning: ", message);
 }
-void logError(std::string_view message) {
-  write("\x1b[31m", "error: ", message);
-}
+void logError(std::string_view message) { write("\x1b[31m", "error: ", message); }
 void logDetail(std::string_view message) {
   if (level == LogLevel::verbose) write("", "", message);
 }

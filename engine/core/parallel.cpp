@@ -51,9 +51,7 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
   if (context.is_group_execution_cancelled()) throw Cancelled();
 }
 
-void isolated(const std::function<void()>& work) {
-  tbb::this_task_arena::isolate(work);
-}
+void isolated(const std::function<void()>& work) { tbb::this_task_arena::isolate(work); }
 
 void giveWay() {
   if (wayGiven) return;

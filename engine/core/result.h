@@ -25,12 +25,8 @@ struct Error {
   std::string message;
 };
 
-inline Error badInput(std::string message) {
-  return {Fault::badInput, std::move(message)};
-}
-inline Error ioError(std::string message) {
-  return {Fault::io, std::move(message)};
-}
+inline Error badInput(std::string message) { return {Fault::badInput, std::move(message)}; }
+inline Error ioError(std::string message) { return {Fault::io, std::move(message)}; }
 
 /// A value, or the error that stood in its way.
 template <class T>

@@ -5,8 +5,8 @@
 
 namespace vasa {
 
-/// Tells, where the log is verbose (core/log.h), how long the stages of something took: one after the other, each until the
-/// next one begins or this goes. Several can run beside one another, each on its own thread.
+/// Tells, where the log is verbose (core/log.h), how long the stages of something took: one after the other,
+/// each until the next one begins or this goes. Several can run beside one another, each on its own thread.
 class StageLog {
  public:
   StageLog() = default;

@@ -31,7 +31,8 @@ Character characterAt(std::string_view text) {
 bool steers(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
   const bool lineEnd = code == 0x2028 || code == 0x2029;
-  const bool direction = code == 0x200e || code == 0x200f || (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+  const bool direction = code == 0x200e || code == 0x200f || (code >= 0x202a && code <= 0x202e) ||
+                         (code >= 0x2066 && code <= 0x2069);
   return control || lineEnd || direction;
 }
 
@@ -65,12 +66,8 @@ std::string shown(std::string_view text, std::string_view kept) {
 
 }  // namespace
 
-std::string visible(std::string_view text) {
-  return shown(text, "");
-}
+std::string visible(std::string_view text) { return shown(text, ""); }
 
-std::string visibleLines(std::string_view text) {
-  return shown(text, "\n\t");
-}
+std::string visibleLines(std::string_view text) { return shown(text, "\n\t"); }
 
 }  // namespace vasa

@@ -8,9 +8,7 @@ namespace {
 
 constexpr int kParts = 16;  // of a span
 
-float speed(const Bezier& segment, float t) {
-  return glm::length(vec3(segment.derivative(t)));
-}
+float speed(const Bezier& segment, float t) { return glm::length(vec3(segment.derivative(t))); }
 
 }  // namespace
 

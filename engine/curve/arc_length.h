@@ -6,8 +6,9 @@
 
 namespace vasa {
 
-/// Arc length along a spline's centre line, from parameter to metres and back. 16 chords a span, each as long as the
-/// Simpson rule says the curve is: true to a millionth of a span where the curve is no sharper than its tube.
+/// Arc length along a spline's centre line, from parameter to metres and back. 16 chords a span, each as long
+/// as the Simpson rule says the curve is: true to a millionth of a span where the curve is no sharper than
+/// its tube.
 class ArcLength {
  public:
   /// @param points  de Boor points of one vessel; read, not kept

@@ -31,9 +31,7 @@ float filipRadiusConstant(const Bezier& segment) {
   return std::max(std::abs(b[0].w - 2 * b[1].w + b[2].w), std::abs(b[1].w - 2 * b[2].w + b[3].w));
 }
 
-float filipBound(float filipConstant, int level) {
-  return std::ldexp(3 * filipConstant, -2 * (level + 1));
-}
+float filipBound(float filipConstant, int level) { return std::ldexp(3 * filipConstant, -2 * (level + 1)); }
 
 float chordDeviation(const Bezier& segment) {
   const auto& b = segment.b;

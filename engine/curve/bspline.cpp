@@ -12,9 +12,7 @@
 namespace vasa {
 namespace {
 
-float knot(int k, int spans) {
-  return float(std::clamp(k, 0, spans));
-}
+float knot(int k, int spans) { return float(std::clamp(k, 0, spans)); }
 
 // Rows of the four Bézier points as combinations of d_i .. d_{i+3}.
 struct Rows {
@@ -43,13 +41,12 @@ constexpr int kNear = 2;
 const auto kRows = [] {
   std::array<std::array<Rows, kNear + 1>, kNear + 1> table{};
   for (int before = 0; before <= kNear; ++before)
-    for (int behind = 0; behind <= kNear; ++behind) table[before][behind] = computeRows(before, before + 1 + behind);
+    for (int behind = 0; behind <= kNear; ++behind)
+      table[before][behind] = computeRows(before, before + 1 + behind);
   return table;
 }();
 
-const Rows& bezierRows(int i, int n) {
-  return kRows[std::min(i, kNear)][std::min(n - 1 - i, kNear)];
-}
+const Rows& bezierRows(int i, int n) { return kRows[std::min(i, kNear)][std::min(n - 1 - i, kNear)]; }
 
 }  // namespace
 

@@ -13,9 +13,7 @@ namespace vasa {
 
 constexpr std::uint32_t kMinPoints = 4;
 
-inline std::uint32_t spanCount(std::span<const vec4> points) {
-  return std::uint32_t(points.size()) - 3;
-}
+inline std::uint32_t spanCount(std::span<const vec4> points) { return std::uint32_t(points.size()) - 3; }
 
 /// The matrix M (column major, b = M · d) that takes the de Boor points d of span i of n to Bézier
 /// points. Spans near the ends differ from inner ones. Every entry is in [0, 1], every row sums to 1.

@@ -7,7 +7,8 @@
 
 namespace vasa {
 
-/// The place of de Boor point j along the parameter, where it moves the curve most: the mean of its three knots.
+/// The place of de Boor point j along the parameter, where it moves the curve most: the mean of its three
+/// knots.
 double greville(std::uint32_t j, std::uint32_t spans);
 
 /// How near a spline has to come to each sample. A sample's tolerance is `share` of its radius, kept within

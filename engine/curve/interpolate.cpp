@@ -66,7 +66,9 @@ bool swings(std::span<const vec4> points, std::uint32_t span, const vec4& from, 
 // A short step swings out because of a long one beside it: that is the one to split.
 std::vector<bool> toSplit(std::span<const vec4> points, const std::vector<vec4>& samples) {
   const auto steps = std::uint32_t(samples.size()) - 1;
-  const auto length = [&](std::uint32_t i) { return i < steps ? glm::distance(vec3(samples[i]), vec3(samples[i + 1])) : 0.0f; };
+  const auto length = [&](std::uint32_t i) {
+    return i < steps ? glm::distance(vec3(samples[i]), vec3(samples[i + 1])) : 0.0f;
+  };
   std::vector<bool> split(steps);
   for (std::uint32_t i = 0; i < steps; ++i) {
     if (!swings(points, i, samples[i], samples[i + 1])) continue;
@@ -81,11 +83,13 @@ std::vector<bool> toSplit(std::span<const vec4> points, const std::vector<vec4>&
 struct Tolerance {
   float centre, radius;
   float miss(const vec4& at, const vec4& sample) const {
-    return std::max(glm::distance(vec3(at), vec3(sample)) / (centre * sample.w), std::abs(at.w - sample.w) / (radius * sample.w));
+    return std::max(glm::distance(vec3(at), vec3(sample)) / (centre * sample.w),
+                    std::abs(at.w - sample.w) / (radius * sample.w));
   }
 };
 
-// The samples at which a polyline through them stays within the tolerance of the others (greedy, longest chords).
+// The samples at which a polyline through them stays within the tolerance of the others (greedy, longest
+// chords).
 std::vector<bool> polylineCorners(std::span<const vec4> samples, const Tolerance& tolerance) {
   std::vector<bool> kept(samples.size());
   kept.front() = kept.back() = true;
@@ -109,7 +113,8 @@ std::vector<bool> polylineCorners(std::span<const vec4> samples, const Tolerance
 struct Nearest {
   float parameter, miss;
 };
-Nearest nearestBetween(std::span<const vec4> points, float from, float to, const vec4& sample, const Tolerance& tolerance) {
+Nearest nearestBetween(std::span<const vec4> points, float from, float to, const vec4& sample,
+                       const Tolerance& tolerance) {
   constexpr int kSteps = 8;
   const int count = int(std::ceil((to - from) * kSteps));
   Nearest best{from, tolerance.miss(evaluate(points, from), sample)};
@@ -177,7 +182,9 @@ SampledSpline followSamples(std::span<const vec4> samples, float centre, float r
       checkpoints.pass();
       if (i > 0 && kept[i]) ++corner, keepWorst();
       Nearest at{through.parameters[corner], 0};
-      if (!kept[i]) at = nearestBetween(through.points, at.parameter, through.parameters[corner + 1], samples[i], tolerance);
+      if (!kept[i])
+        at = nearestBetween(through.points, at.parameter, through.parameters[corner + 1], samples[i],
+                            tolerance);
       if (at.miss > worst) worst = at.miss, worstAt = i;
       result.parameters.push_back(at.parameter);
     }

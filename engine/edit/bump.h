@@ -2,7 +2,8 @@
 
 namespace vasa {
 
-/// 1 at 0 and 0 from 1 on, twice continuously differentiable, flat at both: (1 - x⁴)³. Half of it is reached at 0.67.
+/// 1 at 0 and 0 from 1 on, twice continuously differentiable, flat at both: (1 - x⁴)³. Half of it is reached
+/// at 0.67.
 inline float bump(float x) {
   const float square = x * x, rest = 1 - square * square;
   return square < 1 ? rest * rest * rest : 0;

@@ -5,8 +5,8 @@
 
 #include "curve/arc_length.h"
 #include "curve/fit.h"
-#include "edit/names.h"
 #include "edit/bump.h"
+#include "edit/names.h"
 
 namespace vasa {
 namespace {
@@ -91,17 +91,20 @@ Result<VesselId> Draft::find(const std::string& name) const {
     return found;
   };
   auto found = matching([&](const std::string& each) { return each == name; });
-  if (found.empty()) found = matching([wanted = lower(name)](const std::string& each) { return lower(each) == wanted; });
+  if (found.empty())
+    found = matching([wanted = lower(name)](const std::string& each) { return lower(each) == wanted; });
   if (found.size() == 1) return found.front();
   if (found.size() > 1)
-    return badInput(std::to_string(found.size()) + " vessels have this name; rename them in the source so that one is meant");
+    return badInput(std::to_string(found.size()) +
+                    " vessels have this name; rename them in the source so that one is meant");
   std::vector<std::string> names;
   for (const Line& line : lines)
     if (!line.gone) names.push_back(line.label.name);
   std::string near;
-  for (const std::string& each : nearestNames(name, names, 3)) near += (near.empty() ? "" : ", ") + ("\"" + each + "\"");
-  return badInput("no vessel has this name; " +
-                  (near.empty() ? std::string("vasa info --vessels lists all") : "is one of these meant: " + near + "?"));
+  for (const std::string& each : nearestNames(name, names, 3))
+    near += (near.empty() ? "" : ", ") + ("\"" + each + "\"");
+  return badInput("no vessel has this name; " + (near.empty() ? std::string("vasa info --vessels lists all")
+                                                              : "is one of these meant: " + near + "?"));
 }
 
 const Draft::Joint* Draft::jointOf(VesselEnd end) const {
@@ -110,22 +113,23 @@ const Draft::Joint* Draft::jointOf(VesselEnd end) const {
   return nullptr;
 }
 
-Draft::Joint* Draft::jointOf(VesselEnd end) {
-  return const_cast<Joint*>(std::as_const(*this).jointOf(end));
-}
+Draft::Joint* Draft::jointOf(VesselEnd end) { return const_cast<Joint*>(std::as_const(*this).jointOf(end)); }
 
 std::vector<std::string> Draft::hangingOn(VesselId vessel, float from, float to) const {
   std::vector<std::string> names;
   for (const Joint& joint : joints)
-    if (joint.host && joint.host->vessel == vessel && joint.host->parameter >= from && joint.host->parameter <= to)
+    if (joint.host && joint.host->vessel == vessel && joint.host->parameter >= from &&
+        joint.host->parameter <= to)
       for (const VesselEnd& end : joint.ends) names.push_back(line(end.vessel).label.name);
   return names;
 }
 
-void Draft::redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& map, float changedFrom, float changedTo) {
+void Draft::redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& map, float changedFrom,
+                   float changedTo) {
   std::erase_if(patches, [&](const ForkPatch& patch) {
     return std::ranges::any_of(patch.rings, [&](const PatchRing& ring) {
-      return ring.vessel == vessel && ((ring.parameter >= changedFrom && ring.parameter <= changedTo) || !map(ring.parameter));
+      return ring.vessel == vessel &&
+             ((ring.parameter >= changedFrom && ring.parameter <= changedTo) || !map(ring.parameter));
     });
   });
   for (ForkPatch& patch : patches)
@@ -156,7 +160,8 @@ void Draft::redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& ma
         bendEnd(branch.points, end.last, way);
         branch.touched = true;
         std::erase_if(patches, [&](const ForkPatch& patch) {
-          return std::ranges::any_of(patch.rings, [&](const PatchRing& ring) { return ring.vessel == end.vessel; });
+          return std::ranges::any_of(patch.rings,
+                                     [&](const PatchRing& ring) { return ring.vessel == end.vessel; });
         });
         next[end.vessel.value] = 1, any = true;
       }
@@ -166,7 +171,8 @@ void Draft::redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& ma
 }
 
 void Draft::remove(VesselId vessel) {
-  for (Joint& joint : joints) std::erase_if(joint.ends, [&](const VesselEnd& end) { return end.vessel == vessel; });
+  for (Joint& joint : joints)
+    std::erase_if(joint.ends, [&](const VesselEnd& end) { return end.vessel == vessel; });
   std::erase_if(joints, [&](const Joint& joint) { return joint.host && joint.host->vessel == vessel; });
   std::erase_if(patches, [&](const ForkPatch& patch) {
     return std::ranges::any_of(patch.rings, [&](const PatchRing& ring) { return ring.vessel == vessel; });
@@ -176,7 +182,9 @@ void Draft::remove(VesselId vessel) {
 }
 
 void Draft::dropEmptyJoints() {
-  std::erase_if(joints, [](const Joint& joint) { return joint.ends.empty() || (!joint.host && joint.ends.size() < 2); });
+  std::erase_if(joints, [](const Joint& joint) {
+    return joint.ends.empty() || (!joint.host && joint.ends.size() < 2);
+  });
 }
 
 }  // namespace vasa

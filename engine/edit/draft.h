@@ -8,15 +8,15 @@
 
 namespace vasa {
 
-/// A network while it is edited. Vessels keep their numbers and new ones are appended; what is taken away stays as a gap
-/// until build() closes it.
+/// A network while it is edited. Vessels keep their numbers and new ones are appended; what is taken away
+/// stays as a gap until build() closes it.
 struct Draft {
   struct Line {
     NetworkBuilder::Label label;
     std::vector<vec4> points;  ///< de Boor points [m]
     VesselId origin;           ///< in the network that was begun with; invalid: appended
     bool gone = false;
-    bool touched = false;      ///< its points are no longer the origin's
+    bool touched = false;  ///< its points are no longer the origin's
   };
   struct Joint {
     std::optional<Host> host;
@@ -34,8 +34,8 @@ struct Draft {
   /// @param origins  if given, receives each vessel's origin
   Result<Network> build(std::vector<VesselId>* origins = nullptr) const;
 
-  /// The vessel with this name, upper and lower case alike where no name is the same to the letter. The error says what
-  /// names are near.
+  /// The vessel with this name, upper and lower case alike where no name is the same to the letter. The error
+  /// says what names are near.
   Result<VesselId> find(const std::string& name) const;
   bool hasName(const std::string& name) const;
 
@@ -53,11 +53,13 @@ struct Draft {
     float parameter = 0;
   };
   using PlaceMap = std::function<std::optional<Place>(float parameter)>;
-  /// Gives a vessel other points, moves what hangs on its side along, and that of those (falling off along each over
-  /// three times the way that it is moved). Ends of the vessel itself must not have moved where they meet others.
-  /// Kept walls of forks (network/fork_patch.h) that stood on what was `changed` are dropped.
+  /// Gives a vessel other points, moves what hangs on its side along, and that of those (falling off along
+  /// each over three times the way that it is moved). Ends of the vessel itself must not have moved where
+  /// they meet others. Kept walls of forks (network/fork_patch.h) that stood on what was `changed` are
+  /// dropped.
   /// @param changed  old parameters within which the shape is another
-  void redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& map, float changedFrom, float changedTo);
+  void redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& map, float changedFrom,
+              float changedTo);
 
   /// Takes a vessel out of all joints and marks it gone; joints that join nothing any more go too.
   void remove(VesselId vessel);

@@ -13,12 +13,14 @@
 namespace vasa {
 namespace {
 
-constexpr int kPieces = 4;            // straight ones of an obstacle's span
+constexpr int kPieces = 4;                // straight ones of an obstacle's span
 constexpr int kRounds = 600, kLook = 20;  // all rounds; those between looks for who is near
-constexpr float kReach = 0.02f;       // [m] farther than the band moves between looks
-constexpr float kClear = 1.2f;        // times both radii: how far along the band it may still be inside its host's reach
-constexpr int kDirections = 16;       // tried around a host
-constexpr float kDetours[] = {0.15f, 0.3f, 0.6f};  // of the straight way, by which first ways are bent aside in turn
+constexpr float kReach = 0.02f;           // [m] farther than the band moves between looks
+// Times both radii: how far along the band it may still be inside its host's reach.
+constexpr float kClear = 1.2f;
+constexpr int kDirections = 16;  // tried around a host
+// Of the straight way, by which first ways are bent aside in turn.
+constexpr float kDetours[] = {0.15f, 0.3f, 0.6f};
 constexpr int kDetourSides = 8;
 
 struct Obstacle {
@@ -50,7 +52,8 @@ class Band {
       : draft_(draft), task_(task), obstacles_(obstacles) {
     hosts_[0] = hostAt(task.from), hosts_[1] = hostAt(task.to);
     step_ = std::max(task.radius, 0.002f);
-    const vec3 first = task.via.empty() ? hosts_[1].centre : task.via.front(), last = task.via.empty() ? hosts_[0].centre : task.via.back();
+    const vec3 first = task.via.empty() ? hosts_[1].centre : task.via.front(),
+               last = task.via.empty() ? hosts_[0].centre : task.via.back();
     const vec3 tips[2] = {tipOf(hosts_[0], first), tipOf(hosts_[1], last)};
     add(hosts_[0].centre, true);
     lineTo(tips[0], false);
@@ -63,8 +66,10 @@ class Band {
     for (int round = 0; round < kRounds; ++round) {
       if (round % kLook == 0) spread(), look();
       // First taut, to find its way; then stiff, which rounds its corners over some three diameters.
-      if (round < kRounds / 2) tighten(0.3f, 0);
-      else tighten(0.01f, 0.1f);
+      if (round < kRounds / 2)
+        tighten(0.3f, 0);
+      else
+        tighten(0.01f, 0.1f);
       push();
     }
   }
@@ -96,8 +101,10 @@ class Band {
       for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         if (std::ranges::find(found, VesselId{obstacle.vessel}) != found.end()) continue;
         if (ownHost(obstacle, places[i].second - step_, along - places[i + 1].second - step_)) continue;
-        const SegmentPair near = closestSegments(places[i].first, places[i + 1].first, obstacle.a, obstacle.b);
-        if (near.distance < task_.radius + std::lerp(obstacle.radiusA, obstacle.radiusB, near.t)) found.push_back({obstacle.vessel});
+        const SegmentPair near =
+            closestSegments(places[i].first, places[i + 1].first, obstacle.a, obstacle.b);
+        if (near.distance < task_.radius + std::lerp(obstacle.radiusA, obstacle.radiusB, near.t))
+          found.push_back({obstacle.vessel});
       }
     }
     return found;
@@ -142,7 +149,8 @@ class Band {
            (obstacle.vessel == hosts_[1].vessel && fromEnd < clearOf(hosts_[1]));
   }
 
-  // Where the band stands clear of its host, on the side with most room; among equal ones towards the other end.
+  // Where the band stands clear of its host, on the side with most room; among equal ones towards the other
+  // end.
   vec3 tipOf(const HostPlace& host, vec3 towards) const {
     const vec3 way = towards - host.centre;
     const vec3 ahead = glm::dot(way, host.tangent) < 0 ? -host.tangent : host.tangent;
@@ -159,7 +167,8 @@ class Band {
       for (const Obstacle& obstacle : obstacles_) {
         if (obstacle.vessel == host.vessel) continue;
         const SegmentPair near = closestSegments(host.centre, tip, obstacle.a, obstacle.b);
-        room = std::min(room, near.distance - task_.radius - std::lerp(obstacle.radiusA, obstacle.radiusB, near.t));
+        room = std::min(room,
+                        near.distance - task_.radius - std::lerp(obstacle.radiusA, obstacle.radiusB, near.t));
       }
       const float score = room + 0.5f * task_.radius * std::cos(angle);
       if (score > bestScore + 1e-7f) bestScore = score, best = tip;
@@ -173,7 +182,8 @@ class Band {
     const int parts = std::max(1, int(std::ceil(glm::distance(from, to) / step_)));
     for (int k = 1; k <= parts; ++k) {
       const float share = float(k) / float(parts);
-      add(glm::mix(from, to, share) + (k < parts ? std::sin(kPi * share) : 0.0f) * bulge, fixed && k == parts);
+      add(glm::mix(from, to, share) + (k < parts ? std::sin(kPi * share) : 0.0f) * bulge,
+          fixed && k == parts);
     }
   }
 
@@ -185,7 +195,8 @@ class Band {
     for (std::size_t begin = 0; begin + 1 < old.size();) {
       std::size_t end = begin + 1;
       std::vector<float> along{0, glm::distance(old[begin].at, old[end].at)};
-      for (; !old[end].fixed; ++end) along.push_back(along.back() + glm::distance(old[end].at, old[end + 1].at));
+      for (; !old[end].fixed; ++end)
+        along.push_back(along.back() + glm::distance(old[end].at, old[end + 1].at));
       const int parts = std::max(2, int(std::ceil(along.back() / step_)));
       std::size_t i = 0;
       for (int k = 1; k < parts; ++k) {
@@ -217,19 +228,24 @@ class Band {
   // Explicit steps of a string's and of a rod's energy; stable below 0.5 and 0.125.
   void tighten(float tension, float stiffness) {
     std::vector<vec3> bends(nodes_.size(), vec3(0));
-    for (std::size_t i = 1; i + 1 < nodes_.size(); ++i) bends[i] = nodes_[i - 1].at + nodes_[i + 1].at - 2.0f * nodes_[i].at;
     for (std::size_t i = 1; i + 1 < nodes_.size(); ++i)
-      if (!nodes_[i].fixed) nodes_[i].at += 0.5f * tension * bends[i] - stiffness * (bends[i - 1] + bends[i + 1] - 2.0f * bends[i]);
+      bends[i] = nodes_[i - 1].at + nodes_[i + 1].at - 2.0f * nodes_[i].at;
+    for (std::size_t i = 1; i + 1 < nodes_.size(); ++i)
+      if (!nodes_[i].fixed)
+        nodes_[i].at +=
+            0.5f * tension * bends[i] - stiffness * (bends[i - 1] + bends[i + 1] - 2.0f * bends[i]);
   }
 
   void push() {
     std::vector<float> along{0};
-    for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) along.push_back(along.back() + glm::distance(nodes_[i].at, nodes_[i + 1].at));
+    for (std::size_t i = 0; i + 1 < nodes_.size(); ++i)
+      along.push_back(along.back() + glm::distance(nodes_[i].at, nodes_[i + 1].at));
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i)
       for (const Obstacle* obstacle : near_) {
         if (ownHost(*obstacle, along[i], along.back() - along[i + 1])) continue;
         const SegmentPair near = closestSegments(nodes_[i].at, nodes_[i + 1].at, obstacle->a, obstacle->b);
-        const float lack = task_.radius + std::lerp(obstacle->radiusA, obstacle->radiusB, near.t) + kGraftGap - near.distance;
+        const float lack = task_.radius + std::lerp(obstacle->radiusA, obstacle->radiusB, near.t) +
+                           kGraftGap - near.distance;
         if (!(lack > 0)) continue;
         const float before = nodes_[i].fixed ? 0 : 1 - near.s, after = nodes_[i + 1].fixed ? 0 : near.s;
         const float weight = before * before + after * after;
@@ -267,15 +283,18 @@ GraftCourse leadGraft(const Draft& draft, const GraftTask& task) {
   };
   const GraftCourse straight = attempt(vec3(0));
   if (good(straight) || !task.via.empty()) return straight;
-  const vec3 from(evaluate(draft.line(task.from.vessel).points, task.from.parameter)), to(evaluate(draft.line(task.to.vessel).points, task.to.parameter));
+  const vec3 from(evaluate(draft.line(task.from.vessel).points, task.from.parameter)),
+      to(evaluate(draft.line(task.to.vessel).points, task.to.parameter));
   const float length = glm::distance(from, to);
-  const vec3 side = anyPerpendicular(length > 0 ? (to - from) / length : vec3(0, 1, 0)), other = length > 0 ? glm::cross((to - from) / length, side) : vec3(0, 0, 1);
+  const vec3 side = anyPerpendicular(length > 0 ? (to - from) / length : vec3(0, 1, 0)),
+             other = length > 0 ? glm::cross((to - from) / length, side) : vec3(0, 0, 1);
   for (const float share : kDetours) {
     std::optional<GraftCourse> best;
     for (int k = 0; k < kDetourSides; ++k) {
       const float angle = 2 * kPi * float(k) / kDetourSides;
       GraftCourse course = attempt(share * length * (std::cos(angle) * side + std::sin(angle) * other));
-      if (good(course) && (!best || lengthOf(course.points) < lengthOf(best->points))) best = std::move(course);
+      if (good(course) && (!best || lengthOf(course.points) < lengthOf(best->points)))
+        best = std::move(course);
     }
     if (best) return std::move(*best);
   }

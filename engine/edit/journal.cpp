@@ -9,8 +9,8 @@
 
 #include "core/atomic_file.h"
 
-// Every operation lists its words once, in describe(); three kinds of `fields` go through such a list: one reads a
-// line, one writes it, one tells how it is written.
+// Every operation lists its words once, in describe(); three kinds of `fields` go through such a list: one
+// reads a line, one writes it, one tells how it is written.
 namespace vasa {
 namespace {
 
@@ -98,8 +98,8 @@ void describe(F& f, DeleteEdit& e) {
 }
 
 constexpr std::array<std::string_view, std::variant_size_v<EditOperation>> kNames{
-    "radius", "stenosis", "aneurysm", "move", "stent", "graft", "branch",
-    "occlude", "cut", "join", "rename", "kind", "delete"};
+    "radius",  "stenosis", "aneurysm", "move",   "stent", "graft", "branch",
+    "occlude", "cut",      "join",     "rename", "kind",  "delete"};
 
 template <std::size_t I = 0>
 std::optional<EditOperation> operationNamed(std::string_view name) {
@@ -150,7 +150,9 @@ class Grammar {
     for (const auto& [word, value] : words) list += fmt::format("{}{}", list.empty() ? "" : "|", word);
     return list;
   }
-  void add(const char* what, bool optional = false) { text += optional ? fmt::format(" [{}]", what) : fmt::format(" {}", what); }
+  void add(const char* what, bool optional = false) {
+    text += optional ? fmt::format(" [{}]", what) : fmt::format(" {}", what);
+  }
 };
 
 class Writer {
@@ -162,7 +164,9 @@ class Writer {
     if (mark) text += mark;
     text += fmt::format("{}", value);
   }
-  void vector(const char*, dvec3& value, double) { text += fmt::format(" {} {} {}", value.x, value.y, value.z); }
+  void vector(const char*, dvec3& value, double) {
+    text += fmt::format(" {} {} {}", value.x, value.y, value.z);
+  }
   void maybe(const char* what, double& value, double low, double high) {
     if (value != 0) number(what, value, low, high);
   }
@@ -209,14 +213,16 @@ class Reader {
     std::string_view text = words_[next_].text;
     if (mark && !text.empty() && text.front() == mark) text.remove_prefix(1);
     const auto [end, cause] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (words_[next_].isQuoted || cause != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
+    if (words_[next_].isQuoted || cause != std::errc() || end != text.data() + text.size() ||
+        !(value >= low && value <= high))
       return fail(fmt::format("{} must be a number from {} to {}, not {}", what, low, high, shown()));
     ++next_;
   }
   void vector(const char* what, dvec3& value, double most) {
     const std::string names(what);
     for (int axis = 0; axis < 3; ++axis)
-      number(names.empty() ? "a coordinate" : names.substr(std::size_t(axis) * 3, 2).c_str(), value[axis], -most, most);
+      number(names.empty() ? "a coordinate" : names.substr(std::size_t(axis) * 3, 2).c_str(), value[axis],
+             -most, most);
   }
   void maybe(const char* what, double& value, double low, double high) {
     if (next_ < words_.size()) number(what, value, low, high);
@@ -285,7 +291,8 @@ std::optional<std::string> split(std::string_view line, std::vector<Word>& words
     Word word;
     word.isQuoted = c == '"';
     if (!word.isQuoted) {
-      for (; i < line.size() && std::string_view(" \t\r#\"").find(line[i]) == std::string_view::npos; ++i) word.text += line[i];
+      for (; i < line.size() && std::string_view(" \t\r#\"").find(line[i]) == std::string_view::npos; ++i)
+        word.text += line[i];
     } else {
       for (++i; i < line.size() && line[i] != '"'; ++i) {
         if (line[i] == '\\' && i + 1 < line.size()) ++i;
@@ -316,9 +323,7 @@ std::string operationList() {
 
 }  // namespace
 
-std::string_view operationName(const EditOperation& operation) {
-  return kNames[operation.index()];
-}
+std::string_view operationName(const EditOperation& operation) { return kNames[operation.index()]; }
 
 const std::string& vesselOf(const EditOperation& operation) {
   return std::visit([](const auto& edit) -> const std::string& { return edit.vessel; }, operation);
@@ -327,9 +332,12 @@ const std::string& vesselOf(const EditOperation& operation) {
 double placeOf(const EditOperation& operation) {
   return std::visit(
       [](const auto& edit) {
-        if constexpr (requires { edit.at; }) return edit.at;
-        else if constexpr (requires { edit.from; }) return 0.5 * (edit.from + edit.to);
-        else return -1.0;
+        if constexpr (requires { edit.at; })
+          return edit.at;
+        else if constexpr (requires { edit.from; })
+          return 0.5 * (edit.from + edit.to);
+        else
+          return -1.0;
       },
       operation);
 }
@@ -350,15 +358,18 @@ Result<std::vector<Edit>> parseJournal(std::string_view text, const std::string&
     at = end + 1;
     const std::string where = fmt::format("{}:{}: ", name, ++number);
     words.clear();
-    if (const auto fault = split(line, words)) return badInput(where + *fault + "; names stand in double quotes");
+    if (const auto fault = split(line, words))
+      return badInput(where + *fault + "; names stand in double quotes");
     if (words.empty()) continue;
     auto operation = words[0].isQuoted ? std::nullopt : operationNamed(words[0].text);
     if (!operation)
-      return badInput(fmt::format("{}'{}' is no operation; use one of {}", where, words[0].text, operationList()));
+      return badInput(
+          fmt::format("{}'{}' is no operation; use one of {}", where, words[0].text, operationList()));
     Reader reader(words, 1);
     std::visit([&](auto& value) { describe(reader, value), reader.atEnd(); }, *operation);
     if (reader.fault)
-      return badInput(fmt::format("{}{}: {}; write {}", where, operationName(*operation), *reader.fault, grammarOf(*operation)));
+      return badInput(fmt::format("{}{}: {}; write {}", where, operationName(*operation), *reader.fault,
+                                  grammarOf(*operation)));
     edits.push_back({std::move(*operation), name, number});
   }
   return edits;

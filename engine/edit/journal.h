@@ -8,9 +8,10 @@
 #include "core/result.h"
 #include "network/network.h"
 
-// The .vedit file: what is to be changed in a network, one operation a line. `#` begins a comment; names stand in
-// double quotes (\" and \\ inside); a place on a vessel is a share of its arc length, from 0 at its start to 1. All
-// lengths are millimetres, as people say them, and stay the numbers that were written until they are applied.
+// The .vedit file: what is to be changed in a network, one operation a line. `#` begins a comment; names
+// stand in double quotes (\" and \\ inside); a place on a vessel is a share of its arc length, from 0 at its
+// start to 1. All lengths are millimetres, as people say them, and stay the numbers that were written until
+// they are applied.
 namespace vasa {
 
 struct RadiusEdit {
@@ -77,8 +78,9 @@ struct DeleteEdit {
   bool tree = false;  ///< with all that hangs on it
 };
 
-using EditOperation = std::variant<RadiusEdit, StenosisEdit, AneurysmEdit, MoveEdit, StentEdit, GraftEdit, BranchEdit,
-                                   OccludeEdit, CutEdit, JoinEdit, RenameEdit, KindEdit, DeleteEdit>;
+using EditOperation =
+    std::variant<RadiusEdit, StenosisEdit, AneurysmEdit, MoveEdit, StentEdit, GraftEdit, BranchEdit,
+                 OccludeEdit, CutEdit, JoinEdit, RenameEdit, KindEdit, DeleteEdit>;
 
 /// A line of a journal.
 struct Edit {

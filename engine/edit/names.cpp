@@ -23,7 +23,8 @@ std::size_t changesBetween(const std::string& a, const std::string& b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     before = std::exchange(last, row);
   }
@@ -43,7 +44,8 @@ bool holdsWords(const std::string& name, const std::string& words) {
 
 }  // namespace
 
-std::vector<std::string> nearestNames(const std::string& written, std::span<const std::string> names, std::size_t most) {
+std::vector<std::string> nearestNames(const std::string& written, std::span<const std::string> names,
+                                      std::size_t most) {
   struct Candidate {
     std::size_t changes;
     const std::string* name;
@@ -53,12 +55,14 @@ std::vector<std::string> nearestNames(const std::string& written, std::span<cons
   for (const std::string& name : names) {
     const std::string each = comparable(name);
     const std::size_t changes = changesBetween(wanted, each);
-    if (changes * 3 <= std::max(wanted.size(), each.size()) || holdsWords(each, wanted)) candidates.push_back({changes, &name});
+    if (changes * 3 <= std::max(wanted.size(), each.size()) || holdsWords(each, wanted))
+      candidates.push_back({changes, &name});
   }
   std::ranges::stable_sort(candidates, {}, &Candidate::changes);
   std::vector<std::string> result;
   for (const Candidate& candidate : candidates)
-    if (result.size() < most && std::ranges::find(result, *candidate.name) == result.end()) result.push_back(*candidate.name);
+    if (result.size() < most && std::ranges::find(result, *candidate.name) == result.end())
+      result.push_back(*candidate.name);
   return result;
 }
 

@@ -13,11 +13,13 @@ namespace {
 // Operations that the builder's rules have to be asked about; those of shape keep them by what they are.
 bool changesTopology(const EditOperation& operation) {
   return std::holds_alternative<GraftEdit>(operation) || std::holds_alternative<BranchEdit>(operation) ||
-         std::holds_alternative<CutEdit>(operation) || std::holds_alternative<JoinEdit>(operation) || std::holds_alternative<DeleteEdit>(operation);
+         std::holds_alternative<CutEdit>(operation) || std::holds_alternative<JoinEdit>(operation) ||
+         std::holds_alternative<DeleteEdit>(operation);
 }
 
 Result<std::string> applyTo(Draft& draft, const EditOperation& operation) {
-  if (!changesTopology(operation)) return std::visit([&](const auto& edit) { return apply(edit, draft); }, operation);
+  if (!changesTopology(operation))
+    return std::visit([&](const auto& edit) { return apply(edit, draft); }, operation);
   Draft changed = draft;
   auto done = std::visit([&](const auto& edit) { return apply(edit, changed); }, operation);
   if (!done) return done;
@@ -29,9 +31,7 @@ Result<std::string> applyTo(Draft& draft, const EditOperation& operation) {
 
 }  // namespace
 
-std::size_t Replay::applied() const {
-  return std::size_t(std::ranges::count_if(rows, &ReplayRow::applied));
-}
+std::size_t Replay::applied() const { return std::size_t(std::ranges::count_if(rows, &ReplayRow::applied)); }
 
 Replay replayEdits(const Network& network, std::span<const Edit> edits) {
   Draft draft(network);
@@ -41,9 +41,11 @@ Replay replayEdits(const Network& network, std::span<const Edit> edits) {
     ReplayRow row{edit.where(), std::string(operationName(operation)), vesselOf(operation), {}, {}};
     auto done = applyTo(draft, operation);
     const double place = placeOf(operation);
-    if (done) row.change = std::move(*done);
-    else row.refusal = fmt::format("{}: {} of \"{}\"{}: {}", row.where, row.operation, row.vessel,
-                                   place >= 0 ? fmt::format(" at {:.3g}", place) : "", done.error().message);
+    if (done)
+      row.change = std::move(*done);
+    else
+      row.refusal = fmt::format("{}: {} of \"{}\"{}: {}", row.where, row.operation, row.vessel,
+                                place >= 0 ? fmt::format(" at {:.3g}", place) : "", done.error().message);
     replay.rows.push_back(std::move(row));
   }
   auto built = draft.build(&replay.origins);

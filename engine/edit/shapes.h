@@ -2,8 +2,8 @@
 #include "edit/draft.h"
 #include "edit/journal.h"
 
-// Operations that change the shape of one vessel and no topology: each says what it did, or why it can not be done, and
-// then has changed nothing.
+// Operations that change the shape of one vessel and no topology: each says what it did, or why it can not be
+// done, and then has changed nothing.
 namespace vasa {
 
 Result<std::string> apply(const RadiusEdit& edit, Draft& draft);

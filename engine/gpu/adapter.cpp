@@ -50,7 +50,8 @@ void readDriver(VkPhysicalDevice device, Adapter& adapter) {
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(device, &properties);
   adapter.driver = driver.driverName;
-  if (*driver.driverInfo) adapter.driver += std::string(adapter.driver.empty() ? "" : " ") + driver.driverInfo;
+  if (*driver.driverInfo)
+    adapter.driver += std::string(adapter.driver.empty() ? "" : " ") + driver.driverInfo;
   adapter.driverId = driver.driverID;
   adapter.subgroup = v11.subgroupSize;
 }
@@ -101,9 +102,7 @@ std::string listText(std::span<const Adapter> adapters) {
   return text;
 }
 
-[[noreturn]] void refuse(std::string message) {
-  throw Error({Fault::noDevice, std::move(message)});
-}
+[[noreturn]] void refuse(std::string message) { throw Error({Fault::noDevice, std::move(message)}); }
 
 }  // namespace
 

@@ -14,15 +14,16 @@ struct Adapter {
   std::uint32_t index = 0;  ///< its place in the driver's list; `--device` takes it
   std::string name;         ///< "NVIDIA RTX A2000", "llvmpipe (LLVM 15.0.6, 256 bits)"
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-  std::string api;                 ///< "1.3.230"
-  std::string driver;              ///< "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+  std::string api;     ///< "1.3.230"
+  std::string driver;  ///< "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
   VkDriverId driverId = VkDriverId(0);
-  std::vector<std::string> lacks;    ///< features by Vulkan's names, and limits in words
-  std::vector<std::string> without;  ///< features that vasa uses where they are (README says what each is good for)
+  std::vector<std::string> lacks;  ///< features by Vulkan's names, and limits in words
+  std::vector<std::string>
+      without;  ///< features that vasa uses where they are (README says what each is good for)
   VkPhysicalDeviceLimits limits{};
   std::uint32_t subgroup = 0;     ///< threads of a subgroup
   VkDeviceSize largestHeap = 0;   ///< [bytes] of its own memory
-  std::uint32_t queueFamily = 0;   ///< draws, computes and copies
+  std::uint32_t queueFamily = 0;  ///< draws, computes and copies
 
   bool usable() const { return lacks.empty(); }
 };

@@ -14,7 +14,8 @@ namespace vasa::gpu {
 namespace {
 
 constexpr VkDeviceSize kTouched = 16;
-constexpr VkDescriptorSetLayoutBinding kBinding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+constexpr VkDescriptorSetLayoutBinding kBinding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                                                VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
 
 }  // namespace
 
@@ -24,7 +25,8 @@ AddressShadow::AddressShadow(Device& device, const ShaderCode& shader) {
   if (addresses_.empty()) return;
   device_ = &device;
   const std::string name(shader.name);
-  set_ = makeSetLayout(device, "access by address", {&kBinding, 1}, VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR);
+  set_ = makeSetLayout(device, "access by address", {&kBinding, 1},
+                       VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR);
   layout_ = makePipelineLayout(device, name, VK_SHADER_STAGE_COMPUTE_BIT, 0, {&set_.get(), 1});
   read_ = makePipeline(spirv::access_read_comp, name + " reads by address");
   write_ = makePipeline(spirv::access_write_comp, name + " writes by address");

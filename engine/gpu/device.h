@@ -23,13 +23,14 @@ struct DeviceOptions {
   std::vector<const char*> deviceExtensions;
 };
 
-/// A Vulkan 1.3 device that another program made and goes on using. All of it must outlive what vasa makes on it.
-/// The program switches on at least what featuresToEnable() returns for what its physical device offers.
+/// A Vulkan 1.3 device that another program made and goes on using. All of it must outlive what vasa makes on
+/// it. The program switches on at least what featuresToEnable() returns for what its physical device offers.
 struct ForeignDevice {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;  ///< draws and computes; not used by another thread while a call into vasa lasts
+  /// Draws and computes; not used by another thread while a call into vasa lasts.
+  VkQueue queue = VK_NULL_HANDLE;
   std::uint32_t queueFamily = 0;
   Features enabled;  ///< on the device
 };
@@ -44,9 +45,10 @@ class Device {
  public:
   /// Throws Error: Fault::noDevice if nothing usable is there, Fault::failed if validation is not installed.
   explicit Device(const DeviceOptions& options = {});
-  /// Draws on another program's device: that and its instance are used, not owned. Work that the program submitted
-  /// to the queue before comes before vasa's, and the other way round; between the two lies a full barrier as soon as
-  /// vasa records. Throws Error (Fault::noDevice) with what the device lacks or has not enabled.
+  /// Draws on another program's device: that and its instance are used, not owned. Work that the program
+  /// submitted to the queue before comes before vasa's, and the other way round; between the two lies a full
+  /// barrier as soon as vasa records. Throws Error (Fault::noDevice) with what the device lacks or has not
+  /// enabled.
   explicit Device(const ForeignDevice& foreign);
   ~Device();  ///< waits until what vasa submitted is done
   Device(const Device&) = delete;
@@ -70,7 +72,8 @@ class Device {
   bool gpuAssisted() const { return gpuAssisted_; }
 
   /// Where buffers lie, and a way to bind one without a descriptor pool. For AddressShadow: the map is
-  /// nullptr, and nothing can be pushed, unless synchronization is validated and the driver has VK_KHR_push_descriptor.
+  /// nullptr, and nothing can be pushed, unless synchronization is validated and the driver has
+  /// VK_KHR_push_descriptor.
   AddressMap* addresses() { return addresses_.get(); }
   void pushDescriptor(VkCommandBuffer commands, VkPipelineLayout layout,
                       const VkWriteDescriptorSet& descriptor) const;

@@ -40,9 +40,7 @@ std::string nameOf(int thread) {
   return name;
 }
 
-bool isRasteriser(int thread) {
-  return nameOf(thread).starts_with(kRasteriser);
-}
+bool isRasteriser(int thread) { return nameOf(thread).starts_with(kRasteriser); }
 
 std::vector<int> processors() {
   std::vector<int> list;
@@ -67,9 +65,7 @@ DriverThreads::DriverThreads() : before_(threadsOfProcess()) {
   pthread_setname_np(pthread_self(), kMaker);
 }
 
-DriverThreads::~DriverThreads() {
-  pthread_setname_np(pthread_self(), name_.data());
-}
+DriverThreads::~DriverThreads() { pthread_setname_np(pthread_self(), name_.data()); }
 
 // The driver makes its rasterisers, then as many unnamed threads for compute shaders; ids grow in that order.
 void DriverThreads::spread() const {
@@ -78,9 +74,11 @@ void DriverThreads::spread() const {
   std::vector<int> made;
   std::ranges::set_difference(now, before_, std::back_inserter(made));
   std::erase_if(made, [](int thread) { return nameOf(thread) != kMaker && !isRasteriser(thread); });
-  const auto first = std::ranges::find_if(made, isRasteriser), last = std::find_if_not(first, made.end(), isRasteriser);
+  const auto first = std::ranges::find_if(made, isRasteriser),
+             last = std::find_if_not(first, made.end(), isRasteriser);
   const std::ptrdiff_t count = last - first;
-  for (std::ptrdiff_t k = 0; k < 2 * count && k < made.end() - first; ++k) keepOn(first[k], on[std::size_t(k % count) % on.size()]);
+  for (std::ptrdiff_t k = 0; k < 2 * count && k < made.end() - first; ++k)
+    keepOn(first[k], on[std::size_t(k % count) % on.size()]);
 }
 #else
 DriverThreads::DriverThreads() = default;

@@ -4,14 +4,14 @@
 
 namespace vasa::gpu {
 
-/// The worker threads that a CPU device's driver (Mesa's lavapipe) makes when its Vulkan device is made, kept on one
-/// processor each. Left alone, Linux often wakes all of them where the thread ran that gave them work, and they take turns
-/// there while other processors idle: a sixth of a frame on two. Does nothing for other drivers, elsewhere than on Linux,
-/// or with one processor.
+/// The worker threads that a CPU device's driver (Mesa's lavapipe) makes when its Vulkan device is made, kept
+/// on one processor each. Left alone, Linux often wakes all of them where the thread ran that gave them work,
+/// and they take turns there while other processors idle: a sixth of a frame on two. Does nothing for other
+/// drivers, elsewhere than on Linux, or with one processor.
 class DriverThreads {
  public:
-  /// Notes the threads that are there already. While this lives the calling thread has another name, which threads that it
-  /// makes begin with: so they are told from those that other threads make meanwhile.
+  /// Notes the threads that are there already. While this lives the calling thread has another name, which
+  /// threads that it makes begin with: so they are told from those that other threads make meanwhile.
   DriverThreads();
   ~DriverThreads();
   DriverThreads(const DriverThreads&) = delete;

@@ -16,10 +16,8 @@ struct Feature {
   }
 
 const Feature kRequired[] = {
-    VASA_FEATURE(v12, bufferDeviceAddress),
-    VASA_FEATURE(v12, timelineSemaphore),
-    VASA_FEATURE(v13, dynamicRendering),
-    VASA_FEATURE(v13, synchronization2),
+    VASA_FEATURE(v12, bufferDeviceAddress), VASA_FEATURE(v12, timelineSemaphore),
+    VASA_FEATURE(v13, dynamicRendering),    VASA_FEATURE(v13, synchronization2),
     VASA_FEATURE(v13, maintenance4),
 };
 
@@ -60,13 +58,9 @@ VkPhysicalDeviceFeatures2* Features::chain() {
   return &core;
 }
 
-std::vector<std::string> missingFeatures(Features& offered) {
-  return notIn(offered, kRequired);
-}
+std::vector<std::string> missingFeatures(Features& offered) { return notIn(offered, kRequired); }
 
-std::vector<std::string> unofferedFeatures(Features& offered) {
-  return notIn(offered, kWelcome);
-}
+std::vector<std::string> unofferedFeatures(Features& offered) { return notIn(offered, kWelcome); }
 
 Features featuresToEnable(Features& offered) {
   Features enabled;

@@ -44,6 +44,7 @@ class Image {
 };
 
 /// An image of dynamic rendering; clear value and resolving are the caller's.
-VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load, VkAttachmentStoreOp store);
+VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load,
+                                     VkAttachmentStoreOp store);
 
 }  // namespace vasa::gpu

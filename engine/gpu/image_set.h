@@ -10,8 +10,9 @@ namespace vasa::gpu {
 
 class Device;
 
-/// Images that fragment shaders read texel by texel: set 0, binding k of pipelines made with layout(). The images must
-/// stay, in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL or, of depth, kReadDepthLayout (target.h) while they are read.
+/// Images that fragment shaders read texel by texel: set 0, binding k of pipelines made with layout(). The
+/// images must stay, in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL or, of depth, kReadDepthLayout (target.h)
+/// while they are read.
 class ImageSet {
  public:
   ImageSet(Device& device, const char* name, const std::vector<const Image*>& images);

@@ -21,7 +21,8 @@ VkSpecializationInfo Specialization::info() const {
 Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code) {
   VkShaderModuleCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  const auto words = device.features().core.features.shaderInt64 && !code.int64Words.empty() ? code.int64Words : code.words;
+  const auto words =
+      device.features().core.features.shaderInt64 && !code.int64Words.empty() ? code.int64Words : code.words;
   info.codeSize = words.size_bytes();
   info.pCode = words.data();
   VkShaderModule module = VK_NULL_HANDLE;
@@ -42,7 +43,8 @@ VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShade
   return info;
 }
 
-Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name, std::span<const VkDescriptorSetLayoutBinding> bindings,
+Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name,
+                                            std::span<const VkDescriptorSetLayoutBinding> bindings,
                                             VkDescriptorSetLayoutCreateFlags flags) {
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;

@@ -42,7 +42,8 @@ Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code);
 VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,
                                             const VkSpecializationInfo* constants);
 
-Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name, std::span<const VkDescriptorSetLayoutBinding> bindings,
+Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name,
+                                            std::span<const VkDescriptorSetLayoutBinding> bindings,
                                             VkDescriptorSetLayoutCreateFlags flags = 0);
 
 /// Throws Error if pushBytes is over the device's limit.

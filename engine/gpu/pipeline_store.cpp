@@ -28,7 +28,8 @@ VkPipelineCache create(VkDevice device, std::span<const std::byte> bytes, VkResu
 
 std::uint64_t pipelineKey(const VkPhysicalDeviceProperties& properties) {
   const std::uint32_t numbers[] = {properties.vendorID, properties.deviceID, properties.driverVersion};
-  return hashOf(std::span<const std::uint8_t>(properties.pipelineCacheUUID), hashOf(std::span<const std::uint32_t>(numbers)));
+  return hashOf(std::span<const std::uint8_t>(properties.pipelineCacheUUID),
+                hashOf(std::span<const std::uint32_t>(numbers)));
 }
 
 bool isCacheOf(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties) {
@@ -36,11 +37,13 @@ bool isCacheOf(std::span<const std::byte> bytes, const VkPhysicalDevicePropertie
   if (bytes.size() < sizeof header) return false;
   std::memcpy(&header, bytes.data(), sizeof header);
   return header.headerSize >= sizeof header && header.headerSize < bytes.size() &&
-         header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
-         header.deviceID == properties.deviceID && std::ranges::equal(header.pipelineCacheUUID, properties.pipelineCacheUUID);
+         header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+         header.vendorID == properties.vendorID && header.deviceID == properties.deviceID &&
+         std::ranges::equal(header.pipelineCacheUUID, properties.pipelineCacheUUID);
 }
 
-PipelineStore::PipelineStore(VkDevice device, const VkPhysicalDeviceProperties& properties) : properties_(properties), device_(device) {
+PipelineStore::PipelineStore(VkDevice device, const VkPhysicalDeviceProperties& properties)
+    : properties_(properties), device_(device) {
   auto kept = findKept(kKind, pipelineKey(properties));
   if (kept && !isCacheOf(*kept, properties)) kept.reset();
   VkResult result = VK_SUCCESS;
@@ -61,7 +64,8 @@ void PipelineStore::keep() const {
   std::vector<std::byte> bytes(size);
   if (vkGetPipelineCacheData(device_, handle(), &size, bytes.data()) != VK_SUCCESS) return;
   bytes.resize(size);
-  if (isCacheOf(bytes, properties_) && hashBytes(bytes) != found_) vasa::keep(kKind, pipelineKey(properties_), bytes);
+  if (isCacheOf(bytes, properties_) && hashBytes(bytes) != found_)
+    vasa::keep(kKind, pipelineKey(properties_), bytes);
 }
 
 }  // namespace vasa::gpu

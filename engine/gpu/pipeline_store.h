@@ -9,12 +9,12 @@
 
 namespace vasa::gpu {
 
-/// Whether bytes are what this driver's vkGetPipelineCacheData gave on this device, by the header that Vulkan puts before
-/// them, and hold anything beyond it: lavapipe and SwiftShader give the header alone.
+/// Whether bytes are what this driver's vkGetPipelineCacheData gave on this device, by the header that Vulkan
+/// puts before them, and hold anything beyond it: lavapipe and SwiftShader give the header alone.
 bool isCacheOf(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties);
 
-/// What a driver compiles, kept from run to run (core/kept.h), a file a driver and device. Drivers that have a cache of
-/// their own on disk give nothing to keep, and nothing is.
+/// What a driver compiles, kept from run to run (core/kept.h), a file a driver and device. Drivers that have
+/// a cache of their own on disk give nothing to keep, and nothing is.
 class PipelineStore {
  public:
   PipelineStore() = default;

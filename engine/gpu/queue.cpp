@@ -29,14 +29,13 @@ Commands::~Commands() {
   if (slot_) slot_->recording = false;
 }
 
-Commands::operator VkCommandBuffer() const {
-  return slot_->buffer;
-}
+Commands::operator VkCommandBuffer() const { return slot_->buffer; }
 
 // GPU-assisted validation (layer 1.3.239) waits for the queue inside vkQueueSubmit2, before the layer itself
 // has noted the timeline's new value: waiting for that value then takes 10 s, ends in a message and may hang.
 // With it on, a submit signals nothing and waits for the queue.
-Queue::Queue(Device& device, VkQueue queue) : device_(device), immediate_(device.gpuAssisted()), queue_(queue) {
+Queue::Queue(Device& device, VkQueue queue)
+    : device_(device), immediate_(device.gpuAssisted()), queue_(queue) {
   VkSemaphoreTypeCreateInfo type{};
   type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
   type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
@@ -128,9 +127,7 @@ std::uint64_t Queue::reached() const {
   return value;
 }
 
-bool Queue::done(Ticket ticket) const {
-  return ticket.value == 0 || reached() >= ticket.value;
-}
+bool Queue::done(Ticket ticket) const { return ticket.value == 0 || reached() >= ticket.value; }
 
 VkResult Queue::waitFor(std::uint64_t value) const {
   const VkSemaphore semaphore = timeline_.get();
@@ -151,7 +148,9 @@ void Queue::wait(Ticket ticket) {
       const bool over = drain();
       check(result, "vkWaitSemaphores");
       if (!over)
-        throw Error({Fault::deviceLost, "the Vulkan device does not finish its work; use a smaller picture, or choose another --device"});
+        throw Error(
+            {Fault::deviceLost,
+             "the Vulkan device does not finish its work; use a smaller picture, or choose another --device"});
     }
   }
   dropRetired();
@@ -159,12 +158,14 @@ void Queue::wait(Ticket ticket) {
 
 void Queue::settle() noexcept {
   if (immediate_ || finished_ >= submitted_) return;
-  if (waitFor(submitted_) == VK_SUCCESS) finished_ = submitted_;
-  else drain();
+  if (waitFor(submitted_) == VK_SUCCESS)
+    finished_ = submitted_;
+  else
+    drain();
 }
 
-// Until the device does nothing, by the ways that are left. A lost device does nothing (Vulkan specification, "Lost
-// Device"). Past the limit nobody waits again.
+// Until the device does nothing, by the ways that are left. A lost device does nothing (Vulkan specification,
+// "Lost Device"). Past the limit nobody waits again.
 bool Queue::drain() noexcept {
   const auto end = std::chrono::steady_clock::now() + kLongestDrain;
   bool over = false;

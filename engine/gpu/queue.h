@@ -59,10 +59,12 @@ class Queue {
 
   Ticket last() const { return {submitted_}; }  ///< of the latest submit
   bool done(Ticket ticket) const;
-  /// Blocks until the ticket's work is finished. Throws Error, Fault::deviceLost if the device is lost or takes longer
-  /// than 10 minutes; by then nothing that was submitted runs any more, save on a device that hangs.
+  /// Blocks until the ticket's work is finished. Throws Error, Fault::deviceLost if the device is lost or
+  /// takes longer than 10 minutes; by then nothing that was submitted runs any more, save on a device that
+  /// hangs.
   void wait(Ticket ticket);
-  /// Likewise for everything submitted, whatever fails: what owns device memory calls it before it frees that.
+  /// Likewise for everything submitted, whatever fails: what owns device memory calls it before it frees
+  /// that.
   void settle() noexcept;
 
   /// Destroys `owner` once everything submitted so far is done. Commands still being recorded do not count.
@@ -92,7 +94,8 @@ class Queue {
   std::deque<Retired> retired_;
 };
 
-/// The last member of what owns device memory: when that goes, on an error's way out too, the queue's work ends first.
+/// The last member of what owns device memory: when that goes, on an error's way out too, the queue's work
+/// ends first.
 class Settled {
  public:
   Settled() = default;

@@ -10,7 +10,8 @@ namespace vasa::gpu {
 struct ShaderCode {
   std::string_view name;  ///< the file's name, for messages and debug names
   std::span<const std::uint32_t> words;
-  std::span<const std::uint32_t> int64Words{};  ///< the same for devices with shaderInt64 (shaders/lib/words.glsl); may be empty
+  std::span<const std::uint32_t>
+      int64Words{};  ///< the same for devices with shaderInt64 (shaders/lib/words.glsl); may be empty
 };
 
 }  // namespace vasa::gpu

@@ -6,9 +6,9 @@
 #include "gpu/device.h"
 #include "gpu/error.h"
 
-// A present cannot be waited for, so what it uses is kept until it must be over: a `drawn` semaphore until its image has
-// been acquired again, a replaced chain until the next one is replaced. `acquired_` is free once the copy that waits for
-// it is done.
+// A present cannot be waited for, so what it uses is kept until it must be over: a `drawn` semaphore until
+// its image has been acquired again, a replaced chain until the next one is replaced. `acquired_` is free
+// once the copy that waits for it is done.
 namespace vasa::gpu {
 namespace {
 
@@ -31,13 +31,15 @@ VkExtent2D clamped(VkExtent2D size, const VkSurfaceCapabilitiesKHR& limits) {
 }
 
 VkCompositeAlphaFlagBitsKHR alphaOf(const VkSurfaceCapabilitiesKHR& limits) {
-  if (limits.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+  if (limits.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR)
+    return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
   return VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
 }
 
 void recordCopy(VkCommandBuffer commands, VkImage from, VkImage to, VkExtent2D size) {
   const VkImageCopy region{kWhole, {}, kWhole, {}, {size.width, size.height, 1}};
-  vkCmdCopyImage(commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+  vkCmdCopyImage(commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void recordBlit(VkCommandBuffer commands, const Image& from, VkImage to, VkExtent2D size, VkFilter filter) {
@@ -45,20 +47,19 @@ void recordBlit(VkCommandBuffer commands, const Image& from, VkImage to, VkExten
   region.srcSubresource = region.dstSubresource = kWhole;
   region.srcOffsets[1] = {std::int32_t(from.size().width), std::int32_t(from.size().height), 1};
   region.dstOffsets[1] = {std::int32_t(size.width), std::int32_t(size.height), 1};
-  vkCmdBlitImage(commands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                 &region, filter);
+  vkCmdBlitImage(commands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, filter);
 }
 
 }  // namespace
 
-std::vector<const char*> Swapchain::deviceExtensions() {
-  return {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
-}
+std::vector<const char*> Swapchain::deviceExtensions() { return {VK_KHR_SWAPCHAIN_EXTENSION_NAME}; }
 
 Swapchain::Swapchain(Device& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {
   VkBool32 shows = VK_FALSE;
-  check(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.adapter().queueFamily, surface, &shows),
-        "vkGetPhysicalDeviceSurfaceSupportKHR");
+  check(
+      vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.adapter().queueFamily, surface, &shows),
+      "vkGetPhysicalDeviceSurfaceSupportKHR");
   if (!shows)
     throw Error({Fault::noDevice, "Vulkan device " + device.adapter().name +
                                       " cannot show pictures in this window; choose another with --device"});
@@ -66,9 +67,7 @@ Swapchain::Swapchain(Device& device, VkSurfaceKHR surface) : device_(device), su
   acquired_ = makeSemaphore("image acquired");
 }
 
-Swapchain::~Swapchain() {
-  device_.queue().settle();
-}
+Swapchain::~Swapchain() { device_.queue().settle(); }
 
 // Pictures hold sRGB values already: an SRGB format would encode them once more.
 void Swapchain::chooseFormat() {
@@ -78,14 +77,16 @@ void Swapchain::chooseFormat() {
   std::vector<VkSurfaceFormatKHR> formats(count);
   check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), surface_, &count, formats.data()),
         "vkGetPhysicalDeviceSurfaceFormatsKHR");
-  for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32})
+  for (const VkFormat wanted :
+       {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32})
     for (const VkSurfaceFormatKHR& format : formats)
       if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
         format_ = format;
         return;
       }
-  throw Error({Fault::noDevice, "Vulkan device " + device_.adapter().name +
-                                    " offers the window no plain 8-bit format; choose another with --device"});
+  throw Error(
+      {Fault::noDevice, "Vulkan device " + device_.adapter().name +
+                            " offers the window no plain 8-bit format; choose another with --device"});
 }
 
 Unique<VkSemaphore> Swapchain::makeSemaphore(const char* name) const {
@@ -102,11 +103,13 @@ bool Swapchain::make(VkExtent2D window) {
   check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &limits),
         "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
   constexpr std::uint32_t unknown = 0xffffffffu;
-  const VkExtent2D size = limits.currentExtent.width == unknown ? clamped(window, limits) : limits.currentExtent;
+  const VkExtent2D size =
+      limits.currentExtent.width == unknown ? clamped(window, limits) : limits.currentExtent;
   if (size.width == 0 || size.height == 0) return false;
   if (!(limits.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT))
-    throw Error({Fault::noDevice, "Vulkan device " + device_.adapter().name +
-                                      " lets no picture be copied to this window; choose another with --device"});
+    throw Error(
+        {Fault::noDevice, "Vulkan device " + device_.adapter().name +
+                              " lets no picture be copied to this window; choose another with --device"});
   VkSwapchainCreateInfoKHR info{};
   info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
   info.surface = surface_;
@@ -133,7 +136,8 @@ bool Swapchain::make(VkExtent2D window) {
   std::uint32_t count = 0;
   check(vkGetSwapchainImagesKHR(device_.handle(), chain, &count, nullptr), "vkGetSwapchainImagesKHR");
   now_.images.resize(count);
-  check(vkGetSwapchainImagesKHR(device_.handle(), chain, &count, now_.images.data()), "vkGetSwapchainImagesKHR");
+  check(vkGetSwapchainImagesKHR(device_.handle(), chain, &count, now_.images.data()),
+        "vkGetSwapchainImagesKHR");
   for (VkImage image : now_.images) {
     device_.setName(image, "window image");
     now_.drawn.push_back(makeSemaphore("image drawn"));
@@ -144,10 +148,13 @@ bool Swapchain::make(VkExtent2D window) {
 Ticket Swapchain::copy(const Image& picture, std::uint32_t index) {
   Commands commands = device_.queue().begin("present");
   const VkImage image = now_.images[index];
-  changeLayout(commands, {.image = image, .after = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, .from = kCopy, .to = kCopy});
+  changeLayout(commands,
+               {.image = image, .after = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, .from = kCopy, .to = kCopy});
   const bool same = picture.size().width == now_.size.width && picture.size().height == now_.size.height;
-  if (same && picture.format() == format_.format) recordCopy(commands, picture.handle(), image, now_.size);
-  else recordBlit(commands, picture, image, now_.size, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+  if (same && picture.format() == format_.format)
+    recordCopy(commands, picture.handle(), image, now_.size);
+  else
+    recordBlit(commands, picture, image, now_.size, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
   changeLayout(commands, {.image = image,
                           .before = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                           .after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
@@ -165,7 +172,8 @@ bool Swapchain::present(const Image& picture, VkExtent2D window) {
   if ((stale_ || resized) && !make(window)) return false;
   stale_ = false;
   std::uint32_t index = 0;
-  VkResult result = vkAcquireNextImageKHR(device_.handle(), now_.chain.get(), kLongestAcquire, acquired_.get(), VK_NULL_HANDLE, &index);
+  VkResult result = vkAcquireNextImageKHR(device_.handle(), now_.chain.get(), kLongestAcquire,
+                                          acquired_.get(), VK_NULL_HANDLE, &index);
   if (result == VK_ERROR_OUT_OF_DATE_KHR) {
     stale_ = true;
     return false;

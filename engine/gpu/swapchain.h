@@ -9,8 +9,9 @@
 
 namespace vasa::gpu {
 
-/// The images that a window shows. Pictures are drawn elsewhere and copied to them, so that a window that changes its
-/// size, or is none for a while, disturbs nobody but this class. One picture at a time is on its way.
+/// The images that a window shows. Pictures are drawn elsewhere and copied to them, so that a window that
+/// changes its size, or is none for a while, disturbs nobody but this class. One picture at a time is on its
+/// way.
 class Swapchain {
  public:
   /// @param surface  of the window, made from device.instance(); must outlive this
@@ -23,8 +24,8 @@ class Swapchain {
   /// What a device needs beside the window system's instance extensions.
   static std::vector<const char*> deviceExtensions();
 
-  /// Copies a picture to the window, scaled where the window's size is another just now. Images are made anew when
-  /// the window asks for it.
+  /// Copies a picture to the window, scaled where the window's size is another just now. Images are made anew
+  /// when the window asks for it.
   /// @param picture  finished, R8G8B8A8_UNORM with sRGB values in it, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
   /// @param window   [pixels] of the window; no area (minimised): nothing is shown
   /// @return whether it was shown

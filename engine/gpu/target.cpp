@@ -38,26 +38,30 @@ Target::Target(Device& device, const TargetSpec& spec) : spec_(spec) {
   const VkImageUsageFlags read =
       spec.readDepth ? attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT : attachment;
   depth_ = Image(device, {spec.name, spec.size, spec.depth, multisampled ? attachment : read, spec.samples});
-  if (spec.readDepth && multisampled) readableDepth_ = Image(device, {spec.name, spec.size, spec.depth, read});
+  if (spec.readDepth && multisampled)
+    readableDepth_ = Image(device, {spec.name, spec.size, spec.depth, read});
 }
 
 void Target::makeDepthReadable(VkCommandBuffer commands) const {
   assert(spec_.readDepth);
   if (readableDepth_) resolveDepth(commands);
   const Image& image = readableDepth();
-  changeLayout(commands, {image.handle(), image.aspect(), kDepthWritten, kReadDepthLayout, kAttachmentStages, kDepthReaders});
+  changeLayout(commands, {image.handle(), image.aspect(), kDepthWritten, kReadDepthLayout, kAttachmentStages,
+                          kDepthReaders});
 }
 
 void Target::makeDepthWritable(VkCommandBuffer commands) const {
   const Image& image = readableDepth();
-  changeLayout(commands, {image.handle(), image.aspect(), kReadDepthLayout, kDepthWritten, kDepthReaders, kDepthStages});
+  changeLayout(commands, {image.handle(), image.aspect(), kReadDepthLayout, kDepthWritten, kDepthReaders,
+                          kDepthStages});
 }
 
 // An empty stretch that takes the first of each pixel's samples.
 void Target::resolveDepth(VkCommandBuffer commands) const {
   makeAttachment(commands, readableDepth_);
   stageBarrier(commands, kAttachmentStages, kAttachmentStages);
-  VkRenderingAttachmentInfo depths = attachment(depth_, kDepthWritten, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
+  VkRenderingAttachmentInfo depths =
+      attachment(depth_, kDepthWritten, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
   depths.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
   depths.resolveImageView = readableDepth_.view();
   depths.resolveImageLayout = kDepthWritten;
@@ -84,7 +88,8 @@ void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float 
 
   VkRenderingAttachmentInfo colours =
       samples_ ? attachment(samples_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, load, keep)
-               : attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, load, VK_ATTACHMENT_STORE_OP_STORE);
+               : attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, load,
+                            VK_ATTACHMENT_STORE_OP_STORE);
   std::copy(colour.begin(), colour.end(), colours.clearValue.color.float32);
   if (samples_ && ends) {
     colours.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;

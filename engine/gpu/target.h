@@ -49,8 +49,8 @@ class Target {
   /// Ends the only or last stretch; whatever comes after sees the picture in layout `after`.
   void end(VkCommandBuffer commands, VkImageLayout after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL) const;
 
-  /// Depth, of the first sample of each pixel. Between two stretches and from makeDepthReadable() to makeDepthWritable() it
-  /// is in kReadDepthLayout, for fragment shaders and depth tests.
+  /// Depth, of the first sample of each pixel. Between two stretches and from makeDepthReadable() to
+  /// makeDepthWritable() it is in kReadDepthLayout, for fragment shaders and depth tests.
   const Image& readableDepth() const { return readableDepth_ ? readableDepth_ : depth_; }
   void makeDepthReadable(VkCommandBuffer commands) const;
   void makeDepthWritable(VkCommandBuffer commands) const;

@@ -52,10 +52,11 @@ GpuTimer::Scope::~Scope() {
 std::vector<GpuTimer::Time> GpuTimer::results() const {
   if (!queries_ || names_.empty()) return {};
   std::vector<std::uint64_t> stamps(2 * names_.size());
-  const VkResult result = check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, std::uint32_t(stamps.size()),
-                              stamps.size() * sizeof(std::uint64_t), stamps.data(), sizeof(std::uint64_t),
-                              VK_QUERY_RESULT_64_BIT),
-        "vkGetQueryPoolResults");
+  const VkResult result =
+      check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, std::uint32_t(stamps.size()),
+                                  stamps.size() * sizeof(std::uint64_t), stamps.data(), sizeof(std::uint64_t),
+                                  VK_QUERY_RESULT_64_BIT),
+            "vkGetQueryPoolResults");
   if (result == VK_NOT_READY) return {};
   // Counters narrower than 64 bits wrap; the difference does not mind.
   const std::uint32_t bits = device_.timestampBits();

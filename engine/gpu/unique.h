@@ -6,13 +6,9 @@
 namespace vasa::gpu {
 
 // How each kind of handle ends, and what Vulkan calls its kind (for debug names).
-#define VASA_GPU_HANDLE(Handle, Destroy, ObjectType)          \
-  inline void destroyHandle(VkDevice device, Handle handle) { \
-    Destroy(device, handle, nullptr);                         \
-  }                                                           \
-  constexpr VkObjectType objectType(Handle) {                 \
-    return ObjectType;                                        \
-  }
+#define VASA_GPU_HANDLE(Handle, Destroy, ObjectType)                                              \
+  inline void destroyHandle(VkDevice device, Handle handle) { Destroy(device, handle, nullptr); } \
+  constexpr VkObjectType objectType(Handle) { return ObjectType; }
 
 VASA_GPU_HANDLE(VkBuffer, vkDestroyBuffer, VK_OBJECT_TYPE_BUFFER)
 VASA_GPU_HANDLE(VkImage, vkDestroyImage, VK_OBJECT_TYPE_IMAGE)
@@ -30,9 +26,7 @@ VASA_GPU_HANDLE(VkSemaphore, vkDestroySemaphore, VK_OBJECT_TYPE_SEMAPHORE)
 VASA_GPU_HANDLE(VkQueryPool, vkDestroyQueryPool, VK_OBJECT_TYPE_QUERY_POOL)
 #undef VASA_GPU_HANDLE
 
-constexpr VkObjectType objectType(VkCommandBuffer) {
-  return VK_OBJECT_TYPE_COMMAND_BUFFER;
-}
+constexpr VkObjectType objectType(VkCommandBuffer) { return VK_OBJECT_TYPE_COMMAND_BUFFER; }
 
 /// The owner of one handle that belongs to a VkDevice. Move-only. Destroys at once: keep it, or hand it to
 /// Queue::retire(), until the device has finished with it.

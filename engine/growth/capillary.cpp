@@ -8,18 +8,19 @@
 
 // The specification of shaders/lib/growth.glsl: same operations in the same order.
 //
-// A curve is a walk of three steps, which are the legs of its Bézier polygon. The first goes the way that the branching
-// asks for; before each of the others the direction strays (meander), turns (curl), and yields to its surroundings: to
-// the limb's axis, away from or around the hub, back from the skin. Every pull is continuous in the curve's place,
-// so that a moving vessel's capillaries move smoothly. Points of the polygon that got beyond the ball or a wall all the
-// same are drawn in towards the centre: ball and walls bound a convex piece of the body, which holds the curve with them.
+// A curve is a walk of three steps, which are the legs of its Bézier polygon. The first goes the way that the
+// branching asks for; before each of the others the direction strays (meander), turns (curl), and yields to
+// its surroundings: to the limb's axis, away from or around the hub, back from the skin. Every pull is
+// continuous in the curve's place, so that a moving vessel's capillaries move smoothly. Points of the polygon
+// that got beyond the ball or a wall all the same are drawn in towards the centre: ball and walls bound a
+// convex piece of the body, which holds the curve with them.
 namespace vasa {
 namespace {
 
 using shared::GrowthChild;
 using shared::GrowthSymbol;
 
-constexpr float kRootDepth = 0.5f;     // in radii from the axis: inside of the coarsest tube of quads, too
+constexpr float kRootDepth = 0.5f;      // in radii from the axis: inside of the coarsest tube of quads, too
 constexpr std::uint32_t kPartners = 8;  // sprouts of the partner that are looked at
 constexpr float kTiny2 = 1e-12f;
 
@@ -35,7 +36,8 @@ Surroundings surroundingsOf(const shared::GrowthSite& site, const Section& secti
   const mat3 axes(section.frame.u, section.frame.v, section.frame.tangent);
   Surroundings around{section.centre + axes * site.hub, axes * site.axis, section.centre, 0, site.reach, {}};
   around.shell = glm::distance(around.hub, section.centre);
-  for (std::size_t i = 0; i < around.walls.size(); ++i) around.walls[i] = vec4(axes * vec3(site.wall[i]), site.wall[i].w);
+  for (std::size_t i = 0; i < around.walls.size(); ++i)
+    around.walls[i] = vec4(axes * vec3(site.wall[i]), site.wall[i].w);
   return around;
 }
 
@@ -110,14 +112,16 @@ Bud budOf(const GrowthChild& child, const Surroundings& around, const Bezier& pa
   const float pitch = child.pitch + child.pitchSpread * signedOf(key, 10);
   const float roll = child.roll + child.rollSpread * signedOf(key, 11);
   const vec3 out = std::cos(roll) * side + std::sin(roll) * other;
-  return {place, std::cos(pitch) * tangent + std::sin(pitch) * out, parent.b[0].w * child.radius, child.stretch};
+  return {place, std::cos(pitch) * tangent + std::sin(pitch) * out, parent.b[0].w * child.radius,
+          child.stretch};
 }
 
 std::uint32_t sproutKey(const GrowthScene& scene, Sprout sprout) {
   return keyOf(keyOf(scene.seed, scene.sites[sprout.span].key), sprout.number);
 }
 
-// Sprouts of a span follow one another by the golden section, so that any first few of them are spread evenly.
+// Sprouts of a span follow one another by the golden section, so that any first few of them are spread
+// evenly.
 float placeOnSpan(const GrowthScene& scene, Sprout sprout) {
   if (sprout.number & shared::kTipSprout) return sprout.number & shared::kLastSprout ? 1.0f : 0.0f;
   const shared::GrowthSite& site = scene.sites[sprout.span];
@@ -125,8 +129,8 @@ float placeOnSpan(const GrowthScene& scene, Sprout sprout) {
   return site.stretch.x + (site.stretch.y - site.stretch.x) * share;
 }
 
-Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sprout& sprout, bool againstFlow,
-            std::uint32_t key) {
+Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sprout& sprout,
+            bool againstFlow, std::uint32_t key) {
   const Frame& frame = section.frame;
   const bool tip = sprout.number & shared::kTipSprout;
   float turn = 2 * kPi * unitOf(key, 1), pitch = system.lean;
@@ -140,8 +144,10 @@ Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sp
   const vec3 out = std::cos(turn) * frame.u + std::sin(turn) * frame.v;
   const vec3 direction = std::cos(pitch) * tangent + std::sin(pitch) * out;
   if (tip) return {section.centre, direction, section.radius * system.tipRadius, 1};
-  return {section.centre + kRootDepth * section.radius * out, direction,
-          std::min(section.radius * system.share, system.mostRadius) * (1 - system.shareSpread * unitOf(key, 3)), 1};
+  return {
+      section.centre + kRootDepth * section.radius * out, direction,
+      std::min(section.radius * system.share, system.mostRadius) * (1 - system.shareSpread * unitOf(key, 3)),
+      1};
 }
 
 // The sprout of the partner that stands as far on its way as this one, or nearly.
@@ -172,7 +178,8 @@ Capillary grownAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels,
     --number;
     std::uint32_t branch = 0;
     for (; branch + 1 < symbol.childCount; ++branch) {
-      const std::uint32_t size = scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol].treeSize[levels];
+      const std::uint32_t size =
+          scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol].treeSize[levels];
       if (number < size) break;
       number -= size;
     }
@@ -185,8 +192,8 @@ Capillary grownAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels,
   }
 }
 
-// Ends a last curve where a curve of the partner's tree of a generation less ends: one that has branches, so that it stays
-// as it is.
+// Ends a last curve where a curve of the partner's tree of a generation less ends: one that has branches, so
+// that it stays as it is.
 void join(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, Capillary& capillary) {
   const Sprout other = partnerOf(scene, sprout);
   const shared::GrowthSystem& system = scene.tables.system[scene.sites[other.span].system & 0xffu];
@@ -210,7 +217,8 @@ Section rootSection(const GrowthScene& scene, Sprout sprout) {
 Capillary capillaryAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, std::uint32_t number) {
   assert(levels > 0);
   Capillary capillary = grownAt(scene, sprout, levels, number);
-  const bool joins = levels > 1 && levels == scene.joinLevels && scene.sites[sprout.span].partner != shared::kNoPartner;
+  const bool joins =
+      levels > 1 && levels == scene.joinLevels && scene.sites[sprout.span].partner != shared::kNoPartner;
   if (capillary.leaf && joins) join(scene, sprout, levels, capillary);
   return capillary;
 }

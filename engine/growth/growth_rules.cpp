@@ -7,16 +7,18 @@
 #include "core/atomic_file.h"
 #include "growth/rule_text.h"
 
-// A parametric, bracketed L-system (Prusinkiewicz and Lindenmayer 1990) whose every production draws one curve and hangs
-// branches on it, S -> F [..] [..], is a table: letters, and for each letter its branches. Trees are then addressed
-// without ever being written out: the number of curves in a tree of n generations follows from the table,
+// A parametric, bracketed L-system (Prusinkiewicz and Lindenmayer 1990) whose every production draws one
+// curve and hangs branches on it, S -> F [..] [..], is a table: letters, and for each letter its branches.
+// Trees are then addressed without ever being written out: the number of curves in a tree of n generations
+// follows from the table,
 //   size(S, 0) = 0,  size(S, n) = 1 + Σ size(branch, n - 1),
 // and so does the path to the k-th curve.
 //
-// Murray's law. Let ρ(t) be the curve's radius in first radii. Side branches at t_1 < t_2 < … share the curve out in
-// stretches that meet half way between them; branch i takes the flow that its stretch gives away,
+// Murray's law. Let ρ(t) be the curve's radius in first radii. Side branches at t_1 < t_2 < … share the curve
+// out in stretches that meet half way between them; branch i takes the flow that its stretch gives away,
 //   r_i³ = ρ(m_i)³ − ρ(m_{i+1})³,
-// so r³ before a branch is r³ after it plus that of the branch; the branches at the end share ρ(1)³ by their weights.
+// so r³ before a branch is r³ after it plus that of the branch; the branches at the end share ρ(1)³ by their
+// weights.
 namespace vasa {
 namespace {
 
@@ -77,7 +79,8 @@ class Parser {
   Result<GrowthRules> run(std::string_view text) {
     for (const RuleLine& line : ruleLines(text))
       if (auto read = readLine(line); !read) return read.error();
-    if (systems_.empty()) return badInput(file_ + ": describes no system; begin one with a line `system NAME`");
+    if (systems_.empty())
+      return badInput(file_ + ": describes no system; begin one with a line `system NAME`");
     for (System& system : systems_)
       if (auto added = addSystem(system); !added) return added.error();
     return std::move(rules_);
@@ -87,13 +90,16 @@ class Parser {
   Error fault(std::size_t line, const std::string& what) const { return ruleFault(file_, line, what); }
 
   Error tooManyLetters(std::size_t line) const {
-    return fault(line, "more than " + std::to_string(shared::kMostGrowthSymbols) + " letters in all; leave out some");
+    return fault(
+        line, "more than " + std::to_string(shared::kMostGrowthSymbols) + " letters in all; leave out some");
   }
 
   Result<void> readLine(const RuleLine& line) {
     const std::string_view first = line.words[0];
     if (first == "system") return beginSystem(line);
-    if (systems_.empty()) return fault(line.number, inQuotes(first) + " stands before any system; begin with a line `system NAME`");
+    if (systems_.empty())
+      return fault(line.number,
+                   inQuotes(first) + " stands before any system; begin with a line `system NAME`");
     System& system = systems_.back();
     if (first == "axiom") {
       if (line.words.size() != 2) return fault(line.number, "an axiom is one letter, as in `axiom S`");
@@ -101,24 +107,37 @@ class Parser {
       return {};
     }
     if (first == "root")
-      return readSettings(line, 1, {{"share", {&system.values.share, 0.01f, 1, &system.values.shareSpread}},
-                                    {"thickest_mm", {&system.values.mostRadius, 0.001f, 10, nullptr, 1e-3f}},
-                                    {"lean", {&system.values.lean, 0, 180, nullptr, kDegree}}});
+      return readSettings(line, 1,
+                          {{"share", {&system.values.share, 0.01f, 1, &system.values.shareSpread}},
+                           {"thickest_mm", {&system.values.mostRadius, 0.001f, 10, nullptr, 1e-3f}},
+                           {"lean", {&system.values.lean, 0, 180, nullptr, kDegree}}});
     if (first == "tips") return readTips(line, system);
     if (first == "draw") return readLetter(line, system);
     if (line.words.size() > 1 && line.words[1] == "->") return readProduction(line, system);
-    return fault(line.number, inQuotes(first) + " begins no line that is known; use system, axiom, root, tips, draw, or LETTER -> F [..]");
+    return fault(
+        line.number,
+        inQuotes(first) +
+            " begins no line that is known; use system, axiom, root, tips, draw, or LETTER -> F [..]");
   }
 
   Result<void> beginSystem(const RuleLine& line) {
     if (line.words.size() != 2) return fault(line.number, "a system has one name, as in `system brain`");
     for (const System& system : systems_)
       if (system.name == line.words[1])
-        return fault(line.number, "system " + inQuotes(system.name) + " was described in line " + std::to_string(system.line) + " already; choose another name");
+        return fault(line.number, "system " + inQuotes(system.name) + " was described in line " +
+                                      std::to_string(system.line) + " already; choose another name");
     if (systems_.size() == shared::kMostGrowthSystems)
-      return fault(line.number, "at most " + std::to_string(shared::kMostGrowthSystems) + " systems fit; leave out one");
+      return fault(line.number,
+                   "at most " + std::to_string(shared::kMostGrowthSystems) + " systems fit; leave out one");
     System system{.name = std::string(line.words[1]), .axiom = {}, .line = line.number, .letters = {}};
-    system.values = {.axiom = 0, .share = 0.3f, .shareSpread = 0, .mostRadius = 0.3e-3f, .lean = 60 * kDegree, .tips = 0, .tipRadius = 1, .tipSpread = 35 * kDegree};
+    system.values = {.axiom = 0,
+                     .share = 0.3f,
+                     .shareSpread = 0,
+                     .mostRadius = 0.3e-3f,
+                     .lean = 60 * kDegree,
+                     .tips = 0,
+                     .tipRadius = 1,
+                     .tipSpread = 35 * kDegree};
     systems_.push_back(std::move(system));
     return {};
   }
@@ -133,9 +152,11 @@ class Parser {
       }
       const Setting& setting = found->second;
       const auto read = i + 1 < line.words.size() ? strayedIn(line.words[i + 1]) : std::nullopt;
-      if (!read || read->value < setting.low || read->value > setting.high || (read->spread != 0 && !setting.spread))
-        return fault(line.number, inQuotes(line.words[i]) + " wants a number from " + shortNumber(setting.low) + " to " +
-                                      shortNumber(setting.high) + (setting.spread ? " (how far it strays after a ~)" : ""));
+      if (!read || read->value < setting.low || read->value > setting.high ||
+          (read->spread != 0 && !setting.spread))
+        return fault(line.number, inQuotes(line.words[i]) + " wants a number from " +
+                                      shortNumber(setting.low) + " to " + shortNumber(setting.high) +
+                                      (setting.spread ? " (how far it strays after a ~)" : ""));
       *setting.value = read->value * setting.unit;
       if (setting.spread) *setting.spread = read->spread * setting.unit;
     }
@@ -151,7 +172,10 @@ class Parser {
 
   Result<void> readTips(const RuleLine& line, System& system) {
     float count = 0;
-    if (auto read = readSettings(line, 1, {{"count", {&count, 0, 8}}, {"spread", {&system.values.tipSpread, 0, 90, nullptr, kDegree}}}); !read)
+    if (auto read = readSettings(
+            line, 1,
+            {{"count", {&count, 0, 8}}, {"spread", {&system.values.tipSpread, 0, 90, nullptr, kDegree}}});
+        !read)
       return read;
     if (count != std::floor(count)) return fault(line.number, "'count' must be a whole number");
     system.values.tips = std::uint32_t(count);
@@ -159,19 +183,27 @@ class Parser {
   }
 
   Result<void> readLetter(const RuleLine& line, System& system) {
-    if (line.words.size() < 2) return fault(line.number, "say which letter is drawn, as in `draw S length 14 taper 0.6`");
+    if (line.words.size() < 2)
+      return fault(line.number, "say which letter is drawn, as in `draw S length 14 taper 0.6`");
     Letter* const found = system.letter(line.words[1]);
     if (!found) return tooManyLetters(line.number);
     Letter& letter = *found;
     if (letter.drawn)
-      return fault(line.number, "letter " + inQuotes(line.words[1]) + " was drawn in line " + std::to_string(letter.drawn) + " already; leave out one of the lines");
+      return fault(line.number, "letter " + inQuotes(line.words[1]) + " was drawn in line " +
+                                    std::to_string(letter.drawn) + " already; leave out one of the lines");
     letter.drawn = line.number;
     GrowthSymbol& s = letter.symbol;
     s.reach = 12;
     s.taper = 1;
-    return readSettings(line, 2, {{"length", {&s.reach, 0.5f, 400, &s.reachSpread}}, {"taper", {&s.taper, 0.05f, 1}},
-                                  {"meander", {&s.meander, 0, 3}}, {"curl", {&s.curl, -3, 3}}, {"hug", {&s.hug, 0, 1}},
-                                  {"outward", {&s.outward, -3, 3}}, {"along", {&s.along, -3, 3}}, {"fibre", {&s.fibre, 0, 3}}});
+    return readSettings(line, 2,
+                        {{"length", {&s.reach, 0.5f, 400, &s.reachSpread}},
+                         {"taper", {&s.taper, 0.05f, 1}},
+                         {"meander", {&s.meander, 0, 3}},
+                         {"curl", {&s.curl, -3, 3}},
+                         {"hug", {&s.hug, 0, 1}},
+                         {"outward", {&s.outward, -3, 3}},
+                         {"along", {&s.along, -3, 3}},
+                         {"fibre", {&s.fibre, 0, 3}}});
   }
 
   Result<void> readProduction(const RuleLine& line, System& system) {
@@ -179,12 +211,17 @@ class Parser {
     if (!found) return tooManyLetters(line.number);
     Letter& letter = *found;
     if (letter.produced)
-      return fault(line.number, "letter " + inQuotes(line.words[0]) + " has a production in line " + std::to_string(letter.produced) + " already; leave out one of them");
+      return fault(line.number, "letter " + inQuotes(line.words[0]) + " has a production in line " +
+                                    std::to_string(letter.produced) + " already; leave out one of them");
     letter.produced = line.number;
     if (line.words.size() < 3 || line.words[2] != "F")
-      return fault(line.number, "a production draws one curve first: write " + std::string(line.words[0]) + " -> F [..]");
+      return fault(line.number,
+                   "a production draws one curve first: write " + std::string(line.words[0]) + " -> F [..]");
     for (std::size_t i = 3; i < line.words.size();) {
-      if (line.words[i] != "[") return fault(line.number, inQuotes(line.words[i]) + " stands outside of brackets; every branch is [@place &pitch /roll LETTER]");
+      if (line.words[i] != "[")
+        return fault(line.number,
+                     inQuotes(line.words[i]) +
+                         " stands outside of brackets; every branch is [@place &pitch /roll LETTER]");
       const auto close = std::find(line.words.begin() + std::ptrdiff_t(i), line.words.end(), "]");
       if (close == line.words.end()) return fault(line.number, "a bracket is not closed; add ]");
       const std::size_t end = std::size_t(close - line.words.begin());
@@ -199,7 +236,14 @@ class Parser {
   Result<Branch> readBranch(const RuleLine& line, std::size_t first, std::size_t end) {
     Branch branch;
     branch.line = line.number;
-    branch.child = {.symbol = 0, .at = 1, .radius = 0, .stretch = 1, .pitch = 0, .pitchSpread = 0, .roll = 0, .rollSpread = 0};
+    branch.child = {.symbol = 0,
+                    .at = 1,
+                    .radius = 0,
+                    .stretch = 1,
+                    .pitch = 0,
+                    .pitchSpread = 0,
+                    .roll = 0,
+                    .rollSpread = 0};
     if (first == end) return fault(line.number, "a branch is empty; write [@place &pitch /roll LETTER]");
     for (std::size_t i = first; i + 1 < end; ++i) {
       const std::string_view word = line.words[i];
@@ -211,11 +255,15 @@ class Parser {
                                             {'!', {&branch.weight, 0.01f, 100}}};
       const auto module = modules.find(word[0]);
       if (module == modules.end())
-        return fault(line.number, inQuotes(word) + R"( is no module; use @place &pitch /roll "length !weight, then one letter)");
+        return fault(
+            line.number,
+            inQuotes(word) + R"( is no module; use @place &pitch /roll "length !weight, then one letter)");
       const Setting& setting = module->second;
       const auto read = strayedIn(word.substr(1));
-      if (!read || read->value < setting.low || read->value > setting.high || (read->spread != 0 && !setting.spread))
-        return fault(line.number, inQuotes(word) + " wants a number from " + shortNumber(setting.low) + " to " + shortNumber(setting.high));
+      if (!read || read->value < setting.low || read->value > setting.high ||
+          (read->spread != 0 && !setting.spread))
+        return fault(line.number, inQuotes(word) + " wants a number from " + shortNumber(setting.low) +
+                                      " to " + shortNumber(setting.high));
       *setting.value = read->value * setting.unit;
       if (setting.spread) *setting.spread = read->spread * setting.unit;
     }
@@ -228,25 +276,36 @@ class Parser {
     std::stable_sort(letter.branches.begin(), letter.branches.end(),
                      [](const Branch& a, const Branch& b) { return a.child.at < b.child.at; });
     const float taper = letter.symbol.taper;
-    const auto flowAt = [&](float t) { const float r = 1 + (taper - 1) * t; return r * r * r; };
+    const auto flowAt = [&](float t) {
+      const float r = 1 + (taper - 1) * t;
+      return r * r * r;
+    };
     std::vector<Branch>& all = letter.branches;
     std::size_t sides = 0;
     while (sides < all.size() && all[sides].child.at < 1) ++sides;
     if (!all.empty() && sides > 0 && taper == 1)
-      return fault(all[0].line, "letter " + inQuotes(name) + " keeps its thickness and has nothing to give to branches on its side; draw it with a taper below 1");
+      return fault(
+          all[0].line,
+          "letter " + inQuotes(name) +
+              " keeps its thickness and has nothing to give to branches on its side; draw it with a taper below 1");
     if (sides == 0 && !all.empty() && taper < 1)
-      return fault(all[0].line, "letter " + inQuotes(name) + " grows thinner but has no branch on its side to take the flow; add one or draw it with taper 1");
+      return fault(
+          all[0].line,
+          "letter " + inQuotes(name) +
+              " grows thinner but has no branch on its side to take the flow; add one or draw it with taper 1");
     float before = 0, weights = 0;
     for (std::size_t i = 0; i < sides;) {
       std::size_t j = i;
       while (j < sides && all[j].child.at == all[i].child.at) ++j;
       const float after = j < sides ? (all[i].child.at + all[j].child.at) / 2 : 1.0f;
-      for (std::size_t k = i; k < j; ++k) all[k].child.radius = std::cbrt((flowAt(before) - flowAt(after)) / float(j - i));
+      for (std::size_t k = i; k < j; ++k)
+        all[k].child.radius = std::cbrt((flowAt(before) - flowAt(after)) / float(j - i));
       before = after;
       i = j;
     }
     for (std::size_t i = sides; i < all.size(); ++i) weights += all[i].weight;
-    for (std::size_t i = sides; i < all.size(); ++i) all[i].child.radius = std::cbrt(flowAt(1) * all[i].weight / weights);
+    for (std::size_t i = sides; i < all.size(); ++i)
+      all[i].child.radius = std::cbrt(flowAt(1) * all[i].weight / weights);
     return {};
   }
 
@@ -257,20 +316,30 @@ class Parser {
         if (system.letters[i].first == name) return std::ptrdiff_t(i);
       return std::ptrdiff_t(-1);
     };
-    if (system.axiom.empty()) return fault(system.line, "system " + inQuotes(system.name) + " has no axiom; add a line `axiom LETTER`");
-    if (numberOf(system.axiom) < 0) return fault(system.line, "the axiom " + inQuotes(system.axiom) + " is never drawn; add a line `draw " + system.axiom + " length 14`");
-    if (firstSymbol + system.letters.size() > shared::kMostGrowthSymbols)
-      return tooManyLetters(system.line);
+    if (system.axiom.empty())
+      return fault(system.line,
+                   "system " + inQuotes(system.name) + " has no axiom; add a line `axiom LETTER`");
+    if (numberOf(system.axiom) < 0)
+      return fault(system.line, "the axiom " + inQuotes(system.axiom) + " is never drawn; add a line `draw " +
+                                    system.axiom + " length 14`");
+    if (firstSymbol + system.letters.size() > shared::kMostGrowthSymbols) return tooManyLetters(system.line);
     for (auto& [name, letter] : system.letters) {
-      if (!letter.drawn) return fault(letter.produced, "letter " + inQuotes(name) + " has a production but is never drawn; add a line `draw " + name + " length 14`");
+      if (!letter.drawn)
+        return fault(letter.produced, "letter " + inQuotes(name) +
+                                          " has a production but is never drawn; add a line `draw " + name +
+                                          " length 14`");
       if (auto shared = shareFlow(name, letter); !shared) return shared;
       letter.symbol.firstChild = childCount_;
       letter.symbol.childCount = std::uint32_t(letter.branches.size());
       if (childCount_ + letter.branches.size() > shared::kMostGrowthChildren)
-        return fault(system.line, "more than " + std::to_string(shared::kMostGrowthChildren) + " branches in all; leave out some");
+        return fault(system.line, "more than " + std::to_string(shared::kMostGrowthChildren) +
+                                      " branches in all; leave out some");
       for (Branch& branch : letter.branches) {
         const auto number = numberOf(branch.letter);
-        if (number < 0) return fault(branch.line, "letter " + inQuotes(branch.letter) + " is never drawn; add a line `draw " + branch.letter.substr(0, 40) + " length 14`");
+        if (number < 0)
+          return fault(branch.line, "letter " + inQuotes(branch.letter) +
+                                        " is never drawn; add a line `draw " + branch.letter.substr(0, 40) +
+                                        " length 14`");
         branch.child.symbol = firstSymbol + std::uint32_t(number);
         rules_.tables.child[childCount_++] = branch.child;
       }
@@ -283,8 +352,9 @@ class Parser {
     rules_.systems.push_back(system.name);
     countTrees(firstSymbol);
     if (rules_.tables.symbol[system.values.axiom].treeSize[3] == 0)
-      return fault(system.line, "a tree of three generations of system " + inQuotes(system.name) + " has more than " +
-                                    std::to_string(shared::kRingCurves) + " curves; take out branches");
+      return fault(system.line, "a tree of three generations of system " + inQuotes(system.name) +
+                                    " has more than " + std::to_string(shared::kRingCurves) +
+                                    " curves; take out branches");
     return {};
   }
 
@@ -296,7 +366,8 @@ class Parser {
         std::uint32_t size = 1;
         bool fits = true;
         for (std::uint32_t c = 0; c < tables.symbol[s].childCount; ++c) {
-          const std::uint32_t branch = tables.symbol[tables.child[tables.symbol[s].firstChild + c].symbol].treeSize[level - 1];
+          const std::uint32_t branch =
+              tables.symbol[tables.child[tables.symbol[s].firstChild + c].symbol].treeSize[level - 1];
           fits = fits && (branch > 0 || level == 1);
           size += branch;
         }

@@ -21,10 +21,10 @@ struct GrowthRules {
   }
 };
 
-/// Reads L-systems from text: see data/growth/capillaries.lsys, which explains the notation. Radii of branches are not
-/// written down but follow from Murray's law (r³ = Σ r_i³ at every branching): a side branch takes what its parent's
-/// taper gives away around it, the branches at the end share what is left.
-/// badInput names file, line, cause and remedy: unknown words, numbers that are no numbers or out of range, letters
+/// Reads L-systems from text: see data/growth/capillaries.lsys, which explains the notation. Radii of
+/// branches are not written down but follow from Murray's law (r³ = Σ r_i³ at every branching): a side branch
+/// takes what its parent's taper gives away around it, the branches at the end share what is left. badInput
+/// names file, line, cause and remedy: unknown words, numbers that are no numbers or out of range, letters
 /// without a production, trees larger than a ring of curves, more than fits the tables.
 Result<GrowthRules> parseGrowthRules(std::string_view text, const std::string& name);
 Result<GrowthRules> readGrowthRules(const std::filesystem::path& path);

@@ -9,7 +9,8 @@
 namespace vasa {
 namespace {
 
-constexpr float kThread = 0.6f;  // [pixels] of the thickest stems: thinner trees are threads; where a body is 720 pixels tall, 0.5
+// [pixels] of the thickest stems: thinner trees are threads; where a body is 720 pixels tall, 0.5
+constexpr float kThread = 0.6f;
 
 // Lengths of a system's curves in first radii of the stem.
 struct Sizes {
@@ -18,8 +19,8 @@ struct Sizes {
   float stem = 0;
 };
 
-void addGeneration(const shared::GrowthTables& tables, std::uint32_t symbol, float radius, std::uint32_t generation,
-                   float way, Sizes& sizes) {
+void addGeneration(const shared::GrowthTables& tables, std::uint32_t symbol, float radius,
+                   std::uint32_t generation, float way, Sizes& sizes) {
   const shared::GrowthSymbol& s = tables.symbol[symbol];
   const float length = radius * s.reach * (1 + s.reachSpread);
   sizes.longest[generation] = std::max(sizes.longest[generation], length);
@@ -27,7 +28,8 @@ void addGeneration(const shared::GrowthTables& tables, std::uint32_t symbol, flo
   if (generation + 1 == 3) return;  // deeper ones are taken to shrink alike
   for (std::uint32_t c = 0; c < s.childCount; ++c) {
     const shared::GrowthChild& child = tables.child[s.firstChild + c];
-    addGeneration(tables, child.symbol, radius * child.radius * child.stretch, generation + 1, way + length * child.at, sizes);
+    addGeneration(tables, child.symbol, radius * child.radius * child.stretch, generation + 1,
+                  way + length * child.at, sizes);
   }
 }
 
@@ -35,7 +37,8 @@ Sizes sizesOf(const shared::GrowthTables& tables, const shared::GrowthSystem& sy
   Sizes sizes;
   addGeneration(tables, system.axiom, 1, 0, 0, sizes);
   for (std::size_t g = 3; g < shared::kMostGrowthLevels; ++g) {
-    const float shrink = sizes.longest[g - 2] > 0 ? std::min(sizes.longest[g - 1] / sizes.longest[g - 2], 1.0f) : 0;
+    const float shrink =
+        sizes.longest[g - 2] > 0 ? std::min(sizes.longest[g - 1] / sizes.longest[g - 2], 1.0f) : 0;
     sizes.longest[g] = sizes.longest[g - 1] * shrink;
     sizes.reach[g] = sizes.reach[g - 1] + sizes.longest[g];
   }
@@ -50,7 +53,8 @@ struct Plane {
 // Left, right, top, bottom and near side of what is seen; points inside have positive distances.
 std::array<Plane, 5> planesOf(const mat4& m) {
   const auto row = [&](int i) { return vec4(m[0][i], m[1][i], m[2][i], m[3][i]); };
-  const std::array<vec4, 5> rows{row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3) - row(2)};
+  const std::array<vec4, 5> rows{row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1),
+                                 row(3) - row(2)};
   std::array<Plane, 5> planes;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const float length = glm::length(vec3(rows[i]));
@@ -66,13 +70,9 @@ struct Seen {
 };
 
 // By the size of the longest stem of all systems, so that trees side by side share a batch.
-std::uint32_t edgesFor(float pixels) {
-  return pixels < 40 ? 3 : pixels < 80 ? 5 : pixels < 200 ? 8 : 10;
-}
+std::uint32_t edgesFor(float pixels) { return pixels < 40 ? 3 : pixels < 80 ? 5 : pixels < 200 ? 8 : 10; }
 
-std::uint32_t endsIn(std::uint8_t bits) {
-  return (bits & 1u) + (bits >> 1 & 1u);
-}
+std::uint32_t endsIn(std::uint8_t bits) { return (bits & 1u) + (bits >> 1 & 1u); }
 
 class Planner {
  public:
@@ -96,7 +96,8 @@ class Planner {
       thick = std::max(thick, p[i].w);
     }
     const bool ends = in_.sites.freeEnds[span] != 0;
-    const float root = std::max(std::min(thick * system.share, system.mostRadius), ends ? thick * system.tipRadius : 0.0f);
+    const float root =
+        std::max(std::min(thick * system.share, system.mostRadius), ends ? thick * system.tipRadius : 0.0f);
     const Sizes& sizes = sizes_[number];
     std::uint32_t levels = levelsOf(in_.tables, number, wish_.levels);
     const float radius = wide + thick + root * sizes.reach[levels - 1];
@@ -114,7 +115,8 @@ class Planner {
 
   // Curves of a tree.
   std::uint32_t sizeOf(const Seen& seen) const {
-    return in_.tables.symbol[in_.tables.system[in_.sites.sites[seen.span].system & 0xffu].axiom].treeSize[seen.levels];
+    return in_.tables.symbol[in_.tables.system[in_.sites.sites[seen.span].system & 0xffu].axiom]
+        .treeSize[seen.levels];
   }
 
   std::uint32_t tipsOf(std::uint32_t span) const {
@@ -140,7 +142,8 @@ class Planner {
   float longestStem_ = 0, thickestStem_ = 0;  // of all systems
 };
 
-// Takes generations from the deepest trees until all keep to the budget or are stems. Returns how many curves that leaves.
+// Takes generations from the deepest trees until all keep to the budget or are stems. Returns how many curves
+// that leaves.
 std::uint64_t curvesWithin(std::uint32_t budget, const Planner& planner, std::vector<Seen>& seen) {
   std::uint64_t curves = 0;
   for (std::uint32_t most = shared::kMostGrowthLevels; most > 0; --most) {
@@ -190,19 +193,24 @@ std::uint32_t levelsOf(const shared::GrowthTables& tables, std::uint32_t system,
   return levels;
 }
 
-std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites, std::uint32_t levels) {
+std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites,
+                         std::uint32_t levels) {
   if (levels == 0) return 0;
   std::uint64_t count = 0;
   for (std::size_t span = 0; span < sites.sites.size(); ++span) {
     const std::uint32_t system = sites.sites[span].system & 0xffu;
-    const std::uint32_t trees = sites.sites[span].sprouts + tables.system[system].tips * endsIn(sites.freeEnds[span]);
-    if (trees > 0) count += std::uint64_t(trees) * tables.symbol[tables.system[system].axiom].treeSize[levelsOf(tables, system, levels)];
+    const std::uint32_t trees =
+        sites.sites[span].sprouts + tables.system[system].tips * endsIn(sites.freeEnds[span]);
+    if (trees > 0)
+      count += std::uint64_t(trees) *
+               tables.symbol[tables.system[system].axiom].treeSize[levelsOf(tables, system, levels)];
   }
   return count;
 }
 
 std::uint32_t mostJobs(const CapillarySites& sites, std::uint32_t budget) {
-  // A job a span and a free end; one more where a batch is full, and batches are at least half full or change edges.
+  // A job a span and a free end; one more where a batch is full, and batches are at least half full or change
+  // edges.
   return 3 * std::uint32_t(sites.spans.size()) + 2 * (budget / shared::kRingCurves + 2);
 }
 
@@ -215,11 +223,13 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
   std::vector<Seen> seen;
   for (std::uint32_t span = 0; span < input.sites.sites.size(); ++span) {
     Seen one;
-    if (input.sites.sites[span].sprouts + input.sites.freeEnds[span] == 0 || !planner.see(span, one)) continue;
+    if (input.sites.sites[span].sprouts + input.sites.freeEnds[span] == 0 || !planner.see(span, one))
+      continue;
     seen.push_back(one);
     plan.wishedCurves += std::uint64_t(one.trees) * one.size;
   }
-  const std::uint64_t curves = wish.fewerLevels ? curvesWithin(wish.budget, planner, seen) : plan.wishedCurves;
+  const std::uint64_t curves =
+      wish.fewerLevels ? curvesWithin(wish.budget, planner, seen) : plan.wishedCurves;
   std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
     return a.distance != b.distance ? a.distance > b.distance : a.span < b.span;
   });
@@ -229,12 +239,14 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
     const auto granted = [&](std::uint32_t wished) {
       if (share >= 1) return wished;
       const std::uint64_t left = (wish.budget - std::min<std::uint64_t>(plan.curves, wish.budget)) / one.size;
-      return std::uint32_t(std::min<std::uint64_t>(std::uint64_t(wished * share + unitFloat(scramble(one.span))), left));
+      return std::uint32_t(
+          std::min<std::uint64_t>(std::uint64_t(wished * share + unitFloat(scramble(one.span))), left));
     };
     writer.add(one, 0, granted(input.sites.sites[one.span].sprouts));
     for (const std::uint32_t end : {0u, 1u})
       if (input.sites.freeEnds[one.span] >> end & 1u)
-        writer.add(one, shared::kTipSprout | (end ? shared::kLastSprout : 0u), granted(planner.tipsOf(one.span)));
+        writer.add(one, shared::kTipSprout | (end ? shared::kLastSprout : 0u),
+                   granted(planner.tipsOf(one.span)));
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace vasa {
 
-/// Where on a network capillaries grow; constant over time, and the same however forks cut its tubes. All lists are as
-/// long as the network has spans.
+/// Where on a network capillaries grow; constant over time, and the same however forks cut its tubes. All
+/// lists are as long as the network has spans.
 struct CapillarySites {
   std::vector<shared::SweepRecord> spans;  ///< wholeSpans() (surface/sweep_table.h)
   std::vector<shared::GrowthSite> sites;
@@ -27,8 +27,8 @@ struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
   std::uint32_t edges = 0;   ///< of every curve's polyline: 3, 5, 8 or 10; 0: by its size in the picture
   std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every span has fewer trees
-  /// [pixels] generations with shorter curves are left out, and trees much thinner than a pixel are drawn as threads (ribbon.h)
-  /// where `edges` is 0. 0: none is left out, all are ribbons.
+  /// [pixels] generations with shorter curves are left out, and trees much thinner than a pixel are drawn as
+  /// threads (ribbon.h) where `edges` is 0. 0: none is left out, all are ribbons.
   float smallest = 0.5f;
   bool fewerLevels = false;  ///< beyond the budget all trees lose generations before there are fewer trees
 };
@@ -43,7 +43,7 @@ struct CapillaryBatch {
 struct CapillaryPlan {
   std::vector<shared::GrowthJob> jobs;
   std::vector<CapillaryBatch> batches;
-  std::uint64_t curves = 0;      ///< that are drawn
+  std::uint64_t curves = 0;  ///< that are drawn
   std::uint64_t trees = 0;
   std::uint64_t wishedCurves = 0;  ///< of all trees in the picture, before the budget
 };
@@ -57,13 +57,15 @@ struct PlanInput {
 };
 
 /// Curves of all trees, wherever they are.
-std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites, std::uint32_t levels);
+std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites,
+                         std::uint32_t levels);
 
 /// Most jobs that a plan has on a network: what its buffer must hold.
 std::uint32_t mostJobs(const CapillarySites& sites, std::uint32_t budget);
 
-/// Chooses what is drawn: trees that may be seen, as many generations as have some size in the picture, within the
-/// budget. The work and the memory grow with the spans, not with the curves. The result depends on the input alone.
+/// Chooses what is drawn: trees that may be seen, as many generations as have some size in the picture,
+/// within the budget. The work and the memory grow with the spans, not with the curves. The result depends on
+/// the input alone.
 void planCapillaries(const PlanInput& input, const CapillaryWish& wish, CapillaryPlan& plan);
 
 /// Levels that a system's trees may have: wished levels, or fewer where a tree would not fit the ring.

@@ -17,16 +17,12 @@ constexpr std::uint32_t keyOf(std::uint32_t key, std::uint32_t part) {
 }
 
 /// The upper 24 bits as a number in [0, 1), exactly.
-constexpr float unitFloat(std::uint32_t bits) {
-  return float(bits >> 8) * (1.0f / 16777216.0f);
-}
+constexpr float unitFloat(std::uint32_t bits) { return float(bits >> 8) * (1.0f / 16777216.0f); }
 
 /// The n-th random number in [0, 1) that belongs to a key, and one in [-1, 1).
 constexpr float unitOf(std::uint32_t key, std::uint32_t n) {
   return unitFloat(scramble(key + n * 0x85ebca6bu));
 }
-constexpr float signedOf(std::uint32_t key, std::uint32_t n) {
-  return 2 * unitOf(key, n) - 1;
-}
+constexpr float signedOf(std::uint32_t key, std::uint32_t n) { return 2 * unitOf(key, n) - 1; }
 
 }  // namespace vasa

@@ -10,8 +10,8 @@
 namespace vasa {
 namespace {
 
-constexpr std::array<std::string_view, 9> kColumns{"region",      "system",      "joints",     "vessels", "kinds",
-                                                   "thinnest_mm", "thickest_mm", "spacing_mm", "hub"};
+constexpr std::array<std::string_view, 9> kColumns{
+    "region", "system", "joints", "vessels", "kinds", "thinnest_mm", "thickest_mm", "spacing_mm", "hub"};
 constexpr std::size_t kMaximumBytes = 1 << 20;
 
 std::string_view trimmed(std::string_view text) {
@@ -22,7 +22,8 @@ std::string_view trimmed(std::string_view text) {
 
 std::string lower(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   return result;
 }
 
@@ -44,7 +45,8 @@ std::vector<std::string> list(std::string_view cell) {
 }
 
 bool holdsAny(const std::vector<std::string>& parts, const std::string& text) {
-  return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return text.find(part) != std::string::npos; });
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return text.find(part) != std::string::npos; });
 }
 
 // Reads a row's cells; the first fault is kept.
@@ -57,8 +59,8 @@ class Row {
   float millimetres(std::size_t column, float low, float high) {
     const auto value = numberIn(cells_[column]);
     if (value && *value >= low && *value <= high) return *value * 1e-3f;
-    fail(std::string(kColumns[column]) + " is '" + std::string(cells_[column].substr(0, 40)) + "' but must be a number from " +
-         std::to_string(int(low)) + " to " + std::to_string(int(high)));
+    fail(std::string(kColumns[column]) + " is '" + std::string(cells_[column].substr(0, 40)) +
+         "' but must be a number from " + std::to_string(int(low)) + " to " + std::to_string(int(high)));
     return 0;
   }
   void fail(const std::string& what) {
@@ -84,12 +86,17 @@ std::uint32_t systemNamed(Row& row, const GrowthRules& rules) {
 }
 
 std::vector<VesselKind> kindsIn(Row& row) {
-  constexpr std::array kAll{VesselKind::artery, VesselKind::vein, VesselKind::portalVein, VesselKind::lymphatic, VesselKind::other};
+  constexpr std::array kAll{VesselKind::artery, VesselKind::vein, VesselKind::portalVein,
+                            VesselKind::lymphatic, VesselKind::other};
   std::vector<VesselKind> kinds;
   for (const std::string& word : list(row.text(4))) {
-    const auto found = std::find_if(kAll.begin(), kAll.end(), [&](VesselKind kind) { return kindName(kind) == word; });
-    if (found == kAll.end()) row.fail("kinds has '" + word.substr(0, 40) + "', which is no kind of vessel; use artery, vein, portal vein, lymphatic or other");
-    else kinds.push_back(*found);
+    const auto found =
+        std::find_if(kAll.begin(), kAll.end(), [&](VesselKind kind) { return kindName(kind) == word; });
+    if (found == kAll.end())
+      row.fail("kinds has '" + word.substr(0, 40) +
+               "', which is no kind of vessel; use artery, vein, portal vein, lymphatic or other");
+    else
+      kinds.push_back(*found);
   }
   return kinds;
 }
@@ -104,11 +111,15 @@ void readHub(Row& row, GrowthRegion& region) {
   if (closed)
     for (const std::string_view part : split(cell.substr(colon + 2, cell.size() - colon - 3), ' '))
       if (!part.empty()) numbers.push_back(part);
-  if (numbers.size() != 3) return row.fail("hub is '" + std::string(cell.substr(0, 40)) + "' but must be JOINT:(x y z), in millimetres, or empty");
+  if (numbers.size() != 3)
+    return row.fail("hub is '" + std::string(cell.substr(0, 40)) +
+                    "' but must be JOINT:(x y z), in millimetres, or empty");
   region.hubJoint = cell.substr(0, colon);
   for (int i = 0; i < 3; ++i) {
     const auto value = numberIn(numbers[std::size_t(i)]);
-    if (!value || std::abs(*value) > 2000) return row.fail("hub has '" + std::string(numbers[std::size_t(i)].substr(0, 40)) + "' where a number of millimetres belongs");
+    if (!value || std::abs(*value) > 2000)
+      return row.fail("hub has '" + std::string(numbers[std::size_t(i)].substr(0, 40)) +
+                      "' where a number of millimetres belongs");
     region.hubOffset[i] = *value * 1e-3f;
   }
 }
@@ -141,18 +152,21 @@ std::string headerText() {
 }  // namespace
 
 const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question) {
-  const std::string vessel = lower(question.vessel), joint = lower(question.joint), id = lower(question.ontologyId);
+  const std::string vessel = lower(question.vessel), joint = lower(question.joint),
+                    id = lower(question.ontologyId);
   for (const GrowthRegion& region : regions) {
     const bool named = region.vessels.empty() || holdsAny(region.vessels, vessel) ||
                        std::find(region.vessels.begin(), region.vessels.end(), id) != region.vessels.end();
     const bool placed = region.joints.empty() || holdsAny(region.joints, joint);
-    const bool kind = region.kinds.empty() || std::find(region.kinds.begin(), region.kinds.end(), question.kind) != region.kinds.end();
+    const bool kind = region.kinds.empty() || std::find(region.kinds.begin(), region.kinds.end(),
+                                                        question.kind) != region.kinds.end();
     if (named && placed && kind) return &region;
   }
   return nullptr;
 }
 
-Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name, const GrowthRules& rules) {
+Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name,
+                                               const GrowthRules& rules) {
   std::vector<GrowthRegion> regions;
   bool header = false;
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -161,18 +175,24 @@ Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std:
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
     if (!header) {
-      if (line != headerText()) return ruleFault(name, number, "the first line must name the columns: " + headerText());
+      if (line != headerText())
+        return ruleFault(name, number, "the first line must name the columns: " + headerText());
       header = true;
       continue;
     }
     std::vector<std::string_view> cells = split(line, ',');
     if (cells.size() != kColumns.size())
-      return ruleFault(name, number, "has " + std::to_string(cells.size()) + " cells but must have " + std::to_string(kColumns.size()) + ": " + headerText());
+      return ruleFault(name, number,
+                       "has " + std::to_string(cells.size()) + " cells but must have " +
+                           std::to_string(kColumns.size()) + ": " + headerText());
     auto region = regionIn(Row(name, number, std::move(cells)), rules);
     if (!region) return region.error();
     regions.push_back(std::move(*region));
   }
-  if (regions.empty()) return badInput(name + ": has no regions; the least is a line of columns and a row for everything: default,SYSTEM,,,,0,3,8,");
+  if (regions.empty())
+    return badInput(
+        name +
+        ": has no regions; the least is a line of columns and a row for everything: default,SYSTEM,,,,0,3,8,");
   return regions;
 }
 

@@ -29,12 +29,14 @@ struct RegionQuestion {
   VesselKind kind = VesselKind::other;
 };
 
-/// The first region whose joints, vessels and kinds fit; nullptr if there is none. Upper and lower case are alike.
+/// The first region whose joints, vessels and kinds fit; nullptr if there is none. Upper and lower case are
+/// alike.
 const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question);
 
-/// Reads the table: see data/growth/regions.csv. Lengths are for a body 1.75 m tall. badInput names file, line, cause
-/// and remedy.
-Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name, const GrowthRules& rules);
+/// Reads the table: see data/growth/regions.csv. Lengths are for a body 1.75 m tall. badInput names file,
+/// line, cause and remedy.
+Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name,
+                                               const GrowthRules& rules);
 Result<std::vector<GrowthRegion>> readRegions(const std::filesystem::path& path, const GrowthRules& rules);
 
 }  // namespace vasa

@@ -16,9 +16,7 @@ std::uint32_t snorm16(float value) {
   return std::uint32_t(int(std::floor(std::clamp(value, -1.0f, 1.0f) * 32767.0f + 0.5f))) & 0xffffu;
 }
 
-std::uint32_t unorm8(float value) {
-  return std::uint32_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
+std::uint32_t unorm8(float value) { return std::uint32_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
 vec3 rgbOf(std::uint32_t packed) {
   return vec3(float(packed & 0xffu), float(packed >> 8 & 0xffu), float(packed >> 16 & 0xffu)) / 255.0f;
@@ -29,10 +27,12 @@ struct Tints {
   vec3 from, to;
 };
 
-Tints tintsOf(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t far) {
+Tints tintsOf(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root,
+              std::uint32_t far) {
   const vec3 bed = rgbOf(view.capillary);
-  return {glm::mix(rgbOf(root), bed, capillary.phase), capillary.joined ? glm::mix(rgbOf(far), bed, capillary.farPhase)
-                                                                        : glm::mix(rgbOf(root), bed, capillary.phaseAt(1))};
+  return {glm::mix(rgbOf(root), bed, capillary.phase),
+          capillary.joined ? glm::mix(rgbOf(far), bed, capillary.farPhase)
+                           : glm::mix(rgbOf(root), bed, capillary.phaseAt(1))};
 }
 
 // The curve where its polyline's i-th corner is.
@@ -42,8 +42,8 @@ struct Corner {
   std::uint32_t colour;
 };
 
-Corner cornerOf(const Capillary& capillary, const shared::GrowthView& view, const Tints& tints, std::uint32_t i, std::uint32_t edges,
-                float opacity) {
+Corner cornerOf(const Capillary& capillary, const shared::GrowthView& view, const Tints& tints,
+                std::uint32_t i, std::uint32_t edges, float opacity) {
   const float t = float(i) / float(edges);
   const vec4 point = capillary.curve.at(t);
   const vec3 along(capillary.curve.derivative(t));
@@ -58,7 +58,8 @@ Corner cornerOf(const Capillary& capillary, const shared::GrowthView& view, cons
   const float half = std::max(radius, 0.5f * view.thinnest * pixel);
   const vec3 colour = glm::mix(tints.from, tints.to, t);
   return {place, length2 > 1e-20f ? side / std::sqrt(length2) : view.right, half,
-          unorm8(colour.x) | unorm8(colour.y) << 8 | unorm8(colour.z) << 16 | unorm8(opacity * (radius / half)) << 24};
+          unorm8(colour.x) | unorm8(colour.y) << 8 | unorm8(colour.z) << 16 |
+              unorm8(opacity * (radius / half)) << 24};
 }
 
 shared::CapillaryVertex vertexAt(const shared::GrowthView& view, const Corner& corner, float sign) {
@@ -69,8 +70,8 @@ shared::CapillaryVertex vertexAt(const shared::GrowthView& view, const Corner& c
 
 }  // namespace
 
-void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t far, std::uint32_t edges,
-                 std::span<shared::CapillaryVertex> vertices) {
+void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root,
+                 std::uint32_t far, std::uint32_t edges, std::span<shared::CapillaryVertex> vertices) {
   assert(vertices.size() == ribbonVertices(edges));
   const Tints tints = tintsOf(capillary, view, root, far);
   for (std::uint32_t i = 0; i <= edges; ++i) {
@@ -80,13 +81,14 @@ void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std
   }
 }
 
-void writeThread(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root, std::uint32_t far,
-                 std::span<shared::CapillaryVertex> vertices) {
+void writeThread(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root,
+                 std::uint32_t far, std::span<shared::CapillaryVertex> vertices) {
   assert(vertices.size() == shared::kThreadVertices);
   const Tints tints = tintsOf(capillary, view, root, far);
   const float ends = capillary.leaf ? -1.0f : 1.0f;  // on which side the two outermost vertices are
   for (std::uint32_t i = 0; i <= shared::kThreadEdges; ++i) {
-    const Corner corner = cornerOf(capillary, view, tints, i, shared::kThreadEdges, capillary.leaf ? kLeafThread : 1);
+    const Corner corner =
+        cornerOf(capillary, view, tints, i, shared::kThreadEdges, capillary.leaf ? kLeafThread : 1);
     vertices[i + 1] = vertexAt(view, corner, i % 2 == 0 ? -1.0f : 1.0f);
     if (i == 0) vertices[0] = vertexAt(view, corner, ends);
     if (i == shared::kThreadEdges) vertices[i + 2] = vertexAt(view, corner, -ends);

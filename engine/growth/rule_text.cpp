@@ -6,13 +6,9 @@
 namespace vasa {
 namespace {
 
-bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-bool standsAlone(char c) {
-  return c == '[' || c == ']';
-}
+bool standsAlone(char c) { return c == '[' || c == ']'; }
 
 std::vector<std::string_view> wordsOf(std::string_view line) {
   std::vector<std::string_view> words;

@@ -14,7 +14,9 @@ using Json = GlbWriter::Json;
 Json material(const AnimatedMesh::Part& part) {
   return {{"name", part.name},
           {"pbrMetallicRoughness",
-           {{"baseColorFactor", {part.colour.x, part.colour.y, part.colour.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.45}}}};
+           {{"baseColorFactor", {part.colour.x, part.colour.y, part.colour.z, 1}},
+            {"metallicFactor", 0},
+            {"roughnessFactor", 0.45}}}};
 }
 
 Json vesselList(const AnimatedMesh& mesh) {
@@ -30,7 +32,8 @@ Json vesselList(const AnimatedMesh& mesh) {
 void addWeights(GlbWriter& writer, const AnimatedMesh& mesh) {
   std::vector<float> flat;
   for (const auto& row : mesh.weights) flat.insert(flat.end(), row.begin(), row.end());
-  const std::size_t input = writer.add(mesh.times, GlbWriter::data, true), output = writer.add(flat, GlbWriter::data);
+  const std::size_t input = writer.add(mesh.times, GlbWriter::data, true),
+                    output = writer.add(flat, GlbWriter::data);
   writer.root["animations"].push_back(
       {{"name", mesh.clip},
        {"samplers", Json::array({{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}})},
@@ -54,7 +57,9 @@ std::vector<std::byte> encodeGlb(const AnimatedMesh& mesh) {
   Json primitives = Json::array();
   for (const AnimatedMesh::Part& part : mesh.parts) {
     writer.root["materials"].push_back(material(part));
-    Json primitive = {{"attributes", attributes}, {"indices", writer.add(part.triangles)}, {"material", writer.root["materials"].size() - 1}};
+    Json primitive = {{"attributes", attributes},
+                      {"indices", writer.add(part.triangles)},
+                      {"material", writer.root["materials"].size() - 1}};
     if (moves) primitive["targets"] = targets;
     primitives.push_back(std::move(primitive));
   }
@@ -73,13 +78,15 @@ std::vector<std::byte> encodeGlb(const AnimatedMesh& mesh) {
 std::string encodeObj(const AnimatedMesh& mesh) {
   std::string text = "# metres, +Y up\n";
   const auto line = [&text](const char* word, vec3 v) {
-    text += word + numberText(double(v.x)) + ' ' + numberText(double(v.y)) + ' ' + numberText(double(v.z)) + '\n';
+    text +=
+        word + numberText(double(v.x)) + ' ' + numberText(double(v.y)) + ' ' + numberText(double(v.z)) + '\n';
   };
   for (const vec3& p : mesh.positions) line("v ", p);
   for (const vec3& n : mesh.normals) line("vn ", n);
   std::map<std::uint32_t, std::vector<uvec3>> byLabel;
   for (const AnimatedMesh::Part& part : mesh.parts)
-    for (const uvec3& t : part.triangles) byLabel[mesh.labelOfVertex.empty() ? 0 : mesh.labelOfVertex[t.x]].push_back(t);
+    for (const uvec3& t : part.triangles)
+      byLabel[mesh.labelOfVertex.empty() ? 0 : mesh.labelOfVertex[t.x]].push_back(t);
   for (const auto& [label, triangles] : byLabel) {
     std::string name = label < mesh.labels.size() ? mesh.labels[label].name : mesh.name;
     for (char& c : name)

@@ -25,7 +25,9 @@ enum class Channel : std::uint8_t { x, y, z, turnX, turnY, turnZ };
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name) : rest_(text), bytes_(text.size()) { motion_.name = name; }
+  Parser(std::string_view text, const std::string& name) : rest_(text), bytes_(text.size()) {
+    motion_.name = name;
+  }
 
   Motion run() {
     expect("HIERARCHY");
@@ -57,7 +59,9 @@ class Parser {
   }
   void skipBlanks() {
     std::size_t i = 0;
-    for (; i < rest_.size() && (rest_[i] == ' ' || rest_[i] == '\t' || rest_[i] == '\r' || rest_[i] == '\n'); ++i) line_ += rest_[i] == '\n';
+    for (; i < rest_.size() && (rest_[i] == ' ' || rest_[i] == '\t' || rest_[i] == '\r' || rest_[i] == '\n');
+         ++i)
+      line_ += rest_[i] == '\n';
     rest_.remove_prefix(i);
   }
   std::string_view restOfLine() {
@@ -72,7 +76,8 @@ class Parser {
     return std::string(1, '\'').append(word.substr(0, 40)).append(1, '\'');
   }
   void expect(std::string_view word) {
-    if (const std::string_view found = next(); !sameLetters(found, word)) breaks("expected " + std::string(word) + ", found " + quoted(found));
+    if (const std::string_view found = next(); !sameLetters(found, word))
+      breaks("expected " + std::string(word) + ", found " + quoted(found));
   }
   double number(const char* what) {
     double value = 0;
@@ -83,7 +88,8 @@ class Parser {
   std::int64_t whole(const char* what, std::int64_t most) {
     std::int64_t value = 0;
     if (const std::string_view word = next(); !parseInteger(word, value) || value < 0 || value > most)
-      breaks(std::string(what) + " must be a whole number from 0 to " + std::to_string(most) + ", found " + quoted(word));
+      breaks(std::string(what) + " must be a whole number from 0 to " + std::to_string(most) + ", found " +
+             quoted(word));
     return value;
   }
   vec3 offset() {
@@ -103,9 +109,12 @@ class Parser {
     channels_.emplace_back();
     if (sameLetters(peek(), "CHANNELS")) next(), readChannels(own);
     for (std::string_view word = next(); word != "}"; word = next()) {
-      if (sameLetters(word, "JOINT")) readJoint(own, depth + 1);
-      else if (sameLetters(word, "End")) readEnd(own);
-      else breaks("expected JOINT, End Site or }, found " + quoted(word));
+      if (sameLetters(word, "JOINT"))
+        readJoint(own, depth + 1);
+      else if (sameLetters(word, "End"))
+        readEnd(own);
+      else
+        breaks("expected JOINT, End Site or }, found " + quoted(word));
     }
   }
   void readEnd(JointId joint) {
@@ -117,10 +126,13 @@ class Parser {
   void readChannels(JointId joint) {
     const std::int64_t count = whole("the number of channels", 6);
     for (std::int64_t i = 0; i < count; ++i) {
-      static constexpr std::string_view kNames[] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
+      static constexpr std::string_view kNames[] = {"Xposition", "Yposition", "Zposition",
+                                                    "Xrotation", "Yrotation", "Zrotation"};
       const std::string_view word = next();
-      const auto found = std::ranges::find_if(kNames, [&](std::string_view name) { return sameLetters(name, word); });
-      if (found == std::end(kNames)) breaks("a channel must be a position or rotation such as Xrotation, found " + quoted(word));
+      const auto found =
+          std::ranges::find_if(kNames, [&](std::string_view name) { return sameLetters(name, word); });
+      if (found == std::end(kNames))
+        breaks("a channel must be a position or rotation such as Xrotation, found " + quoted(word));
       const auto channel = Channel(found - std::begin(kNames));
       channels_[joint.value].push_back(channel);
       motion_.joints[joint.value].moves |= channel <= Channel::z;
@@ -135,19 +147,23 @@ class Parser {
     expect("Frame");
     expect("Time:");
     const double seconds = number("the frame time");
-    if (!(seconds > 1e-5 && seconds < 1e4)) breaks("the frame time must be above zero seconds, found " + numberText(seconds));
+    if (!(seconds > 1e-5 && seconds < 1e4))
+      breaks("the frame time must be above zero seconds, found " + numberText(seconds));
     const double rate = 1 / seconds;
-    motion_.framesPerSecond = float(std::abs(rate - std::round(rate)) < 0.005 * rate && rate >= 1 ? std::round(rate) : rate);
+    motion_.framesPerSecond =
+        float(std::abs(rate - std::round(rate)) < 0.005 * rate && rate >= 1 ? std::round(rate) : rate);
     const std::size_t total = motion_.frameCount * motion_.joints.size();
     // A value is two bytes of text at least: what is promised but not there costs no memory.
     std::size_t perFrame = 0;
     for (const auto& channels : channels_) perFrame += channels.size();
     if (motion_.frameCount * perFrame > rest_.size() || perFrame == 0)
-      breaks("the file holds fewer values than its " + std::to_string(motion_.frameCount) + " frames of " + std::to_string(perFrame) + " channels need");
+      breaks("the file holds fewer values than its " + std::to_string(motion_.frameCount) + " frames of " +
+             std::to_string(perFrame) + " channels need");
     // Joints without channels take memory in every frame, too.
-    if (const std::size_t wanted = total * (sizeof(quat) + sizeof(vec3)), most = partOfMemory(bytes_, 15, 48); wanted > most)
-      breaks(std::to_string(motion_.frameCount) + " frames of " + std::to_string(motion_.joints.size()) + " joints " + beyondMemory(wanted, most) +
-             "; leave out joints that have no channels");
+    if (const std::size_t wanted = total * (sizeof(quat) + sizeof(vec3)), most = partOfMemory(bytes_, 15, 48);
+        wanted > most)
+      breaks(std::to_string(motion_.frameCount) + " frames of " + std::to_string(motion_.joints.size()) +
+             " joints " + beyondMemory(wanted, most) + "; leave out joints that have no channels");
     motion_.rotations.reserve(total);
     motion_.translations.reserve(total);
     for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame)
@@ -158,7 +174,8 @@ class Parser {
     vec3 place = motion_.joints[joint].offset;
     for (const Channel channel : channels_[joint]) {
       const double value = number("a channel's value");
-      if (channel <= Channel::z) place[int(channel)] = float(value);
+      if (channel <= Channel::z)
+        place[int(channel)] = float(value);
       else {
         dvec3 axis(0);
         axis[int(channel) - 3] = 1;
@@ -177,7 +194,8 @@ class Parser {
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+  return first == text.npos ? std::string_view{}
+                            : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 }  // namespace
@@ -211,7 +229,8 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
     const std::size_t sign = line.find('=');
     const std::string_view from = trimmed(line.substr(0, sign));
     if (sign == line.npos || from.empty())
-      return badInput(name + ":" + std::to_string(number) + ": a line must be `motion's joint = body's joint`");
+      return badInput(name + ":" + std::to_string(number) +
+                      ": a line must be `motion's joint = body's joint`");
     map[std::string(from)] = std::string(trimmed(line.substr(sign + 1)));
   }
   return map;

@@ -8,18 +8,18 @@
 
 namespace vasa {
 
-/// A motion from a Biovision hierarchy file. Rotations may come in any order of axes; scale channels are refused.
-/// Fails with badInput, naming file and line: a word out of place, an offset or value that is not a finite
-/// number, a channel of unknown kind, nesting beyond 256 or more than 4096 joints, fewer values than frames
-/// times channels, frames times joints that take over 15 times the file's bytes and 48 MiB (28 bytes each), no frames, a
-/// frame time that is not above zero.
+/// A motion from a Biovision hierarchy file. Rotations may come in any order of axes; scale channels are
+/// refused. Fails with badInput, naming file and line: a word out of place, an offset or value that is not a
+/// finite number, a channel of unknown kind, nesting beyond 256 or more than 4096 joints, fewer values than
+/// frames times channels, frames times joints that take over 15 times the file's bytes and 48 MiB (28 bytes
+/// each), no frames, a frame time that is not above zero.
 Result<Motion> readBvh(const std::filesystem::path& path);
 
 /// The same from text. @param name  for messages, and the motion's
 Result<Motion> parseBvh(std::string_view text, const std::string& name);
 
-/// Pairs of joints, a line each: `motion's joint = body's joint`; nothing on the right leaves the joint out; what
-/// follows a # is a comment. At most 1 MiB. Fails with badInput, naming file and line.
+/// Pairs of joints, a line each: `motion's joint = body's joint`; nothing on the right leaves the joint out;
+/// what follows a # is a comment. At most 1 MiB. Fails with badInput, naming file and line.
 Result<JointMap> readJointMap(const std::filesystem::path& path);
 Result<JointMap> parseJointMap(std::string_view text, const std::string& name);
 

@@ -14,9 +14,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
-  return std::string("'").append(text).append("'");
-}
+std::string quoted(std::string_view text) { return std::string("'").append(text).append("'"); }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;

@@ -3,7 +3,8 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr const char* kLists[] = {"scenes", "nodes", "meshes", "materials", "skins", "animations", "accessors", "bufferViews"};
+constexpr const char* kLists[] = {"scenes", "nodes",      "meshes",    "materials",
+                                  "skins",  "animations", "accessors", "bufferViews"};
 
 void append(std::vector<std::byte>& to, const void* from, std::size_t size) {
   const std::byte* first = static_cast<const std::byte*>(from);
@@ -27,13 +28,16 @@ std::size_t GlbWriter::addView(const void* from, std::size_t size, Use use, std:
   return root["bufferViews"].size() - 1;
 }
 
-std::size_t GlbWriter::addAccessor(std::size_t view, Component component, std::size_t count, const char* type) {
-  root["accessors"].push_back({{"bufferView", view}, {"componentType", int(component)}, {"count", count}, {"type", type}});
+std::size_t GlbWriter::addAccessor(std::size_t view, Component component, std::size_t count,
+                                   const char* type) {
+  root["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", int(component)}, {"count", count}, {"type", type}});
   return root["accessors"].size() - 1;
 }
 
 std::size_t GlbWriter::add(std::span<const float> values, Use use, bool withRange) {
-  const std::size_t accessor = addAccessor(addView(values.data(), values.size_bytes(), use), floating, values.size(), "SCALAR");
+  const std::size_t accessor =
+      addAccessor(addView(values.data(), values.size_bytes(), use), floating, values.size(), "SCALAR");
   if (!withRange) return accessor;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   root["accessors"][accessor]["min"] = {*low};
@@ -42,7 +46,8 @@ std::size_t GlbWriter::add(std::span<const float> values, Use use, bool withRang
 }
 
 std::size_t GlbWriter::add(std::span<const vec3> values, Use use, bool withRange) {
-  const std::size_t accessor = addAccessor(addView(values.data(), values.size_bytes(), use), floating, values.size(), "VEC3");
+  const std::size_t accessor =
+      addAccessor(addView(values.data(), values.size_bytes(), use), floating, values.size(), "VEC3");
   if (!withRange) return accessor;
   vec3 low = values[0], high = values[0];
   for (const vec3& p : values) low = glm::min(low, p), high = glm::max(high, p);
@@ -64,12 +69,14 @@ std::size_t GlbWriter::add(std::span<const mat4> values) {
 }
 
 std::size_t GlbWriter::add(std::span<const uvec3> triangles) {
-  return addAccessor(addView(triangles.data(), triangles.size_bytes(), indices), unsignedInt, 3 * triangles.size(), "SCALAR");
+  return addAccessor(addView(triangles.data(), triangles.size_bytes(), indices), unsignedInt,
+                     3 * triangles.size(), "SCALAR");
 }
 
 std::size_t GlbWriter::addNumbers(std::span<const std::uint16_t> values) {
   std::vector<std::uint32_t> padded(values.begin(), values.end());  // little-endian: the number comes first
-  return addAccessor(addView(padded.data(), padded.size() * 4, vertices, 4), unsignedShort, values.size(), "SCALAR");
+  return addAccessor(addView(padded.data(), padded.size() * 4, vertices, 4), unsignedShort, values.size(),
+                     "SCALAR");
 }
 
 std::vector<std::byte> GlbWriter::finish() {

@@ -8,8 +8,8 @@
 
 namespace vasa::gltf {
 
-/// Collects a glTF file in memory: JSON that the caller fills, and data that accessors name. For our own programs;
-/// not installed.
+/// Collects a glTF file in memory: JSON that the caller fills, and data that accessors name. For our own
+/// programs; not installed.
 class GlbWriter {
  public:
   using Json = nlohmann::ordered_json;

@@ -40,7 +40,8 @@ Result<T> parse(std::vector<std::byte> bytes, const std::filesystem::path& path,
 Result<std::vector<std::byte>> bytesOf(const std::filesystem::path& path) {
   auto bytes = readFile(path, gltf::kMaximumFileBytes);
   const std::string file = path.string() + ": ";
-  if (!bytes && !bytes.error().message.starts_with(file)) return Error{bytes.error().fault, file + bytes.error().message};
+  if (!bytes && !bytes.error().message.starts_with(file))
+    return Error{bytes.error().fault, file + bytes.error().message};
   return bytes;
 }
 
@@ -55,7 +56,8 @@ Result<Body> readBody(const std::filesystem::path& path) {
   return bytes ? parseBody(std::move(*bytes), path) : bytes.error();
 }
 
-Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes, const std::filesystem::path& path) {
+Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes,
+                                                   const std::filesystem::path& path) {
   return parse<std::vector<MeshElement>>(std::move(bytes), path, gltf::elementsOf);
 }
 

@@ -57,8 +57,8 @@ const std::byte* bytesOf(const Asset& asset, int view, std::size_t offset) {
   const auto& bufferView = asset.model.bufferViews[std::size_t(view)];
   const auto bytes = asset.buffers.bytes[std::size_t(bufferView.buffer)];
   if (bytes.empty())
-    breaks("/buffers/" + std::to_string(bufferView.buffer), "its data is needed, but it is not in the file or beside it",
-           "export with embedded data");
+    breaks("/buffers/" + std::to_string(bufferView.buffer),
+           "its data is needed, but it is not in the file or beside it", "export with embedded data");
   return bytes.data() + bufferView.byteOffset + offset;
 }
 
@@ -121,9 +121,7 @@ std::uint32_t componentBytes(std::int64_t componentType) {
   }
 }
 
-bool isFloatComponent(std::int64_t componentType) {
-  return componentType == kFloat;
-}
+bool isFloatComponent(std::int64_t componentType) { return componentType == kFloat; }
 
 ElementLayout elementLayout(std::int64_t componentType, const std::string& type) {
   ElementLayout layout{componentBytes(componentType), 0, 1};
@@ -174,8 +172,7 @@ std::vector<std::uint32_t> readIntegers(const Asset& asset, int accessor) {
 std::vector<std::uint32_t> readSparseIndices(const Asset& asset, int index) {
   const auto& sparse = asset.model.accessors[std::size_t(index)].sparse;
   if (sparse.count == 0) return {};
-  const std::byte* from =
-      bytesOf(asset, sparse.indicesView, sparse.indicesOffset);
+  const std::byte* from = bytesOf(asset, sparse.indicesView, sparse.indicesOffset);
   const std::uint32_t bytes = componentBytes(sparse.indicesType);
   std::vector<std::uint32_t> places(sparse.count);
   for (std::size_t i = 0; i < places.size(); ++i)

@@ -112,7 +112,8 @@ void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t ver
     for (const auto& primitive : mesh.primitives) {
       sizes.back() += kBytesAPrimitive;
       if (primitive.position >= 0) sizes.back() += primitive.vertices * vertexBytes;
-      if (primitive.indices >= 0) sizes.back() += model.accessors[std::size_t(primitive.indices)].count * kBytesAnIndex;
+      if (primitive.indices >= 0)
+        sizes.back() += model.accessors[std::size_t(primitive.indices)].count * kBytesAnIndex;
     }
   }
   const std::size_t most = partOfMemory(asset.bytes, 8, 32);
@@ -122,7 +123,8 @@ void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t ver
     sum += sizes[std::size_t(model.nodes[i].mesh)];
     if (sum > most)
       breaks("/nodes/" + std::to_string(i),
-             "the meshes, repeated as often as nodes name them, are too large: all up to this " + beyondMemory(sum, most),
+             "the meshes, repeated as often as nodes name them, are too large: all up to this " +
+                 beyondMemory(sum, most),
              "split or reduce the asset");
   }
 }

@@ -94,18 +94,21 @@ class Loader {
     if (const auto uri = buffer.find("uri")) {
       const UriTarget target = classifyUri(*uri);
       if (target.kind == UriTarget::Kind::elsewhere) return {};
-      bytes = target.kind == UriTarget::Kind::data ? out_.read.emplace_back(decodeDataUri(*uri)) : beside(*uri, target.path);
+      bytes = target.kind == UriTarget::Kind::data ? out_.read.emplace_back(decodeDataUri(*uri))
+                                                   : beside(*uri, target.path);
     } else if (out_.bytes.empty() && binary_) {
       bytes = *binary_;
       if (length + kGlbPadding < bytes.size())
         buffer.at("byteLength")
-            .fail("is " + std::to_string(length) + ", but the BIN chunk has " + std::to_string(bytes.size()) + " bytes");
+            .fail("is " + std::to_string(length) + ", but the BIN chunk has " + std::to_string(bytes.size()) +
+                  " bytes");
     } else {
       return {};
     }
     if (bytes.size() < length)
       buffer.at("byteLength")
-          .fail("is " + std::to_string(length) + ", but there are only " + std::to_string(bytes.size()) + " bytes");
+          .fail("is " + std::to_string(length) + ", but there are only " + std::to_string(bytes.size()) +
+                " bytes");
     return bytes.first(length);
   }
 
@@ -125,7 +128,8 @@ class Loader {
     std::error_code ignored;
     const auto status = std::filesystem::status(file, ignored);
     const std::string name = '"' + file.filename().string() + '"';
-    if (!std::filesystem::exists(status)) uri.fail(name + " is missing", "keep all files of the asset in one folder");
+    if (!std::filesystem::exists(status))
+      uri.fail(name + " is missing", "keep all files of the asset in one folder");
     if (!std::filesystem::is_regular_file(status)) uri.fail(name + " is not a regular file");
     auto bytes = readFile(file, kMaximumFileBytes);
     if (!bytes) throw Error{bytes.error().fault, uri.place() + ": " + bytes.error().message};
@@ -159,7 +163,8 @@ UriTarget classifyUri(const JsonView& uri) {
   return {UriTarget::Kind::relative, path};
 }
 
-Buffers loadBuffers(const JsonView& root, std::optional<BytesView> binary, const std::filesystem::path& folder) {
+Buffers loadBuffers(const JsonView& root, std::optional<BytesView> binary,
+                    const std::filesystem::path& folder) {
   return Loader(binary, folder).run(root);
 }
 

@@ -18,8 +18,8 @@ struct Buffers {
   std::size_t bytesBeside = 0;              ///< of the files beside the asset, each counted once
 };
 
-/// Sources: the GLB's BIN chunk, base64 data URIs, and files in the asset's folder or below it, symbolic links
-/// resolved, each of them read once. Throws BrokenRule, or Error where a file cannot be read.
+/// Sources: the GLB's BIN chunk, base64 data URIs, and files in the asset's folder or below it, symbolic
+/// links resolved, each of them read once. Throws BrokenRule, or Error where a file cannot be read.
 /// @param binary  must outlive the result
 Buffers loadBuffers(const JsonView& root, std::optional<std::span<const std::byte>> binary,
                     const std::filesystem::path& folder);

@@ -14,8 +14,8 @@ void checkAmounts(const JsonView& root, std::size_t bytes);
 /// Everything that needs the buffers' bytes.
 void checkData(const Asset& asset);
 
-/// Whether an accessor's buffer view has a stride of its own. Only vertex attributes may: other readers take what
-/// else has one as packed, and see other numbers than we.
+/// Whether an accessor's buffer view has a stride of its own. Only vertex attributes may: other readers take
+/// what else has one as packed, and see other numbers than we.
 bool hasStride(const JsonView& accessor, const std::vector<JsonView>& views);
 
 // The topics of checkStructure, in its order.

@@ -58,8 +58,7 @@ void checkSparse(const JsonView& sparse, const Views& views, const ElementLayout
   const auto overrides = std::uint64_t(sparse.at("count").integer(1, count));
   const JsonView indices = sparse.at("indices");
   const std::int64_t type = indices.at("componentType").integer(0, 65535);
-  if (type != kUnsignedByte && type != kUnsignedShort &&
-      type != kUnsignedInt)
+  if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt)
     indices.at("componentType").fail("must be 5121, 5123 or 5125, is " + std::to_string(type));
   const auto check = [&](const JsonView& part, std::uint32_t componentSize, std::uint64_t elementSize) {
     const View view = views.referredBy(part.at("bufferView"));

@@ -13,7 +13,8 @@ struct Sampler {
   bool normalised, cubic;
 };
 
-Sampler checkSampler(const JsonView& sampler, const std::vector<JsonView>& accessors, const std::vector<JsonView>& views) {
+Sampler checkSampler(const JsonView& sampler, const std::vector<JsonView>& accessors,
+                     const std::vector<JsonView>& views) {
   const auto accessorOf = [&](const char* key) -> const JsonView& {
     return accessors[sampler.at(key).index(accessors.size(), "accessors")];
   };
@@ -21,7 +22,8 @@ Sampler checkSampler(const JsonView& sampler, const std::vector<JsonView>& acces
   if (input.at("type").text() != "SCALAR" || !isFloatComponent(input.at("componentType").integer(0, 65535)))
     sampler.at("input").fail("key times must be scalar floats");
   for (const char* key : {"input", "output"})
-    if (hasStride(accessorOf(key), views)) sampler.at(key).fail("keys must lie one behind the other, without a byteStride");
+    if (hasStride(accessorOf(key), views))
+      sampler.at(key).fail("keys must lie one behind the other, without a byteStride");
   const auto interpolation = sampler.find("interpolation");
   const std::string& method = interpolation ? interpolation->text() : std::string("LINEAR");
   if (method != "LINEAR" && method != "STEP" && method != "CUBICSPLINE")
@@ -79,8 +81,10 @@ void checkAnimation(const JsonView& animation, const std::vector<JsonView>& node
 }  // namespace
 
 void checkAnimations(const JsonView& root) {
-  const auto nodes = root.items("nodes"), accessors = root.items("accessors"), views = root.items("bufferViews");
-  for (const JsonView& animation : root.items("animations")) checkAnimation(animation, nodes, accessors, views);
+  const auto nodes = root.items("nodes"), accessors = root.items("accessors"),
+             views = root.items("bufferViews");
+  for (const JsonView& animation : root.items("animations"))
+    checkAnimation(animation, nodes, accessors, views);
 }
 
 }  // namespace vasa::gltf

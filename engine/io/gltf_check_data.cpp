@@ -11,9 +11,7 @@
 namespace vasa::gltf {
 namespace {
 
-std::string accessorPlace(int accessor) {
-  return "/accessors/" + std::to_string(accessor);
-}
+std::string accessorPlace(int accessor) { return "/accessors/" + std::to_string(accessor); }
 
 std::string element(std::size_t component, const ElementLayout& layout) {
   return "element " + std::to_string(component / layout.components());
@@ -97,7 +95,8 @@ void checkIndices(const Asset& asset, const Model::Primitive& primitive, const s
   const auto bits = 8 * componentBytes(asset.model.accessors[std::size_t(primitive.indices)].componentType);
   if (value == 0xffffffffu >> (32 - bits))
     breaks(accessorPlace(primitive.indices),
-           "index " + std::to_string(component) + " is " + std::to_string(value) + ", which asks drivers to begin a new strip",
+           "index " + std::to_string(component) + " is " + std::to_string(value) +
+               ", which asks drivers to begin a new strip",
            kExportAgain);
   if (value >= vertices)
     breaks(accessorPlace(primitive.indices),
@@ -109,13 +108,16 @@ void checkIndices(const Asset& asset, const Model::Primitive& primitive, const s
 // Coarse where they are integers. A normal of no length has no direction: the triangles' is taken.
 void checkNormals(const Asset& asset, int accessor) {
   if (!isStored(asset, accessor) || !hasData(asset, accessor)) return;
-  const float tolerance = isFloatComponent(asset.model.accessors[std::size_t(accessor)].componentType) ? 0.01f : 0.02f;
+  const float tolerance =
+      isFloatComponent(asset.model.accessors[std::size_t(accessor)].componentType) ? 0.01f : 0.02f;
   const auto values = readFloats(asset, accessor);
   for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
     const float length = glm::length(vec3(values[i], values[i + 1], values[i + 2]));
     if (length > 0 && !(std::abs(length - 1) <= tolerance))
-      breaks(accessorPlace(accessor), "element " + std::to_string(i / 3) + " must be a unit vector, has length " + std::to_string(length),
-             "normalise the normals");
+      breaks(
+          accessorPlace(accessor),
+          "element " + std::to_string(i / 3) + " must be a unit vector, has length " + std::to_string(length),
+          "normalise the normals");
   }
 }
 
@@ -197,7 +199,8 @@ void checkInverseBinds(const Asset& asset) {
                kExportAgain);
       if (isFlat(m))
         breaks(accessorPlace(skin.inverseBindMatrices),
-               "matrix " + std::to_string(joint) + " flattens what it carries and cannot be undone", kExportAgain);
+               "matrix " + std::to_string(joint) + " flattens what it carries and cannot be undone",
+               kExportAgain);
     }
   }
 }

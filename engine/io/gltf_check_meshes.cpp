@@ -71,8 +71,7 @@ class Shapes {
 };
 
 bool isUnsignedSmall(const Shape& shape) {
-  return shape.component == kUnsignedByte ||
-         shape.component == kUnsignedShort;
+  return shape.component == kUnsignedByte || shape.component == kUnsignedShort;
 }
 
 // What a set of JOINTS_n or WEIGHTS_n attributes is called without its number.
@@ -88,8 +87,7 @@ void checkVector(const JsonView& place, const Shape& shape, const char* type, bo
 }
 
 void checkAttribute(std::string_view name, const JsonView& place, const Shape& shape, bool quantised) {
-  if (shape.component == kUnsignedInt)
-    place.fail("a vertex attribute must not be of 32-bit integers");
+  if (shape.component == kUnsignedInt) place.fail("a vertex attribute must not be of 32-bit integers");
   if (shape.stored && (shape.begin % 4 != 0 || shape.stride % 4 != 0))
     place.fail("vertex attributes must lie at multiples of 4 bytes: begins at " +
                std::to_string(shape.begin) + ", stride " + std::to_string(shape.stride));
@@ -132,7 +130,8 @@ void checkAttributes(const JsonView& attributes, Shapes& shapes, std::int64_t& v
   for (const auto& [name, place] : attributes.members()) {
     const Shape& shape = shapes.referredBy(place);
     checkAttribute(name, place, shape, shapes.quantised());
-    if (shapes.sharesUnstrided(shape)) place.fail("its buffer view holds another attribute, too, and has no byteStride");
+    if (shapes.sharesUnstrided(shape))
+      place.fail("its buffer view holds another attribute, too, and has no byteStride");
     if (vertexCount >= 0 && shape.count != vertexCount)
       place.fail("has " + std::to_string(shape.count) + " elements where the others have " +
                  std::to_string(vertexCount));

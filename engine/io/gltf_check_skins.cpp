@@ -25,7 +25,8 @@ std::vector<std::uint32_t> rootsOf(const JsonView& root) {
   return rootOf;
 }
 
-void checkSkin(const JsonView& skin, const JsonView& root, const std::vector<JsonView>& accessors, const std::vector<std::uint32_t>& rootOf) {
+void checkSkin(const JsonView& skin, const JsonView& root, const std::vector<JsonView>& accessors,
+               const std::vector<std::uint32_t>& rootOf) {
   const std::size_t nodes = countOf(root, "nodes");
   const JsonView joints = skin.at("joints");
   if (joints.size() == 0 || joints.size() > kMaximumJoints)
@@ -36,7 +37,8 @@ void checkSkin(const JsonView& skin, const JsonView& root, const std::vector<Jso
     const std::uint32_t node = joint.index(nodes, "nodes");
     if (!listed.insert(node).second) joint.fail("is listed twice");
     if (rootOf[node] != rootOf[joints.first().index(nodes, "nodes")])
-      joint.fail("node " + std::to_string(node) + " and the first joint have no common root", "put all joints below one node");
+      joint.fail("node " + std::to_string(node) + " and the first joint have no common root",
+                 "put all joints below one node");
   }
   if (const auto skeleton = skin.find("skeleton")) skeleton->index(nodes, "nodes");
   const auto matrices = skin.find("inverseBindMatrices");

@@ -11,7 +11,8 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr std::size_t kFreeKeys = std::size_t(1) << 20;  // above one for four bytes of the file, which is what a key has at least
+// Above one for four bytes of the file, which is what a key has at least.
+constexpr std::size_t kFreeKeys = std::size_t(1) << 20;
 constexpr double kMaximumFrames = 1e6;  // of a clip: nine hours at 30 a second
 
 std::vector<float> storedFloats(const Asset& asset, int accessor) {
@@ -58,7 +59,8 @@ void checkKeyCount(const Model& model, std::size_t bytes) {
                   .count;
       if (keys > most)
         breaks("/animations/" + std::to_string(i),
-               "too many keys, counting each channel's: more than the " + std::to_string(most) + " accepted for a file of this size",
+               "too many keys, counting each channel's: more than the " + std::to_string(most) +
+                   " accepted for a file of this size",
                "bake fewer keys");
     }
 }
@@ -123,14 +125,16 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
     const double frames = (double(clip.end) - clip.start) * clip.framesPerSecond;
     if (!(frames <= kMaximumFrames))
       breaks("/animations/" + std::to_string(i),
-             "lasts " + std::to_string(clip.end - clip.start) + " s: more than the 1000000 frames that are accepted",
+             "lasts " + std::to_string(clip.end - clip.start) +
+                 " s: more than the 1000000 frames that are accepted",
              "check the key times, which are in seconds");
     clips.push_back(std::move(clip));
   }
   return clips;
 }
 
-void holdFilePose(std::vector<Clip>& clips, const Skeleton& skeleton, const std::vector<JointTransform>& filePose) {
+void holdFilePose(std::vector<Clip>& clips, const Skeleton& skeleton,
+                  const std::vector<JointTransform>& filePose) {
   const auto hold = [](auto& track, const auto& value, const auto& rest, float time) {
     if (track.times.empty() && value != rest) track.times = {time}, track.values = {value};
   };

@@ -14,8 +14,10 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
 /// irregular, fewer than three, or outside 10 to 240 a second. @param times  increasing [s]
 float framesPerSecondOf(const std::vector<float>& times);
 
-/// Clips pose what they do not move as the file's nodes do: where that is not the rest pose, it becomes a key.
+/// Clips pose what they do not move as the file's nodes do: where that is not the rest pose, it becomes a
+/// key.
 /// @param filePose  one a joint of the file
-void holdFilePose(std::vector<Clip>& clips, const Skeleton& skeleton, const std::vector<JointTransform>& filePose);
+void holdFilePose(std::vector<Clip>& clips, const Skeleton& skeleton,
+                  const std::vector<JointTransform>& filePose);
 
 }  // namespace vasa::gltf

@@ -26,9 +26,7 @@ std::uint32_t word(std::span<const std::byte> bytes, std::uint64_t at) {
   return value;
 }
 
-std::string atByte(std::uint64_t offset) {
-  return "GLB byte " + std::to_string(offset);
-}
+std::string atByte(std::uint64_t offset) { return "GLB byte " + std::to_string(offset); }
 
 std::string_view asText(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -94,8 +92,8 @@ Container splitGlb(std::span<const std::byte> bytes, const std::filesystem::path
   return container;
 }
 
-// Memory that the parsed document takes [bytes], rather too much than too little: a list's slots while it grows, a tree's
-// nodes, texts.
+// Memory that the parsed document takes [bytes], rather too much than too little: a list's slots while it
+// grows, a tree's nodes, texts.
 constexpr std::size_t kASlot = 48, kAMember = 96, kAText = 48, kABracket = 64;
 
 // @return the memory that the parsed document takes [bytes]

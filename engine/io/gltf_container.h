@@ -22,9 +22,9 @@ struct Container {
   bool isGlb = false;
 };
 
-/// Takes a .glb apart, or passes a .gltf through, after checking sizes, chunk order, JSON nesting and the memory
-/// that the parsed JSON will take: at most 11 times the file's bytes and 24 MiB. Lengths
-/// are computed in 64 bits, so none can wrap. Throws BrokenRule. O(file), no allocation.
+/// Takes a .glb apart, or passes a .gltf through, after checking sizes, chunk order, JSON nesting and the
+/// memory that the parsed JSON will take: at most 11 times the file's bytes and 24 MiB. Lengths are computed
+/// in 64 bits, so none can wrap. Throws BrokenRule. O(file), no allocation.
 /// @param bytes  the whole file; must outlive the result
 /// @param path   tells .glb from .gltf where the first bytes do not
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path);

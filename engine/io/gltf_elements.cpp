@@ -51,7 +51,8 @@ std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree
   add(mesh.name);
   for (const auto& primitive : mesh.primitives)
     if (primitive.material >= 0) add(model.materials[std::size_t(primitive.material)].name);
-  for (int at = tree.parent[std::size_t(node)], depth = 0; at >= 0 && depth < kNodesAbove; at = tree.parent[std::size_t(at)], ++depth)
+  for (int at = tree.parent[std::size_t(node)], depth = 0; at >= 0 && depth < kNodesAbove;
+       at = tree.parent[std::size_t(at)], ++depth)
     add(model.nodes[std::size_t(at)].name);
   return names;
 }

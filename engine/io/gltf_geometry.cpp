@@ -94,8 +94,7 @@ std::vector<std::uint32_t> cornersOf(const Asset& asset, const Model::Primitive&
   return corners;
 }
 
-std::vector<vec3> normalsOf(const Asset& asset, const Model::Primitive& primitive,
-                            const TriangleMesh& mesh) {
+std::vector<vec3> normalsOf(const Asset& asset, const Model::Primitive& primitive, const TriangleMesh& mesh) {
   const int accessor = primitive.normal;
   std::vector<vec3> computed = vertexNormals(mesh);
   if (accessor < 0) return computed;

@@ -26,8 +26,7 @@ struct Geometry {
 /// Adds a primitive's triangles (lists, strips and fans, indexed or not). Points and lines add nothing.
 /// Corners of strips that are no triangle are left out.
 /// @param skinned  read joints and weights; the primitive has them
-void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, bool skinned,
-                     Geometry& geometry);
+void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, bool skinned, Geometry& geometry);
 
 /// Moves positions and normals; where the transform mirrors, turns the triangles over so that they keep
 /// facing out.

@@ -66,13 +66,9 @@ void JsonView::mustBeObject() const {
   if (!value_->is_object()) fail(std::string("must be an object, is ") + value_->type_name());
 }
 
-bool JsonView::isObject() const {
-  return value_->is_object();
-}
+bool JsonView::isObject() const { return value_->is_object(); }
 
-bool JsonView::isText() const {
-  return value_->is_string();
-}
+bool JsonView::isText() const { return value_->is_string(); }
 
 std::optional<JsonView> JsonView::find(std::string_view key) const {
   mustBeObject();
@@ -141,9 +137,8 @@ std::vector<double> JsonView::numbers(std::size_t count) const {
   std::vector<double> out(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& value = (*value_)[i];
-    out[i] = value.is_number() && fitsFloat(value.get<double>())
-                 ? value.get<double>()
-                 : JsonView(value, *document_).number();
+    out[i] = value.is_number() && fitsFloat(value.get<double>()) ? value.get<double>()
+                                                                 : JsonView(value, *document_).number();
   }
   return out;
 }

@@ -9,7 +9,8 @@
 namespace vasa::gltf {
 
 /// A value of the glTF document together with the document, so that every check can say where it failed.
-/// Accessors throw BrokenRule where the document is not what they ask for. Two pointers: views are made by the million.
+/// Accessors throw BrokenRule where the document is not what they ask for. Two pointers: views are made by
+/// the million.
 class JsonView {
  public:
   explicit JsonView(const nlohmann::json& document) : JsonView(document, document) {}
@@ -42,7 +43,8 @@ class JsonView {
   std::uint32_t index(std::size_t count, const char* array) const;
 
  private:
-  JsonView(const nlohmann::json& value, const nlohmann::json& document) : value_(&value), document_(&document) {}
+  JsonView(const nlohmann::json& value, const nlohmann::json& document)
+      : value_(&value), document_(&document) {}
 
   const nlohmann::json* value_;
   const nlohmann::json* document_;

@@ -6,10 +6,11 @@
 #include "io/gltf_rule.h"
 #include "io/gltf_tinygltf.h"
 
-// tinygltf gets a document that has been checked and reduced to what is used here: integers are written as such, extras and
-// extensions are taken out, and buffers stand for themselves with one byte, as their bytes are views elsewhere
-// (io/gltf_buffers.h). It refuses indices that are all zeros or sparse (no buffer view), which are valid, so those are put in
-// afterwards. Everything has been checked: indices refer to something, numbers are numbers and in range.
+// tinygltf gets a document that has been checked and reduced to what is used here: integers are written as
+// such, extras and extensions are taken out, and buffers stand for themselves with one byte, as their bytes
+// are views elsewhere (io/gltf_buffers.h). It refuses indices that are all zeros or sparse (no buffer view),
+// which are valid, so those are put in afterwards. Everything has been checked: indices refer to something,
+// numbers are numbers and in range.
 namespace vasa::gltf {
 namespace {
 
@@ -55,20 +56,23 @@ const json& memberOf(const json& object, const char* key) {
   return object.is_object() && found != object.end() ? *found : none;
 }
 
-// VRM's humanoid: a list of {bone, node} in its version 0, an object bone -> {node} in version 1. Not part of what is
-// checked: what is no such table is passed over.
+// VRM's humanoid: a list of {bone, node} in its version 0, an object bone -> {node} in version 1. Not part of
+// what is checked: what is no such table is passed over.
 std::map<int, std::string> humanoidOf(const json& document) {
   std::map<int, std::string> bones;
   const std::size_t nodes = listIn(document, "nodes").size();
   const auto add = [&](const std::string& bone, const json& node) {
-    if (!node.is_number_integer() || node.get<double>() < 0 || node.get<double>() >= double(nodes) || bone.size() > 40) return;
+    if (!node.is_number_integer() || node.get<double>() < 0 || node.get<double>() >= double(nodes) ||
+        bone.size() > 40)
+      return;
     bones.emplace(node.get<int>(), bone);
   };
   const json& extensions = memberOf(document, "extensions");
   const json& list = memberOf(memberOf(memberOf(extensions, "VRM"), "humanoid"), "humanBones");
   if (list.is_array())
     for (const json& entry : list)
-      if (memberOf(entry, "bone").is_string()) add(entry.at("bone").get<std::string>(), memberOf(entry, "node"));
+      if (memberOf(entry, "bone").is_string())
+        add(entry.at("bone").get<std::string>(), memberOf(entry, "node"));
   const json& table = memberOf(memberOf(memberOf(extensions, "VRMC_vrm"), "humanoid"), "humanBones");
   if (table.is_object())
     for (const auto& [bone, entry] : table.items()) add(bone, memberOf(entry, "node"));
@@ -93,7 +97,8 @@ Aside takeAside(const json& document) {
   return aside;
 }
 
-// Numbers such as 3.0 become 3, which some exporters write and glTF allows; at most 64 deep: checked before parsing.
+// Numbers such as 3.0 become 3, which some exporters write and glTF allows; at most 64 deep: checked before
+// parsing.
 void prune(json& value) {
   if (value.is_object()) value.erase("extras"), value.erase("extensions");
   if (value.is_structured()) {
@@ -106,9 +111,11 @@ void prune(json& value) {
 
 std::string reducedText(json document) {
   json reduced = json::object();
-  for (const char* key : {"asset", "accessors", "bufferViews", "meshes", "nodes", "scenes", "scene", "skins", "materials", "animations"})
+  for (const char* key : {"asset", "accessors", "bufferViews", "meshes", "nodes", "scenes", "scene", "skins",
+                          "materials", "animations"})
     if (const auto it = document.find(key); it != document.end()) reduced[key] = std::move(*it);
-  for (std::size_t i = 0; i < listIn(document, "buffers").size(); ++i) reduced["buffers"].push_back({{"uri", "byte"}, {"byteLength", 1}});
+  for (std::size_t i = 0; i < listIn(document, "buffers").size(); ++i)
+    reduced["buffers"].push_back({{"uri", "byte"}, {"byteLength", 1}});
   if (const auto meshes = reduced.find("meshes"); meshes != reduced.end())
     for (json& mesh : *meshes)
       for (json& primitive : mesh["primitives"])
@@ -145,25 +152,37 @@ Model::BufferView viewOf(const tinygltf::BufferView& view) {
 Model::Sparse sparseOf(const tinygltf::Accessor& accessor) {
   const auto& sparse = accessor.sparse;
   if (!sparse.isSparse) return {};
-  return {std::size_t(sparse.count),   sparse.indices.bufferView,               sparse.indices.componentType,
-          sparse.values.bufferView,    std::size_t(sparse.indices.byteOffset), std::size_t(sparse.values.byteOffset)};
+  return {std::size_t(sparse.count),
+          sparse.indices.bufferView,
+          sparse.indices.componentType,
+          sparse.values.bufferView,
+          std::size_t(sparse.indices.byteOffset),
+          std::size_t(sparse.values.byteOffset)};
 }
 
 std::string typeName(int type) {
   switch (type) {
-    case TINYGLTF_TYPE_SCALAR: return "SCALAR";
-    case TINYGLTF_TYPE_VEC2: return "VEC2";
-    case TINYGLTF_TYPE_VEC3: return "VEC3";
-    case TINYGLTF_TYPE_VEC4: return "VEC4";
-    case TINYGLTF_TYPE_MAT2: return "MAT2";
-    case TINYGLTF_TYPE_MAT3: return "MAT3";
-    default: return "MAT4";
+    case TINYGLTF_TYPE_SCALAR:
+      return "SCALAR";
+    case TINYGLTF_TYPE_VEC2:
+      return "VEC2";
+    case TINYGLTF_TYPE_VEC3:
+      return "VEC3";
+    case TINYGLTF_TYPE_VEC4:
+      return "VEC4";
+    case TINYGLTF_TYPE_MAT2:
+      return "MAT2";
+    case TINYGLTF_TYPE_MAT3:
+      return "MAT3";
+    default:
+      return "MAT4";
   }
 }
 
 Model::Accessor accessorOf(const tinygltf::Accessor& accessor) {
-  return {accessor.bufferView,    accessor.componentType, accessor.normalized, typeName(accessor.type), accessor.byteOffset,
-          accessor.count,         accessor.minValues,     accessor.maxValues,  sparseOf(accessor)};
+  return {accessor.bufferView,     accessor.componentType, accessor.normalized,
+          typeName(accessor.type), accessor.byteOffset,    accessor.count,
+          accessor.minValues,      accessor.maxValues,     sparseOf(accessor)};
 }
 
 Model::Primitive primitiveOf(const tinygltf::Primitive& primitive, int indices, int vertices) {
@@ -186,7 +205,8 @@ Model::Primitive primitiveOf(const tinygltf::Primitive& primitive, int indices, 
 }
 
 Model::Node nodeOf(const tinygltf::Node& node) {
-  Model::Node out{node.name, node.mesh, node.skin, {}, {node.matrix.begin(), node.matrix.end()}, node.children};
+  Model::Node out{node.name,    node.mesh, node.skin, {}, {node.matrix.begin(), node.matrix.end()},
+                  node.children};
   if (const auto& t = node.translation; !t.empty()) out.transform.translation = vec3(dvec3(t[0], t[1], t[2]));
   if (const auto& s = node.scale; !s.empty()) out.transform.scale = vec3(dvec3(s[0], s[1], s[2]));
   if (const auto& q = node.rotation; !q.empty())
@@ -234,7 +254,9 @@ void fill(std::vector<From>& from, std::vector<To>& out, Maker make) {
 std::size_t modelMemory(const JsonView& root) {
   using namespace tinygltf;
   std::size_t bytes = 0;
-  const auto add = [&](std::size_t count, std::size_t each, std::size_t ours) { bytes += count * (kGrowing * each + ours); };
+  const auto add = [&](std::size_t count, std::size_t each, std::size_t ours) {
+    bytes += count * (kGrowing * each + ours);
+  };
   add(countOf(root, "bufferViews"), sizeof(BufferView), sizeof(Model::BufferView));
   add(countOf(root, "accessors"), sizeof(Accessor), sizeof(Model::Accessor));
   add(countOf(root, "nodes"), sizeof(Node), sizeof(Model::Node));
@@ -245,7 +267,8 @@ std::size_t modelMemory(const JsonView& root) {
   for (const JsonView& mesh : root.items("meshes")) {
     add(1, sizeof(Mesh), sizeof(Model::Mesh));
     for (const JsonView& primitive : mesh.items("primitives"))
-      add(1, sizeof(Primitive) + kAnAttribute * primitive.at("attributes").members().size(), sizeof(Model::Primitive));
+      add(1, sizeof(Primitive) + kAnAttribute * primitive.at("attributes").members().size(),
+          sizeof(Model::Primitive));
   }
   for (const JsonView& animation : root.items("animations")) {
     add(1, sizeof(Animation), sizeof(Model::Animation));
@@ -272,7 +295,9 @@ Model modelOf(json document) {
     return out;
   });
   fill(read.nodes, model.nodes, nodeOf);
-  fill(read.skins, model.skins, [](const tinygltf::Skin& skin) { return Model::Skin{skin.joints, skin.inverseBindMatrices}; });
+  fill(read.skins, model.skins, [](const tinygltf::Skin& skin) {
+    return Model::Skin{skin.joints, skin.inverseBindMatrices};
+  });
   fill(read.materials, model.materials, materialOf);
   fill(read.animations, model.animations, animationOf);
   model.hasScenes = !read.scenes.empty();

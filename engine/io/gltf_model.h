@@ -11,7 +11,14 @@
 namespace vasa::gltf {
 
 /// glTF's own numbers: types of components, modes of primitives that make triangles.
-enum ComponentType : int { kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
+enum ComponentType : int {
+  kByte = 5120,
+  kUnsignedByte = 5121,
+  kShort = 5122,
+  kUnsignedShort = 5123,
+  kUnsignedInt = 5125,
+  kFloat = 5126
+};
 enum Mode : int { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
 struct Model {
@@ -34,8 +41,8 @@ struct Model {
   };
   struct Primitive {
     int position = -1, normal = -1, indices = -1, material = -1, mode = kTriangles;
-    std::size_t vertices = 0;               // of any attribute
-    std::vector<int> joints, weights;       // accessors, one a set
+    std::size_t vertices = 0;          // of any attribute
+    std::vector<int> joints, weights;  // accessors, one a set
   };
   struct Mesh {
     std::string name;
@@ -84,7 +91,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Animation> animations;
   bool hasScenes = false;
-  std::vector<int> sceneNodes;                // roots of the default scene
+  std::vector<int> sceneNodes;                   // roots of the default scene
   std::map<int, Labels> nodeLabels, meshLabels;  // of those that have any
   std::map<int, std::string> humanoid;           // nodes that VRM's table says are a human's bones, and which
 };

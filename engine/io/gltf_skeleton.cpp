@@ -18,9 +18,7 @@ float difference(const mat4& a, const mat4& b) {
   return largest;
 }
 
-float size(const mat4& m) {
-  return difference(m, mat4(0));
-}
+float size(const mat4& m) { return difference(m, mat4(0)); }
 
 bool invertible(const mat4& m) {
   const float determinant = std::abs(glm::determinant(mat3(m)));
@@ -31,8 +29,7 @@ std::vector<bool> animatedNodes(const Model& model) {
   std::vector<bool> animated(model.nodes.size());
   for (const auto& animation : model.animations)
     for (const auto& channel : animation.channels)
-      if (channel.node >= 0 && channel.path != Model::Path::other)
-        animated[std::size_t(channel.node)] = true;
+      if (channel.node >= 0 && channel.path != Model::Path::other) animated[std::size_t(channel.node)] = true;
   return animated;
 }
 
@@ -223,7 +220,8 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     joint.rest = restOf(model.nodes[i], tree.local[i], node);
     const vec3 scale = glm::abs(joint.rest.scale);
     if (!(std::min({scale.x, scale.y, scale.z}) > 0))
-      breaks("/nodes/" + std::to_string(node), "the joint's scale is 0 at rest, which flattens all that it moves",
+      breaks("/nodes/" + std::to_string(node),
+             "the joint's scale is 0 at rest, which flattens all that it moves",
              "give it a scale other than 0");
     joint.restWorld =
         (joint.parent.valid() ? skeleton.joints[joint.parent.value].restWorld : skeleton.rootTransform) *
@@ -242,7 +240,8 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
       const mat4& before = asFile.joints[j].restWorld;
       out.fileRest.push_back(asFile.joints[j].rest);
-      out.fileToRest.push_back(invertible(before) ? skeleton.joints[j].restWorld * glm::inverse(before) : mat4(1));
+      out.fileToRest.push_back(invertible(before) ? skeleton.joints[j].restWorld * glm::inverse(before)
+                                                  : mat4(1));
     }
   Binder binder(skeleton);
   for (BoundSkin& skin : bound) out.skins.push_back(binder.bind(std::move(skin.joints), skin.inverseBinds));

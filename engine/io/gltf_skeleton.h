@@ -17,8 +17,8 @@ struct BodySkeleton {
     mat4 bake{1};
   };
   std::vector<Skin> skins;
-  /// Where the rest pose is not the one the file's nodes have: their transforms, one a joint, and what takes a joint
-  /// from there to rest. Empty where both are the same.
+  /// Where the rest pose is not the one the file's nodes have: their transforms, one a joint, and what takes
+  /// a joint from there to rest. Empty where both are the same.
   std::vector<JointTransform> fileRest;
   std::vector<mat4> fileToRest;
 };
@@ -27,12 +27,12 @@ struct BodySkeleton {
 /// cannot be folded into rootTransform: nodes between joints, animated nodes above joints or meshes, and,
 /// where the root joints hang under different transforms, all nodes above them.
 ///
-/// The rest pose is the pose that the skin is bound in, for every command: what the nodes say may be any frame of a
-/// motion (io/gltf_binding.h). Where that is so up to one transform (nearly every skin), that transform is baked into
-/// its vertices and the inverse bind matrices become the inverses of the rest pose. Then at rest the vertices are
-/// where they are stored, and skins bound in different spaces share joints. A second skin bound in another pose keeps
-/// its matrices; a joint that would need two different ones is doubled. Throws BrokenRule where a joint's matrix is
-/// no translation, rotation and scale.
+/// The rest pose is the pose that the skin is bound in, for every command: what the nodes say may be any
+/// frame of a motion (io/gltf_binding.h). Where that is so up to one transform (nearly every skin), that
+/// transform is baked into its vertices and the inverse bind matrices become the inverses of the rest pose.
+/// Then at rest the vertices are where they are stored, and skins bound in different spaces share joints. A
+/// second skin bound in another pose keeps its matrices; a joint that would need two different ones is
+/// doubled. Throws BrokenRule where a joint's matrix is no translation, rotation and scale.
 BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree);
 
 }  // namespace vasa::gltf

@@ -10,8 +10,10 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kMostCorners = 512;                            // cutting a polygon takes the square of them at worst
-constexpr std::size_t kBytesAnObject = 64, kFreeObjects = 100'000;  // an object takes some 500 bytes of memory
+// Cutting a polygon takes the square of them at worst.
+constexpr std::size_t kMostCorners = 512;
+// An object takes some 500 bytes of memory.
+constexpr std::size_t kBytesAnObject = 64, kFreeObjects = 100'000;
 
 struct Face {
   std::size_t first;  // of its corners; the next face's is behind its last
@@ -25,7 +27,8 @@ struct Object {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, const ImportFrame& frame) : path_(path), file_(path.string()), frame_(frame) {}
+  Reader(const std::filesystem::path& path, const ImportFrame& frame)
+      : path_(path), file_(path.string()), frame_(frame) {}
 
   Result<std::vector<MeshElement>> run(std::string_view text) {
     const std::size_t mostObjects = text.size() / kBytesAnObject + kFreeObjects;
@@ -42,11 +45,13 @@ class Reader {
       } else if (keyword == "o" || keyword == "g") {
         begin(line);
         if (objects_.size() > mostObjects)
-          return fail(line_, "more than the " + std::to_string(mostObjects) + " objects and groups accepted for a file of this size; split it");
+          return fail(line_, "more than the " + std::to_string(mostObjects) +
+                                 " objects and groups accepted for a file of this size; split it");
       }
     }
     if (faces_.empty())
-      return badInput(file_ + ": the file has no faces; export the surface as polygons, not points or curves");
+      return badInput(file_ +
+                      ": the file has no faces; export the surface as polygons, not points or curves");
     // A positive index may name a vertex that follows further down, so the upper bound is checked last.
     for (std::size_t i = 0; i < faces_.size(); ++i)
       for (const std::uint32_t corner : cornersOf(i))
@@ -68,7 +73,8 @@ class Reader {
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view word = nextWord(line);
       if (!parseNumber(word, place[axis]))
-        return fail(line_, "a vertex needs three finite numbers, found '" + std::string(word.substr(0, 40)) + "'");
+        return fail(line_,
+                    "a vertex needs three finite numbers, found '" + std::string(word.substr(0, 40)) + "'");
       if (std::abs(place[axis]) * frame_.metresPerUnit > kLargestImportedCoordinate)
         return fail(line_, "coordinate " + std::string(word.substr(0, 40)) +
                                " is farther than 1000 km away; give the file's unit with --scale");
@@ -84,27 +90,31 @@ class Reader {
       const std::string_view number = word.substr(0, word.find('/'));
       std::int64_t index = 0;
       if (!parseInteger(number, index) || index == 0)
-        return fail(line_, "a face corner needs a vertex index, found '" + std::string(word.substr(0, 40)) + "'");
+        return fail(line_,
+                    "a face corner needs a vertex index, found '" + std::string(word.substr(0, 40)) + "'");
       if (index < -vertices || index > std::int64_t(0xffffffff)) return fail(line_, outside(index));
       corners_.push_back(std::uint32_t(index > 0 ? index - 1 : vertices + index));
     }
     const std::size_t count = corners_.size() - faces_.back().first;
     if (count < 3) return fail(line_, "a face needs at least three corners, found " + std::to_string(count));
     if (count > kMostCorners)
-      return fail(line_, "a face of " + std::to_string(count) + " corners has more than the " + std::to_string(kMostCorners) +
-                             " that are accepted; export triangles");
+      return fail(line_, "a face of " + std::to_string(count) + " corners has more than the " +
+                             std::to_string(kMostCorners) + " that are accepted; export triangles");
     return {};
   }
 
   void begin(std::string_view line) {
     std::string name;
-    for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) name.append(name.empty() ? "" : " ").append(word);
-    if (!objects_.empty() && objects_.back().firstFace == faces_.size()) objects_.pop_back();  // it has no faces
+    for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line))
+      name.append(name.empty() ? "" : " ").append(word);
+    // It has no faces.
+    if (!objects_.empty() && objects_.back().firstFace == faces_.size()) objects_.pop_back();
     objects_.push_back({std::move(name), faces_.size()});
   }
 
   std::span<const std::uint32_t> cornersOf(std::size_t face) const {
-    const std::size_t first = faces_[face].first, end = face + 1 < faces_.size() ? faces_[face + 1].first : corners_.size();
+    const std::size_t first = faces_[face].first,
+                      end = face + 1 < faces_.size() ? faces_[face + 1].first : corners_.size();
     return std::span(corners_).subspan(first, end - first);
   }
 
@@ -115,12 +125,14 @@ class Reader {
     elements.reserve(objects_.size());
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       Object& object = objects_[i];
-      MeshElement element{object.name.empty() ? path_.stem().string() : std::move(object.name), {}, {},
-                          meshOf(object.firstFace, i + 1 < objects_.size() ? objects_[i + 1].firstFace : faces_.size())};
+      MeshElement element{
+          object.name.empty() ? path_.stem().string() : std::move(object.name),
+          {},
+          {},
+          meshOf(object.firstFace, i + 1 < objects_.size() ? objects_[i + 1].firstFace : faces_.size())};
       if (!element.mesh.empty()) elements.push_back(std::move(element));
     }
-    if (elements.empty())
-      return badInput(file_ + ": every face has lost its area; export the surface again");
+    if (elements.empty()) return badInput(file_ + ": every face has lost its area; export the surface again");
     return elements;
   }
 
@@ -147,7 +159,8 @@ class Reader {
           }
           triangle[k] = number;
         }
-        if (triangle.x != triangle.y && triangle.y != triangle.z && triangle.z != triangle.x) mesh.triangles.push_back(triangle);
+        if (triangle.x != triangle.y && triangle.y != triangle.z && triangle.z != triangle.x)
+          mesh.triangles.push_back(triangle);
       }
     }
     for (const std::uint32_t vertex : used) numbers_[vertex] = kNone;
@@ -174,7 +187,8 @@ Result<std::vector<MeshElement>> readObj(const std::filesystem::path& path, cons
   return parseObj({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path, frame);
 }
 
-Result<std::vector<MeshElement>> parseObj(std::string_view text, const std::filesystem::path& path, const ImportFrame& frame) {
+Result<std::vector<MeshElement>> parseObj(std::string_view text, const std::filesystem::path& path,
+                                          const ImportFrame& frame) {
   return Reader(path, frame).run(text);
 }
 

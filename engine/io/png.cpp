@@ -32,8 +32,9 @@ bool encodeRows(png_structp png, png_infop info, const Image& image, const PngOp
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_compression_level(png, options.compression);
   png_set_filter(png, 0, PNG_FILTER_SUB);
-  png_set_IHDR(png, info, image.width, image.height, 8, options.alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, image.width, image.height, 8,
+               options.alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   if (!options.comment.empty()) {
     png_text text{};
@@ -64,7 +65,8 @@ Result<std::vector<std::byte>> encodePng(const Image& image, PngOptions options)
     done = encodeRows(png, info, image, options);
   }
   png_destroy_write_struct(&png, &info);
-  if (!done) return Error{Fault::failed, "cannot encode a PNG: " + (message.empty() ? "out of memory" : message)};
+  if (!done)
+    return Error{Fault::failed, "cannot encode a PNG: " + (message.empty() ? "out of memory" : message)};
   return bytes;
 }
 
@@ -106,7 +108,8 @@ Result<std::string> readPngComment(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < 4; ++i) value = value << 8 | std::uint32_t((*bytes)[at + i]);
     return std::size_t(value);
   };
-  if (bytes->size() < kSignature || png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes->data()), 0, kSignature) != 0)
+  if (bytes->size() < kSignature ||
+      png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes->data()), 0, kSignature) != 0)
     return badInput(path.string() + ": is not a PNG");
   for (std::size_t at = kSignature; at + kFrame <= bytes->size();) {
     const std::size_t length = number(at);

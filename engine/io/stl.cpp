@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
 
-// Facets with their own corners -> shared vertices, corners at the same place only, numbered as they come. Sorted and not
-// hashed: places can be chosen so that they all meet in one place of a hash table.
+// Facets with their own corners -> shared vertices, corners at the same place only, numbered as they come.
+// Sorted and not hashed: places can be chosen so that they all meet in one place of a hash table.
 class Welder {
  public:
   void reserve(std::size_t facets) { corners_.reserve(3 * facets); }
@@ -26,12 +26,16 @@ class Welder {
   TriangleMesh mesh() const {
     std::vector<std::uint32_t> order(corners_.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::sort(order, {}, [this](std::uint32_t i) { return std::tuple(corners_[i].x, corners_[i].y, corners_[i].z, i); });
+    std::ranges::sort(order, {}, [this](std::uint32_t i) {
+      return std::tuple(corners_[i].x, corners_[i].y, corners_[i].z, i);
+    });
     std::vector<std::uint32_t> first(corners_.size());  // of each corner, the first at its place
     for (std::size_t k = 0; k < order.size(); ++k)
-      first[order[k]] = k > 0 && corners_[order[k]] == corners_[order[k - 1]] ? first[order[k - 1]] : order[k];
+      first[order[k]] =
+          k > 0 && corners_[order[k]] == corners_[order[k - 1]] ? first[order[k - 1]] : order[k];
     TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < corners_.size(); ++i) {  // the first comes before the others: its number is known by then
+    for (std::uint32_t i = 0; i < corners_.size();
+         ++i) {  // the first comes before the others: its number is known by then
       if (first[i] == i) {
         first[i] = std::uint32_t(mesh.positions.size());
         mesh.positions.push_back(corners_[i]);
@@ -40,7 +44,8 @@ class Welder {
       }
     }
     for (std::size_t i = 0; i + 2 < first.size(); i += 3)
-      if (const uvec3 t(first[i], first[i + 1], first[i + 2]); t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);
+      if (const uvec3 t(first[i], first[i + 1], first[i + 2]); t.x != t.y && t.y != t.z && t.z != t.x)
+        mesh.triangles.push_back(t);
     return mesh;
   }
 
@@ -65,8 +70,9 @@ Result<std::vector<MeshElement>> readBinary(const std::string& file, const std::
                                             std::span<const std::byte> bytes, const ImportFrame& frame) {
   const std::uint64_t count = littleEndian(bytes.data() + 80);
   if (bytes.size() < kHeaderBytes + count * kFacetBytes)
-    return badInput(file + ": the file is cut short: it promises " + std::to_string(count) + " triangles and holds " +
-                    std::to_string((bytes.size() - kHeaderBytes) / kFacetBytes) + "; copy or export it again");
+    return badInput(file + ": the file is cut short: it promises " + std::to_string(count) +
+                    " triangles and holds " + std::to_string((bytes.size() - kHeaderBytes) / kFacetBytes) +
+                    "; copy or export it again");
   Welder welder;
   welder.reserve(count);
   Checkpoints checkpoints;
@@ -161,7 +167,8 @@ class AsciiReader {
       if (const std::string fault = coordinateFault(p, frame_); !fault.empty()) return fail(fault);
       welder.add(frame_.toHouse(p));
     }
-    if (words_.next() != "endloop" || words_.next() != "endfacet") return fail("a facet with more than three corners");
+    if (words_.next() != "endloop" || words_.next() != "endfacet")
+      return fail("a facet with more than three corners");
     return {};
   }
   bool number(double& value) {
@@ -178,11 +185,13 @@ class AsciiReader {
 
 }  // namespace
 
-Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, const std::filesystem::path& path, const ImportFrame& frame) {
+Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                                          const ImportFrame& frame) {
   const std::string file = path.string(), name = path.stem().string();
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const bool fitsBinary = bytes.size() >= kHeaderBytes &&
-                          bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
+  const bool fitsBinary =
+      bytes.size() >= kHeaderBytes &&
+      bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
   const bool ascii = !fitsBinary && text.substr(0, text.find('\n')).find("solid") != text.npos;
   if (!ascii && bytes.size() < kHeaderBytes)
     return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) + " bytes");

@@ -51,18 +51,21 @@ class Reader {
       const std::string_view word = nextWord(text);
       if (column == 0 && word.empty()) return {};
       if (word.empty())
-        return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: id type x y z radius parent");
+        return fail(line, std::string("the ") + kColumns[column] +
+                              " is missing; a line is: id type x y z radius parent");
       if (!parseNumber(word, value[column]))
         return fail(line, std::string("the ") + kColumns[column] + " must be a finite number, found '" +
                               std::string(word.substr(0, 40)) + "'");
     }
     for (const int column : {0, 1, 6})
       if (value[column] != std::floor(value[column]) || std::abs(value[column]) > 1e15)
-        return fail(line, std::string("the ") + kColumns[column] + " must be a whole number, found " + numberText(value[column]));
+        return fail(line, std::string("the ") + kColumns[column] + " must be a whole number, found " +
+                              numberText(value[column]));
     const dvec3 place(value[2], value[3], value[4]);
     if (std::max(glm::length(place), std::abs(value[5])) * frame_.metresPerUnit > kLargestImportedCoordinate)
       return fail(line, "lies farther than 1000 km away; give the file's unit with --scale");
-    if (value[5] < 0) return fail(line, "radius " + numberText(value[5]) + " must be positive; mend or remove the sample");
+    if (value[5] < 0)
+      return fail(line, "radius " + numberText(value[5]) + " must be positive; mend or remove the sample");
     Row row{{std::int64_t(value[0]), std::int64_t(value[1]), frame_.toHouse(place),
              float(value[5] * frame_.metresPerUnit)},
             std::int64_t(value[6]),
@@ -76,20 +79,25 @@ class Reader {
     byId_.resize(rows_.size());
     for (std::uint32_t i = 0; i < byId_.size(); ++i) byId_[i] = i;
     std::ranges::sort(byId_, {}, [this](std::uint32_t i) { return std::pair(rows_[i].sample.id, i); });
-    std::uint32_t first = SwcSample::kRoot, before = 0;  // of the samples that have an earlier one's id, the first in the file
+    // Of the samples that have an earlier one's id, the first in the file.
+    std::uint32_t first = SwcSample::kRoot, before = 0;
     for (std::size_t k = 1; k < byId_.size(); ++k)
-      if (rows_[byId_[k]].sample.id == rows_[byId_[k - 1]].sample.id && byId_[k] < first) first = byId_[k], before = byId_[k - 1];
+      if (rows_[byId_[k]].sample.id == rows_[byId_[k - 1]].sample.id && byId_[k] < first)
+        first = byId_[k], before = byId_[k - 1];
     if (first == SwcSample::kRoot) return {};
     return fail(rows_[first].line, "id " + std::to_string(rows_[first].sample.id) + " is that of line " +
-                                       std::to_string(rows_[before].line) + " already; number the samples anew");
+                                       std::to_string(rows_[before].line) +
+                                       " already; number the samples anew");
   }
 
   Result<void> linkParents() {
     for (Row& row : rows_) {
       if (row.parentId < 0) continue;
-      const auto found = std::ranges::lower_bound(byId_, row.parentId, {}, [this](std::uint32_t i) { return rows_[i].sample.id; });
+      const auto found = std::ranges::lower_bound(byId_, row.parentId, {},
+                                                  [this](std::uint32_t i) { return rows_[i].sample.id; });
       if (found == byId_.end() || rows_[*found].sample.id != row.parentId)
-        return fail(row.line, "parent " + std::to_string(row.parentId) + " does not exist; give -1 to a root");
+        return fail(row.line,
+                    "parent " + std::to_string(row.parentId) + " does not exist; give -1 to a root");
       row.sample.parent = *found;
     }
     return {};
@@ -113,7 +121,8 @@ class Reader {
       if (!(rows_[i].sample.radius > 0)) bare.push_back(i);
     if (bare.empty()) return {};
     if (bare.size() == rows_.size())
-      return fail(rows_.front().line, "no sample of the file has a radius above 0; give the vessels' radii in column 6");
+      return fail(rows_.front().line,
+                  "no sample of the file has a radius above 0; give the vessels' radii in column 6");
     logWarning(name_ + ": " + std::to_string(bare.size()) + " samples without a radius (first: line " +
                std::to_string(rows_[bare.front()].line) + ") take a neighbour's");
     // Known radii spread from parents to children, then the other way, then whatever is left takes the mean.
@@ -153,7 +162,8 @@ class Reader {
 
 }  // namespace
 
-Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name, const ImportFrame& frame) {
+Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name,
+                                        const ImportFrame& frame) {
   return Reader(name, frame).run(text);
 }
 
@@ -170,7 +180,10 @@ std::string encodeSwc(std::span<const SwcSample> samples, const ImportFrame& fra
     text += std::to_string(sample.id) + ' ' + std::to_string(sample.type);
     for (const double value : {place.x, place.y, place.z, double(sample.radius) / frame.metresPerUnit})
       text += ' ' + numberText(value + 0.0);
-    text += ' ' + (sample.parent == SwcSample::kRoot ? std::string("-1") : std::to_string(samples[sample.parent].id)) + '\n';
+    text +=
+        ' ' +
+        (sample.parent == SwcSample::kRoot ? std::string("-1") : std::to_string(samples[sample.parent].id)) +
+        '\n';
   }
   return text;
 }

@@ -12,33 +12,34 @@ namespace vasa {
 struct SwcSample {
   std::int64_t id = 0;
   std::int64_t type = 0;
-  vec3 position{0};  ///< [m]
-  float radius = 0;  ///< [m]
+  vec3 position{0};              ///< [m]
+  float radius = 0;              ///< [m]
   std::uint32_t parent = kRoot;  ///< number of the sample before this one in the tree, not its id
   static constexpr std::uint32_t kRoot = 0xffffffffu;
 };
 
-/// The samples of an SWC file in the file's order, a forest. Comments are passed over, as are columns after the
-/// seventh. A radius of zero, which tracing programs write where they could not measure, becomes that of the
-/// nearest sample towards the root that has one, or else of the first child, with a warning.
-/// Fails with badInput, naming file and line: a line without seven numbers, a number that is not finite, an id
-/// that is used twice, a parent that does not exist, a negative radius, parents in a circle, no samples.
+/// The samples of an SWC file in the file's order, a forest. Comments are passed over, as are columns after
+/// the seventh. A radius of zero, which tracing programs write where they could not measure, becomes that of
+/// the nearest sample towards the root that has one, or else of the first child, with a warning. Fails with
+/// badInput, naming file and line: a line without seven numbers, a number that is not finite, an id that is
+/// used twice, a parent that does not exist, a negative radius, parents in a circle, no samples.
 Result<std::vector<SwcSample>> readSwc(const std::filesystem::path& path, const ImportFrame& frame = {});
 
 /// The same from text. @param name  for messages
-Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name, const ImportFrame& frame = {});
+Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name,
+                                        const ImportFrame& frame = {});
 
 /// The text of a file, read back as the same samples.
 std::string encodeSwc(std::span<const SwcSample> samples, const ImportFrame& frame = {});
 
-/// The tree as vessels: at a fork the child that continues best (straightness, then likeness of radius) goes on
-/// in the same line, the others leave its side there, with their own radius. Lines are named "`name` 1",
-/// "`name` 2" ... in the order of the samples that start them. Samples at the place of the one before are left
-/// out, roots without children too.
+/// The tree as vessels: at a fork the child that continues best (straightness, then likeness of radius) goes
+/// on in the same line, the others leave its side there, with their own radius. Lines are named "`name` 1",
+/// "`name` 2" ... in the order of the samples that start them. Samples at the place of the one before are
+/// left out, roots without children too.
 Centrelines centrelinesOfSwc(std::span<const SwcSample> samples, const std::string& name, VesselKind kind);
 
-/// Samples of a network's lines as a forest. Where lines form a loop, an SWC file cannot join its last end: that
-/// stays a tip. The type is 0 (undefined), as SWC has none for vessels.
+/// Samples of a network's lines as a forest. Where lines form a loop, an SWC file cannot join its last end:
+/// that stays a tip. The type is 0 (undefined), as SWC has none for vessels.
 std::vector<SwcSample> swcOfCentrelines(const Centrelines& centrelines);
 
 }  // namespace vasa

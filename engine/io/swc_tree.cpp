@@ -30,7 +30,8 @@ class Children {
 };
 
 // How well a child continues the way that led to its parent.
-float continuity(std::span<const SwcSample> samples, std::uint32_t before, std::uint32_t at, std::uint32_t child) {
+float continuity(std::span<const SwcSample> samples, std::uint32_t before, std::uint32_t at,
+                 std::uint32_t child) {
   const auto unit = [&](std::uint32_t from, std::uint32_t to) {
     const vec3 d = samples[to].position - samples[from].position;
     const float length = glm::length(d);
@@ -71,7 +72,8 @@ class Tree {
     Centrelines::Line line{{}, {}, kind_, {}};
     const auto number = std::uint32_t(out_.lines.size());
     std::vector<Start> branches;
-    if (start.fork != kNone) line.samples.push_back(vec4(samples_[start.fork].position, samples_[start.first].radius));
+    if (start.fork != kNone)
+      line.samples.push_back(vec4(samples_[start.fork].position, samples_[start.first].radius));
     std::uint32_t before = start.fork, at = start.first;
     while (true) {
       checkpoints_.pass();
@@ -111,7 +113,8 @@ class Tree {
 
 class Forest {
  public:
-  explicit Forest(const Centrelines& centrelines) : lines_(centrelines), first_(centrelines.lines.size() + 1) {
+  explicit Forest(const Centrelines& centrelines)
+      : lines_(centrelines), first_(centrelines.lines.size() + 1) {
     for (std::size_t i = 0; i < lines_.lines.size(); ++i)
       first_[i + 1] = first_[i] + std::uint32_t(lines_.lines[i].samples.size());
     neighbours_.resize(first_.back());
@@ -157,8 +160,8 @@ class Forest {
     const vec4 at = section(s);
     out_.push_back({std::int64_t(out_.size()) + 1, 0, vec3(at), at.w, parent});
   }
-  // Depth first, so that a line's samples follow one another. A sample that is reached twice closes a loop: its
-  // double becomes a tip.
+  // Depth first, so that a line's samples follow one another. A sample that is reached twice closes a loop:
+  // its double becomes a tip.
   void grow(std::uint32_t start) {
     struct Step {
       std::uint32_t sample, from;
@@ -197,8 +200,6 @@ Centrelines centrelinesOfSwc(std::span<const SwcSample> samples, const std::stri
   return Tree(samples, name, kind).run();
 }
 
-std::vector<SwcSample> swcOfCentrelines(const Centrelines& centrelines) {
-  return Forest(centrelines).run();
-}
+std::vector<SwcSample> swcOfCentrelines(const Centrelines& centrelines) { return Forest(centrelines).run(); }
 
 }  // namespace vasa

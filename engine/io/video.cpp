@@ -66,22 +66,24 @@ pid_t spawnEncoder(const std::vector<std::string>& arguments, int input, int out
 
 }  // namespace
 
-Result<VideoWriter> VideoWriter::create(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                                        float framesPerSecond) {
+Result<VideoWriter> VideoWriter::create(const std::filesystem::path& path, std::uint32_t width,
+                                        std::uint32_t height, float framesPerSecond) {
   const Format* format = formatOf(path);
   if (!format)
-    return Error{Fault::usage, path.string() + ": unknown video format; end the name in .mp4, .mov, .mkv or .webm"};
+    return Error{Fault::usage,
+                 path.string() + ": unknown video format; end the name in .mp4, .mov, .mkv or .webm"};
   auto file = AtomicFile::create(path);
   if (!file) return file.error();
   // A socket rather than a pipe: writing to an encoder that has died is an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     return ioError(path.string() + ": cannot reach ffmpeg: " + std::strerror(errno));
-  std::vector<std::string> arguments{
-      "ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba",
-      "-s", std::to_string(width) + "x" + std::to_string(height), "-r", std::to_string(framesPerSecond), "-i", "pipe:0",
-      // Players want even sizes and 4:2:0.
-      "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"};
+  std::vector<std::string> arguments{"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-f", "rawvideo",
+                                     "-pix_fmt", "rgba", "-s",
+                                     std::to_string(width) + "x" + std::to_string(height), "-r",
+                                     std::to_string(framesPerSecond), "-i", "pipe:0",
+                                     // Players want even sizes and 4:2:0.
+                                     "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"};
   arguments.insert(arguments.end(), format->options.begin(), format->options.end());
   // By its descriptor, for the file has no name yet.
   arguments.push_back("file:/proc/self/fd/" + std::to_string(kOutput));

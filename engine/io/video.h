@@ -15,8 +15,8 @@ namespace vasa {
 class VideoWriter {
  public:
   /// Fails with usage for an unknown extension, with failed where there is no ffmpeg, with io for the file.
-  static Result<VideoWriter> create(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                                    float framesPerSecond);
+  static Result<VideoWriter> create(const std::filesystem::path& path, std::uint32_t width,
+                                    std::uint32_t height, float framesPerSecond);
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) = delete;
   ~VideoWriter();
@@ -25,7 +25,8 @@ class VideoWriter {
   Result<void> finish();
 
  private:
-  VideoWriter(AtomicFile file, int input, pid_t encoder) : file_(std::move(file)), input_(input), encoder_(encoder) {}
+  VideoWriter(AtomicFile file, int input, pid_t encoder)
+      : file_(std::move(file)), input_(input), encoder_(encoder) {}
   int waitForEncoder();
 
   AtomicFile file_;

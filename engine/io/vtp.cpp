@@ -43,9 +43,12 @@ class Numbers {
   Numbers(std::vector<std::byte> content, vtp::Scalar scalar, bool bigEndian)
       : content_(std::move(content)), scalar_(scalar), bigEndian_(bigEndian) {}
   explicit Numbers(std::vector<double> values) : values_(std::move(values)) {}
-  std::size_t size() const { return content_.empty() ? values_.size() : content_.size() / vtp::sizeOf(scalar_); }
+  std::size_t size() const {
+    return content_.empty() ? values_.size() : content_.size() / vtp::sizeOf(scalar_);
+  }
   double operator[](std::size_t i) const {
-    return content_.empty() ? values_[i] : vtp::numberAt(content_.data() + i * vtp::sizeOf(scalar_), scalar_, bigEndian_);
+    return content_.empty() ? values_[i]
+                            : vtp::numberAt(content_.data() + i * vtp::sizeOf(scalar_), scalar_, bigEndian_);
   }
 
  private:
@@ -55,16 +58,22 @@ class Numbers {
   bool bigEndian_ = false;
 };
 
-// What a file of so many bytes may hold, packed data unpacked. Points, lines and names take 16, 100 and 80 bytes of memory.
+// What a file of so many bytes may hold, packed data unpacked. Points, lines and names take 16, 100 and 80
+// bytes of memory.
 struct Amounts {
   explicit Amounts(std::size_t bytes)
-      : content(partOfMemory(bytes, 6, 16)), points(bytes / 4 + 500'000), lines(bytes / 16 + 100'000), corners(bytes / 2 + 1'000'000),
-        names(bytes / 16 + 100'000), cellNumbers(bytes + 4'000'000) {}
+      : content(partOfMemory(bytes, 6, 16)),
+        points(bytes / 4 + 500'000),
+        lines(bytes / 16 + 100'000),
+        corners(bytes / 2 + 1'000'000),
+        names(bytes / 16 + 100'000),
+        cellNumbers(bytes + 4'000'000) {}
   std::size_t content, points, lines, corners, names, cellNumbers;
 
   static void check(const std::string& place, const char* things, std::size_t found, std::size_t most) {
     if (found > most)
-      breaks(place, std::string("all ") + things + " up to this are " + std::to_string(found) + ", more than the " + std::to_string(most) +
+      breaks(place, std::string("all ") + things + " up to this are " + std::to_string(found) +
+                        ", more than the " + std::to_string(most) +
                         " accepted for a file of this size; split or reduce it");
   }
 };
@@ -89,16 +98,19 @@ class Reader {
     if (const std::size_t memory = xmlMemory(xml), most = partOfMemory(bytes.size(), 10, 24); memory > most)
       breaks("/", "the XML " + beyondMemory(memory, most) + "; split or reduce it");
     if (document_.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
-      breaks("line " + std::to_string(document_.ErrorLineNum()), std::string("is not valid XML: ") + document_.ErrorName());
+      breaks("line " + std::to_string(document_.ErrorLineNum()),
+             std::string("is not valid XML: ") + document_.ErrorName());
   }
 
   VtpLines run() {
     const XMLElement& data = polyData();
     if (const XMLElement* fields = data.FirstChildElement("FieldData")) readNames(*fields);
     int number = 0;
-    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
+    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece;
+         piece = piece->NextSiblingElement("Piece"))
       readPiece(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]");
-    if (out_.lines.empty()) breaks("/VTKFile/PolyData", "has no lines of two points or more; give centre lines");
+    if (out_.lines.empty())
+      breaks("/VTKFile/PolyData", "has no lines of two points or more; give centre lines");
     mendRadii();
     return std::move(out_);
   }
@@ -106,7 +118,8 @@ class Reader {
     TriangleMesh mesh;
     int number = 0;
     const XMLElement& data = polyData();
-    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
+    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece;
+         piece = piece->NextSiblingElement("Piece"))
       readFaces(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]", mesh);
     return mesh;
   }
@@ -118,7 +131,9 @@ class Reader {
     if (!root || std::strcmp(root->Name(), "VTKFile") != 0) breaks("/", "is no VTK XML file");
     readEncoding(*root);
     const XMLElement* data = root->FirstChildElement("PolyData");
-    if (!data) breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) + ", not PolyData; extract its surface or lines and save them as .vtp");
+    if (!data)
+      breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) +
+                             ", not PolyData; extract its surface or lines and save them as .vtp");
     return *data;
   }
 
@@ -128,13 +143,16 @@ class Reader {
     Amounts::check(place + "/NumberOfPoints", "points", base + points, most_.points);
     const Numbers xyz = coordinates(piece, points, place);
     for (std::size_t i = 0; i < points; ++i) mesh.positions.push_back(placeOf(xyz, i, place));
-    for (const auto& [name, amount] : {std::pair("Polys", "NumberOfPolys"), std::pair("Strips", "NumberOfStrips")}) {
+    for (const auto& [name, amount] :
+         {std::pair("Polys", "NumberOfPolys"), std::pair("Strips", "NumberOfStrips")}) {
       const auto cells = std::size_t(count(piece, amount, place));
       if (cells == 0) continue;
       Amounts::check(place + "/" + amount, "faces", mesh.triangles.size() + cells, most_.corners);
       const bool polygons = name == std::string_view("Polys");
       readCellLists(piece, name, points, cells, base, place, [&](std::vector<std::uint32_t> corners) {
-        if (corners.size() > kMostCorners && polygons) breaks(place + "/Polys", "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
+        if (corners.size() > kMostCorners && polygons)
+          breaks(place + "/Polys",
+                 "a face has more than " + std::to_string(kMostCorners) + " corners; cut it into triangles");
         polygons ? addPolygon(corners, mesh) : addStrip(corners, mesh);
       });
     }
@@ -146,13 +164,16 @@ class Reader {
     if (!array) breaks(place + "/Points", "is missing");
     Numbers xyz = numbers(*array, place + "/Points");
     if (xyz.size() != 3 * count)
-      breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " + std::to_string(count) + " points");
+      breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " +
+                                    std::to_string(count) + " points");
     return xyz;
   }
   vec3 placeOf(const Numbers& xyz, std::size_t i, const std::string& place) const {
     const dvec3 p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
     if (!(glm::length(p) * frame_.metresPerUnit <= kLargestImportedCoordinate))
-      breaks(place + "/Points", "point " + std::to_string(i) + " is not finite or farther than 1000 km away; give the file's unit with --scale");
+      breaks(place + "/Points",
+             "point " + std::to_string(i) +
+                 " is not finite or farther than 1000 km away; give the file's unit with --scale");
     return frame_.toHouse(p);
   }
 
@@ -161,7 +182,8 @@ class Reader {
     const std::size_t tag = text.rfind("<AppendedData");
     if (tag == text.npos) return std::string(text);
     const std::size_t start = text.find('_', tag), stop = text.rfind("</AppendedData>");
-    if (start == text.npos || stop == text.npos || stop <= start) breaks("/VTKFile/AppendedData", "is cut short");
+    if (start == text.npos || stop == text.npos || stop <= start)
+      breaks("/VTKFile/AppendedData", "is cut short");
     appendedRaw_ = text.substr(tag, start - tag).find("raw") != text.npos;
     appended_ = text.substr(start + 1, stop - start - 1);
     return std::string(text.substr(0, start)) + std::string(text.substr(stop));
@@ -173,21 +195,24 @@ class Reader {
     const std::string_view compressor = attribute(root, "compressor");
     encoding_.zlib = compressor == "vtkZLibDataCompressor";
     if (!compressor.empty() && !encoding_.zlib)
-      breaks("/VTKFile/compressor", "is " + std::string(compressor) + "; save the file with zlib or without compression");
+      breaks("/VTKFile/compressor",
+             "is " + std::string(compressor) + "; save the file with zlib or without compression");
   }
 
   std::int64_t count(const XMLElement& piece, const char* name, const std::string& place) {
     std::int64_t value = 0;
     const std::string_view text = attribute(piece, name);
     if (!text.empty() && !parseInteger(text, value)) breaks(place + "/" + name, "must be a whole number");
-    if (value < 0 || value > kMostItems) breaks(place + "/" + name, "must lie between 0 and " + std::to_string(kMostItems));
+    if (value < 0 || value > kMostItems)
+      breaks(place + "/" + name, "must lie between 0 and " + std::to_string(kMostItems));
     return value;
   }
 
   Numbers numbers(const XMLElement& array, const std::string& place) {
     const auto scalar = vtp::scalarNamed(attribute(array, "type"));
     if (!scalar) breaks(place + "/type", "is not a number type that VTK has");
-    if (attribute(array, "format") == "ascii") return Numbers(asciiNumbers(array.GetText() ? array.GetText() : "", place));
+    if (attribute(array, "format") == "ascii")
+      return Numbers(asciiNumbers(array.GetText() ? array.GetText() : "", place));
     std::vector<std::byte> content = bytesOf(array, place);
     if (content.size() % vtp::sizeOf(*scalar) != 0) breaks(place, "is no whole number of values");
     return Numbers(std::move(content), *scalar, encoding_.bigEndian);
@@ -205,7 +230,8 @@ class Reader {
     values.reserve(text.size() / 2 + 1);
     for (std::string_view word = nextWord(text, " \t\r\n"); !word.empty(); word = nextWord(text, " \t\r\n"))
       if (!parseNumber(word, values.emplace_back()))
-        breaks(place, "value " + std::to_string(values.size() - 1) + " is no finite number: '" + std::string(word.substr(0, 40)) + "'");
+        breaks(place, "value " + std::to_string(values.size() - 1) + " is no finite number: '" +
+                          std::string(word.substr(0, 40)) + "'");
     return values;
   }
 
@@ -219,7 +245,8 @@ class Reader {
   void charge(std::size_t bytes, const std::string& place) {
     contentRead_ += bytes;
     if (contentRead_ > most_.content)
-      breaks(place, "all data up to this " + beyondMemory(contentRead_, most_.content) + "; split or reduce it");
+      breaks(place,
+             "all data up to this " + beyondMemory(contentRead_, most_.content) + "; split or reduce it");
   }
   std::vector<std::byte> unpacked(std::span<const std::byte> bytes, const std::string& place) {
     std::string fault;
@@ -232,13 +259,15 @@ class Reader {
   }
   std::vector<std::byte> appendedBlock(const XMLElement& array, const std::string& place) {
     std::int64_t offset = -1;
-    if (!parseInteger(attribute(array, "offset"), offset) || offset < 0 || std::size_t(offset) > appended_.size())
+    if (!parseInteger(attribute(array, "offset"), offset) || offset < 0 ||
+        std::size_t(offset) > appended_.size())
       breaks(place + "/offset", "must lie inside the appended data");
     const std::string_view from = appended_.substr(std::size_t(offset));
     if (appendedRaw_) return unpacked(std::as_bytes(std::span(from)), place);
     return block(firstBlock(from), place);
   }
-  // Blocks of base64 follow one another without a mark: as much of it as the block needs, read from its own header.
+  // Blocks of base64 follow one another without a mark: as much of it as the block needs, read from its own
+  // header.
   std::string_view firstBlock(std::string_view text) const {
     const std::size_t word = encoding_.wideHeader ? 8 : 4;
     const auto lengths = [&](std::size_t count) -> std::vector<double> {
@@ -246,14 +275,17 @@ class Reader {
       if (!bytes || bytes->size() < count * word) return {};
       std::vector<double> values;
       for (std::size_t i = 0; i < count; ++i)
-        values.push_back(vtp::numberAt(bytes->data() + i * word, encoding_.wideHeader ? vtp::Scalar::uint64 : vtp::Scalar::uint32,
+        values.push_back(vtp::numberAt(bytes->data() + i * word,
+                                       encoding_.wideHeader ? vtp::Scalar::uint64 : vtp::Scalar::uint32,
                                        encoding_.bigEndian));
       return values;
     };
     const auto letters = [](double bytes) { return std::ceil(bytes / 3) * 4; };
     double length = 0;
-    if (const auto first = lengths(1); first.empty() || first[0] > double(text.size())) return text;
-    else if (!encoding_.zlib) length = letters(double(word) + first[0]);
+    if (const auto first = lengths(1); first.empty() || first[0] > double(text.size()))
+      return text;
+    else if (!encoding_.zlib)
+      length = letters(double(word) + first[0]);
     else if (const auto all = lengths(3 + std::size_t(first[0])); !all.empty()) {
       double packed = 0;
       for (std::size_t i = 3; i < all.size(); ++i) packed += all[i];
@@ -264,28 +296,35 @@ class Reader {
 
   static const XMLElement* arrayNamed(const XMLElement* parent, std::string_view name) {
     if (!parent) return nullptr;
-    for (const XMLElement* e = parent->FirstChildElement("DataArray"); e; e = e->NextSiblingElement("DataArray"))
+    for (const XMLElement* e = parent->FirstChildElement("DataArray"); e;
+         e = e->NextSiblingElement("DataArray"))
       if (attribute(*e, "Name") == name) return e;
     return nullptr;
   }
 
   void readNames(const XMLElement& fields) {
     const std::string place = "/VTKFile/PolyData/FieldData/VesselNames";
-    const XMLElement* array = fields.FirstChildElement("Array");  // what VTK calls arrays of anything but numbers
+    // What VTK calls arrays of anything but numbers.
+    const XMLElement* array = fields.FirstChildElement("Array");
     while (array && attribute(*array, "Name") != "VesselNames") array = array->NextSiblingElement("Array");
     if (!array || attribute(*array, "type") != "String") return;
-    const Numbers letters = attribute(*array, "format") == "ascii" ? Numbers(asciiNumbers(array->GetText() ? array->GetText() : "", place))
-                                                                   : Numbers(bytesOf(*array, place), vtp::Scalar::uint8, false);
+    const Numbers letters = attribute(*array, "format") == "ascii"
+                                ? Numbers(asciiNumbers(array->GetText() ? array->GetText() : "", place))
+                                : Numbers(bytesOf(*array, place), vtp::Scalar::uint8, false);
     std::string text;
     for (std::size_t i = 0; i < letters.size(); ++i) {
       const double letter = letters[i];
-      if (letter == 0) Amounts::check(place, "names", out_.names.size() + 1, most_.names), out_.names.push_back(std::exchange(text, {}));
-      else if (letter >= 1 && letter < 256) text += char(static_cast<unsigned char>(letter));
+      if (letter == 0)
+        Amounts::check(place, "names", out_.names.size() + 1, most_.names),
+            out_.names.push_back(std::exchange(text, {}));
+      else if (letter >= 1 && letter < 256)
+        text += char(static_cast<unsigned char>(letter));
     }
   }
 
   void readPiece(const XMLElement& piece, const std::string& place) {
-    const std::int64_t points = count(piece, "NumberOfPoints", place), lines = count(piece, "NumberOfLines", place);
+    const std::int64_t points = count(piece, "NumberOfPoints", place),
+                       lines = count(piece, "NumberOfLines", place);
     if (lines == 0) return;
     const auto base = std::uint32_t(out_.points.size());
     Amounts::check(place + "/NumberOfPoints", "points", base + std::size_t(points), most_.points);
@@ -302,21 +341,24 @@ class Reader {
     for (const char* name : {"Radius", "radius"})
       if (!radiusArray) radiusArray = arrayNamed(data, name);
     if (!radiusArray)
-      breaks(place + "/PointData", "has no array MaximumInscribedSphereRadius or Radius; add one (vmtkcenterlines does)");
+      breaks(place + "/PointData",
+             "has no array MaximumInscribedSphereRadius or Radius; add one (vmtkcenterlines does)");
     const std::string radiusPlace = place + "/PointData/" + std::string(attribute(*radiusArray, "Name"));
     const Numbers radius = numbers(*radiusArray, radiusPlace);
     if (radius.size() != count)
-      breaks(radiusPlace, "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
+      breaks(radiusPlace,
+             "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
     for (std::size_t i = 0; i < count; ++i) {
       const vec3 p = placeOf(xyz, i, place);
       if (!(radius[i] >= 0) || radius[i] * frame_.metresPerUnit > kLargestImportedCoordinate)
-        breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) + " must be positive, and no more than 1000 km; --scale gives the file's unit");
+        breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) +
+                                " must be positive, and no more than 1000 km; --scale gives the file's unit");
       out_.points.push_back(vec4(p, float(radius[i] * frame_.metresPerUnit)));
     }
   }
 
-  std::vector<bool> readLines(const XMLElement& piece, std::size_t points, std::size_t lines, std::uint32_t base,
-                              const std::string& piecePlace) {
+  std::vector<bool> readLines(const XMLElement& piece, std::size_t points, std::size_t lines,
+                              std::uint32_t base, const std::string& piecePlace) {
     std::vector<bool> kept;
     readCellLists(piece, "Lines", points, lines, base, piecePlace, [&](std::vector<std::uint32_t> line) {
       kept.push_back(line.size() > 1);
@@ -326,20 +368,24 @@ class Reader {
   }
 
   template <class Take>
-  void readCellLists(const XMLElement& piece, const char* kind, std::size_t points, std::size_t cells, std::uint32_t base,
-                     const std::string& piecePlace, Take take) {
+  void readCellLists(const XMLElement& piece, const char* kind, std::size_t points, std::size_t cells,
+                     std::uint32_t base, const std::string& piecePlace, Take take) {
     const std::string place = piecePlace + "/" + kind;
     const XMLElement* element = piece.FirstChildElement(kind);
-    const XMLElement *connectivity = arrayNamed(element, "connectivity"), *offsets = arrayNamed(element, "offsets");
+    const XMLElement *connectivity = arrayNamed(element, "connectivity"),
+                     *offsets = arrayNamed(element, "offsets");
     if (!connectivity || !offsets) breaks(place, "needs the arrays connectivity and offsets");
     const Numbers numbersOfPoints = numbers(*connectivity, place + "/connectivity");
     const Numbers ends = numbers(*offsets, place + "/offsets");
     if (ends.size() != cells)
-      breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " + std::to_string(cells) + (kind == std::string_view("Lines") ? " lines" : " faces"));
+      breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " +
+                                     std::to_string(cells) +
+                                     (kind == std::string_view("Lines") ? " lines" : " faces"));
     double start = 0;
     for (std::size_t i = 0; i < cells; ++i) {
       if (!(ends[i] >= start && ends[i] <= double(numbersOfPoints.size())))
-        breaks(place + "/offsets", "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
+        breaks(place + "/offsets",
+               "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
       corners_ += std::size_t(ends[i] - start);
       Amounts::check(place + "/connectivity", "lines' points", corners_, most_.corners);
       std::vector<std::uint32_t> cell;
@@ -347,7 +393,8 @@ class Reader {
       for (auto k = std::size_t(start); k < std::size_t(ends[i]); ++k) {
         const double point = numbersOfPoints[k];
         if (!(point >= 0 && point < double(points)))
-          breaks(place + "/connectivity", "value " + std::to_string(k) + " lies outside the " + std::to_string(points) + " points");
+          breaks(place + "/connectivity",
+                 "value " + std::to_string(k) + " lies outside the " + std::to_string(points) + " points");
         cell.push_back(base + std::uint32_t(point));
       }
       start = ends[i];
@@ -356,23 +403,30 @@ class Reader {
   }
 
   // Whole numbers a line; cells are counted verts first.
-  void readCells(const XMLElement& piece, const std::vector<bool>& kept, std::size_t verts, const std::string& place) {
+  void readCells(const XMLElement& piece, const std::vector<bool>& kept, std::size_t verts,
+                 const std::string& place) {
     const XMLElement* data = piece.FirstChildElement("CellData");
     const std::size_t before = out_.lines.size() - std::size_t(std::ranges::count(kept, true));
-    for (const XMLElement* e = data ? data->FirstChildElement("DataArray") : nullptr; e; e = e->NextSiblingElement("DataArray")) {
+    for (const XMLElement* e = data ? data->FirstChildElement("DataArray") : nullptr; e;
+         e = e->NextSiblingElement("DataArray")) {
       const auto scalar = vtp::scalarNamed(attribute(*e, "type"));
       const std::string name(attribute(*e, "Name"));
       const std::string_view components = attribute(*e, "NumberOfComponents");
-      if (!scalar || *scalar >= vtp::Scalar::float32 || name.empty() || !(components.empty() || components == "1")) continue;
+      if (!scalar || *scalar >= vtp::Scalar::float32 || name.empty() ||
+          !(components.empty() || components == "1"))
+        continue;
       const Numbers values = numbers(*e, place + "/CellData/" + name);
-      if (values.size() < verts + kept.size()) breaks(place + "/CellData/" + name, "has fewer numbers than there are cells");
+      if (values.size() < verts + kept.size())
+        breaks(place + "/CellData/" + name, "has fewer numbers than there are cells");
       auto array = std::ranges::find(out_.cellArrays, name, &VtpLines::CellArray::name);
       if (array == out_.cellArrays.end()) array = out_.cellArrays.insert(array, {name, {}});
       Amounts::check(place + "/CellData", "arrays of cells", out_.cellArrays.size(), kMostCellArrays);
-      Amounts::check(place + "/CellData", "cells' numbers", out_.cellArrays.size() * out_.lines.size(), most_.cellNumbers);
+      Amounts::check(place + "/CellData", "cells' numbers", out_.cellArrays.size() * out_.lines.size(),
+                     most_.cellNumbers);
       array->values.resize(before, 0);
       for (std::size_t i = 0; i < kept.size(); ++i)
-        if (kept[i]) array->values.push_back(std::int32_t(std::clamp(values[verts + i], -2147483648.0, 2147483647.0)));
+        if (kept[i])
+          array->values.push_back(std::int32_t(std::clamp(values[verts + i], -2147483648.0, 2147483647.0)));
     }
     for (auto& array : out_.cellArrays) array.values.resize(out_.lines.size(), 0);
   }
@@ -381,7 +435,8 @@ class Reader {
     for (const auto& line : out_.lines)
       for (int pass = 0; pass < 2; ++pass)
         for (std::size_t i = 1; i < line.size(); ++i) {
-          const std::size_t at = pass == 0 ? i : line.size() - 1 - i, from = pass == 0 ? i - 1 : line.size() - i;
+          const std::size_t at = pass == 0 ? i : line.size() - 1 - i,
+                            from = pass == 0 ? i - 1 : line.size() - i;
           float& radius = out_.points[line[at]].w;
           if (radius > 0 || !(out_.points[line[from]].w > 0)) continue;
           radius = out_.points[line[from]].w;
@@ -409,7 +464,8 @@ const VtpLines::CellArray* VtpLines::find(std::string_view name) const {
   return found == cellArrays.end() ? nullptr : &*found;
 }
 
-Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame) {
+Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name,
+                          const ImportFrame& frame) {
   try {
     Reader reader(bytes, frame);
     VtpLines lines = reader.run();
@@ -421,7 +477,8 @@ Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& n
   }
 }
 
-Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame) {
+Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name,
+                                     const ImportFrame& frame) {
   try {
     return Reader(bytes, frame).surface();
   } catch (const BrokenRule& broken) {

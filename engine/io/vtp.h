@@ -29,17 +29,21 @@ struct VtpLines {
 /// numeric type and byte order. The radius is the point array MaximumInscribedSphereRadius, or else Radius; a
 /// radius of zero becomes that of the nearest point of its line that has one, with a warning. Verts, strips,
 /// polygons and other arrays are passed over.
-/// Fails with badInput, naming file and place: XML that is not well formed, no PolyData, data cut short or not
-/// decodable, counts that disagree, a point index out of range, a value that is not finite or a radius below
-/// zero, no lines, no radius. More than a file of so many bytes may ask for is refused before it is unpacked: six times as
-/// many bytes of data and 16 MiB, a point for 4 bytes and 500,000, a line for 16 and 100,000 (io/read_limits.h).
+/// Fails with badInput, naming file and place: XML that is not well formed, no PolyData, data cut short or
+/// not decodable, counts that disagree, a point index out of range, a value that is not finite or a radius
+/// below zero, no lines, no radius. More than a file of so many bytes may ask for is refused before it is
+/// unpacked: six times as many bytes of data and 16 MiB, a point for 4 bytes and 500,000, a line for 16 and
+/// 100,000 (io/read_limits.h).
 Result<VtpLines> readVtp(const std::filesystem::path& path, const ImportFrame& frame = {});
 
 /// The same from memory. @param name  for messages
-Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame = {});
+Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name,
+                          const ImportFrame& frame = {});
 
-/// The polygons and strips of such a file, cut into triangles; empty where there are none. Fails in the same way.
-Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name, const ImportFrame& frame = {});
+/// The polygons and strips of such a file, cut into triangles; empty where there are none. Fails in the same
+/// way.
+Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name,
+                                     const ImportFrame& frame = {});
 
 /// Adds a face, or a strip of triangles, to a mesh that has its corners already.
 void addPolygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh);
@@ -49,16 +53,16 @@ void addStrip(std::span<const std::uint32_t> corners, TriangleMesh& mesh);
 /// radii as 64-bit floats, so that nothing is lost to the change of unit.
 std::string encodeVtp(const VtpLines& lines, const ImportFrame& frame = {});
 
-/// The lines as vessels. Files of ours (VesselIds): a line a vessel. VMTK's: tracts of one centre line are put
-/// together again, and what several centre lines have in common (every one starts at the inlet) becomes one
-/// vessel, that of the longest; the others leave its side where they part from it. Others' (without CenterlineIds):
-/// pieces that share points are put together first (io/chain_lines.h). Ends at exactly the place of another line's
-/// sample are joined there.
-/// Fails with badInput where lines lie so close that telling them apart takes more than 1,000 comparisons a point and 10^8.
+/// The lines as vessels. Files of ours (VesselIds): a line a vessel. VMTK's: tracts of one centre line are
+/// put together again, and what several centre lines have in common (every one starts at the inlet) becomes
+/// one vessel, that of the longest; the others leave its side where they part from it. Others' (without
+/// CenterlineIds): pieces that share points are put together first (io/chain_lines.h). Ends at exactly the
+/// place of another line's sample are joined there. Fails with badInput where lines lie so close that telling
+/// them apart takes more than 1,000 comparisons a point and 10^8.
 Result<Centrelines> centrelinesOfVtp(const VtpLines& lines, const std::string& name, VesselKind kind);
 
-/// Arrays CenterlineIds, GroupIds and TractIds number the lines (a group each, no tract divided), Blanking is 0,
-/// VesselIds and VesselKinds are ours.
+/// Arrays CenterlineIds, GroupIds and TractIds number the lines (a group each, no tract divided), Blanking is
+/// 0, VesselIds and VesselKinds are ours.
 VtpLines vtpOfCentrelines(const Centrelines& centrelines);
 
 }  // namespace vasa

@@ -9,17 +9,17 @@
 #include "io/vtp.h"
 #include "math/closest_point.h"
 
-// VMTK's centre lines all run from an inlet to an outlet, so the way they have in common is in the file several
-// times, nearly but not exactly alike. Here the longest line is taken whole, and of every other one what does not
-// run along a line taken before.
+// VMTK's centre lines all run from an inlet to an outlet, so the way they have in common is in the file
+// several times, nearly but not exactly alike. Here the longest line is taken whole, and of every other one
+// what does not run along a line taken before.
 namespace vasa {
 namespace {
 
 // Two samples tell the same when their centres and their radii differ by less than this share of the radius.
 constexpr float kSameCentre = 0.05f, kSameRadius = 0.01f;
 constexpr float kDetourRadii = 4;
-// Comparisons with lines taken before; what VMTK writes needs some ten a point. Where one step is as long as a thousand
-// others, all of these fall into one cell.
+// Comparisons with lines taken before; what VMTK writes needs some ten a point. Where one step is as long as
+// a thousand others, all of these fall into one cell.
 constexpr std::size_t kComparisonsAPoint = 1000, kFreeComparisons = 100'000'000;
 
 using Samples = std::vector<vec4>;
@@ -29,14 +29,15 @@ std::uint64_t cellKey(glm::ivec3 cell) {
   return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
 }
 
-// The lines taken so far, found by place. Cells are as wide as the longest step of any line, so that a segment
-// near a place has an end in that place's cell or beside it.
+// The lines taken so far, found by place. Cells are as wide as the longest step of any line, so that a
+// segment near a place has an end in that place's cell or beside it.
 class Taken {
  public:
   explicit Taken(float cell) : cell_(cell) {}
 
   void add(std::uint32_t line, const Samples& samples) {
-    for (std::uint32_t i = 0; i < samples.size(); ++i) cells_[cellKey(cellOf(samples[i]))].push_back({line, i});
+    for (std::uint32_t i = 0; i < samples.size(); ++i)
+      cells_[cellKey(cellOf(samples[i]))].push_back({line, i});
     lines_.resize(std::max<std::size_t>(lines_.size(), line + 1));
     lines_[line] = samples;
   }
@@ -110,7 +111,8 @@ std::vector<Samples> wholeLines(const VtpLines& file) {
 
 float lengthOf(const Samples& samples) {
   float sum = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) sum += glm::distance(vec3(samples[i - 1]), vec3(samples[i]));
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    sum += glm::distance(vec3(samples[i - 1]), vec3(samples[i]));
   return sum;
 }
 
@@ -139,7 +141,8 @@ class Merger {
     float longest = 1e-6f;
     for (const Samples& line : lines)
       for (std::size_t i = 1; i < line.size(); ++i)
-        longest = std::max({longest, glm::distance(vec3(line[i - 1]), vec3(line[i])), kSameCentre * line[i].w});
+        longest =
+            std::max({longest, glm::distance(vec3(line[i - 1]), vec3(line[i])), kSameCentre * line[i].w});
     return longest;
   }
 
@@ -157,13 +160,17 @@ class Merger {
       }
       const std::size_t first = i;
       while (i < line.size() && !known[i]) ++i;
-      const auto before = first > 0 ? known[first - 1] : std::nullopt, after = i < line.size() ? known[i] : std::nullopt;
+      const auto before = first > 0 ? known[first - 1] : std::nullopt,
+                 after = i < line.size() ? known[i] : std::nullopt;
       addRun({line.begin() + std::ptrdiff_t(first), line.begin() + std::ptrdiff_t(i)}, before, after);
     }
   }
 
-  void addRun(Samples own, std::optional<Centrelines::Place> before, std::optional<Centrelines::Place> after) {
-    const auto placeOf = [&](const Centrelines::Place& p) { return vec3(out_.lines[p.line].samples[p.sample]); };
+  void addRun(Samples own, std::optional<Centrelines::Place> before,
+              std::optional<Centrelines::Place> after) {
+    const auto placeOf = [&](const Centrelines::Place& p) {
+      return vec3(out_.lines[p.line].samples[p.sample]);
+    };
     Samples samples;
     if (before) samples.push_back(vec4(placeOf(*before), own.front().w));
     for (const vec4& sample : own) append(samples, sample);
@@ -185,7 +192,9 @@ class Merger {
 };
 
 struct PlaceOrder {
-  bool operator()(const vec3& a, const vec3& b) const { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+  bool operator()(const vec3& a, const vec3& b) const {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  }
 };
 
 // Joins free ends that lie exactly on a sample of another line.
@@ -214,7 +223,8 @@ void joinAtSamePlace(Centrelines& lines) {
     if (hosts == inside.end()) continue;
     std::set<std::uint32_t> own;
     for (const auto& end : joint.ends) own.insert(end.line);
-    const auto other = std::ranges::find_if(hosts->second, [&](const auto& host) { return !own.contains(host.line); });
+    const auto other =
+        std::ranges::find_if(hosts->second, [&](const auto& host) { return !own.contains(host.line); });
     if (other != hosts->second.end()) joint.host = *other;
   }
   std::erase_if(lines.joints, [](const auto& joint) { return !joint.host && joint.ends.size() < 2; });
@@ -231,15 +241,18 @@ Result<Centrelines> centrelinesOfVtp(const VtpLines& file, const std::string& na
       if (samples.size() < 2) continue;
       const auto id = std::size_t(std::max(vessels->values[i], 0));
       const int told = kinds ? kinds->values[i] : -1;
-      result.lines.push_back({id < file.names.size() ? file.names[id] : std::string{}, {},
-                              told >= 0 && told <= int(VesselKind::other) ? VesselKind(told) : kind, std::move(samples)});
+      result.lines.push_back({id < file.names.size() ? file.names[id] : std::string{},
+                              {},
+                              told >= 0 && told <= int(VesselKind::other) ? VesselKind(told) : kind,
+                              std::move(samples)});
     }
   } else {
     // VMTK numbers its lines; others' are cut up anyhow.
     auto whole = wholeLines(file);
     auto merged = Merger(file.find("CenterlineIds") ? std::move(whole) : chainLines(whole)).run();
     if (!merged)
-      return badInput("its lines lie so close to one another that telling them apart takes more than " + std::to_string(kComparisonsAPoint) +
+      return badInput("its lines lie so close to one another that telling them apart takes more than " +
+                      std::to_string(kComparisonsAPoint) +
                       " comparisons a point; leave out lines that are traced several times, or long steps");
     result = std::move(*merged);
     for (auto& line : result.lines) line.kind = kind;
@@ -266,7 +279,7 @@ VtpLines vtpOfCentrelines(const Centrelines& centrelines) {
     zeros.push_back(0);
     kinds.push_back(std::int32_t(line.kind));
   }
-  file.cellArrays = {{"CenterlineIds", numbers}, {"TractIds", zeros},      {"GroupIds", numbers},
+  file.cellArrays = {{"CenterlineIds", numbers}, {"TractIds", zeros},    {"GroupIds", numbers},
                      {"Blanking", zeros},        {"VesselIds", numbers}, {"VesselKinds", kinds}};
   return file;
 }

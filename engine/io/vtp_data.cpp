@@ -50,7 +50,8 @@ std::optional<Pieces> piecesOf(Header header, std::string& fault) {
   Pieces pieces;
   const auto count = header.next(), size = header.next(), lastSize = header.next();
   if (!count || !size || !lastSize) return fault = "is cut short", std::nullopt;
-  if (*count > header.rest().size()) return fault = "promises more compressed pieces than it holds", std::nullopt;
+  if (*count > header.rest().size())
+    return fault = "promises more compressed pieces than it holds", std::nullopt;
   pieces.size = *size, pieces.lastSize = *lastSize;
   for (std::uint64_t i = 0; i < *count; ++i) {
     const auto length = header.next();
@@ -62,7 +63,8 @@ std::optional<Pieces> piecesOf(Header header, std::string& fault) {
   for (std::uint64_t i = 0; i < *count; ++i) {
     const std::uint64_t whole = i + 1 == *count && *lastSize > 0 ? *lastSize : *size;
     if (pieces.packed[i] > pieces.data.size() - before) return fault = "is cut short", std::nullopt;
-    if (whole > pieces.packed[i] * kMostDeflated) return fault = "promises more data than it can hold", std::nullopt;
+    if (whole > pieces.packed[i] * kMostDeflated)
+      return fault = "promises more data than it can hold", std::nullopt;
     before += pieces.packed[i];
     pieces.total += whole;
   }
@@ -74,12 +76,15 @@ std::optional<std::vector<std::byte>> inflate(const Pieces& pieces, std::string&
   std::span<const std::byte> data = pieces.data;
   std::size_t at = 0;
   for (std::size_t i = 0; i < pieces.packed.size(); ++i) {
-    const std::uint64_t whole = i + 1 == pieces.packed.size() && pieces.lastSize > 0 ? pieces.lastSize : pieces.size;
+    const std::uint64_t whole =
+        i + 1 == pieces.packed.size() && pieces.lastSize > 0 ? pieces.lastSize : pieces.size;
     uLongf written = uLongf(whole);
     // zlib refuses a null target even for nothing.
     Bytef nothing = 0;
     Bytef* target = whole > 0 ? reinterpret_cast<Bytef*>(content.data() + at) : &nothing;
-    if (uncompress(target, &written, reinterpret_cast<const Bytef*>(data.data()), uLong(pieces.packed[i])) != Z_OK || written != whole)
+    if (uncompress(target, &written, reinterpret_cast<const Bytef*>(data.data()), uLong(pieces.packed[i])) !=
+            Z_OK ||
+        written != whole)
       return fault = "does not decompress", std::nullopt;
     data = data.subspan(pieces.packed[i]);
     at += whole;
@@ -102,7 +107,8 @@ std::size_t sizeOf(Scalar scalar) {
   return kSizes[std::size_t(scalar)];
 }
 
-std::optional<std::uint64_t> contentBytes(std::span<const std::byte> block, const Encoding& encoding, std::string& fault) {
+std::optional<std::uint64_t> contentBytes(std::span<const std::byte> block, const Encoding& encoding,
+                                          std::string& fault) {
   Header header(block, encoding);
   if (encoding.zlib) {
     const auto pieces = piecesOf(header, fault);
@@ -128,16 +134,26 @@ std::optional<std::vector<std::byte>> unpack(std::span<const std::byte> block, c
 
 double numberAt(const std::byte* at, Scalar scalar, bool bigEndian) {
   switch (scalar) {
-    case Scalar::int8: return load<std::int8_t>(at, bigEndian);
-    case Scalar::uint8: return load<std::uint8_t>(at, bigEndian);
-    case Scalar::int16: return load<std::int16_t>(at, bigEndian);
-    case Scalar::uint16: return load<std::uint16_t>(at, bigEndian);
-    case Scalar::int32: return load<std::int32_t>(at, bigEndian);
-    case Scalar::uint32: return load<std::uint32_t>(at, bigEndian);
-    case Scalar::int64: return double(load<std::int64_t>(at, bigEndian));
-    case Scalar::uint64: return double(load<std::uint64_t>(at, bigEndian));
-    case Scalar::float32: return double(load<float>(at, bigEndian));
-    case Scalar::float64: break;
+    case Scalar::int8:
+      return load<std::int8_t>(at, bigEndian);
+    case Scalar::uint8:
+      return load<std::uint8_t>(at, bigEndian);
+    case Scalar::int16:
+      return load<std::int16_t>(at, bigEndian);
+    case Scalar::uint16:
+      return load<std::uint16_t>(at, bigEndian);
+    case Scalar::int32:
+      return load<std::int32_t>(at, bigEndian);
+    case Scalar::uint32:
+      return load<std::uint32_t>(at, bigEndian);
+    case Scalar::int64:
+      return double(load<std::int64_t>(at, bigEndian));
+    case Scalar::uint64:
+      return double(load<std::uint64_t>(at, bigEndian));
+    case Scalar::float32:
+      return double(load<float>(at, bigEndian));
+    case Scalar::float64:
+      break;
   }
   return load<double>(at, bigEndian);
 }

@@ -21,13 +21,15 @@ struct Encoding {
 };
 
 /// How many bytes a block holds, before anything is unpacked; `fault` tells why nobody knows.
-std::optional<std::uint64_t> contentBytes(std::span<const std::byte> block, const Encoding& encoding, std::string& fault);
+std::optional<std::uint64_t> contentBytes(std::span<const std::byte> block, const Encoding& encoding,
+                                          std::string& fault);
 
 /// The content of one block: behind its length, or its compressed pieces. `fault` tells why there is none.
 std::optional<std::vector<std::byte>> unpack(std::span<const std::byte> block, const Encoding& encoding,
                                              std::string& fault);
 
-/// The number at a place [bytes] as a 64-bit float; integers beyond 2^53 lose digits, which no use here minds.
+/// The number at a place [bytes] as a 64-bit float; integers beyond 2^53 lose digits, which no use here
+/// minds.
 double numberAt(const std::byte* at, Scalar scalar, bool bigEndian);
 
 }  // namespace vasa::vtp

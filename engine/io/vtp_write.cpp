@@ -24,20 +24,24 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || c == '<' || c == '>' || c == '&' || c == '"' || c == '\'') out += "&#" + std::to_string(code) + ";";
-    else out += c;
+    if (code < 0x20 || c == '<' || c == '>' || c == '&' || c == '"' || c == '\'')
+      out += "&#" + std::to_string(code) + ";";
+    else
+      out += c;
   }
   return out;
 }
 
 template <class T>
-std::string array(const char* type, const std::string& name, const std::vector<T>& values, int components = 1) {
+std::string array(const char* type, const std::string& name, const std::vector<T>& values,
+                  int components = 1) {
   std::string text = std::string("        <DataArray type=\"") + type + "\" Name=\"" + escaped(name) + "\"";
   if (components > 1) text += " NumberOfComponents=\"" + std::to_string(components) + "\"";
   return text + " format=\"binary\">\n          " + block(values) + "\n        </DataArray>\n";
 }
 
-std::string cells(const char* kind, const std::vector<std::int64_t>& connectivity, const std::vector<std::int64_t>& offsets) {
+std::string cells(const char* kind, const std::vector<std::int64_t>& connectivity,
+                  const std::vector<std::int64_t>& offsets) {
   return std::string("      <") + kind + ">\n" + array("Int64", "connectivity", connectivity) +
          array("Int64", "offsets", offsets) + "      </" + kind + ">\n";
 }
@@ -76,12 +80,14 @@ std::string encodeVtp(const VtpLines& lines, const ImportFrame& frame) {
       nameField(lines.names) + "    <Piece NumberOfPoints=\"" + std::to_string(lines.points.size()) +
       "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(lines.lines.size()) +
       "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
-  text += "      <PointData>\n" + array("Float64", "MaximumInscribedSphereRadius", radii) + "      </PointData>\n";
+  text += "      <PointData>\n" + array("Float64", "MaximumInscribedSphereRadius", radii) +
+          "      </PointData>\n";
   text += "      <CellData>\n";
   for (const auto& cellArray : lines.cellArrays) text += array("Int32", cellArray.name, cellArray.values);
   text += "      </CellData>\n";
   text += "      <Points>\n" + array("Float64", "Points", points, 3) + "      </Points>\n";
-  text += cells("Verts", {}, {}) + cells("Lines", connectivity, offsets) + cells("Strips", {}, {}) + cells("Polys", {}, {});
+  text += cells("Verts", {}, {}) + cells("Lines", connectivity, offsets) + cells("Strips", {}, {}) +
+          cells("Polys", {}, {});
   return text + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
 }
 

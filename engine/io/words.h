@@ -30,7 +30,8 @@ inline std::string_view nextLine(std::string_view& text) {
 
 /// Whether two words are the same but for capitals.
 inline bool sameLetters(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+  return std::ranges::equal(
+      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 /// A whole word as a finite number.

@@ -12,9 +12,7 @@ struct Plane {
   float side(vec3 p) const { return glm::dot(normal, p - through); }
 };
 
-Plane planeOf(const Triangle& t) {
-  return {glm::cross(t.b - t.a, t.c - t.a), t.a};
-}
+Plane planeOf(const Triangle& t) { return {glm::cross(t.b - t.a, t.c - t.a), t.a}; }
 
 // Signed distances of the corners, in lengths of the other's normal; nothing where all lie on one side.
 std::optional<vec3> sides(const Plane& plane, const Triangle& t) {
@@ -24,7 +22,8 @@ std::optional<vec3> sides(const Plane& plane, const Triangle& t) {
   return d;
 }
 
-// Where the triangle cuts the line: along the two edges from the corner that lies alone on its side of the plane.
+// Where the triangle cuts the line: along the two edges from the corner that lies alone on its side of the
+// plane.
 std::pair<float, float> interval(const Triangle& t, vec3 d, vec3 line) {
   const vec3 along{glm::dot(line, t.a), glm::dot(line, t.b), glm::dot(line, t.c)};
   const bool oneAbove = (d.x > 0) + (d.y > 0) + (d.z > 0) == 1;

@@ -5,18 +5,18 @@
 
 namespace vasa {
 
-using glm::mat3;
-using glm::mat4;
-using glm::quat;
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
 using glm::dvec3;
 using glm::dvec4;
 using glm::ivec3;
+using glm::mat3;
+using glm::mat4;
+using glm::quat;
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
 
 constexpr float kPi = 3.14159265358979323846f;
 

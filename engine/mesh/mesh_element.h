@@ -13,7 +13,8 @@ struct MeshElement {
   std::string category;    ///< what the file says it is, e.g. "artery"; empty where it says nothing
   std::string ontologyId;  ///< e.g. "FMA50029"; empty where unknown
   TriangleMesh mesh;       ///< house units: metres, +Y up
-  std::vector<std::string> surroundings;  ///< what it belongs to: names of its mesh, the nodes above it from near to far, its materials
+  std::vector<std::string> surroundings;  ///< what it belongs to: names of its mesh, the nodes above it from
+                                          ///< near to far, its materials
   std::optional<vec3> colour;             ///< of its first material, linear; none where the file gives none
 };
 

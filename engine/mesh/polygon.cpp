@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-// An ear is a corner that turns outward and whose triangle holds no corner that turns inward. Cutting one changes only its
-// two neighbours, so each corner is looked at three times at most.
+// An ear is a corner that turns outward and whose triangle holds no corner that turns inward. Cutting one
+// changes only its two neighbours, so each corner is looked at three times at most.
 namespace vasa {
 namespace {
 
@@ -14,15 +14,14 @@ using glm::dvec2;
 dvec3 areaOf(std::span<const vec3> corners) {
   dvec3 sum(0);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const dvec3 a = dvec3(corners[i]) - dvec3(corners[0]), b = dvec3(corners[(i + 1) % corners.size()]) - dvec3(corners[0]);
+    const dvec3 a = dvec3(corners[i]) - dvec3(corners[0]),
+                b = dvec3(corners[(i + 1) % corners.size()]) - dvec3(corners[0]);
     sum += glm::cross(a, b);
   }
   return sum;
 }
 
-double turn(dvec2 a, dvec2 b, dvec2 c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
+double turn(dvec2 a, dvec2 b, dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 class Clipper {
  public:
@@ -63,8 +62,8 @@ class Clipper {
     for (std::uint32_t i = count_; i-- > 0;)
       if (!gone_[i] && isEar(i)) ears_.push_back(i);
   }
-  // Cutting one ear may free another elsewhere, which a few looks at all corners find. Where nothing is an ear, a corner is
-  // cut off all the same.
+  // Cutting one ear may free another elsewhere, which a few looks at all corners find. Where nothing is an
+  // ear, a corner is cut off all the same.
   std::uint32_t nextEar(std::uint32_t otherwise) {
     while (true) {
       while (!ears_.empty()) {
@@ -106,8 +105,10 @@ void cutPolygon(std::span<const vec3> corners, std::vector<uvec3>& triangles) {
   if (corners.size() == 3) return triangles.emplace_back(0, 1, 2), void();
   if (corners.size() > 4) return Clipper(corners).run(triangles);
   const vec3 even = corners[2] - corners[0], odd = corners[3] - corners[1];
-  if (glm::dot(even, even) < glm::dot(odd, odd)) triangles.insert(triangles.end(), {{0, 1, 2}, {0, 2, 3}});
-  else triangles.insert(triangles.end(), {{0, 1, 3}, {1, 2, 3}});
+  if (glm::dot(even, even) < glm::dot(odd, odd))
+    triangles.insert(triangles.end(), {{0, 1, 2}, {0, 2, 3}});
+  else
+    triangles.insert(triangles.end(), {{0, 1, 3}, {1, 2, 3}});
 }
 
 }  // namespace vasa

@@ -6,9 +6,10 @@
 
 namespace vasa {
 
-/// Cuts a polygon into triangles that turn as it does: a quadrangle along its shorter diagonal, others by ear clipping
-/// (Meisters 1975) in the coordinate plane that they face most. Corners that lie in a line, coincide, or cross over one
-/// another cost no triangle: there are always two fewer than corners, so that a closed surface stays closed.
+/// Cuts a polygon into triangles that turn as it does: a quadrangle along its shorter diagonal, others by ear
+/// clipping (Meisters 1975) in the coordinate plane that they face most. Corners that lie in a line,
+/// coincide, or cross over one another cost no triangle: there are always two fewer than corners, so that a
+/// closed surface stays closed.
 /// @param corners  at least 3
 /// @param triangles  numbers of corners, added at the end
 /// O(corners · corners that turn inward).

@@ -18,7 +18,9 @@ Eigen::MatrixXd gramOf(const Frames& frames) {
   parallelFor(frames.size(), 1, [&](std::size_t i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = 0;
-      for (std::size_t v = 0; v < frames[i].size(); ++v) sum += glm::dot(dvec3(frames[i][v]), dvec3(frames[j][v]));  // squares of metres must not hide squares of microns
+      // Squares of metres must not hide squares of microns.
+      for (std::size_t v = 0; v < frames[i].size(); ++v)
+        sum += glm::dot(dvec3(frames[i][v]), dvec3(frames[j][v]));
       gram(Eigen::Index(i), Eigen::Index(j)) = sum;
     }
   });
@@ -75,7 +77,8 @@ ShapeBasis shapeBasis(Frames& frames, float tolerance) {
     });
     direction /= largest;
     direction[0] = 0;  // the first frame is the mesh itself, whatever rounding says
-    for (std::size_t f = 0; f < frames.size(); ++f) basis.weights[f].push_back(float(direction[Eigen::Index(f)]));
+    for (std::size_t f = 0; f < frames.size(); ++f)
+      basis.weights[f].push_back(float(direction[Eigen::Index(f)]));
     parallelFor(frames.size(), 1, [&](std::size_t f) {
       const float weight = basis.weights[f].back();
       for (std::size_t v = 0; v < first.size(); ++v) frames[f][v] -= weight * shape[v];
@@ -87,18 +90,21 @@ ShapeBasis shapeBasis(Frames& frames, float tolerance) {
   return basis;
 }
 
-Frames shapesForWeights(std::span<const std::vector<vec3>> frames, std::span<const std::vector<float>> weights) {
+Frames shapesForWeights(std::span<const std::vector<vec3>> frames,
+                        std::span<const std::vector<float>> weights) {
   const std::size_t shapes = weights[0].size();
   Frames result(shapes, std::vector<vec3>(frames[0].size(), vec3(0)));
   if (shapes == 0) return result;
   Eigen::MatrixXd matrix{Eigen::Index(frames.size()), Eigen::Index(shapes)};
   for (std::size_t f = 0; f < frames.size(); ++f)
     for (std::size_t k = 0; k < shapes; ++k) matrix(Eigen::Index(f), Eigen::Index(k)) = double(weights[f][k]);
-  const Eigen::MatrixXd inverse = matrix.completeOrthogonalDecomposition().pseudoInverse();  // shapes x frames
+  // Shapes x frames.
+  const Eigen::MatrixXd inverse = matrix.completeOrthogonalDecomposition().pseudoInverse();
   parallelFor(frames[0].size(), 4096, [&](std::size_t v) {
     for (std::size_t k = 0; k < shapes; ++k) {
       dvec3 sum(0);
-      for (std::size_t f = 1; f < frames.size(); ++f) sum += inverse(Eigen::Index(k), Eigen::Index(f)) * dvec3(frames[f][v] - frames[0][v]);
+      for (std::size_t f = 1; f < frames.size(); ++f)
+        sum += inverse(Eigen::Index(k), Eigen::Index(f)) * dvec3(frames[f][v] - frames[0][v]);
       result[k][v] = vec3(sum);
     }
   });

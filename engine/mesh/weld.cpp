@@ -63,9 +63,7 @@ class Welder {
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
 };
 
-bool finite(vec3 p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
+bool finite(vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 }  // namespace
 

@@ -76,7 +76,8 @@ float WindingNumber::at(vec3 point) const {
       for (std::uint32_t i = node.first; i < node.last; ++i) {
         const vec3 a = triangles_[i].a - point, b = triangles_[i].b - point, c = triangles_[i].c - point;
         const float la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const float denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+        const float denominator =
+            la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
         sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)), denominator);
       }
     }

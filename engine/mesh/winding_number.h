@@ -6,10 +6,10 @@
 
 namespace vasa {
 
-/// How often a triangle mesh winds around a point: 1 inside a closed surface, 0 outside. Meshes that are open, overlap
-/// or hold the same face twice still give about the number that an eye would (Jacobson, Kavan, Sorkine-Hornung 2013),
-/// where the nearest triangle's normal would say anything. Method: solid angles of near triangles; of a group of far
-/// ones only the dipole (Barill et al. 2018), error some hundredths.
+/// How often a triangle mesh winds around a point: 1 inside a closed surface, 0 outside. Meshes that are
+/// open, overlap or hold the same face twice still give about the number that an eye would (Jacobson, Kavan,
+/// Sorkine-Hornung 2013), where the nearest triangle's normal would say anything. Method: solid angles of
+/// near triangles; of a group of far ones only the dipole (Barill et al. 2018), error some hundredths.
 class WindingNumber {
  public:
   /// @param triangles  counter-clockwise from outside

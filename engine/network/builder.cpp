@@ -75,7 +75,8 @@ class PinOrder {
 };
 
 std::uint64_t keyOf(const Host& host) {
-  return std::uint64_t(host.vessel.value) << 32 | std::bit_cast<std::uint32_t>(host.parameter + 0.0f);  // -0 as 0
+  return std::uint64_t(host.vessel.value) << 32 |
+         std::bit_cast<std::uint32_t>(host.parameter + 0.0f);  // -0 as 0
 }
 
 }  // namespace
@@ -104,17 +105,20 @@ NodeId NetworkBuilder::joinToSide(VesselEnd end, Host host) {
   return {known->second};
 }
 
-void NetworkBuilder::addEnd(NodeId node, VesselEnd end) {
-  nodes_[node.value].ends.push_back(end);
-}
+void NetworkBuilder::addEnd(NodeId node, VesselEnd end) { nodes_[node.value].ends.push_back(end); }
 
 Result<Network> NetworkBuilder::build(float bodyHeight) const {
   if (!(bodyHeight > 0) || !std::isfinite(bodyHeight)) return badInput("the body height must be positive");
   Network network;
   network.bodyHeight_ = bodyHeight;
   for (std::uint32_t i = 0; i < labels_.size(); ++i) {
-    Vessel vessel{labels_[i].name, labels_[i].ontologyId, labels_[i].kind, std::uint32_t(network.points_.size()),
-                  std::uint32_t(points_[i].size()), {}, {}};
+    Vessel vessel{labels_[i].name,
+                  labels_[i].ontologyId,
+                  labels_[i].kind,
+                  std::uint32_t(network.points_.size()),
+                  std::uint32_t(points_[i].size()),
+                  {},
+                  {}};
     if (points_[i].size() < kMinPoints)
       return badInput(place(vessel, i) + " has " + std::to_string(points_[i].size()) +
                       " control points; a cubic needs at least 4");
@@ -126,7 +130,8 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
     const PendingNode& pending = nodes_[n];
     const std::string where = "node " + std::to_string(n);
     if (pending.ends.empty()) return badInput(where + " has no vessel end");
-    if (!pending.host && pending.ends.size() < 2) return badInput(where + " joins nothing: it has one end only");
+    if (!pending.host && pending.ends.size() < 2)
+      return badInput(where + " joins nothing: it has one end only");
     if (pending.host) {
       const Host& host = *pending.host;
       if (host.vessel.value >= network.vessels_.size())
@@ -145,10 +150,12 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
       NodeId& slot = end.last ? vessel.end : vessel.start;
       if (slot.valid())
         return badInput(where + ": the " + (end.last ? "last" : "first") + " point of " +
-                        place(vessel, end.vessel.value) + " belongs to node " + std::to_string(slot.value) + " already");
+                        place(vessel, end.vessel.value) + " belongs to node " + std::to_string(slot.value) +
+                        " already");
       slot = {n};
     }
-    network.nodes_.push_back({pending.host, std::uint32_t(network.ends_.size()), std::uint32_t(pending.ends.size())});
+    network.nodes_.push_back(
+        {pending.host, std::uint32_t(network.ends_.size()), std::uint32_t(pending.ends.size())});
     network.ends_.insert(network.ends_.end(), pending.ends.begin(), pending.ends.end());
   }
   PinOrder order(network);
@@ -162,7 +169,8 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
     for (const std::uint32_t p : {vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1})
       if (glm::distance(vec3(before[p]), vec3(network.points_[p])) > 0.05f * bodyHeight)
         return badInput(place(vessel, i) + ": an end lies more than 5 % of the body height from its node");
-    if (auto checked = checkPoints(network.pointsOf(vessel), place(vessel, i)); !checked) return checked.error();
+    if (auto checked = checkPoints(network.pointsOf(vessel), place(vessel, i)); !checked)
+      return checked.error();
   }
   return network;
 }

@@ -24,11 +24,12 @@ class NetworkBuilder {
   /// @param points  de Boor points (x, y, z, r) [m], at least 4
   VesselId addVessel(Label label, std::vector<vec4> points);
 
-  /// A node that these ends share (a Y; a crossing; two ends joined into one line). The place is the first end's.
+  /// A node that these ends share (a Y; a crossing; two ends joined into one line). The place is the first
+  /// end's.
   NodeId joinEnds(std::vector<VesselEnd> ends);
 
-  /// A node on the side of `host`, with one end on it. Returns the existing node if that place has one already
-  /// (equal parameter). An end may belong to one node only.
+  /// A node on the side of `host`, with one end on it. Returns the existing node if that place has one
+  /// already (equal parameter). An end may belong to one node only.
   NodeId joinToSide(VesselEnd end, Host host);
 
   /// A node with a host, or without one, and all its ends at once: what a reader of files has.
@@ -41,10 +42,10 @@ class NetworkBuilder {
   const std::vector<vec4>& pointsOf(VesselId vessel) const { return points_[vessel.value]; }
 
   /// Checks everything and moves the ends exactly onto their nodes.
-  /// Fails with badInput that names the vessel: fewer than 4 points, a value that is not finite, a radius that
-  /// is not positive, a length of zero, an end in two nodes, a host parameter outside the vessel, an end that
-  /// hangs on its own vessel, hosts that depend on one another in a circle, an end more than 5 % of the body
-  /// height from its node.
+  /// Fails with badInput that names the vessel: fewer than 4 points, a value that is not finite, a radius
+  /// that is not positive, a length of zero, an end in two nodes, a host parameter outside the vessel, an end
+  /// that hangs on its own vessel, hosts that depend on one another in a circle, an end more than 5 % of the
+  /// body height from its node.
   /// @param bodyHeight  [m] > 0
   Result<Network> build(float bodyHeight) const;
 

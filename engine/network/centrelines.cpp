@@ -40,7 +40,9 @@ void Centrelines::append(Centrelines&& other) {
 Result<CentrelineNetwork> networkOfCentrelines(const Centrelines& centrelines, float bodyHeight) {
   if (centrelines.lines.empty()) return badInput("there is no centre line of two samples or more");
   std::vector<SampledSpline> sweeps(centrelines.lines.size());
-  parallelFor(sweeps.size(), 4, [&](std::size_t i) { sweeps[i] = followSamples(centrelines.lines[i].samples, kCentreShare, kRadiusShare); });
+  parallelFor(sweeps.size(), 4, [&](std::size_t i) {
+    sweeps[i] = followSamples(centrelines.lines[i].samples, kCentreShare, kRadiusShare);
+  });
   NetworkBuilder builder;
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     const auto& line = centrelines.lines[i];
@@ -60,7 +62,8 @@ Result<CentrelineNetwork> networkOfCentrelines(const Centrelines& centrelines, f
   return result;
 }
 
-Centrelines centrelinesOfNetwork(const Network& network, std::span<const vec4> points, std::uint32_t perSpan) {
+Centrelines centrelinesOfNetwork(const Network& network, std::span<const vec4> points,
+                                 std::uint32_t perSpan) {
   Centrelines result;
   std::vector<std::vector<float>> parameters(network.vessels().size());
   for (std::size_t v = 0; v < parameters.size(); ++v) {
@@ -89,7 +92,8 @@ Centrelines centrelinesOfNetwork(const Network& network, std::span<const vec4> p
       const auto& at = parameters[node.host->vessel.value];
       // A sample that coincides with the one before was left out: the last one at or before the place.
       const auto above = std::ranges::upper_bound(at, node.host->parameter);
-      joint.host = {node.host->vessel.value, std::uint32_t(std::max<std::ptrdiff_t>(above - at.begin() - 1, 0))};
+      joint.host = {node.host->vessel.value,
+                    std::uint32_t(std::max<std::ptrdiff_t>(above - at.begin() - 1, 0))};
     }
     for (const VesselEnd& end : network.ends(node)) joint.ends.push_back({end.vessel.value, end.last});
     result.joints.push_back(std::move(joint));

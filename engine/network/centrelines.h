@@ -37,14 +37,15 @@ struct CentrelineNetwork {
   std::vector<std::vector<float>> parameters;  ///< of each line's samples
 };
 
-/// A vessel for each line, a node for each joint. A sweep comes within 5 % of a sample's radius of its centre and
-/// within 0.5 % of its radius (curve/interpolate.h).
+/// A vessel for each line, a node for each joint. A sweep comes within 5 % of a sample's radius of its centre
+/// and within 0.5 % of its radius (curve/interpolate.h).
 /// @param bodyHeight  [m]; 0: the vertical extent of the samples
 /// Fails as NetworkBuilder::build does, and without a line. In parallel over lines.
 Result<CentrelineNetwork> networkOfCentrelines(const Centrelines& centrelines, float bodyHeight = 0);
 
-/// The other way: samples of a network in some shape, at every knot, at `perSpan - 1` places between knots, and
-/// where a side branch leaves. @param points  as Network::points()
-Centrelines centrelinesOfNetwork(const Network& network, std::span<const vec4> points, std::uint32_t perSpan = 1);
+/// The other way: samples of a network in some shape, at every knot, at `perSpan - 1` places between knots,
+/// and where a side branch leaves. @param points  as Network::points()
+Centrelines centrelinesOfNetwork(const Network& network, std::span<const vec4> points,
+                                 std::uint32_t perSpan = 1);
 
 }  // namespace vasa

@@ -9,8 +9,8 @@
 #include "network/file_bytes.h"
 #include "network/patch_chunk.h"
 
-// Quantised points: ends that hang on nodes are re-pinned on reading, from points that lie on the grid exactly,
-// so reading a quantised file and writing it again gives the same bytes.
+// Quantised points: ends that hang on nodes are re-pinned on reading, from points that lie on the grid
+// exactly, so reading a quantised file and writing it again gives the same bytes.
 namespace vasa {
 namespace {
 
@@ -49,7 +49,8 @@ Grid gridOf(std::span<const vec4> points) {
   int exponent = -40;  // finer than any float needs
   while (std::ldexp(kSteps - 1, exponent) < largest) ++exponent;
   grid.exponent = std::int8_t(exponent);
-  for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = std::round(box.low[axis] / grid.step()) * grid.step();
+  for (int axis = 0; axis < 3; ++axis)
+    grid.origin[axis] = std::round(box.low[axis] / grid.step()) * grid.step();
   grid.radiusStep = radius / kSteps;
   return grid;
 }
@@ -107,7 +108,8 @@ bool readVessels(std::span<const std::byte> payload, Contents& contents) {
     before = label;
     text += label.name.size() + label.ontologyId.size();
     if (text > mostText) {
-      contents.fault = "its names are longer than the " + std::to_string(mostText) + " bytes accepted for a file of this size";
+      contents.fault = "its names are longer than the " + std::to_string(mostText) +
+                       " bytes accepted for a file of this size";
       return false;
     }
     const std::uint64_t points = in.number();
@@ -171,14 +173,17 @@ bool readChunk(const std::string& tag, std::span<const std::byte> payload, Conte
 }
 
 Result<Network> build(Contents contents, const std::string& name) {
-  if (contents.vessels.size() > contents.points.size() / kMinPoints || contents.nodes.size() > 2 * contents.vessels.size())
-    return badInput(name + ": " + std::to_string(contents.vessels.size()) + " vessels and " + std::to_string(contents.nodes.size()) +
-                    " nodes are more than " + std::to_string(contents.points.size()) + " points can make; write the file anew");
+  if (contents.vessels.size() > contents.points.size() / kMinPoints ||
+      contents.nodes.size() > 2 * contents.vessels.size())
+    return badInput(name + ": " + std::to_string(contents.vessels.size()) + " vessels and " +
+                    std::to_string(contents.nodes.size()) + " nodes are more than " +
+                    std::to_string(contents.points.size()) + " points can make; write the file anew");
   NetworkBuilder builder;
   std::size_t next = 0;
   for (auto& [label, count] : contents.vessels) {
     if (count > contents.points.size() - next)
-      return badInput(name + ": vessel '" + label.name + "' claims more points than the file holds; write the file anew");
+      return badInput(name + ": vessel '" + label.name +
+                      "' claims more points than the file holds; write the file anew");
     const auto begin = contents.points.begin() + std::ptrdiff_t(next);
     builder.addVessel(std::move(label), {begin, begin + std::ptrdiff_t(count)});
     next += count;
@@ -188,16 +193,15 @@ Result<Network> build(Contents contents, const std::string& name) {
                     std::to_string(next) + "; write the file anew");
   for (auto& [host, ends] : contents.nodes) builder.addNode(host, std::move(ends));
   auto network = builder.build(contents.bodyHeight);
-  if (network && !contents.patches.empty()) network = withPatches(std::move(*network), std::move(contents.patches));
+  if (network && !contents.patches.empty())
+    network = withPatches(std::move(*network), std::move(contents.patches));
   if (!network) return Error{network.error().fault, name + ": " + network.error().message};
   return network;
 }
 
 }  // namespace
 
-float quantisationError(const Network& network) {
-  return 0.5f * gridOf(network.points()).step();
-}
+float quantisationError(const Network& network) { return 0.5f * gridOf(network.points()).step(); }
 
 std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions options) {
   ByteWriter meta, vessels, nodes, body, file;
@@ -220,7 +224,8 @@ std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions 
       nodes.raw(node.host->parameter);
     }
     nodes.number(node.endCount);
-    for (const VesselEnd& end : network.ends(node)) nodes.number(2 * std::uint64_t(end.vessel.value) + end.last);
+    for (const VesselEnd& end : network.ends(node))
+      nodes.number(2 * std::uint64_t(end.vessel.value) + end.last);
   }
   body.chunk("META", meta);
   body.chunk("VESL", vessels);
@@ -247,7 +252,8 @@ Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::strin
   const auto length = header.raw<std::uint64_t>();
   const auto checksum = header.raw<std::uint64_t>();
   if (!header.ok() || length != bytes.size() - kHeaderBytes)
-    return badInput(name + ": has " + std::to_string(bytes.size()) + " bytes, not as many as its header says; copy it again");
+    return badInput(name + ": has " + std::to_string(bytes.size()) +
+                    " bytes, not as many as its header says; copy it again");
   const auto body = bytes.subspan(kHeaderBytes);
   if (hashBytes(body) != checksum)
     return badInput(name + ": the checksum does not match, so the file is damaged; copy it again");
@@ -259,8 +265,8 @@ Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::strin
     const auto payload = in.take(in.raw<std::uint32_t>());
     if (!in.ok() || !readChunk(tag, payload, contents))
       return badInput(name + ": chunk '" + tag + "' at byte " +
-                      std::to_string(letters.data() - bytes.data()) + " is malformed" + (contents.fault.empty() ? "" : ": " + contents.fault) +
-                      "; write the file anew");
+                      std::to_string(letters.data() - bytes.data()) + " is malformed" +
+                      (contents.fault.empty() ? "" : ": " + contents.fault) + "; write the file anew");
   }
   if (!contents.meta || !contents.vessel || !contents.point)
     return badInput(name + ": a chunk is missing (META, VESL and points are needed); write the file anew");

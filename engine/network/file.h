@@ -8,14 +8,16 @@
 //   header   "VASA", u32 version, u64 length of what follows, u64 XXH3 of what follows
 //   chunks   four letters, u32 length, payload; unknown chunks are passed over
 //     META   f32 body height [m]
-//     VESL   count, then per vessel: u8 kind, name, ontology id, point count; of both texts the number of bytes
+//     VESL   count, then per vessel: u8 kind, name, ontology id, point count; of both texts the number of
+//     bytes
 //            that they share with the vessel's before, and the rest
 //     NODE   count, then per node: u8 has host, [host vessel, f32 parameter], ends (2 · vessel + last)
 //     PNTS   f32 x y z r a de Boor point (exact), or
 //     PNTQ   f32 origin x y z, i8 exponent of the position step, f32 radius step, then u16 x y z r a point
-//     PTCH   (only where patches were kept) count, then per patch: u8 rings, per ring: vessel, f32 parameter, centre x y z,
-//            outward x y z, radius, vertices of its loop; vertices, f32 origin x y z, i8 exponent of the position step, per
-//            vertex u16 x y z and u8 a ring; triangles, three indices each
+//     PTCH   (only where patches were kept) count, then per patch: u8 rings, per ring: vessel, f32 parameter,
+//     centre x y z,
+//            outward x y z, radius, vertices of its loop; vertices, f32 origin x y z, i8 exponent of the
+//            position step, per vertex u16 x y z and u8 a ring; triangles, three indices each
 // Names together take at most four times the chunk's bytes and 16 MiB.
 // Counts and lengths inside VESL, NODE and PTCH are LEB128; strings are a length and UTF-8 bytes.
 namespace vasa {

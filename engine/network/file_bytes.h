@@ -30,7 +30,8 @@ class ByteWriter {
     number(value.size());
     append(std::as_bytes(std::span(value)));
   }
-  /// The length of what is shared with the text before, and the rest: branches of one vessel have names alike.
+  /// The length of what is shared with the text before, and the rest: branches of one vessel have names
+  /// alike.
   void text(const std::string& value, const std::string& before) {
     const auto ends = std::mismatch(value.begin(), value.end(), before.begin(), before.end());
     const auto shared = std::min(std::size_t(ends.first - value.begin()), kMaximumText);

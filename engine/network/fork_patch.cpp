@@ -8,15 +8,14 @@
 namespace vasa {
 namespace {
 
-bool finite(vec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string ringFault(const Network& network, const PatchRing& ring) {
   if (ring.vessel.value >= network.vessels().size()) return "a ring is on a vessel that is not there";
   const float spans = float(network.vessel(ring.vessel).spanCount());
   if (!(ring.parameter >= 0 && ring.parameter <= spans)) return "a ring lies outside its vessel";
-  if (!finite(ring.centre) || !std::isfinite(ring.radius) || !(ring.radius > 0)) return "a ring has no size or place";
+  if (!finite(ring.centre) || !std::isfinite(ring.radius) || !(ring.radius > 0))
+    return "a ring has no size or place";
   if (!(std::abs(glm::length(ring.outward) - 1) < 1e-3f)) return "a ring has no direction";
   if (ring.vertices < 3) return "a loop has fewer than 3 vertices";
   if (ring.vertices > kMostOnLoop) return "a loop has more than 4096 vertices";
@@ -31,7 +30,8 @@ std::string vertexFault(const ForkPatch& patch, float reach) {
   if (patch.weights.size() != patch.positions.size()) return "vertices and weights differ in number";
   for (const auto& weights : patch.weights) {
     int sum = 0;
-    for (std::size_t k = 0; k < weights.size(); ++k) sum += k < patch.rings.size() ? weights[k] : 256 * weights[k];
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      sum += k < patch.rings.size() ? weights[k] : 256 * weights[k];
     if (sum != 255) return "weights do not add up";
   }
   for (const uvec3& t : patch.triangles)
@@ -40,7 +40,8 @@ std::string vertexFault(const ForkPatch& patch, float reach) {
   return {};
 }
 
-// Directed edges: of each two triangles that share one it runs both ways, and along the loops it runs backwards.
+// Directed edges: of each two triangles that share one it runs both ways, and along the loops it runs
+// backwards.
 std::string surfaceFault(const ForkPatch& patch) {
   std::vector<std::uint64_t> edges;
   const auto add = [&](std::uint64_t from, std::uint64_t to) { edges.push_back(from << 32 | to); };
@@ -51,9 +52,11 @@ std::string surfaceFault(const ForkPatch& patch) {
     first += ring.vertices;
   }
   std::sort(edges.begin(), edges.end());
-  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return "triangles overlap or disagree on the outside";
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end())
+    return "triangles overlap or disagree on the outside";
   for (const std::uint64_t edge : edges)
-    if (!std::binary_search(edges.begin(), edges.end(), edge << 32 | edge >> 32)) return "its border is not its loops";
+    if (!std::binary_search(edges.begin(), edges.end(), edge << 32 | edge >> 32))
+      return "its border is not its loops";
   return {};
 }
 

@@ -7,7 +7,8 @@
 #include "core/ids.h"
 #include "math/types.h"
 
-// The paper's way to draw a fork (Park, Shim, Park, Kang, Kim 2013, section 3.3): the part of the source mesh around it.
+// The paper's way to draw a fork (Park, Shim, Park, Kang, Kim 2013, section 3.3): the part of the source mesh
+// around it.
 namespace vasa {
 
 class Network;
@@ -25,8 +26,8 @@ struct PatchRing {
 /// Most vertices on one loop of a patch: a shader goes around it, and devices bound that.
 constexpr std::uint32_t kMostOnLoop = 4096;
 
-/// A piece of wall with one loop of border edges beside each ring. It does not reach the rings: a strip from loop to ring
-/// closes the surface, whatever number of vertices the ring is drawn with.
+/// A piece of wall with one loop of border edges beside each ring. It does not reach the rings: a strip from
+/// loop to ring closes the surface, whatever number of vertices the ring is drawn with.
 struct ForkPatch {
   static constexpr std::size_t kFewestRings = 3, kMostRings = 4, kMostVertices = 65535;
 
@@ -38,8 +39,8 @@ struct ForkPatch {
   std::vector<uvec3> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// What is wrong with a patch for that network; empty if nothing is. It has to be a surface whose every edge has two
-/// triangles that agree on its outside, and whose border is its loops. O(n log n).
+/// What is wrong with a patch for that network; empty if nothing is. It has to be a surface whose every edge
+/// has two triangles that agree on its outside, and whose border is its loops. O(n log n).
 std::string patchFault(const Network& network, const ForkPatch& patch);
 
 }  // namespace vasa

@@ -182,8 +182,6 @@ class Joiner {
 
 }  // namespace
 
-std::size_t joinTouchingLines(Centrelines& lines) {
-  return Joiner(lines).run();
-}
+std::size_t joinTouchingLines(Centrelines& lines) { return Joiner(lines).run(); }
 
 }  // namespace vasa

@@ -9,7 +9,8 @@ namespace {
 constexpr int kSamples = 8;
 constexpr int kPasses = 2;
 constexpr float kShare = 0.5f;  // of the way to the neighbours' middle, a pass
-constexpr float kBends = 0.6f;  // r κ from which a span is drawn straight, the more the more it bends: continuous in the pose
+// R κ from which a span is drawn straight, the more the more it bends: continuous in the pose.
+constexpr float kBends = 0.6f;
 
 // |C''| <= 6 max|Δ²b|, and |C'| is at least three times the control polygon's least advance along the chord.
 bool surelyBelow(const Bezier& tube, float limit) {
@@ -21,7 +22,8 @@ bool surelyBelow(const Bezier& tube, float limit) {
     advance = std::min(advance, glm::dot(vec3(tube.b[k + 1] - tube.b[k]), chord) / length);
     radius = std::max(radius, tube.b[k + 1].w);
   }
-  for (std::size_t k = 0; k < 2; ++k) bend = std::max(bend, glm::length(vec3(tube.b[k] - 2.0f * tube.b[k + 1] + tube.b[k + 2])));
+  for (std::size_t k = 0; k < 2; ++k)
+    bend = std::max(bend, glm::length(vec3(tube.b[k] - 2.0f * tube.b[k + 1] + tube.b[k + 2])));
   return advance > 0 && radius * 6 * bend < limit * 9 * advance * advance;
 }
 
@@ -44,9 +46,7 @@ float bendOf(const Bezier& tube, float limit) {
 
 }  // namespace
 
-bool kinks(const Bezier& tube) {
-  return bendOf(tube, 1) >= 1;
-}
+bool kinks(const Bezier& tube) { return bendOf(tube, 1) >= 1; }
 
 std::uint32_t kinkCount(const Network& network, std::span<const vec4> points) {
   std::uint32_t count = 0;
@@ -69,8 +69,8 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   std::vector<float> shares;
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
-    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. It is asked once: a fold
-    // that is drawn in becomes sharper at first, and to ask again would let it run away.
+    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. It is asked
+    // once: a fold that is drawn in becomes sharper at first, and to ask again would let it run away.
     const auto shareOf = [&](std::uint32_t span, float bend) {
       return kShare * std::clamp(bend - std::max(kBends, atRest_[first + span]), 0.0f, 1.0f);
     };
@@ -83,7 +83,8 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
     const bool any = std::ranges::any_of(shares, [](float share) { return share > 0; });
     for (int pass = 0; any && pass < kPasses; ++pass)
       for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
-        for (std::uint32_t l = std::max(span, 1u); shares[span] > 0 && l < std::min(span + 4, vessel.pointCount - 1); ++l) {
+        for (std::uint32_t l = std::max(span, 1u);
+             shares[span] > 0 && l < std::min(span + 4, vessel.pointCount - 1); ++l) {
           if (fixedEnd(vessel, l)) continue;
           const vec3 middle = 0.5f * (vec3(own[l - 1]) + vec3(own[l + 1]));
           own[l] = vec4(glm::mix(vec3(own[l]), middle, shares[span]), own[l].w);

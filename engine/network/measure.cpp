@@ -9,7 +9,8 @@ NetworkMeasures measure(const Network& network, std::span<const vec4> points) {
     sum.veins += vessel.kind == VesselKind::vein || vessel.kind == VesselKind::portalVein;
     sum.length += lengthOf(own);
     sum.volume += volumeOf(own);
-    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) sum.bounds.add(bezierOfSpan(own, span).bounds());
+    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
+      sum.bounds.add(bezierOfSpan(own, span).bounds());
   }
   return sum;
 }

@@ -8,14 +8,13 @@
 namespace vasa {
 namespace {
 
-constexpr float kStep = 0.001f;        // [m]
+constexpr float kStep = 0.001f;  // [m]
 constexpr float kShareOfArc = 1 / 60.0f;
-constexpr float kStraight = 0.02f;      // [radians] a turn from station to station that is none: its plane is chance
-constexpr int kLooks = 8;              // a span, for the sharpest bend
+// [radians] a turn from station to station that is none: its plane is chance
+constexpr float kStraight = 0.02f;
+constexpr int kLooks = 8;  // a span, for the sharpest bend
 
-float angleBetween(vec3 a, vec3 b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
+float angleBetween(vec3 a, vec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 void sharpestBend(std::span<const vec4> points, CourseMeasures& out) {
   float most = 0;
@@ -46,7 +45,8 @@ CourseMeasures measureCourse(std::span<const vec4> points) {
   out.chord = glm::distance(vec3(points.front()), vec3(points.back()));
   const auto stations = stationsOf(points, std::max(kStep, kShareOfArc * out.arc));
   std::vector<vec3> steps;
-  for (std::size_t i = 1; i < stations.size(); ++i) steps.push_back(stations[i].centre - stations[i - 1].centre);
+  for (std::size_t i = 1; i < stations.size(); ++i)
+    steps.push_back(stations[i].centre - stations[i - 1].centre);
   double sum = 0;
   vec3 lastNormal(0);
   for (std::size_t i = 1; i < steps.size(); ++i) {
@@ -56,7 +56,8 @@ CourseMeasures measureCourse(std::span<const vec4> points) {
       const vec3 normal = glm::normalize(glm::cross(steps[i - 1], steps[i]));
       if (glm::dot(lastNormal, lastNormal) > 0) {
         const float turn = angleBetween(lastNormal, normal);
-        // A bend that goes over to the other side turns its plane by 180 degrees: that is an inflection, no torsion.
+        // A bend that goes over to the other side turns its plane by 180 degrees: that is an inflection, no
+        // torsion.
         outOfPlane = turn > 0.5f * kPi ? kPi - turn : turn;
         out.inflections += turn > 0.5f * kPi;
       }

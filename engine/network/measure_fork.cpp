@@ -35,7 +35,9 @@ std::optional<float> murrayExponent(float trunk, std::span<const float> arms) {
     return sum - 1;
   };
   float low = 0.5f, high = 20;
-  if (std::ranges::any_of(arms, [&](float arm) { return !(arm < trunk); }) || excess(low) < 0 || excess(high) > 0) return std::nullopt;
+  if (std::ranges::any_of(arms, [&](float arm) { return !(arm < trunk); }) || excess(low) < 0 ||
+      excess(high) > 0)
+    return std::nullopt;
   while (high - low > 1e-3f) (excess(0.5f * (low + high)) > 0 ? low : high) = 0.5f * (low + high);
   return 0.5f * (low + high);
 }
@@ -47,8 +49,12 @@ std::vector<ForkMeasures> measureForks(const Network& network, std::span<const v
     if (node.valence() < 3) continue;
     const auto ends = network.ends(node);
     const auto pointsOf = [&](VesselId vessel) { return Network::pointsOf(network.vessel(vessel), points); };
-    const auto parameterOf = [&](const VesselEnd& end) { return end.last ? float(network.vessel(end.vessel).spanCount()) : 0.0f; };
-    const auto endRadius = [&](const VesselEnd& end) { return evaluate(pointsOf(end.vessel), parameterOf(end)).w; };
+    const auto parameterOf = [&](const VesselEnd& end) {
+      return end.last ? float(network.vessel(end.vessel).spanCount()) : 0.0f;
+    };
+    const auto endRadius = [&](const VesselEnd& end) {
+      return evaluate(pointsOf(end.vessel), parameterOf(end)).w;
+    };
     ForkMeasures fork;
     fork.node = {n};
     std::optional<VesselEnd> trunkEnd;
@@ -67,9 +73,11 @@ std::vector<ForkMeasures> measureForks(const Network& network, std::span<const v
     fork.trunkRadius = trunk.radius;
     const auto add = [&](VesselId vessel, float parameter, bool last, bool host) {
       const View arm = viewFrom(pointsOf(vessel), parameter, !last, way);
-      fork.arms.push_back({vessel, last, host, arm.radius, std::acos(std::clamp(glm::dot(arm.course, -trunk.course), -1.0f, 1.0f))});
+      fork.arms.push_back({vessel, last, host, arm.radius,
+                           std::acos(std::clamp(glm::dot(arm.course, -trunk.course), -1.0f, 1.0f))});
     };
-    if (node.host && node.host->parameter < float(network.vessel(fork.trunk).spanCount())) add(fork.trunk, fork.trunkParameter, false, true);
+    if (node.host && node.host->parameter < float(network.vessel(fork.trunk).spanCount()))
+      add(fork.trunk, fork.trunkParameter, false, true);
     for (const VesselEnd& end : ends)
       if (!trunkEnd || end != *trunkEnd) add(end.vessel, parameterOf(end), end.last, false);
     std::vector<float> radii;

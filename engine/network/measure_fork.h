@@ -9,14 +9,14 @@ namespace vasa {
 /// A vessel that leaves a fork.
 struct ForkArm {
   VesselId vessel;
-  bool last = false;         ///< it is the vessel's end that is here
-  bool host = false;         ///< the part of the host that goes on behind the fork
-  float radius = 0;          ///< [m]
-  float angle = 0;           ///< [radians] that it turns off the trunk's course
+  bool last = false;  ///< it is the vessel's end that is here
+  bool host = false;  ///< the part of the host that goes on behind the fork
+  float radius = 0;   ///< [m]
+  float angle = 0;    ///< [radians] that it turns off the trunk's course
 };
 
-/// Where three arms and more meet: the trunk and what leaves it. All is taken a trunk's diameter away from the node, where
-/// the vessels have parted, or in the middle of shorter ones.
+/// Where three arms and more meet: the trunk and what leaves it. All is taken a trunk's diameter away from
+/// the node, where the vessels have parted, or in the middle of shorter ones.
 struct ForkMeasures {
   NodeId node;
   VesselId trunk;            ///< the host, or the vessel that ends here; of several the widest

@@ -14,9 +14,12 @@ std::size_t shoulder(std::span<const ProfileStation> stations, std::size_t from,
   float bestValue = sign * stations[from].radius;
   for (std::size_t i = from; direction > 0 ? i + 1 < stations.size() : i > 0;) {
     i = direction > 0 ? i + 1 : i - 1;
-    const float value = sign * stations[i].radius - kTaper * std::abs(stations[i].along - stations[from].along);
+    const float value =
+        sign * stations[i].radius - kTaper * std::abs(stations[i].along - stations[from].along);
     if (value > bestValue) bestValue = value, best = i;
-    if (best != from && std::abs(stations[i].along - stations[best].along) > kParallel * stations[best].radius) break;
+    if (best != from &&
+        std::abs(stations[i].along - stations[best].along) > kParallel * stations[best].radius)
+      break;
   }
   return best;
 }
@@ -31,12 +34,14 @@ std::optional<Kind> lesionAt(std::span<const ProfileStation> stations, std::size
   lesion.proximal = stations[before].along, lesion.distal = stations[after].along;
   const float way = lesion.distal - lesion.proximal;
   lesion.proximalRadius = stations[before].radius, lesion.distalRadius = stations[after].radius;
-  // Beside an aneurysm one shoulder is the aneurysm: vessels do not widen downstream, nor thin faster than kTaper.
+  // Beside an aneurysm one shoulder is the aneurysm: vessels do not widen downstream, nor thin faster than
+  // kTaper.
   if (sign > 0) {
     lesion.distalRadius = std::min(lesion.distalRadius, lesion.proximalRadius);
     lesion.proximalRadius = std::min(lesion.proximalRadius, lesion.distalRadius + kTaper * way);
   }
-  lesion.reference = std::lerp(lesion.proximalRadius, lesion.distalRadius, way > 0 ? (lesion.along - lesion.proximal) / way : 0);
+  lesion.reference = std::lerp(lesion.proximalRadius, lesion.distalRadius,
+                               way > 0 ? (lesion.along - lesion.proximal) / way : 0);
   return lesion;
 }
 

@@ -6,24 +6,25 @@
 
 namespace vasa {
 
-/// A place where a vessel is narrower or wider than on both sides of it. Its shoulders are where the radius stops changing
-/// as one goes away from it: the farthest from its own, where every metre of way counts against it by kTaper, and where no
-/// better is met within a radius farther on. Proximal is towards the vessel's start.
-/// All measures are of the lumen, circles at right angles to the centre line.
+/// A place where a vessel is narrower or wider than on both sides of it. Its shoulders are where the radius
+/// stops changing as one goes away from it: the farthest from its own, where every metre of way counts
+/// against it by kTaper, and where no better is met within a radius farther on. Proximal is towards the
+/// vessel's start. All measures are of the lumen, circles at right angles to the centre line.
 struct Lesion {
-  float along = 0;                      ///< [m] of arc to where it is narrowest or widest
-  float radius = 0;                     ///< [m] there
+  float along = 0;                             ///< [m] of arc to where it is narrowest or widest
+  float radius = 0;                            ///< [m] there
   float proximalRadius = 0, distalRadius = 0;  ///< [m] at its shoulders
-  float proximal = 0, distal = 0;       ///< [m] of arc to them
-  float reference = 0;                  ///< [m] of radius that the vessel would have: between the shoulders', by the way
+  float proximal = 0, distal = 0;              ///< [m] of arc to them
+  /// [m] of radius that the vessel would have: between the shoulders', by the way
+  float reference = 0;
 
   float length() const { return distal - proximal; }
 };
 
 constexpr float kTaper = 0.02f;  ///< [m of radius for a metre]: healthy vessels thin by less than 1 mm in 50
 
-/// The narrowing that takes most of the diameter away; none where the radius has no inner minimum (a vessel that is
-/// narrowest at its very end tells nothing of what it would be there).
+/// The narrowing that takes most of the diameter away; none where the radius has no inner minimum (a vessel
+/// that is narrowest at its very end tells nothing of what it would be there).
 struct Stenosis : Lesion {
   /// 1 - least diameter / healthy diameter distal of it (NASCET 1991).
   float nascet() const { return 1 - radius / distalRadius; }
@@ -34,9 +35,10 @@ struct Stenosis : Lesion {
 };
 std::optional<Stenosis> worstStenosis(std::span<const ProfileStation> stations);
 
-/// The widening of most diameter beyond what the vessel would measure there; none where the radius has no inner maximum.
+/// The widening of most diameter beyond what the vessel would measure there; none where the radius has no
+/// inner maximum.
 struct Aneurysm : Lesion {
-  float diameter() const { return 2 * radius; }               ///< [m] at right angles to the centre line
+  float diameter() const { return 2 * radius; }  ///< [m] at right angles to the centre line
   float ratio() const { return radius / reference; }
   float saccularIndex() const { return diameter() / length(); }
 };

@@ -15,7 +15,9 @@ struct ProfileStation {
   float radius = 0;     ///< [m]
   float curvature = 0;  ///< [1/m] of the centre line
 
-  float area() const { return kPi * radius * radius; }  ///< [m²] of the lumen, at right angles to the centre line
+  float area() const {
+    return kPi * radius * radius;
+  }  ///< [m²] of the lumen, at right angles to the centre line
 };
 
 /// Stations along one vessel at equal distances, both ends included.

@@ -6,11 +6,16 @@ namespace vasa {
 
 std::string_view kindName(VesselKind kind) {
   switch (kind) {
-    case VesselKind::artery: return "artery";
-    case VesselKind::vein: return "vein";
-    case VesselKind::portalVein: return "portal vein";
-    case VesselKind::lymphatic: return "lymphatic";
-    case VesselKind::other: break;
+    case VesselKind::artery:
+      return "artery";
+    case VesselKind::vein:
+      return "vein";
+    case VesselKind::portalVein:
+      return "portal vein";
+    case VesselKind::lymphatic:
+      return "lymphatic";
+    case VesselKind::other:
+      break;
   }
   return "other";
 }
@@ -21,9 +26,7 @@ std::uint32_t Network::sweepCount() const {
   return count;
 }
 
-std::uint32_t Network::sectionCount() const {
-  return sweepCount() + std::uint32_t(vessels_.size());
-}
+std::uint32_t Network::sectionCount() const { return sweepCount() + std::uint32_t(vessels_.size()); }
 
 std::uint32_t Network::junctionCount() const {
   std::uint32_t count = 0;
@@ -65,9 +68,10 @@ void pinEnds(const Network& network, std::span<vec4> points) {
   for (const NodeId id : network.pinOrder()) {
     const Node& node = network.node(id);
     const auto ends = network.ends(node);
-    const vec3 position = node.host ? vec3(evaluate(Network::pointsOf(network.vessel(node.host->vessel), points),
-                                                    node.host->parameter))
-                                    : vec3(endPoint(ends[0]));
+    const vec3 position = node.host
+                              ? vec3(evaluate(Network::pointsOf(network.vessel(node.host->vessel), points),
+                                              node.host->parameter))
+                              : vec3(endPoint(ends[0]));
     for (const VesselEnd& end : ends) endPoint(end) = vec4(position, endPoint(end).w);
   }
 }

@@ -40,9 +40,9 @@ struct Host {
   bool operator==(const Host&) const = default;
 };
 
-/// A place that vessels share. With a host it lies on the host's centre line at host.parameter (a T); without,
-/// it is the common end point of its ends (a Y, a crossing, or two vessels joined end to end). Every incident
-/// end's de Boor end point *is* the node.
+/// A place that vessels share. With a host it lies on the host's centre line at host.parameter (a T);
+/// without, it is the common end point of its ends (a Y, a crossing, or two vessels joined end to end). Every
+/// incident end's de Boor end point *is* the node.
 struct Node {
   std::optional<Host> host;
   std::uint32_t firstEnd = 0;  ///< into the network's table of ends
@@ -105,12 +105,12 @@ class Network {
   float bodyHeight_ = 1;
 };
 
-/// The network with these patches instead of its own. Fails with badInput that numbers the patch and says what is wrong
-/// with it (patchFault).
+/// The network with these patches instead of its own. Fails with badInput that numbers the patch and says
+/// what is wrong with it (patchFault).
 Result<Network> withPatches(Network network, std::vector<ForkPatch> patches);
 
-/// Puts every vessel end exactly onto its node, position only, after points were moved: onto the host's centre
-/// line, or onto the first of the node's ends. @param points  as Network::points(). O(ends).
+/// Puts every vessel end exactly onto its node, position only, after points were moved: onto the host's
+/// centre line, or onto the first of the node's ends. @param points  as Network::points(). O(ends).
 void pinEnds(const Network& network, std::span<vec4> points);
 
 }  // namespace vasa

@@ -33,7 +33,8 @@ void write(const ForkPatch& patch, ByteWriter& out) {
   out.raw(std::int8_t(exponent));
   for (std::size_t i = 0; i < patch.positions.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      out.raw(std::uint16_t(std::clamp(std::round((patch.positions[i][axis] - origin[axis]) / step), 0.0f, kSteps)));
+      out.raw(std::uint16_t(
+          std::clamp(std::round((patch.positions[i][axis] - origin[axis]) / step), 0.0f, kSteps)));
     for (std::size_t k = 0; k < patch.rings.size(); ++k) out.raw(patch.weights[i][k]);
   }
   out.number(patch.triangles.size());
@@ -47,7 +48,8 @@ std::uint32_t index(ByteReader& in) {
 
 ForkPatch read(ByteReader& in) {
   ForkPatch patch;
-  patch.rings.resize(std::min<std::size_t>(in.raw<std::uint8_t>(), ForkPatch::kMostRings + 1));  // too many is a fault
+  patch.rings.resize(
+      std::min<std::size_t>(in.raw<std::uint8_t>(), ForkPatch::kMostRings + 1));  // too many is a fault
   for (PatchRing& ring : patch.rings) {
     ring.vessel = {index(in)};
     ring.parameter = in.raw<float>();
@@ -61,7 +63,8 @@ ForkPatch read(ByteReader& in) {
   const vec3 origin = in.raw<vec3>();
   const float step = std::ldexp(1.0f, in.raw<std::int8_t>());
   for (std::size_t i = 0; i < patch.positions.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) patch.positions[i][axis] = origin[axis] + step * float(in.raw<std::uint16_t>());
+    for (int axis = 0; axis < 3; ++axis)
+      patch.positions[i][axis] = origin[axis] + step * float(in.raw<std::uint16_t>());
     for (std::size_t k = 0; k < patch.rings.size(); ++k) {
       const auto weight = in.raw<std::uint8_t>();
       if (k < ForkPatch::kMostRings) patch.weights[i][k] = weight;

@@ -8,15 +8,16 @@
 namespace vasa {
 namespace {
 
-constexpr int kPieces = 8;        // of a span
-constexpr float kFarthest = 1e3f; // [m] of a ray
+constexpr int kPieces = 8;         // of a span
+constexpr float kFarthest = 1e3f;  // [m] of a ray
 
 // Distance along the ray at which it enters the box, or a negative number.
 bool meets(const Ray& ray, const Aabb& box, float farthest) {
   float enter = ray.from, leave = farthest;
   for (int axis = 0; axis < 3; ++axis) {
     const float inverse = 1 / ray.direction[axis];
-    float near = (box.low[axis] - ray.origin[axis]) * inverse, far = (box.high[axis] - ray.origin[axis]) * inverse;
+    float near = (box.low[axis] - ray.origin[axis]) * inverse,
+          far = (box.high[axis] - ray.origin[axis]) * inverse;
     if (near > far) std::swap(near, far);
     if (std::isnan(near) || std::isnan(far)) continue;  // the ray runs in one of the box's faces
     enter = std::max(enter, near);
@@ -68,7 +69,8 @@ std::optional<Picked> pick(const Network& network, std::span<const vec4> points,
     const Vessel& vessel = network.vessels()[v];
     if (shown && !shown(VesselId{v})) continue;
     const auto own = Network::pointsOf(vessel, points);
-    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) search.look(bezierOfSpan(own, span), VesselId{v}, span);
+    for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
+      search.look(bezierOfSpan(own, span), VesselId{v}, span);
   }
   return search.best;
 }

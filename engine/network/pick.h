@@ -22,8 +22,8 @@ struct Picked {
 /// The first vessel that a ray meets. Tubes are looked at as chains of round cones, eight a span.
 /// @param points  as Network::points()
 /// @param shown   which vessels count; empty: all
-/// @param slack   [m] for a metre of distance: a thinner vessel is met as if it were so thick (a pointer's reach)
-/// O(spans).
+/// @param slack   [m] for a metre of distance: a thinner vessel is met as if it were so thick (a pointer's
+/// reach) O(spans).
 std::optional<Picked> pick(const Network& network, std::span<const vec4> points, const Ray& ray,
                            const std::function<bool(VesselId)>& shown = {}, float slack = 0);
 

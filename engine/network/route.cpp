@@ -4,15 +4,12 @@
 #include <limits>
 #include <queue>
 
-
 namespace vasa {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
-float speed(const Bezier& segment, float t) {
-  return glm::length(vec3(segment.derivative(t)));
-}
+float speed(const Bezier& segment, float t) { return glm::length(vec3(segment.derivative(t))); }
 
 // [m] of a segment from its start to t, by Simpson's rule on eight parts.
 float lengthTo(const Bezier& segment, float t) {
@@ -75,7 +72,8 @@ RouteFinder::RouteFinder(const Network& network, std::span<const vec4> points)
   for (std::uint32_t n = 0; n < network.nodes().size(); ++n) {
     const Node& node = network.nodes()[n];
     if (node.host) stop(node.host->vessel, node.host->parameter, n);
-    for (const VesselEnd& end : network.ends(node)) stop(end.vessel, end.last ? float(network.vessel(end.vessel).spanCount()) : 0, n);
+    for (const VesselEnd& end : network.ends(node))
+      stop(end.vessel, end.last ? float(network.vessel(end.vessel).spanCount()) : 0, n);
   }
   for (Line& line : lines_) std::ranges::stable_sort(line.stops, {}, &Stop::parameter);
 }
@@ -83,7 +81,8 @@ RouteFinder::RouteFinder(const Network& network, std::span<const vec4> points)
 float RouteFinder::along(VesselPlace place) const {
   const Vessel& vessel = network_->vessel(place.vessel);
   const auto [span, t] = locate(place.parameter, vessel.spanCount());
-  return lines_[place.vessel.value].lengths[span] + lengthTo(bezierOfSpan(Network::pointsOf(vessel, points_), span), t);
+  return lines_[place.vessel.value].lengths[span] +
+         lengthTo(bezierOfSpan(Network::pointsOf(vessel, points_), span), t);
 }
 
 std::optional<Route> RouteFinder::find(VesselPlace from, VesselPlace to) const {
@@ -106,8 +105,10 @@ std::optional<Route> RouteFinder::find(VesselPlace from, VesselPlace to) const {
   const auto leave = [&](VesselId vessel, float parameter, float base, std::uint32_t before) {
     const float here = along({vessel, parameter});
     for (const Stop& stop : lines_[vessel.value].stops)
-      if (stop.node != before) reach(stop.node, base + std::abs(stop.along - here), before, {vessel, parameter, stop.parameter});
-    if (vessel == to.vessel) reach(goal, base + std::abs(along(to) - here), before, {vessel, parameter, to.parameter});
+      if (stop.node != before)
+        reach(stop.node, base + std::abs(stop.along - here), before, {vessel, parameter, stop.parameter});
+    if (vessel == to.vessel)
+      reach(goal, base + std::abs(along(to) - here), before, {vessel, parameter, to.parameter});
   };
   leave(from.vessel, from.parameter, 0, NodeId::kNone);
   while (!queue.empty()) {

@@ -39,8 +39,9 @@ class RouteFinder {
   /// @param network  must outlive this; @param points as Network::points(), read, not kept
   RouteFinder(const Network& network, std::span<const vec4> points);
 
-  /// The shortest way between two places; none if no vessel joins them. From a side branch one goes on along the host
-  /// from where it hangs. Method: Dijkstra (1959) over the places where vessels meet. O(nodes log nodes).
+  /// The shortest way between two places; none if no vessel joins them. From a side branch one goes on along
+  /// the host from where it hangs. Method: Dijkstra (1959) over the places where vessels meet. O(nodes log
+  /// nodes).
   std::optional<Route> find(VesselPlace from, VesselPlace to) const;
 
  private:
@@ -50,8 +51,8 @@ class RouteFinder {
     std::uint32_t node;
   };
   struct Line {
-    std::vector<Stop> stops;    // by parameter
-    std::vector<float> lengths; // [m] up to each span's start, and the whole
+    std::vector<Stop> stops;     // by parameter
+    std::vector<float> lengths;  // [m] up to each span's start, and the whole
   };
   float along(VesselPlace place) const;
 

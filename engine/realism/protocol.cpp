@@ -56,12 +56,8 @@ void checkPose(csv::Table& table, std::size_t row, const Protocol& protocol, con
 
 }  // namespace
 
-std::string_view metricName(PoseMetric metric) {
-  return wordsOf(metric).name;
-}
-std::string_view unitOf(PoseMetric metric) {
-  return wordsOf(metric).unit;
-}
+std::string_view metricName(PoseMetric metric) { return wordsOf(metric).name; }
+std::string_view unitOf(PoseMetric metric) { return wordsOf(metric).unit; }
 
 Result<Protocol> readProtocol(const std::filesystem::path& folder) {
   Protocol protocol;

@@ -7,9 +7,9 @@
 namespace vasa {
 namespace {
 
-constexpr float kMargin = 1.08f;      // 4 % on each side
-constexpr float kSmallest = 0.01f;    // [m] least extent that is looked at
-constexpr float kNearShare = 0.02f;   // near plane as a share of the distance
+constexpr float kMargin = 1.08f;     // 4 % on each side
+constexpr float kSmallest = 0.01f;   // [m] least extent that is looked at
+constexpr float kNearShare = 0.02f;  // near plane as a share of the distance
 
 vec3 corner(const Aabb& box, int index) {
   return {index & 1 ? box.high.x : box.low.x, index & 2 ? box.high.y : box.low.y,
@@ -23,7 +23,8 @@ float fittingDistance(const Camera& camera, const Aabb& box, float aspect) {
   float distance = 0;
   for (int i = 0; i < 8; ++i) {
     const vec3 offset = (corner(box, i) - box.centre()) * axes;  // in the camera's axes
-    distance = std::max({distance, std::abs(offset.x) / slopeX + offset.z, std::abs(offset.y) / slopeY + offset.z});
+    distance =
+        std::max({distance, std::abs(offset.x) / slopeX + offset.z, std::abs(offset.y) / slopeY + offset.z});
   }
   return distance;
 }

@@ -43,7 +43,8 @@ struct RibbonLayout {
 gpu::Buffer ringBuffer(gpu::Device& device) {
   return {device,
           {.name = "capillary ring",
-           .bytes = VkDeviceSize(shared::kRingCurves) * 2 * (shared::kMostCapillaryEdges + 1) * sizeof(shared::CapillaryVertex),
+           .bytes = VkDeviceSize(shared::kRingCurves) * 2 * (shared::kMostCapillaryEdges + 1) *
+                    sizeof(shared::CapillaryVertex),
            .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}};
 }
 
@@ -60,7 +61,8 @@ shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32
   view.depth = perspective ? vec4(-axes[2], glm::dot(axes[2], camera.position)) : vec4(0, 0, 0, 1);
   view.right = axes[0];
   view.up = axes[1];
-  view.focal = perspective ? height / (2 * std::tan(camera.verticalAngle / 2)) : height / camera.orthographicHeight;
+  view.focal =
+      perspective ? height / (2 * std::tan(camera.verticalAngle / 2)) : height / camera.orthographicHeight;
   view.thinnest = kThinnest;
   view.seed = seed;
   view.capillary = packColour(kBedColour);
@@ -105,7 +107,8 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
   siteBuffer_ = gpu::makeBuffer(device, "growth sites", std::span<const shared::GrowthSite>(sites.sites));
   spans_ = gpu::makeBuffer(device, "growth spans", std::span<const shared::SweepRecord>(sites.spans));
   colours_ = gpu::Buffer(device, {"growth colours", 4 * VkDeviceSize(sites.spans.size())});
-  const VkDeviceSize frameBytes = sizeof(shared::GrowthView) + mostJobs(sites, wish.budget) * sizeof(shared::GrowthJob);
+  const VkDeviceSize frameBytes =
+      sizeof(shared::GrowthView) + mostJobs(sites, wish.budget) * sizeof(shared::GrowthJob);
   host_ = gpu::Buffer(device, {"capillary frame, host", frameBytes, gpu::MemoryRole::upload});
   frame_ = gpu::Buffer(device, {"capillary frame", frameBytes});
 }
@@ -162,12 +165,11 @@ void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std
   vkCmdDrawIndexed(commands, 3 * ribbonTriangles(batch.edges) * batch.curves, 1, 0, 0, 0);
 }
 
-std::uint64_t CapillaryPass::ringBytes() const {
-  return rings_[0].bytes() + rings_[1].bytes();
-}
+std::uint64_t CapillaryPass::ringBytes() const { return rings_[0].bytes() + rings_[1].bytes(); }
 
 std::uint64_t CapillaryPass::bytes() const {
-  std::uint64_t sum = ringBytes() + tables_.bytes() + siteBuffer_.bytes() + spans_.bytes() + colours_.bytes() + host_.bytes() + frame_.bytes();
+  std::uint64_t sum = ringBytes() + tables_.bytes() + siteBuffer_.bytes() + spans_.bytes() +
+                      colours_.bytes() + host_.bytes() + frame_.bytes();
   for (const gpu::Buffer& indices : indices_) sum += indices.bytes();
   return sum;
 }

@@ -16,15 +16,17 @@ namespace vasa {
 /// @param seed  of the capillaries' shapes
 shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32_t seed);
 
-/// Grows capillaries on the device and draws them, a batch after another through two fixed rings of vertices: the memory
-/// does not depend on how many there are. CPU reference: growth/capillary.h and ribbon.h.
+/// Grows capillaries on the device and draws them, a batch after another through two fixed rings of vertices:
+/// the memory does not depend on how many there are. CPU reference: growth/capillary.h and ribbon.h.
 class CapillaryPass {
  public:
-  /// @param wish  levels are the most that record() may be asked for, budget the most curves; 0 levels: takes no memory
-  CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes, const GrowthRules& rules,
-                const CapillarySites& sites, const CapillaryWish& wish);
+  /// @param wish  levels are the most that record() may be asked for, budget the most curves; 0 levels: takes
+  /// no memory
+  CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes,
+                const GrowthRules& rules, const CapillarySites& sites, const CapillaryWish& wish);
 
-  /// Before the first frame; waits for the device. @param spanColours  one a span of the network, kind in the highest 8 bits
+  /// Before the first frame; waits for the device. @param spanColours  one a span of the network, kind in the
+  /// highest 8 bits
   void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
 
   /// Plans a frame and writes the plan to host memory. The device must have finished the frame before.
@@ -34,7 +36,7 @@ class CapillaryPass {
     VkDeviceAddress points, knots;  ///< as tessellation reads them
     shared::DrawPush draw;          ///< the frame's constants
     LookStyle style = LookStyle::atlas;
-    bool partial = false;           ///< isPartial() of surface_pass.h
+    bool partial = false;  ///< isPartial() of surface_pass.h
   };
   /// Copies the plan to the device and makes compute shaders see it.
   void recordUpload(VkCommandBuffer commands) const;
@@ -46,7 +48,8 @@ class CapillaryPass {
 
   const CapillaryPlan& plan() const { return plan_; }
   const gpu::Buffer& ring(std::size_t batch) const { return rings_[batch % 2]; }
-  std::uint64_t bytes() const;      ///< all device and upload memory: depends on the network's spans and the budget's jobs
+  std::uint64_t bytes()
+      const;  ///< all device and upload memory: depends on the network's spans and the budget's jobs
   std::uint64_t ringBytes() const;  ///< of vertices
 
  private:

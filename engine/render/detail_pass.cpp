@@ -15,16 +15,18 @@ namespace {
 constexpr std::uint32_t kGroup = 64;
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
-// Sides of the view volume, from rows of the matrix (Gribb, Hartmann 2001). Clip space holds -w <= x, y <= w, z <= w.
+// Sides of the view volume, from rows of the matrix (Gribb, Hartmann 2001). Clip space holds -w <= x, y <= w,
+// z <= w.
 void setPlanes(shared::DetailView& view, const mat4& rows) {
-  const vec4 sides[5]{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]};
+  const vec4 sides[5]{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
+                      rows[3] - rows[2]};
   for (int i = 0; i < 5; ++i) view.planes[i] = sides[i] / glm::length(vec3(sides[i]));
 }
 
 }  // namespace
 
-shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, const TubeDetail& detail,
-                              float snap) {
+shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size,
+                              const TubeDetail& detail, float snap) {
   shared::DetailView view{};
   const float width = float(size.width), height = float(size.height);
   const mat4 rows = glm::transpose(viewProjection(camera, width / height));
@@ -54,9 +56,11 @@ shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D
 }
 
 float detailSnap(const gpu::Device& device, VkExtent2D size) {
-  // llvmpipe moves a corner to the nearest step; SwiftShader, seen, by 0.8 to 1 of one, and of others it is not known.
+  // llvmpipe moves a corner to the nearest step; SwiftShader, seen, by 0.8 to 1 of one, and of others it is
+  // not known.
   const float steps = device.adapter().driverId == VK_DRIVER_ID_MESA_LLVMPIPE ? 0.5f : 1;
-  const float rounding = float(std::max(size.width, size.height)) * 0x1p-19f;  // of the pass's places, and of the rasteriser's
+  // Of the pass's places, and of the rasteriser's.
+  const float rounding = float(std::max(size.width, size.height)) * 0x1p-19f;
   return steps * std::exp2(-float(device.limits().subPixelPrecisionBits)) + rounding;
 }
 
@@ -65,7 +69,9 @@ DetailPass::DetailPass(gpu::Device& device, const TubeSet& tubes)
       choose_(device, {spirv::around_comp, sizeof(shared::AroundPush)}),
       view_(device, {"detail view", sizeof(shared::DetailView)}),
       along_(device, {"quads along", 4 * tubes.table().sweeps.size()}),
-      sizes_(gpu::makeBuffer(device, "vessel sizes", std::span<const std::uint32_t>(std::vector<std::uint32_t>(tubes.vesselCount())))),
+      sizes_(
+          gpu::makeBuffer(device, "vessel sizes",
+                          std::span<const std::uint32_t>(std::vector<std::uint32_t>(tubes.vesselCount())))),
       around_(device, {"quads around", 4 * VkDeviceSize(tubes.vesselCount())}) {}
 
 void DetailPass::record(VkCommandBuffer commands, const TubeSet& tubes, VkDeviceAddress points,
@@ -75,8 +81,8 @@ void DetailPass::record(VkCommandBuffer commands, const TubeSet& tubes, VkDevice
   gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT | kCompute, kCompute);
   const std::uint32_t sweeps = std::uint32_t(tubes.table().sweeps.size());
   measure_.dispatch(commands,
-                    shared::MeasurePush{points, tubes.sweeps(), tubes.tables(), view_.address(), tubes.colours(),
-                                        along_.address(), sizes_.address(), sweeps, 0},
+                    shared::MeasurePush{points, tubes.sweeps(), tubes.tables(), view_.address(),
+                                        tubes.colours(), along_.address(), sizes_.address(), sweeps, 0},
                     gpu::groupsFor(sweeps, kGroup));
   gpu::stageBarrier(commands, kCompute, kCompute);
   choose_.dispatch(commands,

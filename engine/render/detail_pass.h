@@ -8,12 +8,12 @@ namespace vasa {
 
 /// What a frame's picture asks of the network's tessellation.
 /// @param snap  [pixels] how far the device's rasteriser moves corners (detailSnap)
-shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size, const TubeDetail& detail,
-                              float snap);
+shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size,
+                              const TubeDetail& detail, float snap);
 float detailSnap(const gpu::Device& device, VkExtent2D size);
 
-/// Chooses m of each vessel and n of each sweep by the rule of surface/detail.h, its CPU reference. Owns what it
-/// writes, for every pass that has to match the tubes' rings.
+/// Chooses m of each vessel and n of each sweep by the rule of surface/detail.h, its CPU reference. Owns what
+/// it writes, for every pass that has to match the tubes' rings.
 class DetailPass {
  public:
   DetailPass(gpu::Device& device, const TubeSet& tubes);

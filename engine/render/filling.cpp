@@ -21,9 +21,12 @@ std::uint32_t forkGroups(const ForkSet& forks, const FillRange& range) {
 }  // namespace
 
 Template::Template(gpu::Device& device, const shared::FillRoom& room)
-    : pool(device, {.name = "template", .bytes = kBlockBytes * room.blocks, .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
+    : pool(device, {.name = "template",
+                    .bytes = kBlockBytes * room.blocks,
+                    .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}),
       colours(device, {"colours of blocks", VkDeviceSize(4) * room.blocks}),
-      draws(device, {"template's draws", sizeof(shared::DrawCommand) * (room.tubeWindow + room.forkWindow)}) {}
+      draws(device, {"template's draws", sizeof(shared::DrawCommand) * (room.tubeWindow + room.forkWindow)}) {
+}
 
 FillRange everything(const TubeSet& tubes) {
   return {0, std::uint32_t(tubes.table().sweeps.size()), 0, std::uint32_t(tubes.table().forks.size())};
@@ -36,7 +39,8 @@ shared::FillRoom roomForAll(const TubeSet& tubes, const ForkSet& forks, const Fi
   return {sweeps * tubes.groupBlocks() + joined * forks.groupBlocks() + reserve, reserve, sweeps, joined};
 }
 
-shared::FillRoom fillRoom(const TubeSet& tubes, const ForkSet& forks, const FillRange& range, VkDeviceSize bytes) {
+shared::FillRoom fillRoom(const TubeSet& tubes, const ForkSet& forks, const FillRange& range,
+                          VkDeviceSize bytes) {
   shared::FillRoom room = roomForAll(tubes, forks, range);
   room.tubeWindow = std::min(room.tubeWindow, shared::kWindow);
   room.forkWindow = std::min(room.forkWindow, shared::kWindow);
@@ -46,7 +50,8 @@ shared::FillRoom fillRoom(const TubeSet& tubes, const ForkSet& forks, const Fill
   return room;
 }
 
-Filling::Filling(gpu::Device& device, const TubeSet& tubes, const ForkSet& forks, const shared::FillRoom& room)
+Filling::Filling(gpu::Device& device, const TubeSet& tubes, const ForkSet& forks,
+                 const shared::FillRoom& room)
     : room_(room),
       groupSweeps_(tubes.groupSweeps()),
       groupForks_(forks.groupForks()),
@@ -93,7 +98,8 @@ shared::Filling Filling::read() const {
   return state;
 }
 
-PlanPass::PlanPass(gpu::Device& device) : pipeline_(device, {spirv::template_plan_comp, sizeof(shared::PlanPush)}) {}
+PlanPass::PlanPass(gpu::Device& device)
+    : pipeline_(device, {spirv::template_plan_comp, sizeof(shared::PlanPush)}) {}
 
 void PlanPass::record(VkCommandBuffer commands, const Filling& filling, const Template& into) const {
   pipeline_.dispatch(commands,

@@ -5,8 +5,8 @@
 
 namespace vasa {
 
-/// Memory that a round of tubes and forks is written to, drawn from, and that a later round overwrites: vertices and indices
-/// in blocks as groups take them, a colour a block, a draw a group.
+/// Memory that a round of tubes and forks is written to, drawn from, and that a later round overwrites:
+/// vertices and indices in blocks as groups take them, a colour a block, a draw a group.
 struct Template {
   Template(gpu::Device& device, const shared::FillRoom& room);
   VkDeviceSize bytes() const { return pool.bytes() + colours.bytes() + draws.bytes(); }
@@ -22,9 +22,10 @@ struct FillRange {
 };
 FillRange everything(const TubeSet& tubes);
 
-/// Room of a template of so many bytes, or of fewer where that holds all of the range whatever the picture needs. The sets
-/// have to be made for at most that many bytes.
-shared::FillRoom fillRoom(const TubeSet& tubes, const ForkSet& forks, const FillRange& range, VkDeviceSize bytes);
+/// Room of a template of so many bytes, or of fewer where that holds all of the range whatever the picture
+/// needs. The sets have to be made for at most that many bytes.
+shared::FillRoom fillRoom(const TubeSet& tubes, const ForkSet& forks, const FillRange& range,
+                          VkDeviceSize bytes);
 /// Room for all of the range in one round.
 shared::FillRoom roomForAll(const TubeSet& tubes, const ForkSet& forks, const FillRange& range);
 

@@ -7,7 +7,8 @@
 
 namespace vasa {
 
-ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail, std::uint32_t templateBytes)
+ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail,
+                 std::uint32_t templateBytes)
     : count_(std::uint32_t(table.forks.size())), spanOfFork_(table.spanOfFork) {
   const std::uint32_t most = detail.mostAround();
   constexpr std::uint32_t branches = shared::kMostBranches;
@@ -15,7 +16,8 @@ ForkSet::ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail&
   largest.branch.fill(most);
   constexpr VkDeviceSize blockBytes = sizeof(shared::TubeVertex) * shared::kBlockVertices;
   for (; count_ > 0; groupForks_ /= 2) {
-    groupBlocks_ = blocksFor(inBlocks(largest.vertices()) * groupForks_, 3 * forkTriangleCount(largest, branches) * groupForks_);
+    groupBlocks_ = blocksFor(inBlocks(largest.vertices()) * groupForks_,
+                             3 * forkTriangleCount(largest, branches) * groupForks_);
     if (groupForks_ == shared::kLeastGroup || 2 * blockBytes * groupBlocks_ <= templateBytes) break;
   }
   if (!detail.automatic())

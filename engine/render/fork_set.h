@@ -8,10 +8,13 @@ namespace vasa {
 class ForkSet {
  public:
   /// @param templateBytes  as TubeSet's
-  ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail, std::uint32_t templateBytes);
+  ForkSet(gpu::Device& device, const SweepTable& table, const TubeDetail& detail,
+          std::uint32_t templateBytes);
 
   std::uint32_t groupForks() const { return groupForks_; }  ///< forks that are written together: a workgroup
-  std::uint32_t groupBlocks() const { return groupBlocks_; }  ///< the most that a group needs; 0 without forks
+  std::uint32_t groupBlocks() const {
+    return groupBlocks_;
+  }  ///< the most that a group needs; 0 without forks
   /// At fixed quads, seen or not; 0 if the picture decides.
   std::uint64_t triangleCount() const { return triangles_; }
 

@@ -17,8 +17,10 @@ FrameUpload::FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_
   device_ = gpu::Buffer(device, {"frame", bytes});
 }
 
-void FrameUpload::write(std::span<const vec4> points, std::span<const quat> knots, std::span<const mat4> joints) {
-  assert(points.size_bytes() == knotOffset_ && knots.size_bytes() == jointOffset_ - knotOffset_ && joints.size() >= jointCount_);
+void FrameUpload::write(std::span<const vec4> points, std::span<const quat> knots,
+                        std::span<const mat4> joints) {
+  assert(points.size_bytes() == knotOffset_ && knots.size_bytes() == jointOffset_ - knotOffset_ &&
+         joints.size() >= jointCount_);
   host_.write(points);
   host_.write(knots, knotOffset_);
   rows_.clear();

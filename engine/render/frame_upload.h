@@ -8,8 +8,8 @@
 
 namespace vasa {
 
-/// What changes from frame to frame, on its way from the host to the device: 16 bytes a de Boor point, 16 a knot
-/// frame, 48 a joint, in one copy.
+/// What changes from frame to frame, on its way from the host to the device: 16 bytes a de Boor point, 16 a
+/// knot frame, 48 a joint, in one copy.
 class FrameUpload {
  public:
   FrameUpload(gpu::Device& device, std::uint32_t points, std::uint32_t knots, std::uint32_t joints);

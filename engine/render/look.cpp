@@ -5,7 +5,8 @@
 namespace vasa {
 
 bool anyTranslucent(const Look& look) {
-  return std::min({look.boneOpacity, look.heartOpacity, look.otherOpacity, look.arteryOpacity, look.veinOpacity}) < 1;
+  return std::min({look.boneOpacity, look.heartOpacity, look.otherOpacity, look.arteryOpacity,
+                   look.veinOpacity}) < 1;
 }
 
 std::optional<Look> lookNamed(std::string_view name) {
@@ -27,22 +28,32 @@ std::optional<Look> lookNamed(std::string_view name) {
 
 vec4 colourOf(VesselKind kind) {
   switch (kind) {
-    case VesselKind::artery: return {0.80f, 0.13f, 0.12f, 1};
-    case VesselKind::vein: return {0.16f, 0.30f, 0.68f, 1};
-    case VesselKind::portalVein: return {0.46f, 0.24f, 0.62f, 1};
-    case VesselKind::lymphatic: return {0.36f, 0.60f, 0.32f, 1};
-    case VesselKind::other: break;
+    case VesselKind::artery:
+      return {0.80f, 0.13f, 0.12f, 1};
+    case VesselKind::vein:
+      return {0.16f, 0.30f, 0.68f, 1};
+    case VesselKind::portalVein:
+      return {0.46f, 0.24f, 0.62f, 1};
+    case VesselKind::lymphatic:
+      return {0.36f, 0.60f, 0.32f, 1};
+    case VesselKind::other:
+      break;
   }
   return {0.62f, 0.62f, 0.62f, 1};
 }
 
 vec4 colourOf(MeshRole role) {
   switch (role) {
-    case MeshRole::bones: return {0.93f, 0.86f, 0.71f, 1};
-    case MeshRole::heart: return {0.52f, 0.11f, 0.12f, 1};
-    case MeshRole::skin: return {0.86f, 0.60f, 0.48f, 1};
-    case MeshRole::organs: return {0.84f, 0.66f, 0.62f, 1};
-    case MeshRole::other: break;
+    case MeshRole::bones:
+      return {0.93f, 0.86f, 0.71f, 1};
+    case MeshRole::heart:
+      return {0.52f, 0.11f, 0.12f, 1};
+    case MeshRole::skin:
+      return {0.86f, 0.60f, 0.48f, 1};
+    case MeshRole::organs:
+      return {0.84f, 0.66f, 0.62f, 1};
+    case MeshRole::other:
+      break;
   }
   return {0.78f, 0.70f, 0.66f, 1};
 }

@@ -24,8 +24,9 @@ struct Look {
   bool drawHeart = true;
   bool drawSkin = true;
   bool drawOther = true;  ///< organs other than the heart, and meshes of unknown names
-  /// In [0, 1], 0: not drawn. Of what is neither whole nor skin or capillaries, a share of each pixel's samples is drawn,
-  /// the remainder by a pattern over pixels: with one sample a pixel it shows as fine grain.
+  /// In [0, 1], 0: not drawn. Of what is neither whole nor skin or capillaries, a share of each pixel's
+  /// samples is drawn, the remainder by a pattern over pixels: with one sample a pixel it shows as fine
+  /// grain.
   float boneOpacity = 1, heartOpacity = 1, otherOpacity = 1, arteryOpacity = 1, veinOpacity = 1;
   float capillaryOpacity = 1;
   float skinOpacity = 0.3f;  ///< in [0, 1]: less where the skin is seen face on, more towards its outline

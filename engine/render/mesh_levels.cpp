@@ -24,8 +24,8 @@ namespace {
 constexpr const char* kKind = "levels";
 constexpr float kFinestError = 0.0002f, kCoarsestError = 0.01f;  // [m]
 constexpr float kSqrt2 = 1.41421356f;
-// Cosines of a corner's normal and its triangle's: below the first one they belong to different sides of an edge, and
-// the corner's is turned to the second.
+// Cosines of a corner's normal and its triangle's: below the first one they belong to different sides of an
+// edge, and the corner's is turned to the second.
 constexpr float kEdge = 0.7f, kBesideEdge = 0.95f;
 constexpr float kWorthwhile = 0.8f;  // a level has at most this share of the triangles of the one before
 
@@ -34,14 +34,16 @@ std::vector<uvec3> simplified(const TriangleMesh& mesh, float error) {
   const std::size_t vertices = mesh.positions.size();
   const float* first = &mesh.positions[0].x;
   const float scale = meshopt_simplifyScale(first, vertices, sizeof(vec3));
-  const std::size_t count = meshopt_simplify(&fewer[0].x, &mesh.triangles[0].x, 3 * fewer.size(), first, vertices,
-                                             sizeof(vec3), 0, error / std::max(scale, error), 0, nullptr);
+  const std::size_t count =
+      meshopt_simplify(&fewer[0].x, &mesh.triangles[0].x, 3 * fewer.size(), first, vertices, sizeof(vec3), 0,
+                       error / std::max(scale, error), 0, nullptr);
   fewer.resize(count / 3);
   if (!fewer.empty()) meshopt_optimizeVertexCache(&fewer[0].x, &fewer[0].x, count, vertices);
   return fewer;
 }
 
-// The normal of a large triangle's corner at a sharp edge would shade all of the triangle as if it were the edge.
+// The normal of a large triangle's corner at a sharp edge would shade all of the triangle as if it were the
+// edge.
 vec3 cornerNormal(vec3 normal, vec3 face) {
   const float cosine = glm::dot(normal, face);
   if (cosine >= kEdge) return normal;
@@ -64,7 +66,8 @@ MeshLevel levelOf(const SkinnedMesh& mesh, const std::vector<uvec3>& triangles, 
     uvec3 own;
     for (int k = 0; k < 3; ++k) {
       const vec3 normal = size > 0 ? cornerNormal(mesh.normals[t[k]], area / size) : mesh.normals[t[k]];
-      const auto [place, isNew] = places.try_emplace({t[k], packOctahedral(normal)}, std::uint32_t(level.vertices.size()));
+      const auto [place, isNew] =
+          places.try_emplace({t[k], packOctahedral(normal)}, std::uint32_t(level.vertices.size()));
       if (isNew) level.vertices.push_back(t[k]), level.normals.push_back(normal);
       own[k] = place->second;
     }
@@ -94,7 +97,9 @@ std::optional<BodyLevels> restored(std::span<const SkinnedMesh> meshes, std::spa
     if (!in.take(own.closed) || !in.take(count)) return {};
     for (std::uint32_t k = 1; k < count; ++k) {
       MeshLevel level{};
-      if (!in.take(level.error) || !in.takeAll(level.vertices) || !in.takeAll(level.normals) || !in.takeAll(level.triangles)) return {};
+      if (!in.take(level.error) || !in.takeAll(level.vertices) || !in.takeAll(level.normals) ||
+          !in.takeAll(level.triangles))
+        return {};
       own.levels.push_back(std::move(level));
     }
   }
@@ -137,13 +142,15 @@ bool isClosed(const TriangleMesh& mesh) {
   std::ranges::sort(there);
   std::ranges::sort(back);
   if (there.empty() || there != back || std::ranges::adjacent_find(there) != there.end()) return false;
-  return std::ranges::all_of(splitComponents(whole), [](const TriangleMesh& piece) { return piece.volume() > 0; });
+  return std::ranges::all_of(splitComponents(whole),
+                             [](const TriangleMesh& piece) { return piece.volume() > 0; });
 }
 
 BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes) {
   std::uint64_t key = meshes.size();
   for (const SkinnedMesh& mesh : meshes)
-    key = hashOf(std::span(mesh.normals), hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key)));
+    key = hashOf(std::span(mesh.normals),
+                 hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key)));
   if (const auto kept = findKept(kKind, key))
     if (auto levels = restored(meshes, *kept)) return std::move(*levels);
   BodyLevels all(meshes.size());
@@ -169,7 +176,8 @@ std::vector<JointBall> jointBalls(const SkinnedMesh& mesh) {
   return balls;
 }
 
-float nearestDepth(std::span<const JointBall> balls, std::span<const mat4> jointMatrices, const Camera& camera) {
+float nearestDepth(std::span<const JointBall> balls, std::span<const mat4> jointMatrices,
+                   const Camera& camera) {
   const vec3 forward = -cameraAxes(camera)[2];
   float nearest = camera.farDistance;
   for (const JointBall& ball : balls) {

@@ -10,12 +10,14 @@ namespace vasa {
 
 struct SkinnedMesh;
 
-/// A mesh with fewer triangles, or the mesh itself. It has vertices of its own, so that only those that it needs are moved.
+/// A mesh with fewer triangles, or the mesh itself. It has vertices of its own, so that only those that it
+/// needs are moved.
 struct MeshLevel {
-  float error;                          ///< [m] about how far its surface lies from the mesh's (Garland and Heckbert 1997, quadrics)
+  float error;  ///< [m] about how far its surface lies from the mesh's (Garland and Heckbert 1997, quadrics)
   std::vector<std::uint32_t> vertices;  ///< of the mesh; one may be there several times
-  std::vector<vec3> normals;            ///< unit, one a vertex: the mesh's, turned where a triangle is far from them
-  std::vector<uvec3> triangles;         ///< of places in `vertices`, in an order in which a vertex is shaded about once
+  std::vector<vec3> normals;  ///< unit, one a vertex: the mesh's, turned where a triangle is far from them
+  std::vector<uvec3>
+      triangles;  ///< of places in `vertices`, in an order in which a vertex is shaded about once
 };
 
 struct LevelledMesh {
@@ -25,8 +27,8 @@ struct LevelledMesh {
 
 /// The mesh alone, as it is, and not looked at whether it is closed.
 LevelledMesh oneLevel(const SkinnedMesh& mesh);
-/// The mesh, then ever coarser levels, each with √2 times the error of the one before at least; ends at 1 cm or where
-/// hardly a triangle goes. Cost: about 0.5 s for 100,000 triangles.
+/// The mesh, then ever coarser levels, each with √2 times the error of the one before at least; ends at 1 cm
+/// or where hardly a triangle goes. Cost: about 0.5 s for 100,000 triangles.
 LevelledMesh coarserLevels(const SkinnedMesh& mesh);
 
 /// Levels of each of a body's meshes. Renderers of one body can share them (RenderOptions::levels).
@@ -47,10 +49,11 @@ struct JointBall {
 /// One ball a joint that moves some vertex.
 std::vector<JointBall> jointBalls(const SkinnedMesh& mesh);
 
-/// How far before the eye [m] the nearest place lies that the balls reach in this pose; those wholly behind the camera's
-/// near plane do not count. The camera's farDistance where there is none.
+/// How far before the eye [m] the nearest place lies that the balls reach in this pose; those wholly behind
+/// the camera's near plane do not count. The camera's farDistance where there is none.
 /// @param jointMatrices  world · inverseBind; a ball whose joint is beyond them stays at rest
-float nearestDepth(std::span<const JointBall> balls, std::span<const mat4> jointMatrices, const Camera& camera);
+float nearestDepth(std::span<const JointBall> balls, std::span<const mat4> jointMatrices,
+                   const Camera& camera);
 
 /// Side of a pixel [m] at a depth, or at the near plane where that is farther away.
 float pixelAt(float depth, const Camera& camera, std::uint32_t pictureHeight);

@@ -34,11 +34,15 @@ std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
 
 bool shown(MeshRole role, const Look& look) {
   switch (role) {
-    case MeshRole::bones: return look.drawBones && look.boneOpacity > 0;
-    case MeshRole::heart: return look.drawHeart && look.heartOpacity > 0;
-    case MeshRole::skin: return look.drawSkin && look.skinOpacity > 0;
+    case MeshRole::bones:
+      return look.drawBones && look.boneOpacity > 0;
+    case MeshRole::heart:
+      return look.drawHeart && look.heartOpacity > 0;
+    case MeshRole::skin:
+      return look.drawSkin && look.skinOpacity > 0;
     case MeshRole::organs:
-    case MeshRole::other: return look.drawOther && look.otherOpacity > 0;
+    case MeshRole::other:
+      return look.drawOther && look.otherOpacity > 0;
   }
   return false;
 }
@@ -52,12 +56,15 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const
   std::vector<std::uint32_t> colours;
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const SkinnedMesh& mesh = meshes[k];
-    assert(mesh.normals.size() == mesh.mesh.positions.size() && mesh.influences.size() == mesh.normals.size());
+    assert(mesh.normals.size() == mesh.mesh.positions.size() &&
+           mesh.influences.size() == mesh.normals.size());
     const MeshRole role = roleNamed(mesh.name);
-    Part& part = parts_.emplace_back(Part{.role = role, .levels = {}, .closed = levels[k].closed, .balls = {}});
+    Part& part =
+        parts_.emplace_back(Part{.role = role, .levels = {}, .closed = levels[k].closed, .balls = {}});
     for (const MeshLevel& level : levels[k].levels) {
-      part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()), std::uint32_t(3 * level.triangles.size()),
-                             std::uint32_t(vertices.size()), std::uint32_t(level.vertices.size()), true});
+      part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()),
+                             std::uint32_t(3 * level.triangles.size()), std::uint32_t(vertices.size()),
+                             std::uint32_t(level.vertices.size()), true});
       triangles.insert(triangles.end(), level.triangles.begin(), level.triangles.end());
       for (std::size_t i = 0; i < level.vertices.size(); ++i)
         vertices.push_back(restVertex(mesh, level.vertices[i], level.normals[i]));
@@ -76,8 +83,9 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const
   colours_ = gpu::makeBuffer(device, "mesh colours", std::span<const std::uint32_t>(colours));
 }
 
-std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
-                                               std::uint32_t pictureHeight, float pixels) const {
+std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices,
+                                               const Camera& camera, std::uint32_t pictureHeight,
+                                               float pixels) const {
   std::vector<Level> chosen;
   for (const Part& part : parts_) {
     if (!shown(part.role, look)) {

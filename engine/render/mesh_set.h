@@ -9,7 +9,8 @@
 
 namespace vasa {
 
-/// The body's meshes and their levels in device memory, one behind the other: at rest, and as posed in this frame.
+/// The body's meshes and their levels in device memory, one behind the other: at rest, and as posed in this
+/// frame.
 class MeshSet {
  public:
   struct Level {
@@ -20,7 +21,7 @@ class MeshSet {
   };
   struct Part {
     MeshRole role;
-    std::vector<Level> levels;     ///< the mesh itself, then ever coarser ones
+    std::vector<Level> levels;  ///< the mesh itself, then ever coarser ones
     bool closed = false;
     std::vector<JointBall> balls;  ///< where it is, if it has several levels
   };
@@ -33,8 +34,8 @@ class MeshSet {
   MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels);
 
   std::span<const Part> parts() const { return parts_; }
-  /// For every part that `look` shows the coarsest level whose error shows as `pixels` at most, the mesh itself for 0
-  /// pixels; for every other part an empty level.
+  /// For every part that `look` shows the coarsest level whose error shows as `pixels` at most, the mesh
+  /// itself for 0 pixels; for every other part an empty level.
   std::vector<Level> levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
                                std::uint32_t pictureHeight, float pixels) const;
   const Heart& heart() const { return heart_; }

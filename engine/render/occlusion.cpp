@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-// McGuire, Osman, Bukowski, Hennessy 2011 (the Alchemy obscurance): each point in front of the surface takes light by how
-// steeply it rises over the tangent plane and how near it is.
+// McGuire, Osman, Bukowski, Hennessy 2011 (the Alchemy obscurance): each point in front of the surface takes
+// light by how steeply it rises over the tangent plane and how near it is.
 namespace vasa {
 namespace {
 
@@ -13,7 +13,8 @@ constexpr float kLeast = 3, kMost = 48;  // [pixels] radius of the spiral
 
 class Picture {
  public:
-  Picture(std::span<const float> depth, const shared::OcclusionPush& constants) : depth_(depth), push_(constants) {}
+  Picture(std::span<const float> depth, const shared::OcclusionPush& constants)
+      : depth_(depth), push_(constants) {}
 
   float lightAt(ivec2 pixel) const {
     const float depth = depthAt(pixel);
@@ -28,7 +29,8 @@ class Picture {
     const vec2 axis = axisOf(pixel);
     float taken = 0;
     for (const vec2 unit : shared::kOcclusionSpiral) {
-      const vec2 tap = unit * radius, turned(tap.x * axis.x - tap.y * axis.y, tap.x * axis.y + tap.y * axis.x);
+      const vec2 tap = unit * radius,
+                 turned(tap.x * axis.x - tap.y * axis.y, tap.x * axis.y + tap.y * axis.x);
       const ivec2 other = pixel + ivec2(glm::floor(turned + 0.5f));
       const float otherDepth = depthAt(other);
       if (otherDepth <= 0) continue;
@@ -59,7 +61,8 @@ class Picture {
     return std::abs(forward.z) < std::abs(backward.z) ? forward : backward;
   }
   static vec2 axisOf(ivec2 pixel) {
-    const std::uint32_t turn = ((std::uint32_t(pixel.x) & 3u) * 5u + (std::uint32_t(pixel.y) & 3u) * 3u) & 15u;
+    const std::uint32_t turn =
+        ((std::uint32_t(pixel.x) & 3u) * 5u + (std::uint32_t(pixel.y) & 3u) * 3u) & 15u;
     const float x = 1 - 0.125f * float(turn);
     return {x, std::sqrt(std::max(1 - x * x, 0.0f))};
   }
@@ -70,8 +73,8 @@ class Picture {
 
 }  // namespace
 
-shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height, float reach,
-                                         float strength) {
+shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height,
+                                         float reach, float strength) {
   shared::OcclusionPush push{};
   push.width = width;
   push.height = height;

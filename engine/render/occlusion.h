@@ -10,8 +10,8 @@ namespace vasa {
 /// How places follow from a picture's depth, and how far occlusion reaches.
 /// @param reach     [m]
 /// @param strength  0 to 1
-shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height, float reach,
-                                         float strength);
+shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height,
+                                         float reach, float strength);
 
 /// Ambient occlusion of a picture from its depth: the share of ambient light that is left at each pixel.
 /// CPU references of shaders/occlusion.frag and smooth.frag.

@@ -10,13 +10,15 @@ namespace vasa {
 namespace {
 
 gpu::Image makeLight(gpu::Device& device, const char* name, const gpu::Target& target) {
-  return {device,
-          {name, target.spec().size, VK_FORMAT_R32_SFLOAT,
-           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
+  return {
+      device,
+      {name, target.spec().size, VK_FORMAT_R32_SFLOAT,
+       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
 }
 
 // One triangle over the whole picture, at the background's depth: only what lies before that is shaded.
-gpu::GraphicsSpec overDepth(const gpu::ShaderCode& fragment, const gpu::ImageSet& images, const gpu::TargetSpec& target) {
+gpu::GraphicsSpec overDepth(const gpu::ShaderCode& fragment, const gpu::ImageSet& images,
+                            const gpu::TargetSpec& target) {
   return {.name = "occlusion",
           .vertex = spirv::screen_vert,
           .fragment = fragment,
@@ -30,8 +32,8 @@ gpu::GraphicsSpec overDepth(const gpu::ShaderCode& fragment, const gpu::ImageSet
           .depthWrite = false};
 }
 
-gpu::GraphicsSpec intoLight(const gpu::ShaderCode& fragment, const gpu::ImageSet& images, gpu::TargetSpec target,
-                            const gpu::Image& light) {
+gpu::GraphicsSpec intoLight(const gpu::ShaderCode& fragment, const gpu::ImageSet& images,
+                            gpu::TargetSpec target, const gpu::Image& light) {
   target.colour = light.format();
   target.samples = VK_SAMPLE_COUNT_1_BIT;
   return overDepth(fragment, images, target);
@@ -51,15 +53,17 @@ void draw(VkCommandBuffer commands, const gpu::GraphicsPipeline& pipeline, const
 }
 
 // Draws a float a pixel, 1 where the picture is empty.
-void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Target& target, const gpu::GraphicsPipeline& pipeline,
-              const gpu::ImageSet& images, const shared::OcclusionPush& push) {
+void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Target& target,
+              const gpu::GraphicsPipeline& pipeline, const gpu::ImageSet& images,
+              const shared::OcclusionPush& push) {
   constexpr VkImageLayout written = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   constexpr VkPipelineStageFlags2 writers = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
   gpu::changeLayout(commands, {.image = light.handle(), .after = written, .to = writers});
-  VkRenderingAttachmentInfo colour = gpu::attachment(light, written, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
+  VkRenderingAttachmentInfo colour =
+      gpu::attachment(light, written, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
   colour.clearValue.color.float32[0] = 1;
-  const VkRenderingAttachmentInfo depth =
-      gpu::attachment(target.readableDepth(), gpu::kReadDepthLayout, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
+  const VkRenderingAttachmentInfo depth = gpu::attachment(
+      target.readableDepth(), gpu::kReadDepthLayout, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
   info.renderArea.extent = light.size();
@@ -98,8 +102,8 @@ void OcclusionPass::resize(gpu::Device& device, const gpu::Target& target) {
   images_ = Images(device, target);
 }
 
-void OcclusionPass::record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera, float reach,
-                           float strength) const {
+void OcclusionPass::record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera,
+                           float reach, float strength) const {
   const VkExtent2D size = target.spec().size;
   const shared::OcclusionPush push = occlusionConstants(camera, size.width, size.height, reach, strength);
   target.makeDepthReadable(commands);

@@ -16,11 +16,13 @@ class OcclusionPass {
   /// For pictures of another size, from a target that is else the same. Pipelines stay.
   void resize(gpu::Device& device, const gpu::Target& target);
 
-  /// Between two stretches of the picture, a stretch of its own: finds the occlusion and takes it off the picture's colours.
-  /// A barrier from and to gpu::kAttachmentStages belongs behind it.
-  void record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera, float reach, float strength) const;
+  /// Between two stretches of the picture, a stretch of its own: finds the occlusion and takes it off the
+  /// picture's colours. A barrier from and to gpu::kAttachmentStages belongs behind it.
+  void record(VkCommandBuffer commands, const gpu::Target& target, const Camera& camera, float reach,
+              float strength) const;
 
-  /// What was found, before and after it is smoothed: a float a pixel, in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
+  /// What was found, before and after it is smoothed: a float a pixel, in
+  /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
   const gpu::Image& raw() const { return images_.raw; }
   const gpu::Image& light() const { return images_.light; }
 

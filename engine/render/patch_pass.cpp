@@ -12,9 +12,7 @@ namespace vasa {
 namespace {
 
 // Vertices of the table in whole blocks, then those of the rings.
-std::uint32_t verticesOf(const PatchTable& table) {
-  return table.seams.back().vertex + shared::kMaxAround;
-}
+std::uint32_t verticesOf(const PatchTable& table) { return table.seams.back().vertex + shared::kMaxAround; }
 
 // Patches' and strips', these with room for the most vertices around.
 std::uint32_t triangleRoomOf(const PatchTable& table) {
@@ -44,10 +42,12 @@ PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
   spanOfBlock_.resize(verticesOf(table) >> shared::kBlockShift);
   for (const PatchTable::Patch& patch : table.patches) {
     const auto fill = [&](std::uint32_t first, std::uint32_t count) {
-      for (std::uint32_t v = first; v < first + count; ++v) spanOfBlock_[v >> shared::kBlockShift] = patch.span;
+      for (std::uint32_t v = first; v < first + count; ++v)
+        spanOfBlock_[v >> shared::kBlockShift] = patch.span;
     };
     fill(patch.firstVertex, patch.vertexCount);
-    for (std::uint32_t i = 0; i < patch.seamCount; ++i) fill(table.seams[patch.firstSeam + i].vertex, shared::kMaxAround);
+    for (std::uint32_t i = 0; i < patch.seamCount; ++i)
+      fill(table.seams[patch.firstSeam + i].vertex, shared::kMaxAround);
   }
   seams_ = gpu::makeBuffer(device, "patch seams", std::span<const shared::PatchSeam>(table.seams));
   shares_ = gpu::makeBuffer(device, "patch shares", std::span<const float>(table.shares));
@@ -62,9 +62,12 @@ PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
   fans_ = gpu::makeBuffer(device, "patch fans", std::span<const shared::FanTriangle>(table.fans));
   strained_ = gpu::Buffer(device, {"strained patches", sizeof(shared::StrainedPatch) * table.patches.size()});
   dispatch_ = gpu::Buffer(device, {"patch smoothing", sizeof(VkDispatchIndirectCommand)});
-  between_ = gpu::Buffer(device, {"patches between steps", sizeof(shared::TubeVertex) * table.vertices.size()});
+  between_ =
+      gpu::Buffer(device, {"patches between steps", sizeof(shared::TubeVertex) * table.vertices.size()});
   const VkDeviceSize vertices = inBlocks(verticesOf(table));
-  draws_.vertices = gpu::Buffer(device, {.name = "patch vertices", .bytes = vertices * sizeof(shared::TubeVertex), .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
+  draws_.vertices = gpu::Buffer(device, {.name = "patch vertices",
+                                         .bytes = vertices * sizeof(shared::TubeVertex),
+                                         .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
   draws_.colours = gpu::Buffer(device, {"patch colours", 4 * (vertices >> shared::kBlockShift)});
   draws_.indices = gpu::Buffer(device, {"patch indices", VkDeviceSize(12) * triangleRoom_});
   draws_.draws = gpu::Buffer(device, {"patch draws", sizeof(shared::DrawCommand) * groups_});
@@ -73,7 +76,9 @@ PatchSet::PatchSet(gpu::Device& device, const PatchTable& table)
 VkDeviceSize PatchSet::bytes() const {
   if (empty()) return 0;
   VkDeviceSize sum = 0;
-  for (const gpu::Buffer* buffer : {&draws_.vertices, &draws_.colours, &draws_.indices, &draws_.draws, &seams_, &shares_, &rest_, &joints_, &all_, &walls_, &firstFan_, &fans_, &strained_, &dispatch_, &between_})
+  for (const gpu::Buffer* buffer :
+       {&draws_.vertices, &draws_.colours, &draws_.indices, &draws_.draws, &seams_, &shares_, &rest_,
+        &joints_, &all_, &walls_, &firstFan_, &fans_, &strained_, &dispatch_, &between_})
     sum += buffer->bytes();
   return sum;
 }
@@ -90,7 +95,8 @@ PatchPass::PatchPass(gpu::Device& device, std::uint32_t samples)
       skin_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}),
       strain_(device, {spirv::patch_strain_comp, sizeof(shared::PatchStrainPush)}),
       smooth_(device, {spirv::patch_smooth_comp, sizeof(shared::PatchSmoothPush)}),
-      triangles_(device, {spirv::patch_triangles_comp, sizeof(shared::PatchTrianglesPush), gpu::Specialization().set(0, samples)}) {}
+      triangles_(device, {spirv::patch_triangles_comp, sizeof(shared::PatchTrianglesPush),
+                          gpu::Specialization().set(0, samples)}) {}
 
 void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
   const PatchSet& patches = input.patches;
@@ -140,7 +146,8 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
   recordTriangles(commands, patches, input.detail, input.cull);
 }
 
-void PatchPass::recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail, bool cull) const {
+void PatchPass::recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail,
+                                bool cull) const {
   const PatchDraws& draws = patches.draws_;
   triangles_.dispatch(commands,
                       shared::PatchTrianglesPush{.vertices = draws.vertices.address(),

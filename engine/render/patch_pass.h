@@ -17,11 +17,13 @@ class PatchSet {
 
   bool empty() const { return seamCount_ == 0; }
   /// Strips included, seen or not, where all vessels have `around` quads.
-  std::uint64_t triangleCount(std::uint32_t around) const { return fixedTriangles_ + std::uint64_t(seamCount_) * around; }
+  std::uint64_t triangleCount(std::uint32_t around) const {
+    return fixedTriangles_ + std::uint64_t(seamCount_) * around;
+  }
   VkDeviceSize bytes() const;
 
-  /// Vertices, colours, indices of the triangles to draw, and a draw a group; all of a frame but the colours. Empty without
-  /// patches.
+  /// Vertices, colours, indices of the triangles to draw, and a draw a group; all of a frame but the colours.
+  /// Empty without patches.
   const PatchDraws& draws() const { return draws_; }
   std::uint32_t groups() const { return groups_; }
   /// Indices of all triangles, seen or not: those of PatchTable, then the strips' (PatchSeam::index).
@@ -39,15 +41,16 @@ class PatchSet {
   PatchDraws draws_;
 };
 
-/// Carries patches by the rings of their vessels, smooths those that these press together, closes the surface between them,
-/// and leaves out triangles that cannot be seen. CPU references: surface/patch.h, surface/patch_smooth.h, surface/visible.h.
+/// Carries patches by the rings of their vessels, smooths those that these press together, closes the surface
+/// between them, and leaves out triangles that cannot be seen. CPU references: surface/patch.h,
+/// surface/patch_smooth.h, surface/visible.h.
 class PatchPass {
  public:
   /// @param samples  of the picture: 1 or 4 a pixel
   PatchPass(gpu::Device& device, std::uint32_t samples);
 
   struct Input {
-    const TubeSet& tubes;  ///< of the same network
+    const TubeSet& tubes;     ///< of the same network
     const PatchSet& patches;  ///< not empty
     const DetailPass& detail;
     VkDeviceAddress points, knots;  ///< de Boor points (vec4) and knot quaternions (x y z w) of the frame
@@ -56,7 +59,8 @@ class PatchPass {
   /// Barriers between its own dispatches only.
   void record(VkCommandBuffer commands, const Input& input) const;
   /// Only chooses what is drawn of the latest frame's vertices and strips.
-  void recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail, bool cull) const;
+  void recordTriangles(VkCommandBuffer commands, const PatchSet& patches, const DetailPass& detail,
+                       bool cull) const;
 
  private:
   gpu::ComputePipeline seams_, skin_, strain_, smooth_, triangles_;

@@ -38,16 +38,12 @@ void straighten(std::uint8_t* pixel) {
 
 }  // namespace
 
-vec4 linearColour(vec4 srgb) {
-  return {linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z), srgb.w};
-}
+vec4 linearColour(vec4 srgb) { return {linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z), srgb.w}; }
 
-vec4 srgbColour(vec4 linear) {
-  return {srgbOf(linear.x), srgbOf(linear.y), srgbOf(linear.z), linear.w};
-}
+vec4 srgbColour(vec4 linear) { return {srgbOf(linear.x), srgbOf(linear.y), srgbOf(linear.z), linear.w}; }
 
-std::vector<std::uint8_t> averaged(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height,
-                                   std::uint32_t n) {
+std::vector<std::uint8_t> averaged(std::span<const std::uint8_t> rgba, std::uint32_t width,
+                                   std::uint32_t height, std::uint32_t n) {
   assert(rgba.size() == std::size_t(4) * width * n * height * n);
   std::vector<std::uint8_t> result(std::size_t(4) * width * height);
   const float share = 1 / float(n * n);
@@ -71,7 +67,8 @@ void swapRedAndBlue(std::span<std::uint8_t> rgba) {
   for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) std::swap(rgba[i], rgba[i + 2]);
 }
 
-Image toImage(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height, bool transparent) {
+Image toImage(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height,
+              bool transparent) {
   assert(rgba.size() == std::size_t(4) * width * height);
   Image image{width, height, {rgba.begin(), rgba.end()}};
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) {

@@ -52,7 +52,8 @@ double ProfileRow::fps() const {
 }
 
 std::string ProfileRow::name() const {
-  return quads.pixelError > 0 ? "auto" : std::to_string(quads.shape.around) + "x" + std::to_string(quads.shape.along);
+  return quads.pixelError > 0 ? "auto"
+                              : std::to_string(quads.shape.around) + "x" + std::to_string(quads.shape.along);
 }
 
 // One shape can be drawn while the other is made.
@@ -90,8 +91,10 @@ struct Profiler::Pass {
   }
   // @return what the frame is drawn from, good until the next but one
   Shape& take(bool ahead) {
-    if (next.valid()) next.get();
-    else make(frame);
+    if (next.valid())
+      next.get();
+    else
+      make(frame);
     if (ahead)
       next = std::async(std::launch::async, [this, number = frame + 1] {
         if (besidePicture) giveWay();
@@ -146,11 +149,16 @@ bool Profiler::step() {
   const Pass::Shape& shape = pass.take(!pass.renderer.options().timed);
   const double solveMs = shape.ms, pictureMs = pass.draw(shape);
   // What an app did since the last step may have hidden some of the shape's time.
-  const FrameTime time{.frame = std::max(msSince(start), solveMs), .latency = msSince(shape.start), .solve = solveMs, .picture = pictureMs};
+  const FrameTime time{.frame = std::max(msSince(start), solveMs),
+                       .latency = msSince(shape.start),
+                       .solve = solveMs,
+                       .picture = pictureMs};
   if (pass.frame++ >= kWarmUpFrames) note(time, shape.report);
   if (pass.frame < kWarmUpFrames + setting_.frames) return true;
-  if (!pass.renderer.options().timed) startPass(true);
-  else finishRow();
+  if (!pass.renderer.options().timed)
+    startPass(true);
+  else
+    finishRow();
   return rows_.size() < wanted_.size();
 }
 
@@ -167,12 +175,14 @@ void Profiler::note(const FrameTime& time, const FrameReport& shape) {
       add("frame_ms", time.frame);
       add("latency_ms", time.latency);
     }
-    if (phase == 1) staticDraws_.push_back(pass.drawStatic());  // beside the frames: a shared machine's pace changes
+    // Beside the frames: a shared machine's pace changes.
+    if (phase == 1) staticDraws_.push_back(pass.drawStatic());
     return;
   }
   for (const auto& [stage, ms] : shapeStages(shape, setting_.avoid)) add(stage, ms);
   add("solve_ms", time.solve);
-  for (const auto& [stage, ms] : pictureStages(pass.renderer.times(), setting_.render.growth != nullptr)) add(stage, ms);
+  for (const auto& [stage, ms] : pictureStages(pass.renderer.times(), setting_.render.growth != nullptr))
+    add(stage, ms);
   add("picture_ms", time.picture);
   add("triangles_drawn", double(pass.renderer.drawnTriangleCount()));
 }

@@ -22,16 +22,15 @@
 // A frame:
 //   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
 //   picture, first stretch: clear, bones and heart
-//   for each round k: write the next groups of tubes and forks into the other template, as many as it has room for; draw
-//   template k; barrier
-//   stretch: patches, if the network has some, which were posed with round 0
-//   ambient occlusion of what is there
-//   batch by batch: capillaries; between two of them a picture that is made in slices rests
-//   picture, last stretch: skin; resolve
-// Stretches with nothing between them are one. One barrier a round keeps both templates apart: whatever wrote or read one
-// of them before it is finished after it. Between two barriers a device may write one template while it draws the other.
-// How many rounds a picture takes is seen once it is done: as many as the last one took, and where they do not do, the frame
-// is drawn once more with more of them. Rounds do not show in the picture.
+//   for each round k: write the next groups of tubes and forks into the other template, as many as it has
+//   room for; draw template k; barrier stretch: patches, if the network has some, which were posed with round
+//   0 ambient occlusion of what is there batch by batch: capillaries; between two of them a picture that is
+//   made in slices rests picture, last stretch: skin; resolve
+// Stretches with nothing between them are one. One barrier a round keeps both templates apart: whatever wrote
+// or read one of them before it is finished after it. Between two barriers a device may write one template
+// while it draws the other. How many rounds a picture takes is seen once it is done: as many as the last one
+// took, and where they do not do, the frame is drawn once more with more of them. Rounds do not show in the
+// picture.
 namespace vasa {
 namespace {
 
@@ -46,7 +45,8 @@ constexpr const char* kForks = "forks";
 constexpr const char* kDraw = "draw tubes";
 constexpr const char* kCapillaries = "capillaries";
 constexpr const char* kMeshes = "meshes";
-// Before it is known what pictures need: a whole body's at four samples a pixel; one that holds nothing costs next to nothing.
+// Before it is known what pictures need: a whole body's at four samples a pixel; one that holds nothing costs
+// next to nothing.
 constexpr std::uint32_t kFirstRounds = 4;
 constexpr std::uint32_t kScopes = 7, kScopesOfRound = 3;  // that are timed
 
@@ -56,9 +56,7 @@ std::array<float, 4> clearColour(const Look& look) {
   return {c.x, c.y, c.z, 1};
 }
 
-bool anyVessels(const Look& look) {
-  return look.drawArteries || look.drawVeins || look.drawOtherVessels;
-}
+bool anyVessels(const Look& look) { return look.drawArteries || look.drawVeins || look.drawOtherVessels; }
 
 BodyLevels levelsOf(std::span<const SkinnedMesh> meshes, const RenderOptions& options) {
   if (options.pixelError <= 0) {
@@ -119,7 +117,7 @@ struct Renderer::State {
   Filling filling;
   PlanPass planPass;
   Template first;
-  std::optional<Template> second;  // where the first may not do
+  std::optional<Template> second;                        // where the first may not do
   std::uint32_t rounds = kFirstRounds, timerRounds = 1;  // of the next frame, and that the timer has room for
   std::uint64_t drawnTriangles = 0;
   std::optional<CapillaryPass> capillaries;
@@ -155,7 +153,8 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
     : device(dev),
       options(chosen),
       ownColours(kindColours(network)),
-      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table}, chosen.templateBytes),
+      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table},
+            chosen.templateBytes),
       forks(device, tubes.table(), tubes.detail(), chosen.templateBytes),
       patches(device, tubes.table().patches),
       meshes(device, skinned, levelsOf(skinned, chosen)),
@@ -176,7 +175,8 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
   if (!patches.empty()) patchPass.emplace(device, chosen.samples);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
-    capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites, options.capillaries);
+    capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites,
+                        options.capillaries);
   setColours({});
 }
 
@@ -197,7 +197,8 @@ void Renderer::State::recordFill(VkCommandBuffer commands, std::uint32_t round) 
   }
   const auto scope = timer->scope(commands, kForks);
   if (vessels.forkEnd > 0) {
-    forkPass.record(commands, {tubes, forks, detailPass, upload.points(), upload.knots(), filling, into, cull});
+    forkPass.record(commands,
+                    {tubes, forks, detailPass, upload.points(), upload.knots(), filling, into, cull});
     gpu::stageBarrier(commands, kCompute, kCompute);
   }
   planPass.record(commands, filling, into);
@@ -220,9 +221,12 @@ void Renderer::State::recordRounds(VkCommandBuffer commands, const Frame& frame)
     const auto scope = timer->scope(commands, kDraw);
     const bool starts = k == 0 && !timed, ends = k + 1 == stretches && frame.wholeEnd;
     target.begin(commands, clearColour(frame.look), 0,
-                 starts ? (ends ? gpu::Stretch::only : gpu::Stretch::first) : ends ? gpu::Stretch::last : gpu::Stretch::middle);
+                 starts ? (ends ? gpu::Stretch::only : gpu::Stretch::first)
+                 : ends ? gpu::Stretch::last
+                        : gpu::Stretch::middle);
     if (starts) surfacePass.recordOpaque(commands, frame.push, meshes, frame.levels, frame.look, partial);
-    if (frame.rounds > 0) surfacePass.recordVessels(commands, frame.push, drawsOf(templateOf(k)), frame.look, partial);
+    if (frame.rounds > 0)
+      surfacePass.recordVessels(commands, frame.push, drawsOf(templateOf(k)), frame.look, partial);
     if (ends) return recordEnd(commands, frame);
     target.pause(commands);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
@@ -234,7 +238,8 @@ void Renderer::State::recordEnd(VkCommandBuffer commands, const Frame& frame) {
   target.end(commands);
 }
 
-void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look) {
+void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push,
+                                    const Look& look) {
   const auto scope = timer->scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
   surfacePass.recordVessels(commands, push, drawsOf(patches), look, partial);
@@ -249,7 +254,8 @@ void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInpu
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
-void Renderer::State::recordCapillaries(VkCommandBuffer commands, const Frame& frame, std::size_t from, std::size_t to) {
+void Renderer::State::recordCapillaries(VkCommandBuffer commands, const Frame& frame, std::size_t from,
+                                        std::size_t to) {
   CapillaryPass::Input input{upload.points(), upload.knots(), frame.push, frame.look.style, partial};
   input.draw.opacity = frame.look.capillaryOpacity;
   if (from == 0) capillaries->recordUpload(commands);
@@ -271,20 +277,24 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
 
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input, bool slices) {
   if (rounds > 1 && !second) second.emplace(device, filling.room());
-  if (options.timed && timerRounds < rounds) timer.emplace(device, kScopes + kScopesOfRound * (timerRounds = rounds));
+  if (options.timed && timerRounds < rounds)
+    timer.emplace(device, kScopes + kScopesOfRound * (timerRounds = rounds));
   const bool any = anyVessels(input.look);
   partial = isPartial(input.camera, input.look);
-  // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss triangles.
+  // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss
+  // triangles.
   cull = options.cull && !input.camera.cut && device.limits().standardSampleLocations;
   // Depth of what is translucent is grain.
-  const bool occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) && input.look.style != LookStyle::xray;
+  const bool occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) &&
+                        input.look.style != LookStyle::xray;
   const bool grows = capillaries && any && input.look.capillaryOpacity > 0, patched = any && patchPass;
-  Frame frame{.push = drawConstants(input.camera, input.look, target.spec().size),
-              .look = input.look,
-              .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
-                                         meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
-              .rounds = any ? rounds : 0,
-              .wholeEnd = !(options.timed || patched || occludes || grows)};
+  Frame frame{
+      .push = drawConstants(input.camera, input.look, target.spec().size),
+      .look = input.look,
+      .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
+                                 meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
+      .rounds = any ? rounds : 0,
+      .wholeEnd = !(options.timed || patched || occludes || grows)};
   timer->begin(commands);
   upload.record(commands);
   if (any) {
@@ -329,7 +339,8 @@ void Renderer::State::recordSlice(VkCommandBuffer commands) {
   begun.reset();
 }
 
-// Whether the frame's rounds did for all of its vessels; says how many the next one gets, with an eighth to spare.
+// Whether the frame's rounds did for all of its vessels; says how many the next one gets, with an eighth to
+// spare.
 bool Renderer::State::settleRounds(const Look& look) {
   drawnTriangles = 0;
   if (!anyVessels(look)) return true;
@@ -338,7 +349,8 @@ bool Renderer::State::settleRounds(const Look& look) {
   const double items = vessels.tubeEnd + vessels.forkEnd, done = double(state.firstTube) + state.firstFork;
   const bool whole = done == items;
   rounds = whole ? std::max({1u, state.rounds, (wanted + room - 1) / room})
-                 : std::uint32_t(std::min(items, std::max(rounds + 1.0, 1.25 * rounds * items / std::max(done, 1.0))));
+                 : std::uint32_t(
+                       std::min(items, std::max(rounds + 1.0, 1.25 * rounds * items / std::max(done, 1.0))));
   drawnTriangles = state.indices / 3;
   return whole;
 }
@@ -386,7 +398,8 @@ void Renderer::State::drawFirst(const RenderInput& input, bool slices) {
   begun.reset();
   drawnBatches = 0;
   upload.write(input.points, input.knotFrames, input.jointMatrices);
-  if (capillaries) capillaries->prepare(input.points, growthView(input.camera, target.spec().size, options.seed));
+  if (capillaries)
+    capillaries->prepare(input.points, growthView(input.camera, target.spec().size, options.seed));
   times = {.upload = msSince(start)};
   transparent = input.look.transparent;
   do {
@@ -405,13 +418,9 @@ void Renderer::State::drawFirst(const RenderInput& input, bool slices) {
   }
 }
 
-void Renderer::draw(const RenderInput& input) {
-  state_->drawFirst(input, false);
-}
+void Renderer::draw(const RenderInput& input) { state_->drawFirst(input, false); }
 
-void Renderer::begin(const RenderInput& input) {
-  state_->drawFirst(input, true);
-}
+void Renderer::begin(const RenderInput& input) { state_->drawFirst(input, true); }
 
 bool Renderer::step() {
   State& s = *state_;
@@ -435,9 +444,7 @@ void Renderer::resize(std::uint32_t width, std::uint32_t height) {
   if (s.occlusionPass) s.occlusionPass->resize(s.device, s.target);
 }
 
-const gpu::Image& Renderer::picture() const {
-  return state_->target.picture();
-}
+const gpu::Image& Renderer::picture() const { return state_->target.picture(); }
 
 Image Renderer::readBack() {
   State& s = *state_;
@@ -449,17 +456,17 @@ Image Renderer::readBack() {
   const auto pixels = s.readBack.mapped<std::uint8_t>();
   if (s.options.bgra) swapRedAndBlue(pixels);
   if (n == 1) return toImage(pixels, s.options.width, s.options.height, s.transparent);
-  return toImage(averaged(pixels, s.options.width, s.options.height, n), s.options.width, s.options.height, s.transparent);
+  return toImage(averaged(pixels, s.options.width, s.options.height, n), s.options.width, s.options.height,
+                 s.transparent);
 }
 
-FrameTimes Renderer::times() const {
-  return state_->times;
-}
+FrameTimes Renderer::times() const { return state_->times; }
 
 CapillaryCounts Renderer::capillaryCounts() const {
   if (!state_->capillaries) return {};
   const CapillaryPlan& plan = state_->capillaries->plan();
-  return {plan.trees, plan.curves, plan.wishedCurves, state_->capillaries->bytes(), state_->capillaries->ringBytes()};
+  return {plan.trees, plan.curves, plan.wishedCurves, state_->capillaries->bytes(),
+          state_->capillaries->ringBytes()};
 }
 
 double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
@@ -469,8 +476,10 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   gpu::Commands commands = s.device.queue().begin("static vertices");
   s.upload.record(commands);
   s.detailPass.record(commands, s.tubes, s.upload.points(), s.viewOf(input));
-  if (s.patchPass) s.patchPass->record(commands, {s.tubes, s.patches, s.detailPass, s.upload.points(), s.upload.knots()});
-  tubes.recordVertices(commands, s.tubePass, s.forkPass, s.planPass, s.detailPass, s.upload.points(), s.upload.knots());
+  if (s.patchPass)
+    s.patchPass->record(commands, {s.tubes, s.patches, s.detailPass, s.upload.points(), s.upload.knots()});
+  tubes.recordVertices(commands, s.tubePass, s.forkPass, s.planPass, s.detailPass, s.upload.points(),
+                       s.upload.knots());
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
   for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));
@@ -479,25 +488,20 @@ double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
 
 std::uint64_t Renderer::triangleCount() const {
   const State& s = *state_;
-  const std::uint64_t patches = s.options.pixelError > 0 ? 0 : s.patches.triangleCount(s.options.shape.around);
+  const std::uint64_t patches =
+      s.options.pixelError > 0 ? 0 : s.patches.triangleCount(s.options.shape.around);
   return s.tubes.triangleCount() + s.forks.triangleCount() + patches;
 }
 
-std::uint64_t Renderer::drawnTriangleCount() const {
-  return state_->drawnTriangles;
-}
+std::uint64_t Renderer::drawnTriangleCount() const { return state_->drawnTriangles; }
 
-std::uint32_t Renderer::sweepCount() const {
-  return state_->tubes.table().spanCount;
-}
+std::uint32_t Renderer::sweepCount() const { return state_->tubes.table().spanCount; }
 
 std::uint64_t Renderer::templateBytes() const {
   const State& s = *state_;
   return s.first.bytes() + (s.second ? s.second->bytes() : 0) + s.filling.state().bytes() + s.patches.bytes();
 }
 
-const RenderOptions& Renderer::options() const {
-  return state_->options;
-}
+const RenderOptions& Renderer::options() const { return state_->options; }
 
 }  // namespace vasa

@@ -15,13 +15,14 @@
 namespace vasa::gpu {
 class Device;
 class Image;
-}
+}  // namespace vasa::gpu
 
 namespace vasa {
 
 /// [pixels] error of `--quads auto`: RenderOptions::pixelError.
 constexpr float kAutoPixelError = 0.25f;
-/// [pixels] of bones, heart and skin beside it: none is so thin as a vessel, and normals stay those of the mesh.
+/// [pixels] of bones, heart and skin beside it: none is so thin as a vessel, and normals stay those of the
+/// mesh.
 constexpr float meshPixelError(float pixelError) {
   constexpr float kLeastMeshPixelError = 0.6f;
   return pixelError <= 0 ? 0 : std::max(kLeastMeshPixelError, 1.5f * pixelError);
@@ -32,27 +33,30 @@ struct RenderOptions {
   std::uint32_t width = 1280, height = 720;  ///< [pixels] 1 to the device's limit
   std::uint32_t samples = 4;                 ///< a pixel: 1 or 4
   SweepShape shape;                          ///< quads around and along every sweep
-  /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not used.
-  /// Bones, heart and skin are drawn with fewer triangles too, within meshPixelError(), half that with 4 samples.
+  /// [pixels] > 0: quads by size on the picture (surface/detail.h), with this error at most; `shape` is not
+  /// used. Bones, heart and skin are drawn with fewer triangles too, within meshPixelError(), half that with
+  /// 4 samples.
   float pixelError = 0;
-  /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can share them.
-  /// nullptr: made.
+  /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can
+  /// share them. nullptr: made.
   const BodyLevels* levels = nullptr;
-  bool forks = true;  ///< vessels join smoothly, or as the network's patches have it; false: they end inside one another
+  /// Vessels join smoothly, or as the network's patches have it; false: they end inside one another.
+  bool forks = true;
   /// makeSweepTable() of the network, read at construction: planning forks takes a while. nullptr: made.
   const SweepTable* table = nullptr;
   bool cull = true;  ///< leave out triangles that cannot be seen; the picture is the same to the bit
   std::uint32_t supersample = 1;  ///< pixels drawn in each direction for one of the picture's, 1 to 4
-  bool bgra = false;       ///< Renderer::picture() has blue first, as windows do
-  bool occlusion = false;  ///< Look::occlusion counts; takes 8 bytes a pixel, 12 with 4 samples
-  /// [bytes] of each of two templates, which tubes and forks are written to and drawn from by turns: all the vertex memory
-  /// that they take, however many there are. No less than what a few sweeps may need is taken (some 0.3 MB at most).
+  bool bgra = false;              ///< Renderer::picture() has blue first, as windows do
+  bool occlusion = false;         ///< Look::occlusion counts; takes 8 bytes a pixel, 12 with 4 samples
+  /// [bytes] of each of two templates, which tubes and forks are written to and drawn from by turns: all the
+  /// vertex memory that they take, however many there are. No less than what a few sweeps may need is taken
+  /// (some 0.3 MB at most).
   std::uint32_t templateBytes = (1u << 20) - 4096;
   const Growth* growth = nullptr;  ///< of the capillaries, must outlive the renderer; nullptr: none are drawn
-  CapillaryWish capillaries;            ///< which of them
-  std::uint32_t seed = 1;               ///< of their shapes
-  /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and keeps a
-  /// device from writing one template while it draws the other; the pictures are the same.
+  CapillaryWish capillaries;       ///< which of them
+  std::uint32_t seed = 1;          ///< of their shapes
+  /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and
+  /// keeps a device from writing one template while it draws the other; the pictures are the same.
   bool timed = true;
 };
 
@@ -66,28 +70,29 @@ struct RenderInput {
   float heartScale = 1;  ///< of the heart's mesh (FrameMaker::heartScale)
 };
 
-/// [ms] of the latest frame: upload and total by the host's clock, the others by the device's, which are 0 where
-/// the device has no clock or RenderOptions::timed is off.
+/// [ms] of the latest frame: upload and total by the host's clock, the others by the device's, which are 0
+/// where the device has no clock or RenderOptions::timed is off.
 struct FrameTimes {
-  double upload = 0;      ///< host: points, frames and joints into the device's reach
-  double tessellate = 0;  ///< compute passes that write vertices of tubes and caps
-  double forks = 0;       ///< compute passes that write vertices of forks
-  double draw = 0;        ///< rasterising tubes, caps and forks
-  double capillaries = 0; ///< growing and drawing capillaries
-  double meshes = 0;      ///< skinning and drawing bones, heart, skin; clearing and resolving
-  double total = 0;       ///< host: from draw() to the finished picture
+  double upload = 0;       ///< host: points, frames and joints into the device's reach
+  double tessellate = 0;   ///< compute passes that write vertices of tubes and caps
+  double forks = 0;        ///< compute passes that write vertices of forks
+  double draw = 0;         ///< rasterising tubes, caps and forks
+  double capillaries = 0;  ///< growing and drawing capillaries
+  double meshes = 0;       ///< skinning and drawing bones, heart, skin; clearing and resolving
+  double total = 0;        ///< host: from draw() to the finished picture
 };
 
 /// Capillaries of the latest frame.
 struct CapillaryCounts {
   std::uint64_t trees = 0, curves = 0;
   std::uint64_t wishedCurves = 0;  ///< without the budget
-  std::uint64_t bytes = 0;         ///< device and upload memory for all that has to do with them, the ring included
-  std::uint64_t ringBytes = 0;     ///< for their vertices
+  /// Device and upload memory for all that has to do with them, the ring included.
+  std::uint64_t bytes = 0;
+  std::uint64_t ringBytes = 0;  ///< for their vertices
 };
 
-/// Draws a network in a body, off screen. A frame is a function of the input alone: nothing of an earlier frame
-/// shows in it. Throws gpu::Error. One thread at a time.
+/// Draws a network in a body, off screen. A frame is a function of the input alone: nothing of an earlier
+/// frame shows in it. Throws gpu::Error. One thread at a time.
 class Renderer {
  public:
   /// @param network  several networks are drawn as one merged network (network/merge.h)
@@ -98,25 +103,25 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Colours of the network's spans from the next frame on (packColour), vessel after vessel; alpha 0 hides a span,
-  /// its cap and the forks whose trunk begins in it, any other alpha shows it. Empty goes back to the colours of
-  /// the vessels' kinds.
+  /// Colours of the network's spans from the next frame on (packColour), vessel after vessel; alpha 0 hides a
+  /// span, its cap and the forks whose trunk begins in it, any other alpha shows it. Empty goes back to the
+  /// colours of the vessels' kinds.
   void setSweepColours(std::span<const std::uint32_t> colours);
 
   /// Draws and waits until the picture is done.
   void draw(const RenderInput& input);
 
-  /// The same picture in slices, so that a program can do something else between them: begin() draws what comes before the
-  /// capillaries, each step() some thousands of those. False: the picture is whole. Until then there is none; draw(),
-  /// begin(), resize() or setSweepColours() leaves it as it is.
+  /// The same picture in slices, so that a program can do something else between them: begin() draws what
+  /// comes before the capillaries, each step() some thousands of those. False: the picture is whole. Until
+  /// then there is none; draw(), begin(), resize() or setSweepColours() leaves it as it is.
   void begin(const RenderInput& input);
   bool step();
 
   /// Pictures of another size from the next frame on. Network, meshes and pipelines stay.
   void resize(std::uint32_t width, std::uint32_t height);
 
-  /// The latest draw()'s picture on the device: RenderOptions::supersample times the size in each direction, sRGB, in
-  /// the layout that copies read from. Until the next draw() or resize().
+  /// The latest draw()'s picture on the device: RenderOptions::supersample times the size in each direction,
+  /// sRGB, in the layout that copies read from. Until the next draw() or resize().
   const gpu::Image& picture() const;
 
   /// The picture of the latest draw().
@@ -125,15 +130,17 @@ class Renderer {
   FrameTimes times() const;
   CapillaryCounts capillaryCounts() const;
 
-  /// For comparison with times().draw and .tessellate: the time [ms, minimum of `repeats`] to draw the same tubes
-  /// and caps from vertex buffers that hold all of them, with nothing else: no compute, no meshes, no clearing.
-  /// Takes memory for every vertex. 0 without a clock on the device.
+  /// For comparison with times().draw and .tessellate: the time [ms, minimum of `repeats`] to draw the same
+  /// tubes and caps from vertex buffers that hold all of them, with nothing else: no compute, no meshes, no
+  /// clearing. Takes memory for every vertex. 0 without a clock on the device.
   double staticDraw(const RenderInput& input, unsigned repeats);
 
-  std::uint64_t triangleCount() const;     ///< of tubes and caps, seen or not; 0 if the picture decides
-  std::uint64_t drawnTriangleCount() const;  ///< of the latest frame's, those that may be seen, without patches
+  std::uint64_t triangleCount() const;  ///< of tubes and caps, seen or not; 0 if the picture decides
+  std::uint64_t drawnTriangleCount()
+      const;  ///< of the latest frame's, those that may be seen, without patches
   std::uint32_t sweepCount() const;
-  std::uint64_t templateBytes() const;     ///< device memory for all that batches of tubes write, and for patches
+  std::uint64_t templateBytes()
+      const;  ///< device memory for all that batches of tubes write, and for patches
   const RenderOptions& options() const;
 
  private:

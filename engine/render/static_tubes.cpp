@@ -8,7 +8,8 @@ namespace vasa {
 namespace {
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr std::uint32_t kPartBlocks = (64u << 20) / (sizeof(shared::TubeVertex) * shared::kBlockVertices);  // within any storage range
+// Within any storage range.
+constexpr std::uint32_t kPartBlocks = (64u << 20) / (sizeof(shared::TubeVertex) * shared::kBlockVertices);
 
 std::uint32_t itemsOfPart(std::uint32_t groupItems, std::uint32_t groupBlocks) {
   return groupItems * std::max(1u, kPartBlocks / std::max(groupBlocks, 1u));
@@ -16,7 +17,8 @@ std::uint32_t itemsOfPart(std::uint32_t groupItems, std::uint32_t groupBlocks) {
 
 }  // namespace
 
-StaticTubes::StaticTubes(gpu::Device& device, const TubeSet& tubes, const ForkSet& forks) : tubes_(tubes), forks_(forks) {
+StaticTubes::StaticTubes(gpu::Device& device, const TubeSet& tubes, const ForkSet& forks)
+    : tubes_(tubes), forks_(forks) {
   const FillRange all = everything(tubes);
   const std::uint32_t sweeps = itemsOfPart(tubes.groupSweeps(), tubes.groupBlocks());
   for (std::uint32_t first = 0; first < all.tubeEnd; first += sweeps)
@@ -31,19 +33,23 @@ void StaticTubes::add(gpu::Device& device, const FillRange& range) {
   parts_.push_back({range, Filling(device, tubes_, forks_, room), Template(device, room)});
 }
 
-void StaticTubes::recordVertices(VkCommandBuffer commands, const TubePass& pass, const ForkPass& forkPass, const PlanPass& plan,
-                                 const DetailPass& detail, VkDeviceAddress points, VkDeviceAddress knots) const {
+void StaticTubes::recordVertices(VkCommandBuffer commands, const TubePass& pass, const ForkPass& forkPass,
+                                 const PlanPass& plan, const DetailPass& detail, VkDeviceAddress points,
+                                 VkDeviceAddress knots) const {
   for (const Part& part : parts_) {
     part.filling.recordStart(commands, part.range);
-    if (part.range.tubeEnd > 0) pass.record(commands, {tubes_, detail, points, knots, part.filling, part.made, false});
-    else forkPass.record(commands, {tubes_, forks_, detail, points, knots, part.filling, part.made, false});
+    if (part.range.tubeEnd > 0)
+      pass.record(commands, {tubes_, detail, points, knots, part.filling, part.made, false});
+    else
+      forkPass.record(commands, {tubes_, forks_, detail, points, knots, part.filling, part.made, false});
     gpu::stageBarrier(commands, kCompute, kCompute);
     plan.record(commands, part.filling, part.made);
   }
   gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
 }
 
-void StaticTubes::recordDraw(VkCommandBuffer commands, const SurfacePass& pass, const shared::DrawPush& push) const {
+void StaticTubes::recordDraw(VkCommandBuffer commands, const SurfacePass& pass,
+                             const shared::DrawPush& push) const {
   for (const Part& part : parts_) pass.recordVessels(commands, push, drawsOf(part.made));
 }
 

@@ -37,22 +37,31 @@ constexpr std::uint32_t kWholePart = 31;  // item shift: a part is one item
 // How much light a surface of the x-ray style gathers.
 float xrayLight(MeshRole role) {
   switch (role) {
-    case MeshRole::bones: return 0.3f;
-    case MeshRole::heart: return 0.5f;
-    case MeshRole::skin: return 0.5f;
-    case MeshRole::organs: return 0.25f;
-    case MeshRole::other: break;
+    case MeshRole::bones:
+      return 0.3f;
+    case MeshRole::heart:
+      return 0.5f;
+    case MeshRole::skin:
+      return 0.5f;
+    case MeshRole::organs:
+      return 0.25f;
+    case MeshRole::other:
+      break;
   }
   return 0.5f;
 }
 
 float opacityOf(MeshRole role, const Look& look) {
   switch (role) {
-    case MeshRole::bones: return look.boneOpacity;
-    case MeshRole::heart: return look.heartOpacity;
-    case MeshRole::other: return look.otherOpacity;
+    case MeshRole::bones:
+      return look.boneOpacity;
+    case MeshRole::heart:
+      return look.heartOpacity;
+    case MeshRole::other:
+      return look.otherOpacity;
     case MeshRole::organs:  // they and the skin are blended
-    case MeshRole::skin: break;
+    case MeshRole::skin:
+      break;
   }
   return 1;
 }
@@ -118,7 +127,8 @@ shared::DrawPush drawConstants(const Camera& camera, const Look& look, VkExtent2
 }
 
 VesselDraws drawsOf(const Template& filled) {
-  return {filled.pool, filled.pool, filled.colours, filled.draws, std::uint32_t(filled.draws.bytes() / sizeof(shared::DrawCommand))};
+  return {filled.pool, filled.pool, filled.colours, filled.draws,
+          std::uint32_t(filled.draws.bytes() / sizeof(shared::DrawCommand))};
 }
 
 VesselDraws drawsOf(const PatchSet& patches) {
@@ -126,11 +136,10 @@ VesselDraws drawsOf(const PatchSet& patches) {
   return {draws.vertices, draws.indices, draws.colours, draws.draws, patches.groups()};
 }
 
-bool isPartial(const Camera& camera, const Look& look) {
-  return camera.cut || anyTranslucent(look);
-}
+bool isPartial(const Camera& camera, const Look& look) { return camera.cut || anyTranslucent(look); }
 
-SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target) : device_(&device), target_(target) {}
+SurfacePass::SurfacePass(gpu::Device& device, const gpu::TargetSpec& target)
+    : device_(&device), target_(target) {}
 
 const SurfacePass::Pipelines& SurfacePass::pipelines(const Look& look, bool partial) const {
   std::optional<Pipelines>& made = made_[std::size_t(look.style)][partial];
@@ -159,7 +168,8 @@ SurfacePass::Pipelines SurfacePass::make(LookStyle style, bool partial) const {
     spec.depthTest = VK_COMPARE_OP_ALWAYS;
     spec.depthWrite = false;
     spec.blend = gpu::Blend::add;
-    for (auto* pipeline : {&made.tubes, &made.opaque, &made.closed, &made.skinColour}) *pipeline = gpu::GraphicsPipeline(*device_, spec);
+    for (auto* pipeline : {&made.tubes, &made.opaque, &made.closed, &made.skinColour})
+      *pipeline = gpu::GraphicsPipeline(*device_, spec);
     return made;
   }
   spec.constants.set(0, std::uint32_t(style));
@@ -186,8 +196,8 @@ SurfacePass::Pipelines SurfacePass::make(LookStyle style, bool partial) const {
   return made;
 }
 
-void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push, const VesselDraws& draws, const Look& look,
-                                bool partial) const {
+void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push, const VesselDraws& draws,
+                                const Look& look, bool partial) const {
   push.colours = draws.colours.address();
   push.shiftAndOpacities = shiftAndOpacities(shared::kBlockShift, look.arteryOpacity, look.veinOpacity);
   push.opacity = kXrayVessels;
@@ -196,7 +206,8 @@ void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push,
   vkCmdBindIndexBuffer(commands, draws.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
   // One by one: Vulkan 1.3 does not promise multiDrawIndirect, and a frame has few groups.
   for (std::uint32_t i = 0; i < draws.count; ++i)
-    vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), i * sizeof(shared::DrawCommand), 1, sizeof(shared::DrawCommand));
+    vkCmdDrawIndexedIndirect(commands, draws.draws.handle(), i * sizeof(shared::DrawCommand), 1,
+                             sizeof(shared::DrawCommand));
 }
 
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
@@ -210,7 +221,8 @@ void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, 
 }
 
 void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                                    std::span<const MeshSet::Level> levels, const Look& look, bool partial) const {
+                                    std::span<const MeshSet::Level> levels, const Look& look,
+                                    bool partial) const {
   const Pipelines& own = pipelines(look, partial);
   const bool xray = look.style == LookStyle::xray;
   push.shiftAndOpacities = shiftAndOpacities(kWholePart, 1);

@@ -30,21 +30,24 @@ VesselDraws drawsOf(const Template& filled);
 VesselDraws drawsOf(const PatchSet& patches);
 
 /// Draws vertices that compute passes have written. Record between Target::begin() and its end; depth is
-/// reversed (clear to 0). `partial` is the frame's isPartial(). Pipelines of a style are made when it is first drawn in,
-/// those for partial frames likewise: most runs need a sixth of them. The device must outlive this.
+/// reversed (clear to 0). `partial` is the frame's isPartial(). Pipelines of a style are made when it is
+/// first drawn in, those for partial frames likewise: most runs need a sixth of them. The device must outlive
+/// this.
 class SurfacePass {
  public:
   SurfacePass(gpu::Device& device, const gpu::TargetSpec& target);
 
-  void recordVessels(VkCommandBuffer commands, shared::DrawPush push, const VesselDraws& draws, const Look& look = {},
-                     bool partial = false) const;
+  void recordVessels(VkCommandBuffer commands, shared::DrawPush push, const VesselDraws& draws,
+                     const Look& look = {}, bool partial = false) const;
   /// Bones, heart and others.
   /// @param levels  MeshSet::levelsFor()
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                     std::span<const MeshSet::Level> levels, const Look& look, bool partial = false) const;
-  /// Organs, then the skin: the depth of their nearest side first, then that side's colour over what lies behind.
+  /// Organs, then the skin: the depth of their nearest side first, then that side's colour over what lies
+  /// behind.
   void recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                         std::span<const MeshSet::Level> levels, const Look& look, bool partial = false) const;
+                         std::span<const MeshSet::Level> levels, const Look& look,
+                         bool partial = false) const;
 
  private:
   struct Pipelines {
@@ -55,7 +58,8 @@ class SurfacePass {
 
   gpu::Device* device_;
   gpu::TargetSpec target_;
-  mutable std::array<std::array<std::optional<Pipelines>, 2>, 3> made_;  // for every LookStyle, whole and partial
+  mutable std::array<std::array<std::optional<Pipelines>, 2>, 3>
+      made_;  // for every LookStyle, whole and partial
 };
 
 }  // namespace vasa

@@ -14,20 +14,17 @@ namespace {
 shared::TubeTables tablesOf() {
   shared::TubeTables tables{};
   std::copy(spanClassMatrices().begin(), spanClassMatrices().end(), tables.spanClass);
-  for (std::uint32_t m = shared::kMinAround; m <= shared::kMaxAround; ++m) tables.step[m] = ringDirections(m)[1], tables.halfStep[m] = ringDirections(2 * m)[1];
+  for (std::uint32_t m = shared::kMinAround; m <= shared::kMaxAround; ++m)
+    tables.step[m] = ringDirections(m)[1], tables.halfStep[m] = ringDirections(2 * m)[1];
   std::copy(aroundErrors().begin(), aroundErrors().end(), tables.aroundError);
   const std::vector<vec2> angles = capAngles();
   std::copy(angles.begin(), angles.end(), tables.polar);
   return tables;
 }
 
-std::uint32_t withKind(std::uint32_t colour, std::uint32_t kind) {
-  return (colour & 0xffffffu) | kind << 24;
-}
+std::uint32_t withKind(std::uint32_t colour, std::uint32_t kind) { return (colour & 0xffffffu) | kind << 24; }
 
-std::uint32_t capsOf(const shared::SweepRecord& sweep) {
-  return std::uint32_t(std::popcount(sweep.caps));
-}
+std::uint32_t capsOf(const shared::SweepRecord& sweep) { return std::uint32_t(std::popcount(sweep.caps)); }
 
 }  // namespace
 
@@ -39,14 +36,16 @@ std::vector<std::uint32_t> kindColours(const Network& network) {
   return colours;
 }
 
-std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, std::span<const std::uint32_t> given) {
+std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours,
+                                      std::span<const std::uint32_t> given) {
   assert(given.empty() || given.size() == kindColours.size());
   for (std::size_t i = 0; i < given.size(); ++i)
     kindColours[i] = withKind(given[i], given[i] >> 24 ? kindColours[i] >> 24 : kHiddenKind);
   return kindColours;
 }
 
-TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t templateBytes)
+TubeSet::TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail,
+                 std::uint32_t templateBytes)
     : table_(!detail.forks  ? makeSweepTable(network, planWithoutForks(network))
              : detail.table ? *detail.table
                             : makeSweepTable(network)),

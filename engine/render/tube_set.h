@@ -37,17 +37,21 @@ constexpr std::uint32_t blocksFor(std::uint32_t vertices, std::uint32_t indices)
 /// Colours of a network's spans by their vessels' kinds, kind in the highest 8 bits.
 std::vector<std::uint32_t> kindColours(const Network& network);
 /// The same with other colours (packColour; alpha 0 hides a span). @param given  empty: none
-std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours, std::span<const std::uint32_t> given);
+std::vector<std::uint32_t> recoloured(std::vector<std::uint32_t> kindColours,
+                                      std::span<const std::uint32_t> given);
 
 /// What of a network stays the same from frame to frame, in device memory.
 class TubeSet {
  public:
-  /// @param templateBytes  a group is so small that half of that always holds it; at least some 0.6 MB do for any quads
+  /// @param templateBytes  a group is so small that half of that always holds it; at least some 0.6 MB do for
+  /// any quads
   TubeSet(gpu::Device& device, const Network& network, const TubeDetail& detail, std::uint32_t templateBytes);
 
   const SweepTable& table() const { return table_; }
   const TubeDetail& detail() const { return detail_; }
-  std::uint32_t groupSweeps() const { return groupSweeps_; }  ///< sweeps that are written together: a workgroup
+  std::uint32_t groupSweeps() const {
+    return groupSweeps_;
+  }  ///< sweeps that are written together: a workgroup
   std::uint32_t groupBlocks() const { return groupBlocks_; }  ///< the most that a group needs
   std::uint32_t vesselCount() const { return vesselCount_; }
   /// Of tubes and caps at fixed quads, seen or not; 0 if the picture decides.

@@ -9,23 +9,28 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kMostMemory = std::size_t(3) << 29;  // of all frames' vertices and normals while they are worked on
-constexpr SweepShape kShapes[] = {{12, 8}, {10, 6}, {8, 5}, {8, 4}, {6, 4}, {6, 3}, {5, 3}, {4, 3}, {4, 2}, {3, 2}};
+// Of all frames' vertices and normals while they are worked on.
+constexpr std::size_t kMostMemory = std::size_t(3) << 29;
+constexpr SweepShape kShapes[] = {{12, 8}, {10, 6}, {8, 5}, {8, 4}, {6, 4},
+                                  {6, 3},  {5, 3},  {4, 3}, {4, 2}, {3, 2}};
 
-// How far a pose is from what lies straight between two others: what a player that moves vertices straight from key to
-// key gets wrong there.
+// How far a pose is from what lies straight between two others: what a player that moves vertices straight
+// from key to key gets wrong there.
 float sag(const PosedFrame& before, const PosedFrame& pose, const PosedFrame& after, float share = 0.5f) {
   float worst = 0;
   for (std::size_t i = 0; i < pose.points.size(); ++i)
-    worst = std::max(worst, glm::distance(vec3(pose.points[i]), glm::mix(vec3(before.points[i]), vec3(after.points[i]), share)));
+    worst = std::max(worst, glm::distance(vec3(pose.points[i]),
+                                          glm::mix(vec3(before.points[i]), vec3(after.points[i]), share)));
   return worst;
 }
 
-// Poses a clip: a key a frame or at a rate of its own, and more keys where the motion between two frames is curved. Where it jumps (a small
-// vessel gives way all at once) more keys would not bring it nearer, only show poses that the frames do not.
+// Poses a clip: a key a frame or at a rate of its own, and more keys where the motion between two frames is
+// curved. Where it jumps (a small vessel gives way all at once) more keys would not bring it nearer, only
+// show poses that the frames do not.
 class FilmMaker {
  public:
-  FilmMaker(const Scene& scene, const Clip* clip, const BakeOptions& options) : clip_(clip), options_(options), maker_(scene, options.frame) {}
+  FilmMaker(const Scene& scene, const Clip* clip, const BakeOptions& options)
+      : clip_(clip), options_(options), maker_(scene, options.frame) {}
 
   Film run() {
     const std::vector<float> times = keyTimes();
@@ -43,8 +48,9 @@ class FilmMaker {
   }
 
  private:
-  static constexpr int kHalvings = 2;             // of the time between two keys
-  // Halving the time between two keys quarters the sag of smooth motion and lessens that of most corners; a jump stays.
+  static constexpr int kHalvings = 2;  // of the time between two keys
+  // Halving the time between two keys quarters the sag of smooth motion and lessens that of most corners; a
+  // jump stays.
   static constexpr float kStillCurved = 0.75f;
   static constexpr std::size_t kMostBetween = 5;  // poses between keys that are kept to measure by
 
@@ -52,18 +58,21 @@ class FilmMaker {
     if (!clip_) return {0};
     std::vector<float> times;
     if (options_.fps <= 0) {
-      for (std::uint32_t frame = options_.first; frame <= options_.last; ++frame) times.push_back(clip_->timeOfFrame(frame));
+      for (std::uint32_t frame = options_.first; frame <= options_.last; ++frame)
+        times.push_back(clip_->timeOfFrame(frame));
       return times;
     }
     const float from = clip_->timeOfFrame(options_.first), to = clip_->timeOfFrame(options_.last);
     const int steps = std::max(int(std::lround((to - from) * options_.fps)), to > from ? 1 : 0);
-    for (int i = 0; i <= steps; ++i) times.push_back(steps > 0 ? glm::mix(from, to, float(i) / float(steps)) : from);
+    for (int i = 0; i <= steps; ++i)
+      times.push_back(steps > 0 ? glm::mix(from, to, float(i) / float(steps)) : from);
     return times;
   }
   float start() const { return clip_->timeOfFrame(options_.first); }
   PosedFrame posed(float time) {
     maker_.make(clip_, time);
-    return {{maker_.points().begin(), maker_.points().end()}, {maker_.knotFrames().begin(), maker_.knotFrames().end()}};
+    return {{maker_.points().begin(), maker_.points().end()},
+            {maker_.knotFrames().begin(), maker_.knotFrames().end()}};
   }
   void addKey(PosedFrame frame, float time) {
     film_.frames.push_back(std::move(frame));
@@ -76,7 +85,8 @@ class FilmMaker {
     const PosedFrame& before = film_.frames.back();
     const float off = sag(before, middle, after);
     if (off <= options_.betweenTolerance) return keep(std::move(middle), after, 0.5f);
-    PosedFrame early = posed(0.75f * timeBefore + 0.25f * timeAfter), late = posed(0.25f * timeBefore + 0.75f * timeAfter);
+    PosedFrame early = posed(0.75f * timeBefore + 0.25f * timeAfter),
+               late = posed(0.25f * timeBefore + 0.75f * timeAfter);
     const bool curved = std::max(sag(before, early, middle), sag(middle, late, after)) <= kStillCurved * off;
     if (halvings == kHalvings || !curved) {
       keep(std::move(early), after, 0.25f);
@@ -118,24 +128,31 @@ bool holdable(const FilmBaker::Size& size, std::size_t frames) {
 std::size_t bytesOf(const Bake& bake) {
   std::size_t triangles = 0;
   for (const auto& part : bake.mesh.parts) triangles += part.triangles.size();
-  return vertexBytes(bake.mesh.positions.size(), triangles, bake.mesh.shapes.size(), !bake.mesh.normals.empty());
+  return vertexBytes(bake.mesh.positions.size(), triangles, bake.mesh.shapes.size(),
+                     !bake.mesh.normals.empty());
 }
 
 Error tooLarge(const SweepShape& shape, std::size_t bytes, std::size_t most) {
-  return {Fault::failed, std::to_string(shape.around) + "x" + std::to_string(shape.along) + " quads take " + std::to_string(bytes >> 20) + " MB, the budget is " +
-                             std::to_string(most >> 20) + " MB; give coarser quads, fewer frames, a larger --tolerance or a larger --budget"};
+  return {Fault::failed,
+          std::to_string(shape.around) + "x" + std::to_string(shape.along) + " quads take " +
+              std::to_string(bytes >> 20) + " MB, the budget is " + std::to_string(most >> 20) +
+              " MB; give coarser quads, fewer frames, a larger --tolerance or a larger --budget"};
 }
 
-// The number of shapes hardly depends on how finely sweeps are cut: a coarse trial tells what each shape will take.
+// The number of shapes hardly depends on how finely sweeps are cut: a coarse trial tells what each shape will
+// take.
 Result<Bake> finestThatFits(const FilmBaker& baker, std::size_t frames, const BakeOptions& options) {
   constexpr SweepShape coarsest{3, 2};
-  if (const auto size = baker.sizeOf(coarsest); !holdable(size, frames)) return tooLarge(coarsest, size.vertices * 24 * frames, kMostMemory);
+  if (const auto size = baker.sizeOf(coarsest); !holdable(size, frames))
+    return tooLarge(coarsest, size.vertices * 24 * frames, kMostMemory);
   Bake trial = baker.run(coarsest);
   if (bytesOf(trial) > options.maxBytes) return tooLarge(coarsest, bytesOf(trial), options.maxBytes);
   for (const SweepShape& shape : kShapes) {
     if (shape.around > options.shape.around || shape.along > options.shape.along) continue;
     const auto size = baker.sizeOf(shape);
-    if (!holdable(size, frames) || vertexBytes(size.vertices, size.triangles, trial.mesh.shapes.size(), options.mesh.normals) > options.maxBytes) continue;
+    if (!holdable(size, frames) || vertexBytes(size.vertices, size.triangles, trial.mesh.shapes.size(),
+                                               options.mesh.normals) > options.maxBytes)
+      continue;
     Bake fine = baker.run(shape);
     if (bytesOf(fine) <= options.maxBytes) return fine;
   }
@@ -150,7 +167,8 @@ Result<Bake> bake(const Scene& scene, const Clip* clip, const BakeOptions& optio
   auto result = [&]() -> Result<Bake> {
     if (options.finestThatFits) return finestThatFits(baker, film.frames.size(), options);
     const auto size = baker.sizeOf(options.shape);
-    if (!holdable(size, film.frames.size())) return tooLarge(options.shape, size.vertices * 24 * film.frames.size(), kMostMemory);
+    if (!holdable(size, film.frames.size()))
+      return tooLarge(options.shape, size.vertices * 24 * film.frames.size(), kMostMemory);
     Bake made = baker.run(options.shape);
     if (bytesOf(made) > options.maxBytes) return tooLarge(options.shape, bytesOf(made), options.maxBytes);
     return made;

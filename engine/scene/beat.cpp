@@ -8,9 +8,10 @@ namespace vasa {
 namespace {
 
 constexpr float kBeatsPerSecond = 1.2f;
-constexpr float kSystole = 0.35f;           // share of a beat
-constexpr float kSqueeze = 0.08f;           // of the heart's size
-constexpr float kHeld = 0.8f, kFree = 1.7f; // vessels nearer than the first follow wholly, beyond the second not: radii
+constexpr float kSystole = 0.35f;  // share of a beat
+constexpr float kSqueeze = 0.08f;  // of the heart's size
+constexpr float kHeld = 0.8f,
+                kFree = 1.7f;  // vessels nearer than the first follow wholly, beyond the second not: radii
 
 bool isHeart(const SkinnedMesh& mesh) {
   std::string name = mesh.name;

@@ -6,9 +6,9 @@
 
 namespace vasa {
 
-/// The heart's beat, a function of time alone: the heart's mesh draws together towards its middle and opens again, and
-/// takes along the vessels on it, less and less with their distance at rest. For the eye; no mechanics.
-/// A body without a mesh named heart has none.
+/// The heart's beat, a function of time alone: the heart's mesh draws together towards its middle and opens
+/// again, and takes along the vessels on it, less and less with their distance at rest. For the eye; no
+/// mechanics. A body without a mesh named heart has none.
 class HeartBeat {
  public:
   HeartBeat() = default;

@@ -52,8 +52,10 @@ std::optional<CorrectionSteps::Steps> CorrectionSteps::next(std::span<const vec4
     steps.largest = std::max(steps.largest, step);
     if (step > kAllowed) beyond.emplace_back(i, step);
   }
-  if (!beyond.empty()) 
-    posedSteps_.set(kAllowed, places.size(), [&](std::size_t i) { return std::pair(lastPosed_[i], glm::distance(lastPosed_[i], places[i])); });
+  if (!beyond.empty())
+    posedSteps_.set(kAllowed, places.size(), [&](std::size_t i) {
+      return std::pair(lastPosed_[i], glm::distance(lastPosed_[i], places[i]));
+    });
   for (const auto& [i, step] : beyond) {
     const float bound = posedSteps_.longest(lastPosed_[i], step);
     if (step <= bound) continue;

@@ -14,7 +14,8 @@ SurfaceMesh surface(const SweepTable& table, const PosedFrame& frame, const Swee
 }
 
 // A part for each kind of vessel that there is.
-void describe(const Network& network, const std::function<vec3(VesselKind)>& colourOf, SurfaceMesh& first, AnimatedMesh& mesh) {
+void describe(const Network& network, const std::function<vec3(VesselKind)>& colourOf, SurfaceMesh& first,
+              AnimatedMesh& mesh) {
   mesh.name = "vessels";
   const auto vessels = network.vessels();
   std::vector<AnimatedMesh::Part> parts(std::size_t(VesselKind::other) + 1);
@@ -23,14 +24,16 @@ void describe(const Network& network, const std::function<vec3(VesselKind)>& col
     if (colourOf) parts[kind].colour = colourOf(VesselKind(kind));
   }
   for (const uvec3& t : first.triangles) {
-    if (first.positions[t.x] == first.positions[t.y] && first.positions[t.y] == first.positions[t.z]) continue;
+    if (first.positions[t.x] == first.positions[t.y] && first.positions[t.y] == first.positions[t.z])
+      continue;
     parts[std::size_t(vessels[first.vesselOfVertex[t.x]].kind)].triangles.push_back(t);
   }
   std::erase_if(parts, [](const AnimatedMesh::Part& part) { return part.triangles.empty(); });
   mesh.parts = std::move(parts);
   if (vessels.size() <= 65535) {
     mesh.labelOfVertex.assign(first.vesselOfVertex.begin(), first.vesselOfVertex.end());
-    for (const Vessel& vessel : vessels) mesh.labels.push_back({vessel.name, std::string(kindName(vessel.kind)), vessel.ontologyId});
+    for (const Vessel& vessel : vessels)
+      mesh.labels.push_back({vessel.name, std::string(kindName(vessel.kind)), vessel.ontologyId});
   }
   mesh.positions = std::move(first.positions);
   mesh.normals = std::move(first.normals);
@@ -73,7 +76,8 @@ float FilmBaker::betweenError(const AnimatedMesh& mesh, const SweepShape& shape)
     const std::uint32_t at = place.key;
     for (std::size_t v = 0; v < wanted.positions.size(); ++v) {
       vec3 p = mesh.positions[v];
-      for (std::size_t k = 0; k < mesh.shapes.size(); ++k) p += glm::mix(mesh.weights[at][k], mesh.weights[at + 1][k], place.share) * mesh.shapes[k][v];
+      for (std::size_t k = 0; k < mesh.shapes.size(); ++k)
+        p += glm::mix(mesh.weights[at][k], mesh.weights[at + 1][k], place.share) * mesh.shapes[k][v];
       worst = std::max(worst, glm::distance(p, wanted.positions[v]));
     }
   }

@@ -23,14 +23,14 @@ struct Film {
   };
   std::vector<PosedFrame> frames;
   std::vector<Between> between;
-  std::vector<float> times;               ///< [s] of the keys; empty where there is no clip
+  std::vector<float> times;  ///< [s] of the keys; empty where there is no clip
 };
 
 struct Bake {
   AnimatedMesh mesh;
   SweepShape shape;
-  float error = 0;        ///< [m] the farthest a vertex is, in a frame, from where a picture shows it
-  float betweenError = 0; ///< [m] the same between two keys, of the places in Film::between
+  float error = 0;         ///< [m] the farthest a vertex is, in a frame, from where a picture shows it
+  float betweenError = 0;  ///< [m] the same between two keys, of the places in Film::between
 };
 
 /// Turns a film of a network into a mesh with shapes and weights.

@@ -12,15 +12,17 @@
 namespace vasa {
 namespace {
 
-// A joint that turns no farther in one step moves vessels beside one another, some 2 cm from its axis, by 2.8 mm.
+// A joint that turns no farther in one step moves vessels beside one another, some 2 cm from its axis, by 2.8
+// mm.
 constexpr float kLongestTurn = 8 * kPi / 180;
 // Of that. Quarters and eighths were measured, too: what passes through one another in the pose is caught
 // more often by them, and takes up to four times as long; whole steps alone leave more in one another's way.
 constexpr float kShortestStep = 0.5f;
-constexpr float kStepSeconds = 0.1f;          // of the way from rest to a clip's beginning
-constexpr float kSamePlace = 1e-3f;           // [m] and of an axis: a clip whose last pose is its first closes
-constexpr std::uint32_t kRunUp = 15;          // frames before the seam with which a closed clip begins
-constexpr float kOnFrame = 1e-3f;             // of a frame: a time so near is the frame's
+constexpr float kStepSeconds = 0.1f;  // of the way from rest to a clip's beginning
+// [m] and of an axis: a clip whose last pose is its first closes
+constexpr float kSamePlace = 1e-3f;
+constexpr std::uint32_t kRunUp = 15;  // frames before the seam with which a closed clip begins
+constexpr float kOnFrame = 1e-3f;     // of a frame: a time so near is the frame's
 
 bool same(const Pose& a, const Pose& b) {
   for (std::size_t j = 0; j < a.world.size(); ++j)
@@ -66,13 +68,15 @@ void FrameMaker::make(const Clip* clip, float time) {
     return;
   }
   report_ = {};
-  const float place = std::clamp((time - clip->start) * clip->framesPerSecond, 0.0f, float(clip->frameCount() - 1));
+  const float place =
+      std::clamp((time - clip->start) * clip->framesPerSecond, 0.0f, float(clip->frameCount() - 1));
   const auto frame = std::uint32_t(place + kOnFrame);
   goTo(*clip, frame);
   const float beyond = place - float(frame);
   if (beyond > kOnFrame) {
     at_.reset();
-    walk(samplePose(scene_->body.skeleton, *clip, time), clip->timeOfFrame(frame), time, beyond / clip->framesPerSecond);
+    walk(samplePose(scene_->body.skeleton, *clip, time), clip->timeOfFrame(frame), time,
+         beyond / clip->framesPerSecond);
   }
   finish();
 }
@@ -165,7 +169,8 @@ void FrameMaker::start(const Correction& correction) {
   report_.volume = report_.avoid.volume;
 }
 
-// Stands at a clip's first frame. A clip that ends where it began is entered by its last frames, so that it can go round.
+// Stands at a clip's first frame. A clip that ends where it began is entered by its last frames, so that it
+// can go round.
 void FrameMaker::begin(const Clip& clip) {
   const Skeleton& skeleton = scene_->body.skeleton;
   const std::uint32_t last = clip.frameCount() - 1;
@@ -196,7 +201,8 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
   for (std::uint32_t next = known + 1; next <= frame; ++next) {
     report_ = {};
     at_.reset();
-    walk(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(next)), clip.timeOfFrame(next - 1), clip.timeOfFrame(next), 1 / clip.framesPerSecond);
+    walk(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(next)), clip.timeOfFrame(next - 1),
+         clip.timeOfFrame(next), 1 / clip.framesPerSecond);
     track_->frames.push_back(avoider_->correction());
     at_ = next;
   }

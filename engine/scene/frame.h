@@ -15,23 +15,23 @@ namespace vasa {
 
 /// What a frame's stages did and how long they took.
 struct FrameReport {
-  double poseMs = 0;    ///< clip to joints (by the caller's clock where a pose is given)
-  double deformMs = 0;  ///< joints to control points, and vessels along their beds
-  double kinksMs = 0;   ///< straightening kinks
-  double volumeMs = 0;  ///< radii
-  double framesMs = 0;  ///< knot frames
+  double poseMs = 0;        ///< clip to joints (by the caller's clock where a pose is given)
+  double deformMs = 0;      ///< joints to control points, and vessels along their beds
+  double kinksMs = 0;       ///< straightening kinks
+  double volumeMs = 0;      ///< radii
+  double framesMs = 0;      ///< knot frames
   std::uint32_t kinks = 0;  ///< spans that the pose bent to a kink, before they were straightened
   std::uint32_t steps = 0;  ///< of the motion that led here from the frame before
   VolumeKeeper::Outcome volume;
-  AvoidReport avoid;             ///< with the times of its own stages
+  AvoidReport avoid;  ///< with the times of its own stages
 };
 
 struct FrameOptions {
   bool keepVolume = true;
-  bool slide = true;         ///< vessels slide in their beds (body/sliding.h)
-  bool avoid = false;        ///< move vessels apart that run through one another
-  bool beat = false;         ///< the heart beats (scene/beat.h)
-  AvoidOptions avoidance;    ///< budgets; no rounds and lumen rounds: only look
+  bool slide = true;       ///< vessels slide in their beds (body/sliding.h)
+  bool avoid = false;      ///< move vessels apart that run through one another
+  bool beat = false;       ///< the heart beats (scene/beat.h)
+  AvoidOptions avoidance;  ///< budgets; no rounds and lumen rounds: only look
   std::shared_ptr<MotionTrack> track =
       {};  ///< where frames are kept, and taken from if they are of the clip; none: the maker's own
 };
@@ -60,7 +60,7 @@ class FrameMaker {
   std::span<const vec4> points() const { return points_; }
   std::span<const quat> knotFrames() const { return knotFrames_; }
   std::span<const mat4> jointMatrices() const { return jointMatrices_; }  ///< world · inverse bind
-  float heartScale() const { return heartScale_; }  ///< RenderInput::heartScale
+  float heartScale() const { return heartScale_; }                        ///< RenderInput::heartScale
   const FrameReport& report() const { return report_; }
   /// The network as the body alone moves it, without kinks, before vessels were moved apart.
   std::span<const vec4> posedPoints() const { return posedPoints_; }

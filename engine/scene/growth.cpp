@@ -13,7 +13,8 @@ namespace vasa {
 namespace {
 
 constexpr float kTableHeight = 1.75f;  // [m] of the body that the tables' lengths are for
-constexpr float kThickTip = 1.6f;      // most radii of a stem that a free end may go on in: thicker ones were cut off
+// Most radii of a stem that a free end may go on in: thicker ones were cut off.
+constexpr float kThickTip = 1.6f;
 constexpr float kMostReach = 0.08f;    // [m] of a tree
 constexpr float kPartnerFar = 0.025f;  // [m] between an artery and the vein that its trees run into
 
@@ -28,7 +29,8 @@ Limb limbAt(const SpineSet& spines, JointId joint, vec3 p) {
   if (link->link <= 0) return {link->centre, vec3(0, 1, 0)};
   // A tip's link goes on behind its joint, hence no end there.
   const bool tip = !spines.joints[joint.value].next.valid();
-  const float along = std::clamp(glm::dot(p - link->centre, link->axis), 0.0f, tip ? 2 * link->link : link->link);
+  const float along =
+      std::clamp(glm::dot(p - link->centre, link->axis), 0.0f, tip ? 2 * link->link : link->link);
   return {link->centre + along * link->axis, link->axis};
 }
 
@@ -39,15 +41,18 @@ std::vector<bool> drawnSpans(const SweepTable& table) {
   return drawn;
 }
 
-// From where to where each vessel is a tube or a fork's trunk: the rest lies in the collars that its ends leave by.
+// From where to where each vessel is a tube or a fork's trunk: the rest lies in the collars that its ends
+// leave by.
 std::vector<vec2> shownStretches(const Network& network, const SweepTable& table) {
   std::vector<vec2> shown;
   for (const Vessel& vessel : network.vessels()) shown.emplace_back(0, vessel.spanCount());
   for (const shared::ForkBranch& branch : table.branches) {
     const float u = float(branch.ring.point - branch.ring.firstPoint) + branch.ring.t;
     vec2& stretch = shown[branch.vessel];
-    if (branch.ring.turn > 0) stretch.x = std::max(stretch.x, u);
-    else stretch.y = std::min(stretch.y, u);
+    if (branch.ring.turn > 0)
+      stretch.x = std::max(stretch.x, u);
+    else
+      stretch.y = std::min(stretch.y, u);
   }
   return shown;
 }
@@ -64,11 +69,13 @@ void findPartners(const Network& network, const PosedNetwork& rest, float farthe
   const auto kindOf = [&](std::size_t span) { return network.vessels()[sites.spans[span].vessel].kind; };
   std::vector<vec3> middles(sites.spans.size());
   for (std::size_t i = 0; i < middles.size(); ++i) middles[i] = sectionOn(rest, sites.spans[i], 0.5f).centre;
-  for (const auto& [own, other] : {std::pair(VesselKind::artery, VesselKind::vein), std::pair(VesselKind::vein, VesselKind::artery)}) {
+  for (const auto& [own, other] :
+       {std::pair(VesselKind::artery, VesselKind::vein), std::pair(VesselKind::vein, VesselKind::artery)}) {
     PointCloud cloud;
     std::vector<std::uint32_t> spans;
     for (std::uint32_t i = 0; i < middles.size(); ++i)
-      if (sites.sites[i].sprouts > 0 && kindOf(i) == other) spans.push_back(i), cloud.points.push_back(middles[i]);
+      if (sites.sites[i].sprouts > 0 && kindOf(i) == other)
+        spans.push_back(i), cloud.points.push_back(middles[i]);
     if (spans.empty()) continue;
     PointTree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
     tree.buildIndex();
@@ -86,8 +93,8 @@ void findPartners(const Network& network, const PosedNetwork& rest, float farthe
 
 }  // namespace
 
-CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const std::vector<GrowthRegion>& regions, const SweepTable& table,
-                           GrowthUse use) {
+CapillarySites growthSites(const Scene& scene, const GrowthRules& rules,
+                           const std::vector<GrowthRegion>& regions, const SweepTable& table, GrowthUse use) {
   const Network& network = scene.network;
   const SpineSet& spines = scene.binding.spines;
   std::vector<quat> frames(table.knotCount);
@@ -106,10 +113,12 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     const shared::SweepRecord& span = sites.spans[i];
     const Vessel& vessel = network.vessels()[span.vessel];
     const JointId joint = stations[span.point + 1].joint;
-    const GrowthRegion* region = regionOf(regions, {vessel.name, vessel.ontologyId, scene.body.skeleton.joints[joint.value].name, vessel.kind});
+    const GrowthRegion* region = regionOf(
+        regions, {vessel.name, vessel.ontologyId, scene.body.skeleton.joints[joint.value].name, vessel.kind});
     const Section section = sectionOn(rest, span, 0.5f);
     const bool grows = drawn[i] && region && region->system != GrowthRegion::kNoSystem &&
-                       section.radius >= region->thinnest * scale && section.radius <= region->thickest * scale;
+                       section.radius >= region->thinnest * scale &&
+                       section.radius <= region->thickest * scale;
     const vec2 stretch = glm::clamp(shown[span.vessel] - float(span.point - span.firstPoint), 0.0f, 1.0f);
     if (!grows || stretch.y <= stretch.x) return;
     const shared::GrowthSystem& system = rules.tables.system[region->system];
@@ -119,7 +128,8 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
         sites.freeEnds[i] = std::uint8_t(sites.freeEnds[i] & ~(1u << last));
     const Limb limb = limbAt(spines, joint, section.centre);
     vec3 hub = limb.centre;
-    if (const JointId anchor = scene.body.skeleton.find(region->hubJoint); anchor.valid() && !region->hubJoint.empty())
+    if (const JointId anchor = scene.body.skeleton.find(region->hubJoint);
+        anchor.valid() && !region->hubJoint.empty())
       hub = vec3(scene.body.skeleton.joints[anchor.value].restWorld[3]) + scale * region->hubOffset;
     const mat3 axes(section.frame.u, section.frame.v, section.frame.tangent);
     const auto points = network.pointsOf(vessel);
@@ -133,7 +143,8 @@ CapillarySites growthSites(const Scene& scene, const GrowthRules& rules, const s
     const vec4 chord = rest.points[span.point + 2] - rest.points[span.point + 1];
     const float length = std::max(glm::length(vec3(chord)), 1e-5f) * (stretch.y - stretch.x);
     // What is left of a tree over the whole ones grows in as many spans as its share says.
-    site.sprouts = std::uint32_t(std::min(length / (region->spacing * scale) + unitFloat(scramble(keyOf(7, site.key))), 4000.0f));
+    site.sprouts = std::uint32_t(
+        std::min(length / (region->spacing * scale) + unitFloat(scramble(keyOf(7, site.key))), 4000.0f));
   });
   if (use == GrowthUse::drawn) {
     std::vector<std::uint8_t> grows(count);
@@ -148,7 +159,8 @@ Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& 
   return loadGrowth(scene, folder, makeSweepTable(scene.network));
 }
 
-Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder, const SweepTable& table, GrowthUse use) {
+Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder,
+                               const SweepTable& table, GrowthUse use) {
   auto growth = readGrowth(scene, folder);
   if (growth) settleGrowth(*growth, scene, table, use);
   return growth;

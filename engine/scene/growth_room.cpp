@@ -25,17 +25,20 @@ struct Room {
   std::array<vec4, shared::kGrowthWalls> wall;
 };
 
-std::uint64_t keyOf(const Body& body, float most, const PosedNetwork& rest, std::span<const shared::SweepRecord> spans,
-                    std::span<const std::uint8_t> grows) {
+std::uint64_t keyOf(const Body& body, float most, const PosedNetwork& rest,
+                    std::span<const shared::SweepRecord> spans, std::span<const std::uint8_t> grows) {
   std::uint64_t key = hashOf(std::span<const float>(&most, 1));
-  if (const SkinnedMesh* skin = skinOf(body)) key = hashOf(std::span(skin->mesh.triangles), hashOf(std::span(skin->mesh.positions), key));
+  if (const SkinnedMesh* skin = skinOf(body))
+    key = hashOf(std::span(skin->mesh.triangles), hashOf(std::span(skin->mesh.positions), key));
   return hashOf(grows, hashOf(spans, hashOf(rest.knotFrames, hashOf(rest.points, key))));
 }
 
-bool restore(std::span<const std::byte> bytes, std::span<const std::uint8_t> grows, std::span<shared::GrowthSite> sites) {
+bool restore(std::span<const std::byte> bytes, std::span<const std::uint8_t> grows,
+             std::span<shared::GrowthSite> sites) {
   ByteReader in(bytes);
   std::vector<Room> rooms;
-  if (!in.takeAll(rooms) || rooms.size() != std::size_t(std::ranges::count_if(grows, [](std::uint8_t own) { return own != 0; })))
+  if (!in.takeAll(rooms) ||
+      rooms.size() != std::size_t(std::ranges::count_if(grows, [](std::uint8_t own) { return own != 0; })))
     return false;
   auto room = rooms.begin();
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -47,7 +50,8 @@ bool restore(std::span<const std::byte> bytes, std::span<const std::uint8_t> gro
   return true;
 }
 
-void keepRooms(std::uint64_t key, std::span<const std::uint8_t> grows, std::span<const shared::GrowthSite> sites) {
+void keepRooms(std::uint64_t key, std::span<const std::uint8_t> grows,
+               std::span<const shared::GrowthSite> sites) {
   std::vector<Room> rooms;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (!grows[i]) continue;
@@ -82,7 +86,8 @@ GrowthRoom::GrowthRoom(const Body& body, float most) : skin_(std::make_unique<Sk
 
 GrowthRoom::~GrowthRoom() = default;
 
-void GrowthRoom::measure(const PosedNetwork& rest, const shared::SweepRecord& span, shared::GrowthSite& site) const {
+void GrowthRoom::measure(const PosedNetwork& rest, const shared::SweepRecord& span,
+                         shared::GrowthSite& site) const {
   site.reach = most_;
   if (!skin_->tree) return;
   struct Place {
@@ -93,8 +98,11 @@ void GrowthRoom::measure(const PosedNetwork& rest, const shared::SweepRecord& sp
     const Section section = sectionOn(rest, span, t);
     const mat3 inverse = glm::transpose(mat3(section.frame.u, section.frame.v, section.frame.tangent));
     std::vector<std::pair<unsigned, float>> near;
-    skin_->tree->radiusSearch(&section.centre.x, most_ * most_ / (kBelowSkin * kBelowSkin), near, nanoflann::SearchParams());
-    for (const auto& [vertex, unused] : near) skin.push_back({inverse * (skin_->cloud.points[vertex] - section.centre), inverse * skin_->normals[vertex]});
+    skin_->tree->radiusSearch(&section.centre.x, most_ * most_ / (kBelowSkin * kBelowSkin), near,
+                              nanoflann::SearchParams());
+    for (const auto& [vertex, unused] : near)
+      skin.push_back(
+          {inverse * (skin_->cloud.points[vertex] - section.centre), inverse * skin_->normals[vertex]});
   }
   const auto nearest = [&] {
     return std::ranges::min_element(skin, {}, [](const Place& p) { return glm::dot(p.at, p.at); });
@@ -110,11 +118,13 @@ void GrowthRoom::measure(const PosedNetwork& rest, const shared::SweepRecord& sp
     wall = vec4(normal, kBelowSkin * offset);
     std::erase_if(skin, [&](const Place& p) { return glm::dot(normal, p.at) >= kBehind * offset; });
   }
-  if (const auto found = nearest(); found != skin.end()) site.reach = std::min(most_, kBelowSkin * glm::length(found->at));
+  if (const auto found = nearest(); found != skin.end())
+    site.reach = std::min(most_, kBelowSkin * glm::length(found->at));
 }
 
-void measureRooms(const Body& body, float most, const PosedNetwork& rest, std::span<const shared::SweepRecord> spans,
-                  std::span<const std::uint8_t> grows, std::span<shared::GrowthSite> sites) {
+void measureRooms(const Body& body, float most, const PosedNetwork& rest,
+                  std::span<const shared::SweepRecord> spans, std::span<const std::uint8_t> grows,
+                  std::span<shared::GrowthSite> sites) {
   const std::uint64_t key = keyOf(body, most, rest, spans, grows);
   if (const auto kept = findKept(kKind, key))
     if (restore(*kept, grows, sites)) return;

@@ -15,9 +15,10 @@ class GrowthRoom {
   GrowthRoom(const Body& body, float most);
   ~GrowthRoom();
 
-  /// Sets the site's reach and walls for trees that grow anywhere on a span: a ball and a few planes about the section's
-  /// centre that hold no vertex of the skin between them, with a margin. Each plane is laid before the nearest vertex that
-  /// no other keeps out, along the skin there; the ball ends before the nearest one left.
+  /// Sets the site's reach and walls for trees that grow anywhere on a span: a ball and a few planes about
+  /// the section's centre that hold no vertex of the skin between them, with a margin. Each plane is laid
+  /// before the nearest vertex that no other keeps out, along the skin there; the ball ends before the
+  /// nearest one left.
   void measure(const PosedNetwork& rest, const shared::SweepRecord& span, shared::GrowthSite& site) const;
 
  private:
@@ -26,10 +27,12 @@ class GrowthRoom {
   float most_;
 };
 
-/// measure() for all spans whose sites are to have trees, several at a time, or what an earlier run kept of it (core/kept.h).
+/// measure() for all spans whose sites are to have trees, several at a time, or what an earlier run kept of
+/// it (core/kept.h).
 /// @param grows  one a span
 /// @param sites  one a span; reach and walls are set where it grows
-void measureRooms(const Body& body, float most, const PosedNetwork& rest, std::span<const shared::SweepRecord> spans,
-                  std::span<const std::uint8_t> grows, std::span<shared::GrowthSite> sites);
+void measureRooms(const Body& body, float most, const PosedNetwork& rest,
+                  std::span<const shared::SweepRecord> spans, std::span<const std::uint8_t> grows,
+                  std::span<shared::GrowthSite> sites);
 
 }  // namespace vasa

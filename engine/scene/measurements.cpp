@@ -21,18 +21,22 @@ VesselMeasures measureVessel(std::span<const vec4> points) {
       out.leastRadius = std::min(out.leastRadius, radius);
       out.greatestRadius = std::max(out.greatestRadius, radius);
       sum += double(speed * radius), weight += double(speed);
-      if (speed > 1e-9f) out.greatestCurvature = std::max(out.greatestCurvature, glm::length(glm::cross(first, second)) / (speed * speed * speed));
+      if (speed > 1e-9f)
+        out.greatestCurvature =
+            std::max(out.greatestCurvature, glm::length(glm::cross(first, second)) / (speed * speed * speed));
     }
   }
   out.meanRadius = weight > 0 ? float(sum / weight) : out.leastRadius;
   return out;
 }
 
-VesselMeter::VesselMeter(const Network& network, float within) : network_(&network), within_(within), interference_(network) {}
+VesselMeter::VesselMeter(const Network& network, float within)
+    : network_(&network), within_(within), interference_(network) {}
 
 std::vector<VesselMeasures> VesselMeter::run(std::span<const vec4> points) {
   std::vector<VesselMeasures> all;
-  for (const Vessel& vessel : network_->vessels()) all.push_back(measureVessel(Network::pointsOf(vessel, points)));
+  for (const Vessel& vessel : network_->vessels())
+    all.push_back(measureVessel(Network::pointsOf(vessel, points)));
   const auto touch = [&](std::uint32_t tube, float gap) {
     auto& clearance = all[interference_.layout().address(tube).vessel.value].clearance;
     clearance = std::min(clearance.value_or(gap), gap);

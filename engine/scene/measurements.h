@@ -8,11 +8,11 @@ namespace vasa {
 
 /// What can be measured of one vessel in one shape.
 struct VesselMeasures {
-  float length = 0;                              ///< [m]
-  float volume = 0;                              ///< [m³]
+  float length = 0;                                           ///< [m]
+  float volume = 0;                                           ///< [m³]
   float leastRadius = 0, meanRadius = 0, greatestRadius = 0;  ///< [m], the mean along the length
-  float greatestCurvature = 0;                   ///< [1/m] of the centre line
-  std::optional<float> clearance;                ///< [m] to the nearest vessel that it is not joined to; negative: into it
+  float greatestCurvature = 0;                                ///< [1/m] of the centre line
+  std::optional<float> clearance;  ///< [m] to the nearest vessel that it is not joined to; negative: into it
 };
 
 /// Of one vessel's de Boor points; clearance is not looked for. O(spans).

@@ -82,8 +82,8 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
     hash = hashOf(std::span(std::as_const(pose.world)), hash);
   }
   hash = hashed(std::array{clip.start, clip.end, clip.framesPerSecond, options.avoidance.bending}, hash);
-  return hashed(std::array{unsigned(options.keepVolume), unsigned(options.slide), unsigned(options.beat), options.avoidance.rounds,
-                           options.avoidance.sweeps, options.avoidance.lumenRounds,
+  return hashed(std::array{unsigned(options.keepVolume), unsigned(options.slide), unsigned(options.beat),
+                           options.avoidance.rounds, options.avoidance.sweeps, options.avoidance.lumenRounds,
                            unsigned(options.avoidance.skinWall)},
                 hash);
 }

@@ -6,8 +6,8 @@
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "core/log.h"
-#include "edit/replay.h"
 #include "core/stage_log.h"
+#include "edit/replay.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
 #include "network/measure.h"
@@ -36,12 +36,14 @@ std::ptrdiff_t findByName(const Items& items, const std::string& wanted) {
   return partial;
 }
 
-// The first joint with more than one child, as a rule the hips: some rigs have joints above it that stay behind.
+// The first joint with more than one child, as a rule the hips: some rigs have joints above it that stay
+// behind.
 std::size_t firstFork(const Skeleton& skeleton) {
   std::vector<int> children(skeleton.joints.size(), 0);
   std::vector<std::size_t> only(skeleton.joints.size(), 0);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
-    if (const JointId parent = skeleton.joints[j].parent; parent.valid()) ++children[parent.value], only[parent.value] = j;
+    if (const JointId parent = skeleton.joints[j].parent; parent.valid())
+      ++children[parent.value], only[parent.value] = j;
   std::size_t at = 0;
   while (children[at] == 1) at = only[at];
   return children[at] > 1 ? at : 0;
@@ -110,8 +112,10 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
   return makeScene(std::move(*body), std::move(networks), file.edits, names);
 }
 
-Result<Scene> makeScene(Body body, std::vector<Network> networks, std::span<const std::filesystem::path> edits, std::string_view names) {
-  auto network = networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
+Result<Scene> makeScene(Body body, std::vector<Network> networks,
+                        std::span<const std::filesystem::path> edits, std::string_view names) {
+  auto network =
+      networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
   if (network && !edits.empty()) network = replayJournals(*network, edits);
   if (!network) return network.error();
   auto binding = vasa::bind(body, *network, names);
@@ -131,9 +135,12 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
     found = &clip;
   }
   const std::string quoted = "clip '" + std::string(name) + "'";
-  if (several) return badInput(body.name + ": " + quoted + " is the beginning of several names; write more of it: " + list);
+  if (several)
+    return badInput(body.name + ": " + quoted +
+                    " is the beginning of several names; write more of it: " + list);
   if (!found)
-    return badInput(body.name + " has no " + quoted + (list.empty() ? "; it has no clips at all" : "; it has " + list));
+    return badInput(body.name + " has no " + quoted +
+                    (list.empty() ? "; it has no clips at all" : "; it has " + list));
   return found;
 }
 
@@ -143,10 +150,12 @@ Result<Subject> findSubject(const Scene& scene, std::string_view name) {
     return Subject{{std::uint32_t(vessel)}, {}};
   if (const auto joint = findByName(scene.body.skeleton.joints, wanted); joint >= 0)
     return Subject{{}, {std::uint32_t(joint)}};
-  return badInput("no vessel and no joint is named '" + std::string(name) + "'; vasa info --vessels lists the vessels");
+  return badInput("no vessel and no joint is named '" + std::string(name) +
+                  "'; vasa info --vessels lists the vessels");
 }
 
-Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose, std::span<const vec4> points) {
+Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose,
+                   std::span<const vec4> points) {
   Aabb box;
   if (subject.joint.valid()) {
     box.add(vec3(pose.world[subject.joint.value][3]), scene.body.height() / 14);

@@ -14,34 +14,39 @@ struct Scene {
   Binding binding;
 };
 
-/// The body alone; where the clip is a .bvh file, with that motion carried to it (body/retarget.h) among its clips.
+/// The body alone; where the clip is a .bvh file, with that motion carried to it (body/retarget.h) among its
+/// clips.
 Result<Body> loadBody(const SceneFile& file);
 
-/// Reads what a scene file names, converts vessels that are no .vasa file (scene/vessel_files.h), replays the journals of
-/// edits (edit/replay.h) and binds what they make to the body. Fails as readers, conversion, merging, editing and binding do; vessels that do not lie in the body are refused. Can be
-/// cancelled (core/cancellation.h).
+/// Reads what a scene file names, converts vessels that are no .vasa file (scene/vessel_files.h), replays the
+/// journals of edits (edit/replay.h) and binds what they make to the body. Fails as readers, conversion,
+/// merging, editing and binding do; vessels that do not lie in the body are refused. Can be cancelled
+/// (core/cancellation.h).
 Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told = {});
 
 /// The body's clip with this name, or the only one that begins with it. badInput lists what there is.
 Result<const Clip*> findClip(const Body& body, std::string_view name);
 
-/// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name goes
-/// before a part of one, vessels before joints.
+/// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name
+/// goes before a part of one, vessels before joints.
 struct Subject {
   VesselId vessel;
   JointId joint;
 };
 Result<Subject> findSubject(const Scene& scene, std::string_view name);
 
-/// Box of a subject in a pose: of the vessel's tubes, or a cube of a seventh of the body height around the joint.
-Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose, std::span<const vec4> points);
+/// Box of a subject in a pose: of the vessel's tubes, or a cube of a seventh of the body height around the
+/// joint.
+Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose,
+                   std::span<const vec4> points);
 
 /// How far the body has moved over the floor since rest: the way of its first joint with several
 /// children, without its height.
 vec3 wayOverFloor(const Scene& scene, const Pose& pose);
 
-/// Box that holds the body and its vessels in every frame of a clip (nullptr: at rest) seen by somebody who goes along
-/// with it (wayOverFloor taken off), from the joints' motion and what stands out beyond the joints at rest.
+/// Box that holds the body and its vessels in every frame of a clip (nullptr: at rest) seen by somebody who
+/// goes along with it (wayOverFloor taken off), from the joints' motion and what stands out beyond the joints
+/// at rest.
 Aabb motionBounds(const Scene& scene, const Clip* clip);
 
 }  // namespace vasa

@@ -66,7 +66,8 @@ class Reader {
     return [this, &out, low, high](const Json& value, const std::string& place) {
       const double x = value.is_number_integer() ? value.get<double>() : NAN;
       if (!(x >= low && x <= high))
-        return fail(place, "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+        return fail(place,
+                    "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
       out = unsigned(x);
     };
   }
@@ -76,7 +77,8 @@ class Reader {
       Vector read;
       if (!value.is_array() || value.size() != std::size_t(read.length()))
         return fail(place, "must be a list of " + std::to_string(read.length()) + " numbers");
-      for (int i = 0; i < read.length(); ++i) number(read[i], low, high)(value[std::size_t(i)], place + "/" + std::to_string(i));
+      for (int i = 0; i < read.length(); ++i)
+        number(read[i], low, high)(value[std::size_t(i)], place + "/" + std::to_string(i));
       out = read;
     };
   }
@@ -90,8 +92,10 @@ class Reader {
   Field paths(std::vector<std::filesystem::path>& out) {
     return [this, &out](const Json& value, const std::string& place) {
       if (!value.is_array()) return fail(place, "must be a list of file names");
-      if (value.size() > kMostFiles) return fail(place, "must be a list of at most " + std::to_string(kMostFiles) + " file names");
-      for (std::size_t i = 0; i < value.size(); ++i) path(out.emplace_back())(value[i], place + "/" + std::to_string(i));
+      if (value.size() > kMostFiles)
+        return fail(place, "must be a list of at most " + std::to_string(kMostFiles) + " file names");
+      for (std::size_t i = 0; i < value.size(); ++i)
+        path(out.emplace_back())(value[i], place + "/" + std::to_string(i));
     };
   }
   void fail(const std::string& place, const std::string& rule) {
@@ -119,7 +123,8 @@ void readCamera(Reader& reader, const Json& value, const std::string& place, Cam
     reader.fail(place + "/view", "must be front, back, left, right or top");
 }
 
-void readCapillaries(Reader& reader, const Json& value, const std::string& place, CapillaryChoice& capillaries) {
+void readCapillaries(Reader& reader, const Json& value, const std::string& place,
+                     CapillaryChoice& capillaries) {
   reader.object(value, place,
                 {{"levels", reader.whole(capillaries.levels, 0, 6)},
                  {"edges", reader.whole(capillaries.edges, 0, 10)},
@@ -148,11 +153,10 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
 
 }  // namespace
 
-bool isMotionFile(std::string_view clip) {
-  return clip.ends_with(".bvh") || clip.ends_with(".BVH");
-}
+bool isMotionFile(std::string_view clip) { return clip.ends_with(".bvh") || clip.ends_with(".BVH"); }
 
-Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name) {
+Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder,
+                             const std::string& name) {
   Json json;
   try {
     json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
@@ -164,17 +168,20 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
   }
   SceneFile scene;
   Reader reader(folder);
-  reader.object(json, "",
-                {{"body", reader.path(scene.body)},
-                 {"networks", reader.paths(scene.networks)},
-                 {"edits", reader.paths(scene.edits)},
-                 {"clip", reader.text(scene.clip)},
-                 {"joint_map", reader.path(scene.jointMap)},
-                 {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
-                 {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }},
-                 {"capillaries", [&](const Json& v, const std::string& p) { readCapillaries(reader, v, p, scene.capillaries); }}});
+  reader.object(
+      json, "",
+      {{"body", reader.path(scene.body)},
+       {"networks", reader.paths(scene.networks)},
+       {"edits", reader.paths(scene.edits)},
+       {"clip", reader.text(scene.clip)},
+       {"joint_map", reader.path(scene.jointMap)},
+       {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
+       {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }},
+       {"capillaries",
+        [&](const Json& v, const std::string& p) { readCapillaries(reader, v, p, scene.capillaries); }}});
   if (reader.fault)
-    return badInput(name + ": " + (reader.fault->place.empty() ? "/" : reader.fault->place) + " " + reader.fault->rule);
+    return badInput(name + ": " + (reader.fault->place.empty() ? "/" : reader.fault->place) + " " +
+                    reader.fault->rule);
   if (isMotionFile(scene.clip)) scene.clip = (folder / scene.clip).string();
   return scene;
 }
@@ -182,7 +189,8 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
 Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
   const auto bytes = readFile(path, kMaximumBytes);
   if (!bytes) return bytes.error();
-  return parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(), path.string());
+  return parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(),
+                    path.string());
 }
 
 }  // namespace vasa

@@ -11,12 +11,12 @@ namespace vasa {
 
 /// Where to look from: one of the named views, or a place and a target.
 struct CameraChoice {
-  std::string view = "front";   ///< front, back, left, right, top; ignored when position is given
-  std::optional<vec3> position; ///< [m]
-  std::optional<vec3> target;   ///< [m]; default: the middle of the scene
-  float angleDegrees = 30;      ///< vertical opening
-  std::string focus;            ///< name of a vessel to fill the picture with; empty: the whole scene
-  float distanceFactor = 1;     ///< 1: the subject just fits
+  std::string view = "front";    ///< front, back, left, right, top; ignored when position is given
+  std::optional<vec3> position;  ///< [m]
+  std::optional<vec3> target;    ///< [m]; default: the middle of the scene
+  float angleDegrees = 30;       ///< vertical opening
+  std::string focus;             ///< name of a vessel to fill the picture with; empty: the whole scene
+  float distanceFactor = 1;      ///< 1: the subject just fits
 };
 
 /// What is shown and how.
@@ -29,25 +29,28 @@ struct LookChoice {
 
 /// Which capillaries grow from the vessels (growth/plan.h).
 struct CapillaryChoice {
-  unsigned levels = 0;           ///< generations; 0: none
-  unsigned edges = 0;            ///< of a capillary's polyline: 3, 5, 8, 10; 0: by its size in the picture
-  unsigned budget = 4'000'000;   ///< most of them in a picture
-  float smallest = 0.5f;         ///< [pixels] generations that are shorter are left out
-  std::filesystem::path rules;   ///< folder with capillaries.lsys and regions.csv; empty: the program's own
+  unsigned levels = 0;          ///< generations; 0: none
+  unsigned edges = 0;           ///< of a capillary's polyline: 3, 5, 8, 10; 0: by its size in the picture
+  unsigned budget = 4'000'000;  ///< most of them in a picture
+  float smallest = 0.5f;        ///< [pixels] generations that are shorter are left out
+  std::filesystem::path rules;  ///< folder with capillaries.lsys and regions.csv; empty: the program's own
 };
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
 ///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
-///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones": true, "organs": true, "arteries": true, "veins": true,
+///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones":
+///     true, "organs": true, "arteries": true, "veins": true,
 ///               "skin_opacity": 0.3 },
-///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5, "rules": "folder" } }
+///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5,
+///     "rules": "folder" } }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
-  std::vector<std::filesystem::path> edits;  ///< journals (edit/journal.h), replayed in order onto all networks together
-  std::string clip;                ///< a clip's name or the beginning of it, or a .bvh file
+  std::vector<std::filesystem::path>
+      edits;         ///< journals (edit/journal.h), replayed in order onto all networks together
+  std::string clip;  ///< a clip's name or the beginning of it, or a .bvh file
   std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
   CameraChoice camera;
   LookChoice look;
@@ -57,11 +60,13 @@ struct SceneFile {
 /// Whether a clip is meant that a file of its own holds.
 bool isMotionFile(std::string_view clip);
 
-/// Reads a scene file. badInput names the JSON place and the rule: malformed JSON, an unknown key, a wrong type, a
-/// number that is not finite or out of range, more than 1 MiB, 1000 networks, or 16 levels of nesting.
+/// Reads a scene file. badInput names the JSON place and the rule: malformed JSON, an unknown key, a wrong
+/// type, a number that is not finite or out of range, more than 1 MiB, 1000 networks, or 16 levels of
+/// nesting.
 Result<SceneFile> readSceneFile(const std::filesystem::path& path);
 
 /// The same from text. @param folder  that relative paths start from; @param name  for messages
-Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name);
+Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder,
+                             const std::string& name);
 
 }  // namespace vasa

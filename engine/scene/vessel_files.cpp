@@ -27,11 +27,13 @@ bool isVtk(const std::string& extension) { return extension == ".vtp" || extensi
 
 // What others' common files of vessels are made into.
 std::string remedyFor(const std::string& extension) {
-  if (extension == ".ply" || extension == ".off" || extension == ".dae" || extension == ".fbx" || extension == ".3ds" || extension == ".blend")
+  if (extension == ".ply" || extension == ".off" || extension == ".dae" || extension == ".fbx" ||
+      extension == ".3ds" || extension == ".blend")
     return "; open it in Blender or MeshLab and export it as .glb or .obj";
   if (extension == ".vtu" || extension == ".vti" || extension == ".vtr" || extension == ".vts")
     return "; extract its surface (ParaView: Extract Surface) and save it as .vtp";
-  if (extension == ".nrrd" || extension == ".nii" || extension == ".gz" || extension == ".mha" || extension == ".mhd" || extension == ".dcm")
+  if (extension == ".nrrd" || extension == ".nii" || extension == ".gz" || extension == ".mha" ||
+      extension == ".mhd" || extension == ".dcm")
     return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
   return "";
 }
@@ -42,7 +44,10 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
   if (extension == ".obj") return readObj(path, frame);
   if (extension == ".stl") return readStl(path, frame);
   if (extension == ".vtp" || extension == ".vtk") return readVtkSurface(path, frame);
-  return Error{Fault::usage, path.string() + ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk and .swc" + remedyFor(extension)};
+  return Error{Fault::usage,
+               path.string() +
+                   ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk and .swc" +
+                   remedyFor(extension)};
 }
 
 // What `read` gives, in the likely unit.
@@ -54,20 +59,25 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read) -> decltype(
   const vec3 extent = extentOf(*found);
   const double unit = likelyUnit(extent);
   if (unit == 1) return found;
-  logInfo(path.string() + ": read as millimetres, as it would be " + std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
+  logInfo(path.string() + ": read as millimetres, as it would be " +
+          std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
           " m large in metres; vasa convert --unit says otherwise");
   return read(VesselImport{{unit, ImportFrame::Up::y}, {}});
 }
 
-Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyHeight, const ReadingProgress& told) {
-  const auto sources = readInLikelyUnit(path, [&](const VesselImport& import) { return readSurfaces(path, import); });
+Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyHeight,
+                                  const ReadingProgress& told) {
+  const auto sources =
+      readInLikelyUnit(path, [&](const VesselImport& import) { return readSurfaces(path, import); });
   if (!sources) return sources.error();
   ConvertOptions options{.bodyHeight = bodyHeight};
   if (told) {
     told("converting vessels", 0, sources->size());
     options.progress = [&](std::size_t done, std::size_t total) {
-      if (done < total) told("converting vessels", done, total);
-      else told("joining and measuring vessels", 0, 0);
+      if (done < total)
+        told("converting vessels", done, total);
+      else
+        told("joining and measuring vessels", 0, 0);
     };
   }
   auto conversion = convertElements(*sources, options);
@@ -76,7 +86,8 @@ Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyH
 }
 
 Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeight) {
-  const auto lines = readInLikelyUnit(path, [&](const VesselImport& import) { return readCentrelines(path, import); });
+  const auto lines =
+      readInLikelyUnit(path, [&](const VesselImport& import) { return readCentrelines(path, import); });
   if (!lines) return lines.error();
   auto made = networkOfCentrelines(*lines, bodyHeight);
   if (!made) return badInput(path.string() + ": " + made.error().message);
@@ -99,7 +110,11 @@ vec3 extentOf(const Centrelines& lines) {
 }
 
 double metresOfUnit(std::string_view name) {
-  for (const auto& [unit, metres] : {std::pair<std::string_view, double>{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"um", 1e-6}})
+  for (const auto& [unit, metres] : {std::pair<std::string_view, double>{"m", 1},
+                                     {"cm", 0.01},
+                                     {"mm", 0.001},
+                                     {"in", 0.0254},
+                                     {"um", 1e-6}})
     if (name == unit) return metres;
   return 0;
 }
@@ -108,7 +123,8 @@ double likelyUnit(vec3 extent) { return std::max({extent.x, extent.y, extent.z})
 
 bool holdsSurfaces(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".stl" || (isVtk(extension) && vtkContent(path) != VtkContent::lines);
+  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".stl" ||
+         (isVtk(extension) && vtkContent(path) != VtkContent::lines);
 }
 
 bool holdsCentrelines(const std::filesystem::path& path) {
@@ -116,7 +132,8 @@ bool holdsCentrelines(const std::filesystem::path& path) {
   return extension == ".swc" || (isVtk(extension) && vtkContent(path) == VtkContent::lines);
 }
 
-Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path, const VesselImport& import) {
+Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,
+                                                const VesselImport& import) {
   auto elements = readElements(path, import.frame);
   if (!elements) return elements.error();
   if (std::ranges::all_of(*elements, [](const MeshElement& e) { return e.mesh.empty(); }))
@@ -136,7 +153,8 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
     joinTouchingLines(traces);
     return traces;
   }
-  const auto lines = extensionOf(path) == ".vtk" ? readVtkLines(path, import.frame) : readVtp(path, import.frame);
+  const auto lines =
+      extensionOf(path) == ".vtk" ? readVtkLines(path, import.frame) : readVtp(path, import.frame);
   if (!lines) return lines.error();
   auto centrelines = centrelinesOfVtp(*lines, name, kind);
   if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);
@@ -144,7 +162,8 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   return centrelines;
 }
 
-Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight, const ReadingProgress& told) {
+Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight,
+                            const ReadingProgress& told) {
   if (holdsSurfaces(path)) return networkOfSurfaces(path, bodyHeight, told);
   if (holdsCentrelines(path)) return networkOfLines(path, bodyHeight);
   return readNetwork(path);

@@ -30,14 +30,18 @@ bool holdsSurfaces(const std::filesystem::path& path);
 /// .swc; .vtp and .vtk with lines.
 bool holdsCentrelines(const std::filesystem::path& path);
 
-/// Fails as readers do, with badInput where there is no triangle, and with Fault::usage for other kinds of file.
-Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path, const VesselImport& import = {});
+/// Fails as readers do, with badInput where there is no triangle, and with Fault::usage for other kinds of
+/// file.
+Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,
+                                                const VesselImport& import = {});
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import = {});
 
-/// A network out of any file that has vessels: ours (.vasa) as it is, others converted (convert/convert.h). Those
-/// without a unit of their own are read in the likely one (likelyUnit), and that is said where it is not metres.
+/// A network out of any file that has vessels: ours (.vasa) as it is, others converted (convert/convert.h).
+/// Those without a unit of their own are read in the likely one (likelyUnit), and that is said where it is
+/// not metres.
 /// @param bodyHeight  [m] of the body that they belong to; 0: their own
-Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight = 0, const ReadingProgress& told = {});
+Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight = 0,
+                            const ReadingProgress& told = {});
 
 /// The extent of vessels, in the unit that they were read in.
 vec3 extentOf(const std::vector<SourceElement>& sources);

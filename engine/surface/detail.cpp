@@ -7,8 +7,9 @@
 
 #include "surface/reference.h"
 
-// The bend: a cubic of n equal steps keeps within max|C''| / (8 n²) of its chords. On the outer side of a bend through
-// the angle α the surface adds r α² / (8 n²). Operations in the order of shaders/lib/detail.glsl, so that both round alike.
+// The bend: a cubic of n equal steps keeps within max|C''| / (8 n²) of its chords. On the outer side of a
+// bend through the angle α the surface adds r α² / (8 n²). Operations in the order of
+// shaders/lib/detail.glsl, so that both round alike.
 namespace vasa {
 namespace {
 
@@ -36,7 +37,8 @@ float bulgeOf(const Bezier& z) {
 
 }  // namespace
 
-SweepExtent sweepExtent(std::span<const vec4, 4> points, const Bezier& bezier, const shared::DetailView& view) {
+SweepExtent sweepExtent(std::span<const vec4, 4> points, const Bezier& bezier,
+                        const shared::DetailView& view) {
   SweepExtent extent{.inView = true};
   for (const vec4& plane : view.planes) {
     bool outside = true;
@@ -57,7 +59,8 @@ SweepExtent sweepExtent(std::span<const vec4, 4> points, const Bezier& bezier, c
 std::span<const float> aroundErrors() {
   static const auto errors = [] {
     std::array<float, shared::kMaxAround + 1> values{};
-    for (std::uint32_t m = 1; m <= shared::kMaxAround; ++m) values[m] = float(1 - std::cos(std::numbers::pi / m));
+    for (std::uint32_t m = 1; m <= shared::kMaxAround; ++m)
+      values[m] = float(1 - std::cos(std::numbers::pi / m));
     return values;
   }();
   return errors;
@@ -68,7 +71,9 @@ std::uint32_t aroundFor(float radiusPixels, float tolerance) {
   if (!coarse && radiusPixels <= tolerance) return shared::kThinAround;
   const float thin = float(shared::kThinShare) * tolerance;
   std::uint32_t m = coarse ? shared::kMinAround : shared::kRoundAround;
-  while (m < shared::kMaxAround && radiusPixels * aroundErrors()[m] > (m < shared::kRoundAround ? thin : tolerance)) ++m;
+  while (m < shared::kMaxAround &&
+         radiusPixels * aroundErrors()[m] > (m < shared::kRoundAround ? thin : tolerance))
+    ++m;
   return m;
 }
 
@@ -97,7 +102,8 @@ NetworkDetail networkDetail(const PosedNetwork& network, const shared::DetailVie
     float& largest = radius[table.vesselOfSweep[i]];
     largest = std::max(largest, extent.radiusPixels);
   }
-  for (const float r : radius) detail.around.push_back(view.around ? view.around : aroundFor(r, view.tolerance));
+  for (const float r : radius)
+    detail.around.push_back(view.around ? view.around : aroundFor(r, view.tolerance));
   return detail;
 }
 

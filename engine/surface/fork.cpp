@@ -9,12 +9,14 @@
 
 // The specification of shaders/lib/fork.glsl and forks.comp: same operations in the same order.
 //
-// With u(s) a direction of ring a carried to the trunk's middle and from there to s, each time by one double reflection
-// (Wang, Jüttler, Zheng, Liu 2008), v = T × u, and (c, d) the hole's direction in that frame, the hole is
+// With u(s) a direction of ring a carried to the trunk's middle and from there to s, each time by one double
+// reflection (Wang, Jüttler, Zheng, Liu 2008), v = T × u, and (c, d) the hole's direction in that frame, the
+// hole is
 //   S(s, x) = C(s) + r(s) (c' u(s) + d' v(s)),  (c', d') = (c, d) turned by (√(1 − x²), x),
 //   s = centre + h_s sin φ,  x = h_x cos φ.
-// A collar curve is the cubic Bézier polygon H, H + k (X − H), P − k' w, P with H on the hole, X on a smaller, similar
-// hole that stands for the corner between wall and branch, P on the branch's ring, w along the branch's wall.
+// A collar curve is the cubic Bézier polygon H, H + k (X − H), P − k' w, P with H on the hole, X on a
+// smaller, similar hole that stands for the corner between wall and branch, P on the branch's ring, w along
+// the branch's wall.
 namespace vasa {
 namespace {
 
@@ -62,7 +64,8 @@ struct Trunk {
   }
 };
 
-// A direction carried from one section to another by double reflection, made perpendicular to the tangent there.
+// A direction carried from one section to another by double reflection, made perpendicular to the tangent
+// there.
 vec3 carried(vec3 u, vec3 from, vec3 fromTangent, vec3 to, vec3 toTangent) {
   const vec3 v1 = to - from;
   const float c1 = dotOf(v1, v1);
@@ -88,9 +91,7 @@ void setFrame(Section& section, vec3 u) {
   section.frame.v = glm::cross(section.frame.tangent, u);
 }
 
-vec2 turned(vec2 a, vec2 b) {
-  return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
-}
+vec2 turned(vec2 a, vec2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
 
 ForkSeam seamAt(const Ring& ring, vec3 direction, std::span<const vec2> directions) {
   const vec2 d(dotOf(direction, ring.section.frame.u), dotOf(direction, ring.section.frame.v));
@@ -103,7 +104,8 @@ struct Wall {
 
   Section sectionAt(float s) const {
     Section section = trunk.at(s);
-    setFrame(section, carried(middle.frame.u, middle.centre, middle.frame.tangent, section.centre, section.frame.tangent));
+    setFrame(section, carried(middle.frame.u, middle.centre, middle.frame.tangent, section.centre,
+                              section.frame.tangent));
     return section;
   }
 };
@@ -116,14 +118,14 @@ vec2 halfAngleOf(std::uint32_t columns, std::uint32_t around) {
   return angle;
 }
 
-vec2 against(vec2 a) {
-  return {a.x, -a.y};
-}
+vec2 against(vec2 a) { return {a.x, -a.y}; }
 
-// Where the hole's middle lies, in the trunk's frame: as wanted, or the nearest direction that keeps it in its window.
+// Where the hole's middle lies, in the trunk's frame: as wanted, or the nearest direction that keeps it in
+// its window.
 vec2 holeDirection(const shared::ForkBranch& branch, vec2 wanted, vec2 windowMiddle, vec2 windowHalf) {
   const vec2 off = turned(wanted, against(windowMiddle));
-  const vec2 room = turned(windowHalf, {branch.holdCos, -branch.holdSin});  // cos and sin of how far it may be off
+  // Cos and sin of how far it may be off.
+  const vec2 room = turned(windowHalf, {branch.holdCos, -branch.holdSin});
   if (room.y <= 0) return windowMiddle;
   if (off.x >= room.x) return wanted;
   return turned(windowMiddle, {room.x, off.y < 0 ? -room.y : room.y});
@@ -137,8 +139,8 @@ float collarParameter(std::uint32_t row) {
 
 // One curve of the collar.
 struct CollarCurve {
-  vec3 h, h1, p1, p;       // control polygon
-  vec3 aroundH, aroundP;   // d/dφ at its ends
+  vec3 h, h1, p1, p;      // control polygon
+  vec3 aroundH, aroundP;  // d/dφ at its ends
 
   SurfacePoint at(float t) const {
     const float s = 1 - t;
@@ -193,7 +195,8 @@ class Collar {
     hole = surfacePoint(section, turned(direction_, {depth, x}));
     const float cornerX = branch_.cornerAround * x, cornerDepth = std::sqrt(1.0f - cornerX * cornerX);
     const float cornerS = branch_.centre + (branch_.cornerAlong * branch_.holeAlong) * polar.y;
-    const SurfacePoint corner = surfacePoint(wall_.sectionAt(cornerS), turned(direction_, {cornerDepth, cornerX}));
+    const SurfacePoint corner =
+        surfacePoint(wall_.sectionAt(cornerS), turned(direction_, {cornerDepth, cornerX}));
     const vec3 chord = corner.position - hole.position;
     const vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
 
@@ -213,7 +216,8 @@ class Collar {
     const vec3 velocity(wall_.trunk.bezier.derivative(s));
     curve.aroundH = section.radius * (sideways.x * section.frame.u + sideways.y * section.frame.v) +
                     (branch_.holeAlong * polar.x) * velocity;
-    curve.aroundP = (ring_.turn * branch.radius) * (direction.x * branch.frame.v - direction.y * branch.frame.u);
+    curve.aroundP =
+        (ring_.turn * branch.radius) * (direction.x * branch.frame.v - direction.y * branch.frame.u);
     return curve;
   }
 
@@ -225,7 +229,8 @@ class Collar {
 
 }  // namespace
 
-std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t branchCount, std::uint32_t around) {
+std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t branchCount,
+                            std::uint32_t around) {
   const auto wanted = std::uint32_t(std::ceil(branch.window * float(around) + 1.0f));
   return std::min(wanted, branchCount > 1 ? around / branchCount : around - 1);
 }
@@ -251,16 +256,20 @@ ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& f
   const float inner[] = {fork.row1, fork.row2, fork.row3};
   for (std::uint32_t row = 1; row + 1 < shared::kTrunkRows; ++row) {
     const Section section = wall.sectionAt(inner[row - 1]);
-    for (std::uint32_t k = 0; k < shape.a; ++k) vertices[shape.rowStart(row) + k] = surfacePoint(section, columns[k]);
+    for (std::uint32_t k = 0; k < shape.a; ++k)
+      vertices[shape.rowStart(row) + k] = surfacePoint(section, columns[k]);
   }
-  layout.b = seamAt(b, carried(wall.middle.frame.u, wall.middle.centre, tangent, b.section.centre, tangentB), ringB);
+  layout.b =
+      seamAt(b, carried(wall.middle.frame.u, wall.middle.centre, tangent, b.section.centre, tangentB), ringB);
   for (std::uint32_t k = 0; k < shape.b; ++k)
-    vertices[shape.rowStart(shared::kTrunkRows - 1) + k] = surfacePoint(b.section, ringB[layout.b.direction(k, shape.b)]);
+    vertices[shape.rowStart(shared::kTrunkRows - 1) + k] =
+        surfacePoint(b.section, ringB[layout.b.direction(k, shape.b)]);
 
   for (std::uint32_t i = 0; i < fork.branchCount; ++i) {
     const shared::ForkBranch& branch = network.table.branches[fork.firstBranch + i];
     const Section at = wall.sectionAt(branch.centre);
-    const vec3 out = vec3(bezierAt(network, branch.crossPoint, branch.crossClass).at(branch.crossT)) - at.centre;
+    const vec3 out =
+        vec3(bezierAt(network, branch.crossPoint, branch.crossClass).at(branch.crossT)) - at.centre;
     const vec3 towards = unitOr(out - dotOf(out, at.frame.tangent) * at.frame.tangent, at.frame.u);
     const vec2 wanted(dotOf(towards, at.frame.u), dotOf(towards, at.frame.v));
     ForkWindow& window = layout.window[i];
@@ -272,8 +281,10 @@ ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& f
       const std::uint32_t behind = (window.first + shape.a - other.first) % shape.a;
       const std::uint32_t least = other.count, most = shape.a - window.count;
       // Out of reach on either side: to the nearer one.
-      if (behind < least) window.first = (other.first + (2 * behind < other.count ? most : least)) % shape.a;
-      else if (behind > most) window.first = (other.first + most) % shape.a;
+      if (behind < least)
+        window.first = (other.first + (2 * behind < other.count ? most : least)) % shape.a;
+      else if (behind > most)
+        window.first = (other.first + most) % shape.a;
     }
     const vec2 direction = holeDirection(branch, wanted, turned(columns[window.first], half), half);
     window.hole = direction;

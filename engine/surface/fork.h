@@ -5,20 +5,23 @@
 
 // The surface of one fork: a piece of trunk whose wall opens into collars.
 //
-// The trunk follows the cubic in (x, y, z, r) that meets its two rings in place and direction; its columns begin at the
-// vertices of ring a. A hole lies where a branch's axis pierces the wall, between columns of its own: its window. The
-// collar is a cubic from each of the hole's vertices along the wall, then around a fillet and into the branch's ring
-// along the branch's wall: tangent planes agree at both ends. Which columns are a hole's window, and which of a ring's
-// vertices a row begins at, is found anew in each pose, so that nothing twists.
+// The trunk follows the cubic in (x, y, z, r) that meets its two rings in place and direction; its columns
+// begin at the vertices of ring a. A hole lies where a branch's axis pierces the wall, between columns of its
+// own: its window. The collar is a cubic from each of the hole's vertices along the wall, then around a
+// fillet and into the branch's ring along the branch's wall: tangent planes agree at both ends. Which columns
+// are a hole's window, and which of a ring's vertices a row begins at, is found anew in each pose, so that
+// nothing twists.
 //
-// Where a pose makes a collar or the trunk fold, it is smoothed, step by step, until it does not (surface/fork_smooth.h): a
-// fork that begins to fold moves by a part of its radius at most. Few go on folding. Then a branch becomes a stump: its tube
-// runs straight on to the trunk's axis and is closed there, and the wall has no hole; where it is the trunk, its two tubes and
-// all branches are stumps. A stump cannot fold: surface/fork_stump.h.
+// Where a pose makes a collar or the trunk fold, it is smoothed, step by step, until it does not
+// (surface/fork_smooth.h): a fork that begins to fold moves by a part of its radius at most. Few go on
+// folding. Then a branch becomes a stump: its tube runs straight on to the trunk's axis and is closed there,
+// and the wall has no hole; where it is the trunk, its two tubes and all branches are stumps. A stump cannot
+// fold: surface/fork_stump.h.
 namespace vasa {
 
-/// Rows of a fork: kTrunkRows of trunk, of which the first and the last are the tubes' rings; then for each branch the
-/// hole and kCollarRows of collar, of which the last is the branch's ring. Vertices lie row after row.
+/// Rows of a fork: kTrunkRows of trunk, of which the first and the last are the tubes' rings; then for each
+/// branch the hole and kCollarRows of collar, of which the last is the branch's ring. Vertices lie row after
+/// row.
 constexpr std::uint32_t kBranchRows = 1 + shared::kCollarRows;
 inline std::uint32_t holeRow(std::uint32_t branch) { return shared::kTrunkRows + branch * kBranchRows; }
 inline std::uint32_t branchRow(std::uint32_t branch) { return holeRow(branch) + shared::kCollarRows; }
@@ -56,13 +59,16 @@ ForkShape forkShape(const SweepTable& table, const shared::ForkRecord& fork, con
 /// Columns of the trunk between which a hole lies: `count` from column `first` on. And how it lies there.
 struct ForkWindow {
   std::uint32_t first = 0, count = 0;
-  vec2 hole{1, 0};       ///< its middle's direction, column 0 being (1, 0)
-  float wide = 1;        ///< sine of its half angle
-  vec3 rows{-1, 0, 1};   ///< the trunk's inner rows, seen from the hole's middle, in its half lengths
-  bool holds(std::uint32_t column, std::uint32_t around) const { return (column + around - first) % around < count; }
+  vec2 hole{1, 0};      ///< its middle's direction, column 0 being (1, 0)
+  float wide = 1;       ///< sine of its half angle
+  vec3 rows{-1, 0, 1};  ///< the trunk's inner rows, seen from the hole's middle, in its half lengths
+  bool holds(std::uint32_t column, std::uint32_t around) const {
+    return (column + around - first) % around < count;
+  }
 };
 /// How many, of `around`: at least 1, and all of a fork's windows leave or fill the circle.
-std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t branchCount, std::uint32_t around);
+std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t branchCount,
+                            std::uint32_t around);
 
 /// Which of a ring's vertices stands at place k of a fork's row: (first + k) or (first - k) mod m.
 struct ForkSeam {
@@ -85,7 +91,7 @@ struct ForkLayout {
 /// What is done about parts of a fork that fold in a pose.
 enum class ForkForm {
   fitting,  ///< they are smoothed; those that fold yet become stumps
-  bare      ///< nothing: triangles belong to the same parts in all poses, and move with the pose without a step
+  bare  ///< nothing: triangles belong to the same parts in all poses, and move with the pose without a step
 };
 
 /// The CPU reference of shaders/forks.comp. Vertices at rings are the tubes' own, bit for bit.

@@ -24,7 +24,8 @@ bool folds(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) 
   return along <= 0 || along * along <= kFlat2 * dotOf(first, first) * dotOf(second, second);
 }
 
-std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around, ForkForm form) {
+std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork,
+                              std::uint32_t around, ForkForm form) {
   const ForkShape shape = evenShape(network, fork, around);
   std::vector<SurfacePoint> points(shape.vertices());
   const ForkLayout layout = evaluateFork(network, fork, shape, points, form);

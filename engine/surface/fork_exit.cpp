@@ -32,8 +32,8 @@ float ringDepth(const Walker& walker, float from, const VesselLine& host, float 
 
 }  // namespace
 
-ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay, float clearance,
-                      float longest) {
+ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& host, float hostWay,
+                      float clearance, float longest) {
   const Walker walker{branch, last};
   ForkExit exit;
   float foot = hostWay, best = 1e30f, limit = 0.98f * branch.length();

@@ -9,11 +9,12 @@
 #include "surface/fork_trials.h"
 #include "surface/vessel_line.h"
 
-// A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it are given
-// room. A branch without room is dropped; that lengthens its own line again, so lines are gone through until no branch
-// is dropped any more. Then forks that fold are mended, and all is done again. Branches are only ever dropped or tried
-// in another manner, once each, until the best of them is settled, so this ends. The first manners make the widest
-// fillets, which look most like a vessel that opens into another.
+// A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it
+// are given room. A branch without room is dropped; that lengthens its own line again, so lines are gone
+// through until no branch is dropped any more. Then forks that fold are mended, and all is done again.
+// Branches are only ever dropped or tried in another manner, once each, until the best of them is settled, so
+// this ends. The first manners make the widest fillets, which look most like a vessel that opens into
+// another.
 namespace vasa {
 namespace {
 
@@ -22,14 +23,15 @@ struct Manner {
   float clearance, longest;  // of findForkExit()
   float fillet;
 };
-constexpr Manner kManners[] = {{1.3f, 4, 0.9f},      {1.3f, 4, 0.6f},     {1.0f, 3, 0.6f},   {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
-                               {1.4f, 3, 0.5f},      {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},   {0.3f, 1, 0.15f},  {1.2f, 1.5f, 0.2f},
-                               {2.5f, 4, 0.5f},      {0.5f, 2, 0.15f},    {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
-constexpr float kWidestHole = 0.9f;        // sine of half its angle
-constexpr float kHoleMargin = 1.1f;       // rows of the trunk stay outside the hole
-constexpr float kBetweenHoles = 0.3f;      // [radians] around the host
-constexpr float kSliver = 0.1f;            // of the radius: shorter tubes go to the forks beside them
-constexpr float kBesideJoin = 0.15f;       // of the radius: the least a join takes
+constexpr Manner kManners[] = {
+    {1.3f, 4, 0.9f}, {1.3f, 4, 0.6f},      {1.0f, 3, 0.6f},     {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
+    {1.4f, 3, 0.5f}, {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},     {0.3f, 1, 0.15f},  {1.2f, 1.5f, 0.2f},
+    {2.5f, 4, 0.5f}, {0.5f, 2, 0.15f},     {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
+constexpr float kWidestHole = 0.9f;    // sine of half its angle
+constexpr float kHoleMargin = 1.1f;    // rows of the trunk stay outside the hole
+constexpr float kBetweenHoles = 0.3f;  // [radians] around the host
+constexpr float kSliver = 0.1f;        // of the radius: shorter tubes go to the forks beside them
+constexpr float kBesideJoin = 0.15f;   // of the radius: the least a join takes
 
 // A branch that leaves a line.
 struct Leaving {
@@ -97,8 +99,9 @@ class Planner {
   void findExit(std::uint32_t end) {
     const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
     if (lineEnd.kind != LineEnd::Kind::branch) return;
-    exits_[end] = findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay,
-                               kManners[trials_[end].manner].clearance, kManners[trials_[end].manner].longest);
+    exits_[end] =
+        findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay,
+                     kManners[trials_[end].manner].clearance, kManners[trials_[end].manner].longest);
     fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
     clearJoin(end);
   }
@@ -122,8 +125,8 @@ class Planner {
     bool settled = false;
   };
 
-  // Branches of forks that fold are made in another manner; in the best of all, where each of them folds somewhere; as
-  // tubes of their own where that is at rest. @return whether anything changed
+  // Branches of forks that fold are made in another manner; in the best of all, where each of them folds
+  // somewhere; as tubes of their own where that is at rest. @return whether anything changed
   bool mendFolds() {
     bent_.clear();
     const std::vector<ForkFolds> folds = shapes_.foldsOf(plan_.forks, plan_.branches);
@@ -162,7 +165,8 @@ class Planner {
       const bool last = end % 2 == 1;
       const float near = last ? line.length() - join.at - join.gap : join.at;
       const float beside = 2 * kBesideJoin * exit.radius;
-      if (exit.ring > near - beside && exit.ring < near + join.gap + beside) exit.ring = near + join.gap + beside;
+      if (exit.ring > near - beside && exit.ring < near + join.gap + beside)
+        exit.ring = near + join.gap + beside;
     };
     if (end % 2 == 0)
       for (std::size_t i = 0; i < line.joins().size(); ++i) clear(line.joins()[i]);
@@ -193,7 +197,8 @@ class Planner {
     leaving.child = end;
     leaving.centre = exit.foot;
     leaving.radius = exit.radius;
-    // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the branch is clear.
+    // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the
+    // branch is clear.
     const float radius = std::min(exit.radius, 1.3f * trunk), fillet = kManners[trials_[end].manner].fillet;
     const float corner = std::clamp(std::abs(exit.ringFoot - exit.foot), radius, radius * stretched);
     leaving.hole = corner + fillet * (0.5f * radius + 0.5f * corner);
@@ -202,7 +207,8 @@ class Planner {
     leaving.cornerAround = 1 / (1 + fillet);
     const VesselLine& branch = lines_.lines[end / 2];
     const vec3 axis = host.tangent(exit.foot);
-    const vec3 out = vec3(branch.point(end % 2 ? branch.length() - exit.cross : exit.cross) - host.point(exit.foot));
+    const vec3 out =
+        vec3(branch.point(end % 2 ? branch.length() - exit.cross : exit.cross) - host.point(exit.foot));
     const vec3 level = out - glm::dot(out, axis) * axis;
     leaving.direction = level / std::max(glm::length(level), 1e-12f);
     Item item;
@@ -224,7 +230,8 @@ class Planner {
         if (other.branches.size() != 1) continue;
         if (other.room.centre - other.room.before >= one.room.centre + one.room.after) continue;
         const Leaving &a = one.branches[0], &b = other.branches[0];
-        if (std::abs(a.centre - b.centre) > 1.2f * std::min(a.hole, b.hole) + 0.8f * std::max(a.hole, b.hole)) continue;
+        if (std::abs(a.centre - b.centre) > 1.2f * std::min(a.hole, b.hole) + 0.8f * std::max(a.hole, b.hole))
+          continue;
         const float apart = std::acos(std::clamp(glm::dot(a.direction, b.direction), -1.0f, 1.0f));
         if (apart < std::asin(a.around) + std::asin(b.around) + kBetweenHoles) continue;
         const float low = std::min(one.room.centre - one.room.before, other.room.centre - other.room.before);
@@ -242,7 +249,8 @@ class Planner {
   static Item joinItem(const VesselLine& line, const VesselLine::Join& join) {
     const vec4 before = line.point(join.at), after = line.point(join.at + join.gap);
     const float radius = std::max(before.w, after.w), probe = 1.5f * radius, middle = join.at + join.gap / 2;
-    const vec3 in = vec3(before - line.point(join.at - probe)), out = vec3(line.point(join.at + join.gap + probe) - after);
+    const vec3 in = vec3(before - line.point(join.at - probe)),
+               out = vec3(line.point(join.at + join.gap + probe) - after);
     const float size = std::max(glm::length(in) * glm::length(out), 1e-20f);
     const float cosine = std::clamp(glm::dot(in, out) / size, -0.6f, 1.0f);
     const float bend = std::sqrt((1 - cosine) / (1 + cosine));  // tan of half the angle
@@ -278,8 +286,10 @@ class Planner {
             (!nearest || apart < std::abs(nearest->room.centre - item.room.centre)))
           nearest = &branch;
       }
-      if (nearest) take(*nearest, item);
-      else joins.push_back(item);
+      if (nearest)
+        take(*nearest, item);
+      else
+        joins.push_back(item);
     }
     items.insert(items.end(), joins.begin(), joins.end());
     std::sort(items.begin(), items.end(), byCentre);
@@ -313,8 +323,10 @@ class Planner {
       for (std::size_t i = 0; i < items.size(); ++i) {
         const bool torn = items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high;
         // A join that a fork pushes off its place: the nearest branch gives way.
-        if (torn && !items[i].branch()) worst = nearestBranch(items, i);
-        else if (torn) worst = &items[i];
+        if (torn && !items[i].branch())
+          worst = nearestBranch(items, i);
+        else if (torn)
+          worst = &items[i];
         if (torn) break;
         const float share = items[i].branch() ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
         if (share > excess) excess = share, worst = &items[i];
@@ -332,7 +344,7 @@ class Planner {
     Item* nearest = nullptr;
     for (Item& item : items)
       if (item.branch() && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
-                                          std::abs(nearest->room.centre - items[to].room.centre)))
+                                            std::abs(nearest->room.centre - items[to].room.centre)))
         nearest = &item;
     return nearest;
   }
@@ -348,20 +360,24 @@ class Planner {
       from = item.room.high;
       cap = false;
     }
-    emitTube(line, from, toBranch ? line.length() - exits_[2 * index + 1].ring : line.length(), cap, !toBranch);
+    emitTube(line, from, toBranch ? line.length() - exits_[2 * index + 1].ring : line.length(), cap,
+             !toBranch);
   }
 
   void emitTube(const VesselLine& line, float from, float to, bool capFrom, bool capTo) {
     if (to <= from) return;
     const VesselPlace a = line.place(from), b = line.place(to);
-    TubeStretch tube{b.vessel, a.vessel == b.vessel ? a.u : (b.reversed ? spansOf(b) : 0), b.u, capFrom, capTo};
+    TubeStretch tube{b.vessel, a.vessel == b.vessel ? a.u : (b.reversed ? spansOf(b) : 0), b.u, capFrom,
+                     capTo};
     if (b.reversed) {
       std::swap(tube.from, tube.to);
       std::swap(tube.capFrom, tube.capTo);
     }
     if (tube.to > tube.from) plan_.tubes.push_back(tube);
   }
-  float spansOf(const VesselPlace& place) const { return float(network_.vessels()[place.vessel].spanCount()); }
+  float spansOf(const VesselPlace& place) const {
+    return float(network_.vessels()[place.vessel].spanCount());
+  }
 
   void emitFork(std::uint32_t index, const Item& item) {
     const VesselLine& line = lines_.lines[index];
@@ -374,8 +390,8 @@ class Planner {
       const bool last = leaving.child % 2 == 1;
       const auto way = [&](float fromEnd) { return last ? branch.length() - fromEnd : fromEnd; };
       course.branches.push_back({branch.place(way(exit.ring)), branch.place(way(exit.cross)), last,
-                                 vec3(line.point(leaving.centre + item.room.shift)), leaving.hole, leaving.around,
-                                 leaving.cornerAround, leaving.cornerAlong});
+                                 vec3(line.point(leaving.centre + item.room.shift)), leaving.hole,
+                                 leaving.around, leaving.cornerAround, leaving.cornerAlong});
       plan_.report.leaning += !exit.clear;
     }
     plan_.report.joins += item.mustLow < 1e30f;

@@ -11,32 +11,36 @@ struct TubeStretch {
   bool capFrom = false, capTo = false;  ///< ends of the tube that nothing carries on
 };
 
-/// How the surface of a network is cut into tubes and forks. Settled once, at rest: from then on a fork is a function of
-/// its rings and of the branch's axis alone, so that its triangles stay what they are in every pose.
+/// How the surface of a network is cut into tubes and forks. Settled once, at rest: from then on a fork is a
+/// function of its rings and of the branch's axis alone, so that its triangles stay what they are in every
+/// pose.
 ///
-/// A junction becomes one fork a branch: a piece of the host's course between two rings, whose wall opens into a
-/// collar that ends in the branch's ring. A branch that leaves at a narrow angle does so where its axis pierces the
-/// host's wall, not where the axes meet. Branches whose forks would overlap are moved apart along the host. Two
-/// vessels joined end to end become a fork without a branch.
+/// A junction becomes one fork a branch: a piece of the host's course between two rings, whose wall opens
+/// into a collar that ends in the branch's ring. A branch that leaves at a narrow angle does so where its
+/// axis pierces the host's wall, not where the axes meet. Branches whose forks would overlap are moved apart
+/// along the host. Two vessels joined end to end become a fork without a branch.
 struct ForkPlan {
-  std::vector<TubeStretch> tubes;           ///< vessel after vessel
+  std::vector<TubeStretch> tubes;  ///< vessel after vessel
   std::vector<shared::ForkRecord> forks;
   std::vector<shared::ForkBranch> branches;  ///< fork after fork
-  std::vector<std::uint32_t> vesselOfFork;  ///< the host at ring a
+  std::vector<std::uint32_t> vesselOfFork;   ///< the host at ring a
 
   /// What became of the junctions.
   struct Report {
-    std::uint32_t branches = 0;     ///< vessel ends that leave another vessel's side
-    std::uint32_t doubles = 0;      ///< vessels left out, as others run in the same place (surface/vessel_line.h)
-    std::uint32_t joins = 0;        ///< vessels carried on into another, with or without a branch there
-    std::uint32_t forked = 0;       ///< branches drawn as forks
-    std::uint32_t leaning = 0;      ///< of these, branches whose ring does not stand clear of the host
+    std::uint32_t branches = 0;  ///< vessel ends that leave another vessel's side
+    /// Vessels left out, as others run in the same place (surface/vessel_line.h).
+    std::uint32_t doubles = 0;
+    std::uint32_t joins = 0;    ///< vessels carried on into another, with or without a branch there
+    std::uint32_t forked = 0;   ///< branches drawn as forks
+    std::uint32_t leaning = 0;  ///< of these, branches whose ring does not stand clear of the host
     // Branches drawn as a tube of their own with a closed end inside the host, since they:
-    std::uint32_t hidden = 0;       ///< never come out of it
-    std::uint32_t tooShort = 0;     ///< would be used up by the forks at their two ends
-    std::uint32_t crowded = 0;      ///< find no room between their neighbours on the host
-    std::uint32_t folded = 0;       ///< would have a fork that folds, at rest, however far out its collar ends
-    std::uint32_t bentJoins = 0;    ///< joins that would fold at rest; one of the two vessels branches off the other instead
+    std::uint32_t hidden = 0;    ///< never come out of it
+    std::uint32_t tooShort = 0;  ///< would be used up by the forks at their two ends
+    std::uint32_t crowded = 0;   ///< find no room between their neighbours on the host
+    /// Would have a fork that folds, at rest, however far out its collar ends.
+    std::uint32_t folded = 0;
+    /// Joins that would fold at rest; one of the two vessels branches off the other instead.
+    std::uint32_t bentJoins = 0;
   };
   Report report;
 };

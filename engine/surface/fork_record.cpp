@@ -10,7 +10,7 @@ namespace vasa {
 namespace {
 
 constexpr int kSearchSteps = 256;
-constexpr float kHold = 1.05f;       // columns and rows stay outside the hole
+constexpr float kHold = 1.05f;  // columns and rows stay outside the hole
 constexpr float kRowMargin = 1.2f;
 constexpr float kLeastStrip = 0.04f;  // of s, between a ring and the next row
 
@@ -56,7 +56,8 @@ float nearestParameter(const Bezier& trunk, vec3 point) {
   return std::clamp(best, 0.1f, 0.9f);
 }
 
-shared::ForkBranch branchRecord(const Network& network, const ForkCourse::Branch& branch, const Bezier& trunk) {
+shared::ForkBranch branchRecord(const Network& network, const ForkCourse::Branch& branch,
+                                const Bezier& trunk) {
   shared::ForkBranch record{};
   record.ring = forkRingAt(network, turned(branch.ring, branch.last));
   record.vessel = branch.ring.vessel;
@@ -81,8 +82,13 @@ shared::ForkBranch branchRecord(const Network& network, const ForkCourse::Branch
 shared::ForkRing forkRingAt(const Network& network, const VesselPlace& place) {
   const Vessel& vessel = network.vessels()[place.vessel];
   const SpanPlace at = spanPlace(network, place);
-  return {at.point, firstKnot(network, {place.vessel}) + at.span, at.spanClass, vessel.firstPoint,
-          vessel.firstPoint + vessel.pointCount - 1, at.t, place.reversed ? -1.0f : 1.0f};
+  return {at.point,
+          firstKnot(network, {place.vessel}) + at.span,
+          at.spanClass,
+          vessel.firstPoint,
+          vessel.firstPoint + vessel.pointCount - 1,
+          at.t,
+          place.reversed ? -1.0f : 1.0f};
 }
 
 std::uint32_t spanClassOf(std::uint32_t span, std::uint32_t spans) {

@@ -16,7 +16,8 @@ struct ForkCourse {
     vec3 centre{0};           ///< on the trunk's axis, below the hole's middle
     float hole = 0;           ///< [m] half length of the hole along the trunk
     float around = 0;         ///< sine of the hole's half angle
-    float cornerAround = 0, cornerAlong = 0;  ///< where wall and branch would meet without a fillet: shares of the hole
+    /// Where wall and branch would meet without a fillet: shares of the hole.
+    float cornerAround = 0, cornerAlong = 0;
   };
   std::vector<Branch> branches;  ///< at most kMostBranches
 };

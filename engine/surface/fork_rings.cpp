@@ -9,8 +9,8 @@
 namespace vasa {
 namespace {
 
-constexpr float kSameEnd = 1e-4f;    // [spans]
-constexpr float kShortest = 1e-3f;   // [spans] of a tube
+constexpr float kSameEnd = 1e-4f;   // [spans]
+constexpr float kShortest = 1e-3f;  // [spans] of a tube
 
 shared::ForkRing& ringAt(ForkPlan& plan, std::size_t fork, std::size_t ring) {
   shared::ForkRecord& record = plan.forks[fork];
@@ -38,7 +38,8 @@ float forkRingParameter(const Network& network, const shared::ForkRing& ring, st
   return float(ring.point - network.vessels()[vessel].firstPoint) + ring.t;
 }
 
-std::optional<TubeBehind> tubeBehind(const ForkPlan& plan, std::uint32_t vessel, float parameter, float outward) {
+std::optional<TubeBehind> tubeBehind(const ForkPlan& plan, std::uint32_t vessel, float parameter,
+                                     float outward) {
   const auto first = std::ranges::lower_bound(plan.tubes, vessel, {}, &TubeStretch::vessel);
   for (auto tube = first; tube != plan.tubes.end() && tube->vessel == vessel; ++tube) {
     const float near = outward > 0 ? tube->from : tube->to;

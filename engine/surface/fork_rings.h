@@ -31,7 +31,8 @@ struct TubeBehind {
   bool capped = false;  ///< at its far end
 };
 /// None where another fork takes over at the ring. O(log tubes).
-std::optional<TubeBehind> tubeBehind(const ForkPlan& plan, std::uint32_t vessel, float parameter, float outward);
+std::optional<TubeBehind> tubeBehind(const ForkPlan& plan, std::uint32_t vessel, float parameter,
+                                     float outward);
 
 /// Moves a fork's rings to places at or behind them, and shortens the tubes there.
 /// @param parameters  one a ring

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-// With l_i = before_i + after_i and o_i = Σ_{k<i} l_k, the starts x_i = y_i + o_i do not overlap exactly when y is
-// monotone; the nearest monotone y to the wanted one is that of pool adjacent violators (Ayer et al. 1955), and
-// clamping it keeps it nearest within bounds.
+// With l_i = before_i + after_i and o_i = Σ_{k<i} l_k, the starts x_i = y_i + o_i do not overlap exactly when
+// y is monotone; the nearest monotone y to the wanted one is that of pool adjacent violators (Ayer et al.
+// 1955), and clamping it keeps it nearest within bounds.
 namespace vasa {
 namespace {
 
@@ -68,7 +68,8 @@ bool shareRoom(std::span<ForkRoom> rooms, float low, float high, float sliver) {
     }
     const float meeting = lower + upper >= gap ? from + lower : -1;
     if (k > 0) rooms[k - 1].high = k < rooms.size() || lower < gap ? from + lower : to;
-    if (k < rooms.size()) rooms[k].low = meeting >= 0 && k > 0 ? rooms[k - 1].high : (upper < gap ? to - upper : from);
+    if (k < rooms.size())
+      rooms[k].low = meeting >= 0 && k > 0 ? rooms[k - 1].high : (upper < gap ? to - upper : from);
   }
   return true;
 }

@@ -3,13 +3,14 @@
 #include "surface/fork_template.h"
 #include "surface/reference.h"
 
-// The specification of shaders/lib/fork_smooth.glsl: same operations in the same order. Vertices move one after the other,
-// those behind see where those before have gone (Gauss-Seidel): so no second copy is needed.
+// The specification of shaders/lib/fork_smooth.glsl: same operations in the same order. Vertices move one
+// after the other, those behind see where those before have gone (Gauss-Seidel): so no second copy is needed.
 namespace vasa {
 namespace {
 
-constexpr float kStep = 0.5f, kHoleStep = 0.25f;       // of the way to the neighbours' mean
-constexpr float kNormalStep = 1.0f, kSeamStep = 0.3f;  // weight of the surface's own normal: within, and beside other parts
+constexpr float kStep = 0.5f, kHoleStep = 0.25f;  // of the way to the neighbours' mean
+// Weight of the surface's own normal: within, and beside other parts.
+constexpr float kNormalStep = 1.0f, kSeamStep = 0.3f;
 
 // Rows of a part, each with its own number of vertices.
 struct Rows {
@@ -41,8 +42,10 @@ void turnNormals(const Rows& rows, std::span<SurfacePoint> vertices) {
     const std::uint32_t before = row == rows.first ? row : row - 1, after = row == rows.last ? row : row + 1;
     const float step = before == row || after == row ? kSeamStep : kNormalStep;
     for (std::uint32_t k = 0; k < m; ++k) {
-      const vec3 around = vertices[start + (k + 1 == m ? 0 : k + 1)].position - vertices[start + (k == 0 ? m : k) - 1].position;
-      const vec3 along = vertices[rows.beside(after, k, m)].position - vertices[rows.beside(before, k, m)].position;
+      const vec3 around = vertices[start + (k + 1 == m ? 0 : k + 1)].position -
+                          vertices[start + (k == 0 ? m : k) - 1].position;
+      const vec3 along =
+          vertices[rows.beside(after, k, m)].position - vertices[rows.beside(before, k, m)].position;
       vec3& normal = vertices[start + k].normal;
       const vec3 own = unitOr(glm::cross(around, along), normal);
       normal = unitOr(normal + step * own, normal);
@@ -58,9 +61,11 @@ void smoothTrunk(const ForkShape& shape, std::span<SurfacePoint> vertices) {
   turnNormals(rows, vertices);
 }
 
-void smoothCollar(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch, std::span<SurfacePoint> vertices) {
+void smoothCollar(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch,
+                  std::span<SurfacePoint> vertices) {
   const Rows rows{shape, holeRow(branch), branchRow(branch)};
-  const std::uint32_t m = shape.branch[branch], hole = shape.rowStart(rows.first), outline = outlineSize(layout.window[branch]);
+  const std::uint32_t m = shape.branch[branch], hole = shape.rowStart(rows.first),
+                      outline = outlineSize(layout.window[branch]);
   for (std::uint32_t k = 0; k < m; ++k) {
     const std::uint32_t outer = (k * outline + m / 2) / m;
     moveTo(vertices[hole + k].position, kHoleStep, vertices[hole + (k + 1 == m ? 0 : k + 1)].position,

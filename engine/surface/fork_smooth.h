@@ -3,14 +3,16 @@
 
 namespace vasa {
 
-// A step of smoothing moves a part's inner vertices towards the mean of their four neighbours, and turns its normals
-// towards those of the surface that comes of it. Folds are sharp, so that they go first; a part that a pose folds but
-// little changes but little. Vertices of the tubes' rings stay. Mirrored by shaders/lib/fork_smooth.glsl.
+// A step of smoothing moves a part's inner vertices towards the mean of their four neighbours, and turns its
+// normals towards those of the surface that comes of it. Folds are sharp, so that they go first; a part that
+// a pose folds but little changes but little. Vertices of the tubes' rings stay. Mirrored by
+// shaders/lib/fork_smooth.glsl.
 
 /// Of the trunk's rows.
 void smoothTrunk(const ForkShape& shape, std::span<SurfacePoint> vertices);
 
 /// Of a branch's collar and, half as much, its hole.
-void smoothCollar(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch, std::span<SurfacePoint> vertices);
+void smoothCollar(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch,
+                  std::span<SurfacePoint> vertices);
 
 }  // namespace vasa

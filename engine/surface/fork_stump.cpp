@@ -6,11 +6,11 @@
 #include "surface/fork_smooth.h"
 #include "surface/fork_template.h"
 
-// Why a stump cannot fold: its vertices' normals are the directions d of the ring's vertices. A face between directions
-// d and d' beside each other has an edge along τ, at right angles to their middle e and to the inward direction i, and
-// another edge w; its normal τ × w has no part along τ, and along e the part (w · i) |τ|, which is positive as all steps go
-// inwards. Sums of normals at its corners lie nearer to e than to -e for three directions and more. So the two
-// agree whatever the pose, and however askew the way to the tip.
+// Why a stump cannot fold: its vertices' normals are the directions d of the ring's vertices. A face between
+// directions d and d' beside each other has an edge along τ, at right angles to their middle e and to the
+// inward direction i, and another edge w; its normal τ × w has no part along τ, and along e the part (w · i)
+// |τ|, which is positive as all steps go inwards. Sums of normals at its corners lie nearer to e than to -e
+// for three directions and more. So the two agree whatever the pose, and however askew the way to the tip.
 namespace vasa {
 namespace {
 
@@ -26,7 +26,8 @@ struct Rows {
   std::uint32_t ring, wide, tip;
 };
 
-void write(const Stump& stump, const ForkShape& shape, const ForkSeam& seam, Rows rows, std::span<SurfacePoint> vertices) {
+void write(const Stump& stump, const ForkShape& shape, const ForkSeam& seam, Rows rows,
+           std::span<SurfacePoint> vertices) {
   const std::uint32_t around = shape.rowSize(rows.ring);
   const std::vector<vec2> directions = ringDirections(around);
   const vec3 tip = stump.tip(), wide = stump.ring.centre + kStumpWide * (tip - stump.ring.centre);
@@ -43,7 +44,8 @@ void write(const Stump& stump, const ForkShape& shape, const ForkSeam& seam, Row
 }
 
 bool anyFolds(std::span<const SurfacePoint> vertices, const std::vector<uvec3>& triangles) {
-  return std::ranges::any_of(triangles, [&](const uvec3& t) { return folds(vertices[t.x], vertices[t.y], vertices[t.z]); });
+  return std::ranges::any_of(
+      triangles, [&](const uvec3& t) { return folds(vertices[t.x], vertices[t.y], vertices[t.z]); });
 }
 
 }  // namespace
@@ -57,7 +59,8 @@ vec3 Stump::tip() const {
 void smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices) {
   for (std::uint32_t step = 0; step < shared::kMostSmoothings; ++step) {
     std::array<bool, shared::kMostBranches> folded{};
-    for (std::uint32_t i = 0; i < shape.branchCount; ++i) folded[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
+    for (std::uint32_t i = 0; i < shape.branchCount; ++i)
+      folded[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
     const bool trunk = anyFolds(vertices, trunkTriangles(shape, layout));
     if (!trunk && std::ranges::none_of(folded, std::identity{})) return;
     if (trunk) smoothTrunk(shape, vertices);
@@ -66,13 +69,15 @@ void smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<Sur
   }
 }
 
-void ForkStumps::replaceFolds(const ForkShape& shape, ForkLayout& layout, std::span<SurfacePoint> vertices) const {
+void ForkStumps::replaceFolds(const ForkShape& shape, ForkLayout& layout,
+                              std::span<SurfacePoint> vertices) const {
   for (std::uint32_t i = 0; i < shape.branchCount; ++i)
     layout.stump[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
   layout.cut = anyFolds(vertices, trunkTriangles(shape, layout));
   if (layout.cut) {
     write(a, shape, layout.a, {0, 1, 2}, vertices);
-    write(b, shape, layout.b, {shared::kTrunkRows - 1, shared::kTrunkRows - 2, shared::kTrunkRows - 2}, vertices);
+    write(b, shape, layout.b, {shared::kTrunkRows - 1, shared::kTrunkRows - 2, shared::kTrunkRows - 2},
+          vertices);
   }
   for (std::uint32_t i = 0; i < shape.branchCount; ++i) {
     layout.stump[i] = layout.stump[i] || layout.cut;

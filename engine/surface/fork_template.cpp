@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-// Two rows of as many vertices are joined by quads, others by stepping along both at like shares of the way. The wall
-// between window and hole is triangulated as between a circle and a rectangle around it, by the directions of their
-// vertices from the circle's middle, the hole's half length and angle being the units. (The angle from the hole is taken
-// as twice the tangent of its half, which rises all the way round.) Directions are compared by where they cut the square |x| + |y| = 1, which needs no arc tangent.
+// Two rows of as many vertices are joined by quads, others by stepping along both at like shares of the way.
+// The wall between window and hole is triangulated as between a circle and a rectangle around it, by the
+// directions of their vertices from the circle's middle, the hole's half length and angle being the units.
+// (The angle from the hole is taken as twice the tangent of its half, which rises all the way round.)
+// Directions are compared by where they cut the square |x| + |y| = 1, which needs no arc tangent.
 namespace vasa {
 namespace {
 
@@ -17,7 +18,8 @@ float squareWay(vec2 d) {
 
 class Writer {
  public:
-  Writer(const ForkShape& shape, const ForkLayout& layout) : shape_(shape), layout_(layout), columns_(ringDirections(shape.a)) {}
+  Writer(const ForkShape& shape, const ForkLayout& layout)
+      : shape_(shape), layout_(layout), columns_(ringDirections(shape.a)) {}
 
   void trunk() {
     quads(0);
@@ -50,7 +52,8 @@ class Writer {
     for (std::uint32_t k = 0; k < m; ++k) add(low + k, low + (k + 1 == m ? 0 : k + 1), tip + k);
   }
   void tipOfLast(std::uint32_t row) {
-    const std::uint32_t m = shape_.rowSize(row + 1), tip = shape_.rowStart(row), high = shape_.rowStart(row + 1);
+    const std::uint32_t m = shape_.rowSize(row + 1), tip = shape_.rowStart(row),
+                        high = shape_.rowStart(row + 1);
     const std::uint32_t tips = shape_.rowSize(row);
     for (std::uint32_t k = 0; k < m; ++k) add(tip + k * tips / m, high + (k + 1 == m ? 0 : k + 1), high + k);
   }
@@ -161,7 +164,8 @@ std::vector<uvec3> forkTriangles(const ForkShape& shape, const ForkLayout& layou
 
 std::uint32_t forkTriangleCount(const ForkShape& shape, std::uint32_t columns) {
   std::uint32_t count = 7 * shape.a + shape.b - 2 * columns + 4 * shape.branchCount;
-  for (std::uint32_t i = 0; i < shape.branchCount; ++i) count += (1 + 2 * shared::kCollarRows) * shape.branch[i];
+  for (std::uint32_t i = 0; i < shape.branchCount; ++i)
+    count += (1 + 2 * shared::kCollarRows) * shape.branch[i];
   return count;
 }
 

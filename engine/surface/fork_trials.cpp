@@ -34,7 +34,8 @@ std::uint64_t keyOf(shared::ForkRecord fork, std::span<const shared::ForkBranch>
 
 ForkTrials::ForkTrials(const Network& network) {
   for (const mat3& map : strains()) {
-    Shape shape{{network.points().begin(), network.points().end()}, std::vector<quat>(network.sectionCount())};
+    Shape shape{{network.points().begin(), network.points().end()},
+                std::vector<quat>(network.sectionCount())};
     for (vec4& point : shape.points) point = vec4(map * vec3(point), point.w);
     std::vector<vec3> references;
     for (const Vessel& vessel : network.vessels())
@@ -65,12 +66,15 @@ std::vector<ForkFolds> ForkTrials::foldsOf(std::span<const shared::ForkRecord> f
   for (std::size_t i = 0; i < forks.size(); ++i) {
     keys.push_back(keyOf(forks[i], branches));
     const auto known = known_.find(keys[i]);
-    if (known == known_.end()) unknown.push_back(i);
-    else result[i] = known->second;
+    if (known == known_.end())
+      unknown.push_back(i);
+    else
+      result[i] = known->second;
   }
   SweepTable table;
   table.branches.assign(branches.begin(), branches.end());
-  parallelFor(unknown.size(), 8, [&](std::size_t k) { result[unknown[k]] = tried(table, forks[unknown[k]]); });
+  parallelFor(unknown.size(), 8,
+              [&](std::size_t k) { result[unknown[k]] = tried(table, forks[unknown[k]]); });
   for (const std::size_t i : unknown) known_[keys[i]] = result[i];
   return result;
 }

@@ -15,15 +15,16 @@ struct ForkFolds {
   auto operator<=>(const ForkFolds&) const = default;
 };
 
-/// Tries forks at rest and in shapes that the network may be bent to. A fork moves with a few control points that lie
-/// close together, so what a motion does to it is an affine map up to bending: the network is squeezed, stretched and
-/// sheared along the three axes, radii kept, as joints do to vessels that pass them.
+/// Tries forks at rest and in shapes that the network may be bent to. A fork moves with a few control points
+/// that lie close together, so what a motion does to it is an affine map up to bending: the network is
+/// squeezed, stretched and sheared along the three axes, radii kept, as joints do to vessels that pass them.
 class ForkTrials {
  public:
   explicit ForkTrials(const Network& network);
 
   /// One result a fork. Those of earlier calls are remembered.
-  std::vector<ForkFolds> foldsOf(std::span<const shared::ForkRecord> forks, std::span<const shared::ForkBranch> branches);
+  std::vector<ForkFolds> foldsOf(std::span<const shared::ForkRecord> forks,
+                                 std::span<const shared::ForkBranch> branches);
 
  private:
   struct Shape {

@@ -19,10 +19,12 @@ std::vector<std::uint32_t> packed(std::span<const CapEnd> caps) {
 template <class Table, class Visit>
 bool visitAll(Table& table, const Visit& visit) {
   auto& patches = table.patches;
-  return visit(table.sweeps) && visit(table.vesselOfSweep) && visit(table.spanOfSweep) && visit(table.forks) &&
-         visit(table.branches) && visit(table.vesselOfFork) && visit(table.spanOfFork) && visit(patches.patches) && visit(patches.seams) &&
-         visit(patches.vertices) && visit(patches.shares) && visit(patches.triangles) && visit(patches.firstFan) && visit(patches.fans) &&
-         visit(table.pointCount) && visit(table.knotCount) && visit(table.spanCount);
+  return visit(table.sweeps) && visit(table.vesselOfSweep) && visit(table.spanOfSweep) &&
+         visit(table.forks) && visit(table.branches) && visit(table.vesselOfFork) &&
+         visit(table.spanOfFork) && visit(patches.patches) && visit(patches.seams) &&
+         visit(patches.vertices) && visit(patches.shares) && visit(patches.triangles) &&
+         visit(patches.firstFan) && visit(patches.fans) && visit(table.pointCount) &&
+         visit(table.knotCount) && visit(table.spanCount);
 }
 
 }  // namespace
@@ -34,9 +36,11 @@ std::optional<SweepTable> findTable(std::uint64_t key) {
   SweepTable table;
   std::vector<std::uint32_t> ends;
   const bool whole = in.takeAll(ends) && visitAll(table, [&](auto& part) {
-    if constexpr (requires { part.size(); }) return in.takeAll(part);
-    else return in.take(part);
-  });
+                       if constexpr (requires { part.size(); })
+                         return in.takeAll(part);
+                       else
+                         return in.take(part);
+                     });
   for (const std::uint32_t end : ends) table.caps.push_back({end / 2, end % 2 == 1});
   return whole && in.rest().empty() ? std::optional(std::move(table)) : std::nullopt;
 }
@@ -45,8 +49,10 @@ void keepTable(std::uint64_t key, const SweepTable& table) {
   ByteWriter out;
   out.addAll(std::span<const std::uint32_t>(packed(table.caps)));
   visitAll(table, [&](const auto& part) {
-    if constexpr (requires { part.size(); }) out.addAll(std::span(part));
-    else out.add(part);
+    if constexpr (requires { part.size(); })
+      out.addAll(std::span(part));
+    else
+      out.add(part);
     return true;
   });
   keep(kKind, key, out.bytes());

@@ -6,9 +6,7 @@
 namespace vasa {
 namespace {
 
-float signOf(float value) {
-  return value < 0 ? -1.0f : 1.0f;
-}
+float signOf(float value) { return value < 0 ? -1.0f : 1.0f; }
 
 std::uint32_t toSnorm16(float value) {
   return std::uint32_t(int(std::floor(std::clamp(value, -1.0f, 1.0f) * 32767.0f + 0.5f))) & 0xffffu;

@@ -14,7 +14,8 @@ constexpr float kSamePlace = 0.25f;  // radii: a ring that lies this far outside
 constexpr float kFarthest = 20;      // radii: from a ring to the patch's, behind it
 constexpr std::size_t kMostSeams = 65536;
 
-// Where a fork's rings are to be for a patch, and how far its own are from there altogether, in radii of the rings.
+// Where a fork's rings are to be for a patch, and how far its own are from there altogether, in radii of the
+// rings.
 struct Meeting {
   std::array<float, ForkPatch::kMostRings> parameters{};
   float apart = 0;
@@ -28,7 +29,8 @@ std::optional<Meeting> meeting(const Network& network, const ForkPatch& patch, c
   Meeting met;
   for (std::size_t i = 0; i < rings.count; ++i) {
     const auto points = network.pointsOf(network.vessels()[rings.vessel[i]]);
-    const float wanted = patch.rings[i].parameter, there = forkRingParameter(network, *rings.ring[i], rings.vessel[i]);
+    const float wanted = patch.rings[i].parameter,
+                there = forkRingParameter(network, *rings.ring[i], rings.vessel[i]);
     const vec4 own = evaluate(points, wanted);
     const float distance = glm::distance(vec3(own), vec3(evaluate(points, there)));
     const bool behind = rings.outward(i) * (wanted - there) > 0;
@@ -41,7 +43,8 @@ std::optional<Meeting> meeting(const Network& network, const ForkPatch& patch, c
 
 // The patch's frame at rest; see turnOf() of patch_pose.cpp.
 std::array<vec3, 2> frameOf(const ForkPatch& patch) {
-  const vec3 along = patch.rings[1].centre - patch.rings[0].centre, side = patch.rings[2].centre - patch.rings[0].centre;
+  const vec3 along = patch.rings[1].centre - patch.rings[0].centre,
+             side = patch.rings[2].centre - patch.rings[0].centre;
   const float length = glm::length(along);
   const vec3 across = length > 0 ? along / length : vec3(1, 0, 0);
   const vec3 level = side - glm::dot(side, across) * across;
@@ -57,7 +60,9 @@ void addShares(const ForkPatch& patch, std::vector<float>& shares) {
     float before = 0;
     for (std::uint32_t k = 0; k < ring.vertices; ++k, ++vertex) {
       const vec3 d = patch.positions[vertex] - ring.centre;
-      float share = std::atan2(glm::dot(d, side), glm::dot(d, start - glm::dot(start, ring.outward) * ring.outward)) / (2 * kPi);
+      float share =
+          std::atan2(glm::dot(d, side), glm::dot(d, start - glm::dot(start, ring.outward) * ring.outward)) /
+          (2 * kPi);
       if (share < 0) share += 1;
       before = k == 0 ? 0 : std::clamp(share, before, 1.0f);
       shares.push_back(before);
@@ -89,16 +94,19 @@ std::vector<vec3> normalsOf(const ForkPatch& patch) {
 void addVertices(const ForkPatch& patch, std::uint32_t firstSeam, std::vector<shared::SkinVertex>& vertices) {
   const std::vector<vec3> normals = normalsOf(patch);
   for (std::size_t i = 0; i < patch.positions.size(); ++i) {
-    const auto joint = [&](std::size_t k) { return k < patch.rings.size() ? std::uint32_t(firstSeam + k) : firstSeam; };
+    const auto joint = [&](std::size_t k) {
+      return k < patch.rings.size() ? std::uint32_t(firstSeam + k) : firstSeam;
+    };
     const auto& w = patch.weights[i];
     const vec3 p = patch.positions[i];
-    vertices.push_back({p.x, p.y, p.z, packOctahedral(normals[i]), joint(0) | joint(1) << 16, joint(2) | joint(3) << 16,
-                        vec4(w[0], w[1], w[2], w[3]) / 255.0f});
+    vertices.push_back({p.x, p.y, p.z, packOctahedral(normals[i]), joint(0) | joint(1) << 16,
+                        joint(2) | joint(3) << 16, vec4(w[0], w[1], w[2], w[3]) / 255.0f});
   }
 }
 
 void add(const Network& network, const ForkPatch& patch, const ForkRings& rings, PatchTable& table) {
-  table.vertices.resize((table.vertices.size() + shared::kBlockVertices - 1) >> shared::kBlockShift << shared::kBlockShift);
+  table.vertices.resize((table.vertices.size() + shared::kBlockVertices - 1) >> shared::kBlockShift
+                                                                                    << shared::kBlockShift);
   table.shares.resize(table.vertices.size());
   PatchTable::Patch added{.firstSeam = std::uint32_t(table.seams.size()),
                           .seamCount = std::uint32_t(rings.count),
@@ -159,7 +167,8 @@ PatchTable takePatches(const Network& network, ForkPlan& plan) {
     taken[nearest] = true;
     add(network, patch, ringsOf(plan, plan.forks[nearest]), table);
   }
-  std::uint32_t vertex = std::uint32_t(table.vertices.size() + shared::kBlockVertices - 1) >> shared::kBlockShift << shared::kBlockShift;
+  std::uint32_t vertex = std::uint32_t(table.vertices.size() + shared::kBlockVertices - 1) >>
+                         shared::kBlockShift << shared::kBlockShift;
   std::uint32_t index = 3 * std::uint32_t(table.triangles.size());
   for (shared::PatchSeam& seam : table.seams) {
     seam.vertex = vertex;

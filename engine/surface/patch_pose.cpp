@@ -18,9 +18,9 @@ vec3 centreOf(const PosedNetwork& network, std::uint32_t seam) {
 
 // How a direction moves with a ring, at its own size.
 struct Turn {
-  vec3 across, beside, third;                    // the patch's frame at rest
+  vec3 across, beside, third;  // the patch's frame at rest
   vec3 posedAcross, posedBeside, posedThird;
-  vec3 swing;                                    // from its outward direction to the ring's, by the frame's turn alone
+  vec3 swing;  // from its outward direction to the ring's, by the frame's turn alone
   float cosine, share;
 
   vec3 framed(vec3 d) const {
@@ -62,7 +62,8 @@ shared::JointRows jointOf(const shared::PatchSeam& seam, const Section& section,
 }
 
 // How many of the ring's edges lie beside the loop before its vertex k.
-std::uint32_t edgesBefore(const PatchTable& table, const shared::PatchSeam& seam, std::uint32_t k, std::uint32_t around) {
+std::uint32_t edgesBefore(const PatchTable& table, const shared::PatchSeam& seam, std::uint32_t k,
+                          std::uint32_t around) {
   if (k == seam.loopCount) return around;
   return std::min(std::uint32_t(table.shares[seam.loop + k] * float(around) + 0.5f), around);
 }
@@ -91,7 +92,8 @@ PosedSeam poseSeam(const PosedNetwork& network, std::uint32_t index, std::uint32
   const shared::PatchSeam& seam = table.seams[index];
   const vec3 chord(network.points[seam.ring.lastPoint] - network.points[seam.ring.firstPoint]);
   const quat* knots = &network.knotFrames[seam.ring.knot];
-  const Section section = sectionAt(bezierAt(network, seam.ring.point, seam.ring.spanClass), chord, knots[0], knots[1], seam.ring.t);
+  const Section section = sectionAt(bezierAt(network, seam.ring.point, seam.ring.spanClass), chord, knots[0],
+                                    knots[1], seam.ring.t);
   const Turn turn = turnOf(network, seam, seam.ring.turn * section.frame.tangent);
   PosedSeam posed{.joint = jointOf(seam, section, turn), .ring = {}, .strip = {}};
   const vec3 start = turn.of(seam.start);
@@ -115,7 +117,8 @@ SurfacePoint poseVertex(const shared::SkinVertex& vertex, std::span<const shared
   }
   const vec4 place(vertex.x, vertex.y, vertex.z, 1), normal(unpackOctahedral(vertex.normal), 0);
   const vec3 turned(glm::dot(m.row0, normal), glm::dot(m.row1, normal), glm::dot(m.row2, normal));
-  return {vec3(glm::dot(m.row0, place), glm::dot(m.row1, place), glm::dot(m.row2, place)), unitOr(turned, {0, 0, 1})};
+  return {vec3(glm::dot(m.row0, place), glm::dot(m.row1, place), glm::dot(m.row2, place)),
+          unitOr(turned, {0, 0, 1})};
 }
 
 }  // namespace vasa

@@ -5,16 +5,17 @@
 #include "surface/octahedral.h"
 #include "surface/reference.h"
 
-// The specification of shaders/patch_strain.comp and shaders/patch_smooth.comp: same operations in the same order. All
-// vertices move at once (Jacobi), so that their order does not matter.
+// The specification of shaders/patch_strain.comp and shaders/patch_smooth.comp: same operations in the same
+// order. All vertices move at once (Jacobi), so that their order does not matter.
 namespace vasa {
 namespace {
 
 constexpr float kLeastStrain = 1.0f, kFullStrain = 2.0f;  // of the rings' radii
-constexpr float kSpared = 0.6f;   // of its size at rest: a larger triangle moves no corner
-constexpr float kStep = 0.6f;     // of the way to the neighbours' middle
-constexpr float kFreedSoon = 4;   // times the share that is pressed: vertices are free to move as far as they like
-constexpr float kSameSide = 0.8f; // cosine: a normal that is so near to the surface's stays
+constexpr float kSpared = 0.6f;  // of its size at rest: a larger triangle moves no corner
+constexpr float kStep = 0.6f;    // of the way to the neighbours' middle
+// Times the share that is pressed: vertices are free to move as far as they like.
+constexpr float kFreedSoon = 4;
+constexpr float kSameSide = 0.8f;     // cosine: a normal that is so near to the surface's stays
 constexpr float kLeastArea = 1e-12f;  // [m2]
 
 float ramp(float x) {
@@ -30,14 +31,16 @@ vec3 carried(const shared::JointRows& joint, vec3 p) {
 float lengthOf(vec3 d) { return std::sqrt(dotOf(d, d)); }
 
 // How far two rings' maps differ about their centres, in radii.
-float disagreement(const shared::PatchSeam& a, const shared::JointRows& byA, const shared::PatchSeam& b, const shared::JointRows& byB) {
+float disagreement(const shared::PatchSeam& a, const shared::JointRows& byA, const shared::PatchSeam& b,
+                   const shared::JointRows& byB) {
   const float apart = lengthOf(carried(byA, a.centre) - carried(byB, a.centre)) +
                       lengthOf(carried(byA, b.centre) - carried(byB, b.centre));
   return apart / (a.radius + b.radius);
 }
 
 std::span<const shared::FanTriangle> fanOf(const PatchTable& table, std::uint32_t vertex) {
-  return std::span(table.fans).subspan(table.firstFan[vertex], table.firstFan[vertex + 1] - table.firstFan[vertex]);
+  return std::span(table.fans)
+      .subspan(table.firstFan[vertex], table.firstFan[vertex + 1] - table.firstFan[vertex]);
 }
 
 // How much a vertex is pressed, and the middle of its neighbours.
@@ -46,22 +49,26 @@ struct Pressed {
   vec3 middle;
 };
 
-Pressed pressedAt(std::span<const shared::FanTriangle> fan, std::span<const SurfacePoint> points, const SurfacePoint& own) {
+Pressed pressedAt(std::span<const shared::FanTriangle> fan, std::span<const SurfacePoint> points,
+                  const SurfacePoint& own) {
   vec3 sum(0);
   float least = 3e38f;
   for (const shared::FanTriangle& triangle : fan) {
     const vec3 a = points[triangle.corners & 0xffffu].position, b = points[triangle.corners >> 16].position;
-    least = std::min(least, dotOf(glm::cross(a - own.position, b - own.position), own.normal) * triangle.perArea);
+    least =
+        std::min(least, dotOf(glm::cross(a - own.position, b - own.position), own.normal) * triangle.perArea);
     sum += a + b;
   }
   return {1.0f - ramp(least / kSpared), sum / float(2 * fan.size())};
 }
 
 // Which vertices may move, and how much: those that are pressed before any step, and their neighbours.
-std::vector<float> freed(const PatchTable& table, const PatchTable::Patch& patch, std::span<const SurfacePoint> points) {
+std::vector<float> freed(const PatchTable& table, const PatchTable::Patch& patch,
+                         std::span<const SurfacePoint> points) {
   std::vector<float> pressed(patch.vertexCount), most(patch.vertexCount);
   for (std::uint32_t v = 0; v < patch.vertexCount; ++v)
-    if (const auto fan = fanOf(table, patch.firstVertex + v); !fan.empty()) pressed[v] = pressedAt(fan, points, points[v]).share;
+    if (const auto fan = fanOf(table, patch.firstVertex + v); !fan.empty())
+      pressed[v] = pressedAt(fan, points, points[v]).share;
   for (std::uint32_t v = 0; v < patch.vertexCount; ++v) {
     float share = pressed[v];
     const auto fan = fanOf(table, patch.firstVertex + v);
@@ -72,10 +79,12 @@ std::vector<float> freed(const PatchTable& table, const PatchTable::Patch& patch
   return most;
 }
 
-vec3 turned(std::span<const shared::FanTriangle> fan, float share, std::span<const SurfacePoint> points, const SurfacePoint& own) {
+vec3 turned(std::span<const shared::FanTriangle> fan, float share, std::span<const SurfacePoint> points,
+            const SurfacePoint& own) {
   vec3 sum(0);
   for (const shared::FanTriangle& triangle : fan)
-    sum += glm::cross(points[triangle.corners & 0xffffu].position - own.position, points[triangle.corners >> 16].position - own.position);
+    sum += glm::cross(points[triangle.corners & 0xffffu].position - own.position,
+                      points[triangle.corners >> 16].position - own.position);
   const vec3 surface = unitOr(sum, own.normal);
   const float away = share * ramp(1.0f - dotOf(surface, own.normal) / kSameSide);
   return unitOr(own.normal + away * (surface - own.normal), own.normal);
@@ -115,12 +124,14 @@ void addFans(PatchTable& table) {
         if (count[v] == 0) continue;
         const vec3 at = positionOf(own);
         const float area = lengthOf(glm::cross(positionOf(a) - at, positionOf(b) - at));
-        table.fans[next[v]++] = {(a - patch.firstVertex) | (b - patch.firstVertex) << 16, 1.0f / std::max(area, kLeastArea)};
+        table.fans[next[v]++] = {(a - patch.firstVertex) | (b - patch.firstVertex) << 16,
+                                 1.0f / std::max(area, kLeastArea)};
       }
   }
 }
 
-float patchSmoothing(const PatchTable& table, const PatchTable::Patch& patch, std::span<const shared::JointRows> seams) {
+float patchSmoothing(const PatchTable& table, const PatchTable::Patch& patch,
+                     std::span<const shared::JointRows> seams) {
   float most = 0;
   for (std::uint32_t i = patch.firstSeam; i < patch.firstSeam + patch.seamCount; ++i)
     for (std::uint32_t j = i + 1; j < patch.firstSeam + patch.seamCount; ++j)
@@ -128,9 +139,11 @@ float patchSmoothing(const PatchTable& table, const PatchTable::Patch& patch, st
   return ramp((most - kLeastStrain) / (kFullStrain - kLeastStrain));
 }
 
-void smoothPatch(const PatchTable& table, const PatchTable::Patch& patch, float share, std::span<SurfacePoint> vertices) {
+void smoothPatch(const PatchTable& table, const PatchTable::Patch& patch, float share,
+                 std::span<SurfacePoint> vertices) {
   std::vector<SurfacePoint> from(vertices.begin(), vertices.end()), to = from;
-  for (SurfacePoint& point : from) point.normal = unpackOctahedral(packOctahedral(point.normal));  // as it is stored between
+  // As it is stored between.
+  for (SurfacePoint& point : from) point.normal = unpackOctahedral(packOctahedral(point.normal));
   const std::vector<float> free = freed(table, patch, from);
   to = from;
   for (std::uint32_t step = 0; step < shared::kPatchSteps; ++step) {
@@ -143,7 +156,9 @@ void smoothPatch(const PatchTable& table, const PatchTable::Patch& patch, float 
     from.swap(to);
   }
   for (std::uint32_t v = 0; v < patch.vertexCount; ++v)
-    if (free[v] > 0) vertices[v] = {from[v].position, turned(fanOf(table, patch.firstVertex + v), share * free[v], from, from[v])};
+    if (free[v] > 0)
+      vertices[v] = {from[v].position,
+                     turned(fanOf(table, patch.firstVertex + v), share * free[v], from, from[v])};
 }
 
 std::vector<SurfacePoint> posePatch(const PatchTable& table, const PatchTable::Patch& patch,
@@ -151,7 +166,8 @@ std::vector<SurfacePoint> posePatch(const PatchTable& table, const PatchTable::P
   std::vector<SurfacePoint> points;
   for (std::uint32_t i = patch.firstVertex; i < patch.firstVertex + patch.vertexCount; ++i)
     points.push_back(poseVertex(table.vertices[i], seams));
-  if (const float share = patchSmoothing(table, patch, seams); share > 0) smoothPatch(table, patch, share, points);
+  if (const float share = patchSmoothing(table, patch, seams); share > 0)
+    smoothPatch(table, patch, share, points);
   return points;
 }
 

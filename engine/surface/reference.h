@@ -5,15 +5,13 @@
 #include "surface/sweep_table.h"
 #include "surface/tessellate.h"
 
-// What the CPU references of the shaders have in common: the shaders' own arithmetic, term by term and in their order, so
-// that both come to the same bits.
+// What the CPU references of the shaders have in common: the shaders' own arithmetic, term by term and in
+// their order, so that both come to the same bits.
 namespace vasa {
 
 constexpr float kTiny2 = 1e-20f;  ///< a vector whose square is no larger has no direction
 
-inline float dotOf(vec3 a, vec3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+inline float dotOf(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 inline vec3 unitOr(vec3 a, vec3 otherwise) {
   const float size2 = dotOf(a, a);

@@ -9,8 +9,8 @@
 #include "surface/fork_template.h"
 #include "surface/patch_smooth.h"
 
-// Rings are written by the tubes; forks and caps use the tubes' vertices. Where two forks share a ring without a tube
-// between them, the ring is written by the first of them.
+// Rings are written by the tubes; forks and caps use the tubes' vertices. Where two forks share a ring
+// without a tube between them, the ring is written by the first of them.
 namespace vasa {
 namespace {
 
@@ -110,30 +110,35 @@ class MeshLayout {
     for (const shared::PatchSeam& seam : table.seams) seams_.push_back(ringFor(seam.ring));
     patchVertices_.resize(table.vertices.size());
     for (const PatchTable::Patch& patch : table.patches)
-      for (std::uint32_t i = 0; i < patch.vertexCount; ++i) patchVertices_[patch.firstVertex + i] = vertices_++;
+      for (std::uint32_t i = 0; i < patch.vertexCount; ++i)
+        patchVertices_[patch.firstVertex + i] = vertices_++;
   }
 
   void writePatches() {
     const PatchTable& table = network_.table.patches;
     std::vector<PosedSeam> posed(table.seams.size());
-    parallelFor(posed.size(), 16, [&](std::size_t i) { posed[i] = poseSeam(network_, std::uint32_t(i), shape_.around); });
+    parallelFor(posed.size(), 16,
+                [&](std::size_t i) { posed[i] = poseSeam(network_, std::uint32_t(i), shape_.around); });
     std::vector<shared::JointRows> joints;
     for (const PosedSeam& seam : posed) joints.push_back(seam.joint);
     parallelFor(table.patches.size(), 4, [&](std::size_t i) {
       const PatchTable::Patch& patch = table.patches[i];
       const std::vector<SurfacePoint> points = posePatch(table, patch, joints);
-      for (std::uint32_t k = 0; k < points.size(); ++k) put(patchVertices_[patch.firstVertex + k], points[k], patch.vessel);
+      for (std::uint32_t k = 0; k < points.size(); ++k)
+        put(patchVertices_[patch.firstVertex + k], points[k], patch.vessel);
     });
     for (const uvec3& t : table.triangles)
       mesh_.triangles.push_back({patchVertices_[t.x], patchVertices_[t.y], patchVertices_[t.z]});
     for (std::size_t i = 0; i < posed.size(); ++i) {
       const shared::PatchSeam& seam = table.seams[i];
       if (seams_[i].own)
-        for (std::uint32_t k = 0; k < shape_.around; ++k) put(seams_[i].first + k, posed[i].ring[k], seam.vessel);
+        for (std::uint32_t k = 0; k < shape_.around; ++k)
+          put(seams_[i].first + k, posed[i].ring[k], seam.vessel);
       const auto target = [&](std::uint32_t v) {
         return v >= seam.vertex ? seams_[i].first + v - seam.vertex : patchVertices_[v];
       };
-      for (const uvec3& t : posed[i].strip) mesh_.triangles.push_back({target(t.x), target(t.y), target(t.z)});
+      for (const uvec3& t : posed[i].strip)
+        mesh_.triangles.push_back({target(t.x), target(t.y), target(t.z)});
     }
   }
 
@@ -146,9 +151,10 @@ class MeshLayout {
   void writeTube(std::uint32_t index) {
     std::vector<SurfacePoint> points(shape_.sweepVertices());
     tessellateSweep(network_, index, shape_, points);
-    const bool shared = index + 1 < tubes_.size() &&
-                        tubes_[index + 1].vertex < tubes_[index].vertex + shape_.sweepVertices();
-    const std::size_t count = points.size() - (shared ? shape_.around : 0);  // the next sweep writes its first ring
+    const bool shared =
+        index + 1 < tubes_.size() && tubes_[index + 1].vertex < tubes_[index].vertex + shape_.sweepVertices();
+    // The next sweep writes its first ring.
+    const std::size_t count = points.size() - (shared ? shape_.around : 0);
     for (std::uint32_t k = 0; k < count; ++k)
       put(tubes_[index].vertex + k, points[k], network_.table.vesselOfSweep[index]);
     std::uint32_t triangle = tubes_[index].triangle;
@@ -167,7 +173,8 @@ class MeshLayout {
       return k >= m ? caps_[index].vertex + k - m : rim + capDirection(k, m, last);
     };
     std::uint32_t triangle = caps_[index].triangle;
-    for (const uvec3& t : capTriangles(shape_)) mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
+    for (const uvec3& t : capTriangles(shape_))
+      mesh_.triangles[triangle++] = {target(t.x), target(t.y), target(t.z)};
   }
 
   // A stump's tip: a row of vertices in one place, one vertex here.
@@ -178,7 +185,8 @@ class MeshLayout {
   }
 
   // Where a fork's vertex is in the mesh, and whether the fork writes it.
-  std::pair<std::uint32_t, bool> targetOf(const ForkPlace& place, const ForkLayout& layout, std::uint32_t vertex) const {
+  std::pair<std::uint32_t, bool> targetOf(const ForkPlace& place, const ForkLayout& layout,
+                                          std::uint32_t vertex) const {
     const std::uint32_t m = shape_.around, row = vertex / m;
     const std::uint32_t k = isTip(layout, row) ? 0 : vertex % m;
     if (row == 0) return {place.a.first + layout.a.direction(k, m), place.a.own};
@@ -202,7 +210,8 @@ class MeshLayout {
     }
     std::vector<uvec3> triangles = forkTriangles(shape, layout);
     for (uvec3& t : triangles)
-      t = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first, targetOf(place, layout, t.z).first};
+      t = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first,
+           targetOf(place, layout, t.z).first};
     return triangles;
   }
 
@@ -213,7 +222,7 @@ class MeshLayout {
   std::uint32_t vertices_ = 0, triangles_ = 0;
   std::vector<Place> tubes_, caps_;
   std::vector<ForkPlace> forks_;
-  std::vector<ForkPlace::Ring> seams_;  // of patches
+  std::vector<ForkPlace::Ring> seams_;        // of patches
   std::vector<std::uint32_t> patchVertices_;  // where those of the table are
   std::map<RingKey, std::uint32_t> rings_;
 };
@@ -227,8 +236,8 @@ SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape, Fo
   return mesh;
 }
 
-SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points, std::span<const quat> knotFrames,
-                        const SweepShape& shape) {
+SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points,
+                        std::span<const quat> knotFrames, const SweepShape& shape) {
   const SweepTable table = makeSweepTable(network);
   return surfaceMesh(PosedNetwork{table, points, knotFrames}, shape);
 }

@@ -24,8 +24,8 @@ void addTube(const Network& network, const TubeStretch& tube, std::uint32_t span
   const std::uint32_t knot = firstKnot(network, {tube.vessel});
   for (std::uint32_t span = locate(tube.from, spans).span; span < spans && float(span) < tube.to; ++span) {
     const std::uint32_t next = span + 1 < spans ? spanClassOf(span + 1, spans) : shared::kNoSpan;
-    table.sweeps.push_back({vessel.firstPoint + span, knot + span, spanClassOf(span, spans), next, vessel.firstPoint,
-                            vessel.firstPoint + vessel.pointCount - 1, tube.vessel, 0,
+    table.sweeps.push_back({vessel.firstPoint + span, knot + span, spanClassOf(span, spans), next,
+                            vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1, tube.vessel, 0,
                             std::max(tube.from - float(span), 0.0f), std::min(tube.to - float(span), 1.0f)});
     table.vesselOfSweep.push_back(tube.vessel);
     table.spanOfSweep.push_back(spansBefore + span);
@@ -68,7 +68,8 @@ SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
     }
   for (std::size_t i = 0; i < table.forks.size(); ++i) {
     const std::uint32_t vessel = table.vesselOfFork[i];
-    table.spanOfFork.push_back(firstSpan[vessel] + table.forks[i].a.point - network.vessels()[vessel].firstPoint);
+    table.spanOfFork.push_back(firstSpan[vessel] + table.forks[i].a.point -
+                               network.vessels()[vessel].firstPoint);
   }
   return table;
 }
@@ -77,7 +78,8 @@ std::vector<shared::SweepRecord> wholeSpans(const Network& network) {
   SweepTable table;
   const auto vessels = network.vessels();
   for (std::uint32_t i = 0; i < vessels.size(); ++i)
-    addTube(network, {i, 0, float(vessels[i].spanCount()), false, false}, std::uint32_t(table.sweeps.size()), table);
+    addTube(network, {i, 0, float(vessels[i].spanCount()), false, false}, std::uint32_t(table.sweeps.size()),
+            table);
   return std::move(table.sweeps);
 }
 
@@ -103,7 +105,8 @@ void networkFrames(const Network& network, std::span<const vec4> points, std::sp
   parallelFor(network.vessels().size(), 16, [&](std::size_t i) {
     const Vessel& vessel = network.vessels()[i];
     const std::uint32_t first = firstKnot(network, {std::uint32_t(i)});
-    knotFrames(Network::pointsOf(vessel, points), references[i], frames.subspan(first, vessel.spanCount() + 1));
+    knotFrames(Network::pointsOf(vessel, points), references[i],
+               frames.subspan(first, vessel.spanCount() + 1));
   });
 }
 

@@ -14,20 +14,22 @@ struct CapEnd {
   bool last = false;  ///< at the sweep's last ring, else at its first
 };
 
-/// A network's surface as flat records, for the CPU and the shaders alike; constant over time. A sweep is a span of a
-/// vessel; a span that forks cut is several sweeps, or none.
+/// A network's surface as flat records, for the CPU and the shaders alike; constant over time. A sweep is a
+/// span of a vessel; a span that forks cut is several sweeps, or none.
 struct SweepTable {
   std::vector<shared::SweepRecord> sweeps;   ///< vessel after vessel, span after span
   std::vector<std::uint32_t> vesselOfSweep;  ///< one a sweep
-  std::vector<std::uint32_t> spanOfSweep;    ///< one a sweep: its span, counted through all vessels of the network
-  std::vector<CapEnd> caps;                  ///< every end that no fork carries on
-  std::vector<shared::ForkRecord> forks;     ///< those with fewer branches first
-  std::vector<shared::ForkBranch> branches;  ///< fork after fork
+  std::vector<std::uint32_t>
+      spanOfSweep;           ///< one a sweep: its span, counted through all vessels of the network
+  std::vector<CapEnd> caps;  ///< every end that no fork carries on
+  std::vector<shared::ForkRecord> forks;                ///< those with fewer branches first
+  std::vector<shared::ForkBranch> branches;             ///< fork after fork
   std::vector<std::uint32_t> vesselOfFork, spanOfFork;  ///< those whose colour a fork takes
-  PatchTable patches;                        ///< in the place of forks (surface/patch.h)
-  std::uint32_t pointCount = 0;              ///< de Boor points of the network
-  std::uint32_t knotCount = 0;               ///< knot quaternions: spans + 1 of each vessel, vessel after vessel
-  std::uint32_t spanCount = 0;               ///< of all vessels
+  PatchTable patches;                                   ///< in the place of forks (surface/patch.h)
+  std::uint32_t pointCount = 0;                         ///< de Boor points of the network
+  /// Knot quaternions: spans + 1 of each vessel, vessel after vessel.
+  std::uint32_t knotCount = 0;
+  std::uint32_t spanCount = 0;  ///< of all vessels
 };
 /// Cut as planForks() says (surface/fork_plan.h); patches of the network stand for their forks.
 SweepTable makeSweepTable(const Network& network);

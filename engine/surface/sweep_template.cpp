@@ -6,9 +6,7 @@
 namespace vasa {
 namespace {
 
-vec2 unitAt(double angle) {
-  return {float(std::cos(angle)), float(std::sin(angle))};
-}
+vec2 unitAt(double angle) { return {float(std::cos(angle)), float(std::sin(angle))}; }
 
 // The two triangles of the quad between place k and the next of two neighbouring rings.
 void addQuad(std::vector<uvec3>& triangles, std::uint32_t ring, std::uint32_t k, std::uint32_t around) {

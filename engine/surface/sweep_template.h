@@ -22,21 +22,21 @@ struct SweepShape {
   std::uint32_t capTriangles() const { return (2 * shared::kCapRings - 1) * around; }
 };
 
-/// (cos θ, sin θ) of the m directions around a section, θ = 2πk/m: (1, 0) turned by the second direction again and
-/// again, in single precision (off by less than 2e-6), so that shaders, which have no exact cosine, find the
-/// same numbers from that one.
+/// (cos θ, sin θ) of the m directions around a section, θ = 2πk/m: (1, 0) turned by the second direction
+/// again and again, in single precision (off by less than 2e-6), so that shaders, which have no exact cosine,
+/// find the same numbers from that one.
 /// @param around  at least 3
 std::vector<vec2> ringDirections(std::uint32_t around);
 
 /// (cos φ, sin φ) of a cap's rings, rim (1, 0) first, and of its pole (0, 1) last: kCapRings + 1 of them.
 std::vector<vec2> capAngles();
 
-/// Triangles of one sweep's m×n template, counter-clockwise seen from outside. Vertex i·m + k is direction k of
-/// ring i.
+/// Triangles of one sweep's m×n template, counter-clockwise seen from outside. Vertex i·m + k is direction k
+/// of ring i.
 std::vector<uvec3> sweepTriangles(const SweepShape& shape);
 
-/// Triangles of one cap; vertex j·m + k is direction k of cap ring j, the last vertex is the pole. The winding
-/// is that of a vessel's last section; of a first one's cap the ring is run through backwards
+/// Triangles of one cap; vertex j·m + k is direction k of cap ring j, the last vertex is the pole. The
+/// winding is that of a vessel's last section; of a first one's cap the ring is run through backwards
 /// (capDirection), so that one template serves both.
 std::vector<uvec3> capTriangles(const SweepShape& shape);
 

@@ -5,7 +5,8 @@
 #include "surface/reference.h"
 
 namespace vasa {
-Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring, std::uint32_t along) {
+Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring,
+                    std::uint32_t along) {
   const shared::SweepRecord& record = network.table.sweeps[sweep];
   const vec3 chord(network.points[record.lastPoint] - network.points[record.firstPoint]);
   std::uint32_t step = 0, spanClass = record.spanClass;

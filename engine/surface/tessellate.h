@@ -11,13 +11,14 @@ namespace vasa {
 /// A network in one shape: what tessellation reads.
 struct PosedNetwork {
   const SweepTable& table;
-  std::span<const vec4> points;     ///< de Boor points, table.pointCount
-  std::span<const quat> knotFrames; ///< table.knotCount
+  std::span<const vec4> points;      ///< de Boor points, table.pointCount
+  std::span<const quat> knotFrames;  ///< table.knotCount
 };
 
 /// The section of ring `ring` of n + 1 of a sweep. The last ring is the first ring of the span behind it,
 /// bit for bit.
-Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring, std::uint32_t along);
+Section ringSection(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ring,
+                    std::uint32_t along);
 
 /// The section at a share t in [0, 1] of a sweep's part of its span.
 Section sectionOn(const PosedNetwork& network, std::uint32_t sweep, float t);

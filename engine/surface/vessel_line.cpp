@@ -9,8 +9,9 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kSamplesPerSpan = 8;
-constexpr float kLongestDouble = 8;    // radii
-constexpr float kStraightest = -0.1f;  // greatest cosine between two ends' outward directions that still run on
+constexpr float kLongestDouble = 8;  // radii
+// Greatest cosine between two ends' outward directions that still run on.
+constexpr float kStraightest = -0.1f;
 
 // An end of a vessel as a node sees it.
 struct Arm {
@@ -19,9 +20,7 @@ struct Arm {
   float radius;
 };
 
-std::uint32_t key(const VesselEnd& end) {
-  return 2 * end.vessel.value + (end.last ? 1 : 0);
-}
+std::uint32_t key(const VesselEnd& end) { return 2 * end.vessel.value + (end.last ? 1 : 0); }
 
 // Direction over the first one and a half radii: tangents at an end are noise.
 Arm armOf(const Network& network, const VesselEnd& end) {
@@ -39,7 +38,8 @@ Arm armOf(const Network& network, const VesselEnd& end) {
   return {end, length > 0 ? outward / length : vec3(0, 0, 1), start.w};
 }
 
-// What a left-out vessel is a double of: its parameters 0 and spans are those of `vessel`, `at[0]` and `at[1]`.
+// What a left-out vessel is a double of: its parameters 0 and spans are those of `vessel`, `at[0]` and
+// `at[1]`.
 struct Double {
   VesselId vessel;
   std::array<float, 2> at{};
@@ -77,7 +77,10 @@ std::optional<Double> doubleOf(const Network& network, const Vessel& vessel) {
 class Joiner {
  public:
   Joiner(const Network& network, std::span<const std::array<VesselId, 2>> apart)
-      : network_(network), apart_(apart), partner_(2 * network.vessels().size(), kNone), group_(network.vessels().size()) {
+      : network_(network),
+        apart_(apart),
+        partner_(2 * network.vessels().size(), kNone),
+        group_(network.vessels().size()) {
     std::iota(group_.begin(), group_.end(), 0u);
   }
   static constexpr std::uint32_t kNone = ~0u;
@@ -168,7 +171,8 @@ std::size_t VesselLine::sampleBefore(float way) const {
 }
 
 float VesselLine::wayOf(VesselId vessel, float u) const {
-  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.vessel == vessel; });
+  const auto part =
+      std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.vessel == vessel; });
   float way = 0;
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
     const Sample &a = samples_[i], &b = samples_[i + 1];
@@ -209,7 +213,8 @@ vec3 VesselLine::tangent(float way) const {
 
 VesselLine::Foot VesselLine::nearest(vec3 point, float around, float reach) const {
   Foot best{around, 1e30f, 0};
-  for (std::size_t i = sampleBefore(around - reach); i + 1 < samples_.size() && samples_[i].at <= around + reach; ++i) {
+  for (std::size_t i = sampleBefore(around - reach);
+       i + 1 < samples_.size() && samples_[i].at <= around + reach; ++i) {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     const vec3 along = b.centre - a.centre;
     const float length2 = glm::dot(along, along);
@@ -277,8 +282,8 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
     const auto rank = [&](const VesselEnd& end) {
       return (joiner.partner(key(end)) != Joiner::kNone ? 1e6f : 0.0f) + armOf(network, end).radius;
     };
-    const VesselEnd carrier =
-        *std::max_element(ends.begin(), ends.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    const VesselEnd carrier = *std::max_element(
+        ends.begin(), ends.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     const float u = carrier.last ? float(network.vessel(carrier.vessel).spanCount()) : 0;
     for (const VesselEnd& end : ends)
       if (!(end == carrier)) settle(end, {carrier.vessel, u});

@@ -13,8 +13,8 @@ struct VesselPlace {
   bool reversed = false;  ///< the line runs against the vessel's parameter
 };
 
-/// Vessels joined end to end, at rest: the course that a fork's trunk follows. Measured by the way along it from its
-/// first end [m], which chords of an eighth of a span approximate.
+/// Vessels joined end to end, at rest: the course that a fork's trunk follows. Measured by the way along it
+/// from its first end [m], which chords of an eighth of a span approximate.
 class VesselLine {
  public:
   struct Part {
@@ -73,11 +73,11 @@ struct VesselLines {
   std::uint32_t doubles = 0;                 ///< vessels in no line
 };
 
-/// At a node without host the two ends that run on into one another best (straight, of like size) become one line, the
-/// others branches of it; an end on the side of a vessel is a branch of that vessel's line, unless it meets the
-/// vessel's free end, which it then prolongs. No line is closed. A vessel that leads from another's end to its side a
-/// few radii on is a double of that piece (scanned parts overlap): it is in no line, and what hangs on it hangs on
-/// the other.
+/// At a node without host the two ends that run on into one another best (straight, of like size) become one
+/// line, the others branches of it; an end on the side of a vessel is a branch of that vessel's line, unless
+/// it meets the vessel's free end, which it then prolongs. No line is closed. A vessel that leads from
+/// another's end to its side a few radii on is a double of that piece (scanned parts overlap): it is in no
+/// line, and what hangs on it hangs on the other.
 /// @param apart  pairs of vessels that do not become one line
 VesselLines makeVesselLines(const Network& network, std::span<const std::array<VesselId, 2>> apart = {});
 

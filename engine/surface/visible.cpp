@@ -7,20 +7,18 @@
 
 #include "shared/tubes.h"
 
-// However its corners move by s at most in each coordinate, a triangle stays within itself widened by a square of 2 s, and
-// so behind its own edges moved outwards by s (|x| + |y|) of the edge, in units of twice an area. Its own area moves by less
-// than 4 s (width + height), of that wider box.
+// However its corners move by s at most in each coordinate, a triangle stays within itself widened by a
+// square of 2 s, and so behind its own edges moved outwards by s (|x| + |y|) of the edge, in units of twice
+// an area. Its own area moves by less than 4 s (width + height), of that wider box.
 namespace vasa {
 namespace {
 
 // Of the samples in their pixels, from the middle.
 constexpr std::array<vec2, 1> kMiddle{vec2(0)};
-constexpr std::array<vec2, 4> kStandardPlaces{vec2(-0.125f, -0.375f), vec2(0.375f, -0.125f), vec2(-0.375f, 0.125f),
-                                              vec2(0.125f, 0.375f)};
+constexpr std::array<vec2, 4> kStandardPlaces{vec2(-0.125f, -0.375f), vec2(0.375f, -0.125f),
+                                              vec2(-0.375f, 0.125f), vec2(0.125f, 0.375f)};
 
-float cross2(vec2 a, vec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
+float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 // An edge from p, and how far the area that it spans with a sample may move as its ends do.
 struct Edge {
@@ -41,7 +39,8 @@ vec4 wellBeyond(const Edge& edge, vec2 first, vec2 span) {
 
 // @param low, high  of the box that holds the triangle, however its corners move
 bool mayCover(const std::array<Edge, 3>& edges, vec2 low, vec2 high, vec2 size, vec2 place) {
-  const vec2 first = glm::max(glm::ceil(low - place), vec2(0)), last = glm::min(glm::floor(high - place), size - 1.0f);
+  const vec2 first = glm::max(glm::ceil(low - place), vec2(0)),
+             last = glm::min(glm::floor(high - place), size - 1.0f);
   const vec2 span = last - first, from = first + place;
   if (span.x < 0 || span.y < 0) return false;
   if (span.x > 1 || span.y > 1) return true;
@@ -58,7 +57,8 @@ bool seenOfTriangle(vec2 a, vec2 b, vec2 c, const PictureGrid& grid) {
   const vec2 reach = high - low;
   if (cross2(edges[0].along, edges[1].along) > 4 * grid.snap * (reach.x + reach.y)) return false;
   const std::span<const vec2> places = grid.samples == 1 ? std::span<const vec2>(kMiddle) : kStandardPlaces;
-  return std::ranges::any_of(places, [&](vec2 place) { return mayCover(edges, low, high, grid.size, place); });
+  return std::ranges::any_of(places,
+                             [&](vec2 place) { return mayCover(edges, low, high, grid.size, place); });
 }
 
 }  // namespace

@@ -19,15 +19,17 @@ layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Col
 
 VASA_CONSTANT uint kMeshKind = 8;
 
-/// Vertex v of a draw belongs to item v >> itemShift, which has one colour: sRGB, 8 bits each, red lowest; the highest 8
-/// bits are the item's kind (below 32): those of vessels, then kMeshKind + the role of a mesh.
+/// Vertex v of a draw belongs to item v >> itemShift, which has one colour: sRGB, 8 bits each, red lowest;
+/// the highest 8 bits are the item's kind (below 32): those of vessels, then kMeshKind + the role of a mesh.
 struct DrawPush {
   mat4 viewProjection;
   vec4 turn;       // quaternion x y z w: from the world to the camera's axes
   vec4 cut;        // dot(cut, (pixel, depth, 1)) < 0: cut off; where draws are partial
-  vec2 eyeCorner;  // towards the eye, in the camera's axes, at pixel p: (eyeCorner + p * (-eyeStep, eyeStep), 1)
+  vec2 eyeCorner;  // towards the eye, in the camera's axes, at pixel p: (eyeCorner + p * (-eyeStep, eyeStep),
+                   // 1)
   float eyeStep;
-  uint shiftAndOpacities;  // itemShift; from bit 8 on, 8 bits each: opacity of arteries or meshes, of veins, of other vessels
+  uint shiftAndOpacities;  // itemShift; from bit 8 on, 8 bits each: opacity of arteries or meshes, of veins,
+                           // of other vessels
   VASA_ADDRESS(Colours) colours;
   float opacity;     // of the skin and of capillaries; in x-ray the light that a surface gathers
   uint hiddenKinds;  // bit k: items of kind k are not drawn

@@ -21,12 +21,12 @@ VASA_CONSTANT uint kMostSmoothings = 16;
 
 /// A ring of a vessel: its section at t of one span.
 struct ForkRing {
-  uint point;      // first of the span's four de Boor points
-  uint knot;       // knot quaternion at the span's start
+  uint point;  // first of the span's four de Boor points
+  uint knot;   // knot quaternion at the span's start
   uint spanClass;
   uint firstPoint, lastPoint;  // of its vessel
   float t;
-  float turn;      // +1 where the vessel runs the fork's way (trunk: from a to b, branch: outwards), else -1
+  float turn;  // +1 where the vessel runs the fork's way (trunk: from a to b, branch: outwards), else -1
 };
 
 /// A branch that leaves a fork's trunk; constant over time.
@@ -34,20 +34,21 @@ struct ForkBranch {
   ForkRing ring;
   uint crossPoint, crossClass;  // its axis pierces the trunk's wall here: span and t
   float crossT;
-  float centre;                 // s of the hole's middle
-  float holeAround;             // sine of the hole's half angle around the trunk
-  float holeAlong;              // its half length, in s
-  float cornerAround, cornerAlong;  // where wall and branch would meet without a fillet, as shares of the hole
-  float window;                 // share of the trunk's columns that the hole covers
-  float holdCos, holdSin;       // of the half angle that has to stay within the window
+  float centre;      // s of the hole's middle
+  float holeAround;  // sine of the hole's half angle around the trunk
+  float holeAlong;   // its half length, in s
+  float cornerAround,
+      cornerAlong;         // where wall and branch would meet without a fillet, as shares of the hole
+  float window;            // share of the trunk's columns that the hole covers
+  float holdCos, holdSin;  // of the half angle that has to stay within the window
   uint vessel;
 };
 
 /// A piece of trunk from ring a to ring b, with branches on its sides; constant over time.
 struct ForkRecord {
   ForkRing a, b;
-  float scaleA, scaleB;         // from d/dt of the rings' vessels to d/ds of the trunk, s in [0, 1]
-  float row1, row2, row3;       // s of the trunk's inner rows; all holes lie between row1 and row3
+  float scaleA, scaleB;    // from d/dt of the rings' vessels to d/ds of the trunk, s in [0, 1]
+  float row1, row2, row3;  // s of the trunk's inner rows; all holes lie between row1 and row3
   uint vesselA, vesselB;
   uint firstBranch, branchCount;
 };
@@ -60,14 +61,16 @@ VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + kMostBranches * (2 * k
 
 #ifndef __cplusplus
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Branches { ForkBranch branch[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Branches {
+  ForkBranch branch[];
+};
 #define VASA_ADDRESS(Block) Block
 #else
 #define VASA_ADDRESS(Block) std::uint64_t
 #endif
 
-/// Of forks.comp: a thread a fork, a workgroup a group of them -> vertices, indices of the triangles that may be seen, in
-/// the order of the forks, and an indirect draw a group (shared/filling.h).
+/// Of forks.comp: a thread a fork, a workgroup a group of them -> vertices, indices of the triangles that may
+/// be seen, in the order of the forks, and an indirect draw a group (shared/filling.h).
 struct ForksPush {
   VASA_ADDRESS(Points) points;
   VASA_ADDRESS(Knots) knots;
@@ -75,21 +78,22 @@ struct ForksPush {
   VASA_ADDRESS(Branches) branches;
   VASA_ADDRESS(Tables) tables;
   VASA_ADDRESS(View) view;
-  VASA_ADDRESS(Uints) colours;       // of each fork, kind in the highest 8 bits
-  VASA_ADDRESS(Uints) around;        // m of each vessel
-  VASA_ADDRESS(Vertices) vertices;   // of a template
-  VASA_ADDRESS(UintsOut) indices;    // the same memory: they lie among the vertices
+  VASA_ADDRESS(Uints) colours;          // of each fork, kind in the highest 8 bits
+  VASA_ADDRESS(Uints) around;           // m of each vessel
+  VASA_ADDRESS(Vertices) vertices;      // of a template
+  VASA_ADDRESS(UintsOut) indices;       // the same memory: they lie among the vertices
   VASA_ADDRESS(UintsOut) blockColours;  // of each block of vertices: its fork's
   VASA_ADDRESS(Draws) draws;
   VASA_ADDRESS(Fill) filling;
-  uint reserve;                       // FillRoom's
-  uint firstDraw;                     // of the forks'
-  uint keepAll;                       // 1: every triangle is drawn
+  uint reserve;    // FillRoom's
+  uint firstDraw;  // of the forks'
+  uint keepAll;    // 1: every triangle is drawn
   uint unused;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 && sizeof(ForksPush) == 120);
+static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkRecord) == 92 &&
+              sizeof(ForksPush) == 120);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -1,10 +1,12 @@
 // Read by C++ and GLSL (std430): walls of the source mesh kept around forks. Five passes:
-//   patches    a thread a seam   -> how the vertices that follow its ring move, the ring's vertices, and the triangles of the
+//   patches    a thread a seam   -> how the vertices that follow its ring move, the ring's vertices, and the
+//   triangles of the
 //                                   strip between ring and patch
 //   skin       a thread a vertex -> the patch's vertices (shared/skin.h)
 //   patch_strain     a thread some patches -> those that their rings strain, and a dispatch of
 //   patch_smooth     a workgroup a strained patch -> its vertices, smoothed where they are pressed together
-//   patch_triangles  a thread some triangles, a workgroup a group of them -> indices of those that may be seen, in their
+//   patch_triangles  a thread some triangles, a workgroup a group of them -> indices of those that may be
+//   seen, in their
 //                                   order, and an indirect draw a group
 #ifndef VASA_SHARED_PATCH_H
 #define VASA_SHARED_PATCH_H
@@ -29,20 +31,21 @@ VASA_CONSTANT uint kPatchSteps = 7;
 /// Larger patches are not smoothed, nor are vertices with more triangles: devices bound the loops.
 VASA_CONSTANT uint kMostSmoothed = 4096, kMostFan = 32;
 
-/// Where a patch meets a tube; constant over time. What is said to be at rest is so when the patch was cut out.
+/// Where a patch meets a tube; constant over time. What is said to be at rest is so when the patch was cut
+/// out.
 struct PatchSeam {
-  ForkRing ring;              // turn: +1 where the vessel runs away from the fork
-  uint firstSeam;             // of the patch: its frame follows from the centres of that one and the two behind it
-  vec3 centre;                // of the ring, at rest
+  ForkRing ring;   // turn: +1 where the vessel runs away from the fork
+  uint firstSeam;  // of the patch: its frame follows from the centres of that one and the two behind it
+  vec3 centre;     // of the ring, at rest
   float radius;
   vec3 outward;
-  uint loop;                  // the loop's first vertex
-  vec3 across;                // two axes of the patch's frame, at rest
-  uint loopCount;             // vertices of the loop
+  uint loop;       // the loop's first vertex
+  vec3 across;     // two axes of the patch's frame, at rest
+  uint loopCount;  // vertices of the loop
   vec3 beside;
-  uint vertex;                // where the ring's vertices (kMaxAround) begin
-  vec3 start;                 // the loop's first vertex from the centre, at rest
-  uint index;                 // where the strip's indices begin
+  uint vertex;  // where the ring's vertices (kMaxAround) begin
+  vec3 start;   // the loop's first vertex from the centre, at rest
+  uint index;   // where the strip's indices begin
   uint vessel;
   uint unused0, unused1, unused2;
 };
@@ -73,10 +76,16 @@ layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Ver
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer PatchWalls { PatchWall wall[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer PatchJoints { Word2 row[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Fans { Word triangle[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Strained { StrainedPatch patches[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer StrainedOut { StrainedPatch patches[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Strained {
+  StrainedPatch patches[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer StrainedOut {
+  StrainedPatch patches[];
+};
 layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer DispatchOut { uint x, y, z; };
-layout(buffer_reference, std430, buffer_reference_align = 8) coherent buffer SmoothedVertices { Word2 vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) coherent buffer SmoothedVertices {
+  Word2 vertex[];
+};
 #endif
 
 struct PatchesPush {
@@ -84,9 +93,9 @@ struct PatchesPush {
   VASA_ADDRESS(Knots) knots;
   VASA_ADDRESS(Tables) tables;
   VASA_ADDRESS(Seams) seams;
-  VASA_ADDRESS(Shares) shares;      // of each vertex of a loop: how far around it lies, in [0, 1)
-  VASA_ADDRESS(Uints) around;       // m of each vessel
-  VASA_ADDRESS(JointsOut) joints;   // one a seam
+  VASA_ADDRESS(Shares) shares;     // of each vertex of a loop: how far around it lies, in [0, 1)
+  VASA_ADDRESS(Uints) around;      // m of each vessel
+  VASA_ADDRESS(JointsOut) joints;  // one a seam
   VASA_ADDRESS(Vertices) vertices;
   VASA_ADDRESS(UintsOut) indices;
   uint count;
@@ -106,7 +115,7 @@ struct PatchStrainPush {
 struct PatchSmoothPush {
   VASA_ADDRESS(PatchWalls) walls;
   VASA_ADDRESS(Strained) strained;
-  VASA_ADDRESS(Uints) firstFan;        // of each vertex, and the end
+  VASA_ADDRESS(Uints) firstFan;  // of each vertex, and the end
   VASA_ADDRESS(Fans) fans;
   VASA_ADDRESS(SmoothedVertices) vertices;
   VASA_ADDRESS(SmoothedVertices) between;  // as many
@@ -114,12 +123,12 @@ struct PatchSmoothPush {
 
 struct PatchTrianglesPush {
   VASA_ADDRESS(VerticesIn) vertices;
-  VASA_ADDRESS(Uints) all;          // indices of all triangles
+  VASA_ADDRESS(Uints) all;  // indices of all triangles
   VASA_ADDRESS(View) view;
   VASA_ADDRESS(UintsOut) indices;
   VASA_ADDRESS(Draws) draws;
-  uint count;                       // of all triangles
-  uint keepAll;                     // 1: every triangle is drawn
+  uint count;    // of all triangles
+  uint keepAll;  // 1: every triangle is drawn
 };
 
 #ifdef __cplusplus

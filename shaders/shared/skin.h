@@ -9,11 +9,11 @@ namespace vasa::shared {
 
 /// A vertex at rest and the joints that move it: 40 bytes.
 struct SkinVertex {
-  float x, y, z;          // [m]
-  uint normal;            // octahedral
-  uint joints01;          // two 16-bit joints, the first in the low half
+  float x, y, z;  // [m]
+  uint normal;    // octahedral
+  uint joints01;  // two 16-bit joints, the first in the low half
   uint joints23;
-  vec4 weights;           // sum 1
+  vec4 weights;  // sum 1
 };
 
 /// The first three rows of a joint's matrix; the fourth is 0 0 0 1.
@@ -26,7 +26,9 @@ struct JointRows {
 // In words (lib/words.glsl): SkinVertex, JointRows and TubeVertex.
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer SkinVertices { Word word[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Joints { Word2 row[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer PosedVertices { Word2 vertex[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer PosedVertices {
+  Word2 vertex[];
+};
 #define VASA_ADDRESS(Block) Block
 #endif
 

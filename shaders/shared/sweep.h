@@ -23,13 +23,13 @@ VASA_CONSTANT uint kCapRings = 3;
 
 /// One span of a vessel, or a part of one; constant over time.
 struct SweepRecord {
-  uint point;      // first of its four de Boor points
-  uint knot;       // knot quaternion at its start; the next one is at its end
-  uint spanClass;  // matrix from de Boor to Bézier points
-  uint nextClass;  // of the span behind it, or kNoSpan
+  uint point;                  // first of its four de Boor points
+  uint knot;                   // knot quaternion at its start; the next one is at its end
+  uint spanClass;              // matrix from de Boor to Bézier points
+  uint nextClass;              // of the span behind it, or kNoSpan
   uint firstPoint, lastPoint;  // of its vessel
   uint vessel;
-  uint caps;  // bit 0: its first ring is closed by a cap, bit 1: its last one
+  uint caps;       // bit 0: its first ring is closed by a cap, bit 1: its last one
   float from, to;  // part of the span that is drawn as a tube, in [0, 1]; forks take the rest
 };
 

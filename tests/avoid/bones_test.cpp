@@ -172,7 +172,8 @@ TEST_CASE("a vessel that another one pushes towards a bone is held off it") {
 }
 
 TEST_CASE("a vessel that is turned through two bones stays between them") {
-  // Turned and tilted about a place of its own, from one face of the lower bone through another and past the upper one.
+  // Turned and tilted about a place of its own, from one face of the lower bone through another and past the
+  // upper one.
   Setting setting = settingAt(0.011f);
   setting.body.skeleton.joints.push_back({.name = "high", .parent = {0}});
   SkinnedMesh high = test::boxMesh("bones", {-0.015f, 0.016f, -0.03f}, {0.015f, 0.03f, 0.03f});
@@ -189,7 +190,8 @@ TEST_CASE("a vessel that is turned through two bones stays between them") {
     CAPTURE(through.turn);
     const auto posedAt = [&](float share) {
       const auto& [turn, tilt, lowered, aside] = through;
-      const mat4 turned = glm::rotate(glm::rotate(mat4(1), share * turn, vec3(0, 1, 0)), share * tilt, vec3(0, 0, 1));
+      const mat4 turned =
+          glm::rotate(glm::rotate(mat4(1), share * turn, vec3(0, 1, 0)), share * tilt, vec3(0, 0, 1));
       const mat4 move = glm::translate(mat4(1), vec3(0, 0.011f - share * lowered, share * aside)) * turned *
                         glm::translate(mat4(1), vec3(0, -0.011f, 0));
       test::Posed posed = rest;
@@ -223,7 +225,8 @@ TEST_CASE("a vessel on which two bones close gives way, and widens again when th
   walker.seen = [&](const AvoidReport& report) {
     CHECK(report.after.holds());
     CHECK(report.bonesAfter.contacts == 0);
-    CHECK(std::abs(report.leastLumen - lumen) < 0.5f);  // the gap closes by 1 mm a step, a quarter of the vessel
+    CHECK(std::abs(report.leastLumen - lumen) <
+          0.5f);  // the gap closes by 1 mm a step, a quarter of the vessel
     lumen = report.leastLumen;
     CHECK(walker.correctionStep() < 0.0015f);
   };
@@ -264,8 +267,8 @@ TEST_CASE("where bones leave a vessel no room at all, it keeps its least lumen a
 }
 
 TEST_CASE("what was seen in earlier poses changes nothing of what is found in a bone now") {
-  // Steps small and large: near the bone, away from it, in it, and back; a thin vessel, one thicker than the field is wide,
-  // and one that lies deeper in the bone at rest than that.
+  // Steps small and large: near the bone, away from it, in it, and back; a thin vessel, one thicker than the
+  // field is wide, and one that lies deeper in the bone at rest than that.
   for (const vec2 radiusAndHeight : {vec2(0.002f, 0.014f), vec2(0.012f, 0.025f), vec2(0.012f, 0.012f)}) {
     const Setting setting = settingAt(radiusAndHeight.y);
     const NetworkTubes layout(setting.network);

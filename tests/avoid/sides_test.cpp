@@ -14,7 +14,8 @@ Network crossing(float angle, float height) {
   for (int v = 0; v < 2; ++v) {
     const vec3 along = v == 0 ? vec3(1, 0, 0) : vec3(std::cos(angle), 0, std::sin(angle));
     std::vector<vec4> points;
-    for (int k = 0; k < 13; ++k) points.emplace_back(along * (0.012f * float(k - 6)) + vec3(0, v == 0 ? 0 : height, 0), 0.002f);
+    for (int k = 0; k < 13; ++k)
+      points.emplace_back(along * (0.012f * float(k - 6)) + vec3(0, v == 0 ? 0 : height, 0), 0.002f);
     builder.addVessel({"vessel " + std::to_string(v), "", VesselKind::vein}, points);
   }
   auto network = builder.build(1);

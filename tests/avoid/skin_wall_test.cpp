@@ -10,7 +10,8 @@ using namespace vasa;
 
 namespace {
 
-// A closed box as tall as a body for a skin, half on each of two joints as no bone is, and a vessel below its lid along x.
+// A closed box as tall as a body for a skin, half on each of two joints as no bone is, and a vessel below its
+// lid along x.
 Body boxedBody() {
   Body body;
   body.skeleton.joints.push_back({.name = "root"});

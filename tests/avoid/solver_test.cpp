@@ -15,7 +15,8 @@ namespace {
 
 std::vector<vec4> line(vec3 from, vec3 to, float radius, std::uint32_t count) {
   std::vector<vec4> points;
-  for (std::uint32_t k = 0; k < count; ++k) points.emplace_back(glm::mix(from, to, float(k) / float(count - 1)), radius);
+  for (std::uint32_t k = 0; k < count; ++k)
+    points.emplace_back(glm::mix(from, to, float(k) / float(count - 1)), radius);
   return points;
 }
 
@@ -72,7 +73,8 @@ std::vector<vec4> squeezed(const Network& network, float factor) {
 
 // Two vessels that cross at right angles; at rest the second is `height` above the first.
 Network crossing(float height) {
-  return separateVessels({line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 12), line({0, height, -0.1f}, {0, height, 0.1f}, 0.004f, 12)});
+  return separateVessels({line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 12),
+                          line({0, height, -0.1f}, {0, height, 0.1f}, 0.004f, 12)});
 }
 
 std::vector<vec4> lowered(const Network& network, float by) {
@@ -124,12 +126,14 @@ TEST_CASE("two crossing vessels are pushed apart by the same amount") {
   CHECK(solved.report.narrowSpans == 0);
   const std::uint32_t second = network.vessels()[1].firstPoint;
   for (std::uint32_t k = 0; k < second; ++k)
-    CHECK(std::abs((posed[k].y - solved.points[k].y) - (solved.points[second + k].y - posed[second + k].y)) < 5e-5f);
+    CHECK(std::abs((posed[k].y - solved.points[k].y) - (solved.points[second + k].y - posed[second + k].y)) <
+          5e-5f);
   CHECK(std::abs(heightAbove(network, solved.points) - 0.00816f) < 5e-5f);
 }
 
 TEST_CASE("a vessel that is swept across another never passes through it") {
-  // Near one another at rest or not, at right angles or nearly along one another, and beyond one another in the end.
+  // Near one another at rest or not, at right angles or nearly along one another, and beyond one another in
+  // the end.
   for (const float angle : {0.3f, 0.8f, kPi / 2})
     for (const float height : {0.012f, 0.08f}) {
       CAPTURE(angle);
@@ -166,7 +170,8 @@ TEST_CASE("a vessel that is swept across a bundle passes none of its vessels") {
   const Network network = separateVessels(vessels);
   const auto swept = [&](float by) {
     test::Posed posed = test::atRest(network);
-    for (std::uint32_t p = network.vessels()[4].firstPoint; p < posed.points.size(); ++p) posed.points[p].y -= by;
+    for (std::uint32_t p = network.vessels()[4].firstPoint; p < posed.points.size(); ++p)
+      posed.points[p].y -= by;
     return posed;
   };
   Avoider avoider(network);
@@ -264,8 +269,8 @@ TEST_CASE("a squeezed bundle finds room") {
   const Solved solved = solve(avoider, network, squeezed(network, 0.5f));
   CHECK(solved.before.vessels.contacts > 100);
   MESSAGE(solved.before.vessels.contacts << " contacts, " << solved.report.rounds << " rounds, "
-                                        << solved.report.constraints << " constraints, " << solved.report.narrowSpans
-                                        << " narrow spans");
+                                         << solved.report.constraints << " constraints, "
+                                         << solved.report.narrowSpans << " narrow spans");
   CHECK(solved.report.after.holds());
 }
 
@@ -274,10 +279,14 @@ TEST_CASE("a fork stays joined when its vessels are pushed") {
   const auto hostPoints = line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 14);
   const VesselId host = builder.addVessel({"host", "", VesselKind::artery}, hostPoints);
   const vec3 root(evaluate(hostPoints, 5.3f));
-  const VesselId side = builder.addVessel({"side", "", VesselKind::artery}, line(root, root + vec3(0, 0, 0.1f), 0.003f, 10));
-  const VesselId left = builder.addVessel({"left", "", VesselKind::artery}, line({0.1f, 0, 0}, {0.15f, 0, 0.05f}, 0.003f, 9));
-  const VesselId right = builder.addVessel({"right", "", VesselKind::artery}, line({0.1f, 0, 0}, {0.15f, 0, -0.05f}, 0.003f, 9));
-  builder.addVessel({"bar", "", VesselKind::vein}, line({-0.12f, 0.02f, 0.006f}, {0.2f, 0.02f, 0.006f}, 0.004f, 20));
+  const VesselId side =
+      builder.addVessel({"side", "", VesselKind::artery}, line(root, root + vec3(0, 0, 0.1f), 0.003f, 10));
+  const VesselId left =
+      builder.addVessel({"left", "", VesselKind::artery}, line({0.1f, 0, 0}, {0.15f, 0, 0.05f}, 0.003f, 9));
+  const VesselId right =
+      builder.addVessel({"right", "", VesselKind::artery}, line({0.1f, 0, 0}, {0.15f, 0, -0.05f}, 0.003f, 9));
+  builder.addVessel({"bar", "", VesselKind::vein},
+                    line({-0.12f, 0.02f, 0.006f}, {0.2f, 0.02f, 0.006f}, 0.004f, 20));
   const NodeId sideNode = builder.joinToSide({side, false}, {host, 5.3f});
   const NodeId fork = builder.joinEnds({{host, true}, {left, false}, {right, false}});
   const Network network = built(builder);
@@ -288,12 +297,14 @@ TEST_CASE("a fork stays joined when its vessels are pushed") {
   CHECK(solved.before.vessels.contacts > 0);
   CHECK(solved.report.after.holds());
   CHECK(solved.report.movedMax > 0.001f);
-  const vec3 onHost(evaluate(Network::pointsOf(network.vessel(host), solved.points), network.node(sideNode).host->parameter));
+  const vec3 onHost(evaluate(Network::pointsOf(network.vessel(host), solved.points),
+                             network.node(sideNode).host->parameter));
   CHECK(glm::distance(vec3(solved.points[network.vessel(side).firstPoint]), onHost) < 1e-6f);
   const auto ends = network.ends(network.node(fork));
   const vec3 meeting(Network::pointsOf(network.vessel(host), solved.points).back());
   CHECK(ends.size() == 3);
-  for (const VesselId arm : {left, right}) CHECK(vec3(solved.points[network.vessel(arm).firstPoint]) == meeting);
+  for (const VesselId arm : {left, right})
+    CHECK(vec3(solved.points[network.vessel(arm).firstPoint]) == meeting);
 }
 
 TEST_CASE("a pack that there is no time to part gives way, or says that it could not") {
@@ -363,7 +374,8 @@ TEST_CASE("a step that is refused leaves everything as it was, and so does a loo
     const std::vector<vec4> before = again;
     const Correction correction = asked.correction();
     const std::size_t remaining = asked.remaining().size();
-    if (asked.step(motion.at(float(k) / 30 + 0.5f), nullptr, {0.5f, false, true}, again)) {  // 8 mm deeper at once
+    if (asked.step(motion.at(float(k) / 30 + 0.5f), nullptr, {0.5f, false, true},
+                   again)) {  // 8 mm deeper at once
       asked.start(correction, motion.at(float(k - 1) / 30), nullptr, again);
     } else {
       ++refused;
@@ -392,7 +404,8 @@ TEST_CASE("a motion does not depend on threads or on the motions before it") {
     std::vector<std::uint64_t> hashes(factors.size());
     for (std::size_t k = 0; k < factors.size(); ++k) {
       const std::size_t frame = threads == 2 ? factors.size() - 1 - k : k;
-      hashes[frame] = hashOf(std::span<const vec4>(solve(avoider, network, squeezed(network, factors[frame])).points));
+      hashes[frame] =
+          hashOf(std::span<const vec4>(solve(avoider, network, squeezed(network, factors[frame])).points));
     }
     if (expected.empty()) expected = hashes;
     CHECK(hashes == expected);

@@ -1,5 +1,6 @@
-// What a clip does to a network's forks: how many fold and are smoothed, how many of these become stumps, and how often one
-// becomes a stump or is one no longer from one frame to the next. All forks count, those with walls of the source too.
+// What a clip does to a network's forks: how many fold and are smoothed, how many of these become stumps, and
+// how often one becomes a stump or is one no longer from one frame to the next. All forks count, those with
+// walls of the source too.
 #include <cstdio>
 #include <cstdlib>
 
@@ -27,8 +28,8 @@ int main(int argc, char** argv) {
   if (arounds.empty()) arounds = {4, 8, 16};
   const Clock::time_point start = Clock::now();
   ForkPlan plan = planForks(scene.network);
-  std::printf("planned in %.0f ms: %u branches, %u forked, %u crowded, %u folded at rest\n", msSince(start), plan.report.branches,
-              plan.report.forked, plan.report.crowded, plan.report.folded);
+  std::printf("planned in %.0f ms: %u branches, %u forked, %u crowded, %u folded at rest\n", msSince(start),
+              plan.report.branches, plan.report.forked, plan.report.crowded, plan.report.folded);
   const SweepTable table = makeSweepTable(scene.network, std::move(plan));
   struct Count {
     std::size_t folds = 0, stumps = 0, switches = 0;
@@ -56,5 +57,6 @@ int main(int argc, char** argv) {
   const double all = double(frames * table.forks.size());
   for (std::size_t k = 0; k < arounds.size(); ++k)
     std::printf("%2u around: %.3f %% fold, %.3f %% stumps, %zu switches of %.0f fork-frames\n", arounds[k],
-                100 * double(counts[k].folds) / all, 100 * double(counts[k].stumps) / all, counts[k].switches, all);
+                100 * double(counts[k].folds) / all, 100 * double(counts[k].stumps) / all, counts[k].switches,
+                all);
 }

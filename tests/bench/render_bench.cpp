@@ -1,4 +1,5 @@
-// Times the renderer over a turning camera; prints minimum and median of each stage and the last picture's hash.
+// Times the renderer over a turning camera; prints minimum and median of each stage and the last picture's
+// hash.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -60,8 +61,8 @@ Camera turned(const Camera& camera, float angle) {
   return result;
 }
 
-// Without the timer's barriers: what a frame of what `look` shows costs, also of all cores together, which says more
-// on a machine that has other work.
+// Without the timer's barriers: what a frame of what `look` shows costs, also of all cores together, which
+// says more on a machine that has other work.
 void timeAlone(const char* name, Renderer& renderer, RenderInput input, const Look& look) {
   const Camera camera = input.camera;
   input.look = look;
@@ -81,7 +82,8 @@ void timeAlone(const char* name, Renderer& renderer, RenderInput input, const Lo
 void timeAlone(Renderer& renderer, const RenderInput& input) {
   Look tubes, bones, skin;
   tubes.drawBones = tubes.drawHeart = tubes.drawSkin = tubes.drawOther = false;
-  bones.drawArteries = bones.drawVeins = bones.drawOtherVessels = skin.drawArteries = skin.drawVeins = skin.drawOtherVessels = false;
+  bones.drawArteries = bones.drawVeins = bones.drawOtherVessels = skin.drawArteries = skin.drawVeins =
+      skin.drawOtherVessels = false;
   Look none = bones;
   bones.drawSkin = skin.drawBones = skin.drawHeart = skin.drawOther = false;
   none.drawBones = none.drawHeart = none.drawOther = none.drawSkin = false;
@@ -100,10 +102,12 @@ void timeFrames(Renderer& renderer, RenderInput& input) {
     renderer.draw(input);
     if (i >= kFrames) continue;
     const FrameTimes t = renderer.times();
-    upload.push_back(t.upload), tessellate.push_back(t.tessellate), forks.push_back(t.forks), draw.push_back(t.draw);
+    upload.push_back(t.upload), tessellate.push_back(t.tessellate), forks.push_back(t.forks),
+        draw.push_back(t.draw);
     meshes.push_back(t.meshes), total.push_back(t.total);
   }
-  print("upload", upload), print("tessellate", tessellate), print("forks", forks), print("draw", draw), print("meshes", meshes);
+  print("upload", upload), print("tessellate", tessellate), print("forks", forks), print("draw", draw),
+      print("meshes", meshes);
   print("total", total);
 }
 
@@ -141,6 +145,7 @@ int main(int argc, char** argv) {
               static_cast<unsigned long long>(hashOf(std::span<const std::uint8_t>(image.rgba))));
   if (arguments.picture.empty()) return 0;
   const Result<void> written = writePng(arguments.picture, image);
-  if (!written) return std::fprintf(stderr, "%s\n", written.error().message.c_str()), int(written.error().fault);
+  if (!written)
+    return std::fprintf(stderr, "%s\n", written.error().message.c_str()), int(written.error().fault);
   return 0;
 }

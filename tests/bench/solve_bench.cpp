@@ -1,5 +1,6 @@
-// Times what the processor does for a frame, without drawing: of each stage the least of some rounds over a clip, which
-// says more than a mean on a machine that has other work, averaged over the frames after the first.
+// Times what the processor does for a frame, without drawing: of each stage the least of some rounds over a
+// clip, which says more than a mean on a machine that has other work, averaged over the frames after the
+// first.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -25,11 +26,13 @@ int main(int argc, char** argv) {
   const int rounds = argc > 5 ? std::atoi(argv[5]) : 10;
   const Scene scene = taken(loadScene({.body = argv[1], .networks = {argv[2]}}));
   const Clip* const clip = taken(findClip(scene.body, argv[3]));
-  const std::uint32_t frames = argc > 6 ? std::min(clip->frameCount() - 1, std::uint32_t(std::atoi(argv[6]))) : clip->frameCount() - 1;
+  const std::uint32_t frames =
+      argc > 6 ? std::min(clip->frameCount() - 1, std::uint32_t(std::atoi(argv[6]))) : clip->frameCount() - 1;
 
   std::map<std::string, std::vector<double>> least;  // of a stage, a frame each
   for (int round = 0; round < rounds; ++round) {
-    FrameMaker maker(scene, {.avoid = true});  // a fresh one: what was solved once would be read from the track
+    // A fresh one: what was solved once would be read from the track.
+    FrameMaker maker(scene, {.avoid = true});
     maker.make(clip, clip->timeOfFrame(0));
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       maker.make(clip, clip->timeOfFrame(frame + 1));

@@ -1,5 +1,5 @@
-// What a clip does to the walls kept around forks: on how many of them triangles look against their normals, as their rings
-// carry them and as they are drawn, and the worst wall's share of area that does.
+// What a clip does to the walls kept around forks: on how many of them triangles look against their normals,
+// as their rings carry them and as they are drawn, and the worst wall's share of area that does.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -27,11 +27,13 @@ struct Folds {
     worst = std::max(worst, share);
   }
   void print(const char* how) const {
-    std::printf("%s: %zu fold, %zu by over 1 %% of their area, %zu by over 5 %%, at worst %.1f %%\n", how, any, hundredth, twentieth, 100 * worst);
+    std::printf("%s: %zu fold, %zu by over 1 %% of their area, %zu by over 5 %%, at worst %.1f %%\n", how,
+                any, hundredth, twentieth, 100 * worst);
   }
 };
 
-float foldedShare(const PatchTable& table, const PatchTable::Patch& patch, std::span<const SurfacePoint> points) {
+float foldedShare(const PatchTable& table, const PatchTable::Patch& patch,
+                  std::span<const SurfacePoint> points) {
   double folded = 0, all = 0;
   for (std::uint32_t i = patch.firstTriangle; i < patch.firstTriangle + patch.triangleCount; ++i) {
     const uvec3 t = table.triangles[i] - patch.firstVertex;

@@ -43,9 +43,7 @@ Pose wildPose(const Body& body) {
                        {2, glm::angleAxis(0.9f, glm::normalize(vec3(0, 1, 3)))}});
 }
 
-float cross2(vec2 a, vec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
+float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 bool segmentsCross(vec2 a, vec2 b, vec2 c, vec2 d) {
   return cross2(b - a, c - a) * cross2(b - a, d - a) < 0 && cross2(d - c, a - c) * cross2(d - c, b - c) < 0;
@@ -258,7 +256,8 @@ TEST_CASE("rigid eyes in a smooth body are no bones: vessels follow the limbs as
 
   // What hangs on a joint that stays is told from what moves.
   Binding still = *with;
-  for (BindingRecord& record : still.records) record.joint = 0, record.along = BindingRecord({{0}, 2}, 0).along;
+  for (BindingRecord& record : still.records)
+    record.joint = 0, record.along = BindingRecord({{0}, 2}, 0).along;
   CHECK(shareLeftBehind(body, still, points) > 0.4f);
 }
 
@@ -282,5 +281,6 @@ TEST_CASE("a root on the floor below the hips is no bone: what lies beside its l
   for (const auto& joint : body.skeleton.joints) local.push_back(joint.rest);
   local[1].translation.y -= 0.5f;
   const auto posed = deformed(*binding, points, poseFromLocal(body.skeleton, local));
-  for (std::size_t i = 0; i < points.size(); ++i) CHECK(glm::distance(vec3(posed[i]), vec3(points[i]) - vec3(0, 0.5f, 0)) < 1e-4f);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    CHECK(glm::distance(vec3(posed[i]), vec3(points[i]) - vec3(0, 0.5f, 0)) < 1e-4f);
 }

@@ -35,22 +35,14 @@ Clip turning(Track<quat> rotation) {
   return clip;
 }
 
-vec3 placeAt(const Clip& clip, float time) {
-  return vec3(samplePose(oneJoint(), clip, time).world[0][3]);
-}
+vec3 placeAt(const Clip& clip, float time) { return vec3(samplePose(oneJoint(), clip, time).world[0][3]); }
 
 /// Where the joint's x axis points.
-vec3 axisAt(const Clip& clip, float time) {
-  return vec3(samplePose(oneJoint(), clip, time).world[0][0]);
-}
+vec3 axisAt(const Clip& clip, float time) { return vec3(samplePose(oneJoint(), clip, time).world[0][0]); }
 
-bool near(vec3 a, vec3 b, float tolerance = 1e-5f) {
-  return glm::distance(a, b) < tolerance;
-}
+bool near(vec3 a, vec3 b, float tolerance = 1e-5f) { return glm::distance(a, b) < tolerance; }
 
-quat aboutZ(float angle) {
-  return glm::angleAxis(angle, vec3(0, 0, 1));
-}
+quat aboutZ(float angle) { return glm::angleAxis(angle, vec3(0, 0, 1)); }
 
 }  // namespace
 

@@ -18,13 +18,9 @@ const DollPart& named(const std::string& part) {
   std::abort();
 }
 
-int indexOf(const std::string& part) {
-  return int(&named(part) - dollParts().data());
-}
+int indexOf(const std::string& part) { return int(&named(part) - dollParts().data()); }
 
-bool has(const std::string& text, const char* word) {
-  return text.find(word) != std::string::npos;
-}
+bool has(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
 // From the T pose's world to a frame's, a part's own turn.
 mat3 performed(const std::string& part, int frame) {

@@ -54,9 +54,7 @@ vec3 placeOf(const Body& body, const Pose& pose, const char* joint) {
   return vec3(pose.world[body.skeleton.find(joint).value][3]);
 }
 
-bool near(vec3 a, vec3 b) {
-  return glm::distance(a, b) < 1e-4f;
-}
+bool near(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-4f; }
 
 }  // namespace
 

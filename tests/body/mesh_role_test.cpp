@@ -28,7 +28,8 @@ TEST_CASE("a mesh's name tells what it is") {
   CHECK(roleNamed("") == MeshRole::other);
 }
 
-TEST_CASE("vessels keep out of bones and heart, not of skin and organs; of the unnamed what moves by rigid parts counts") {
+TEST_CASE(
+    "vessels keep out of bones and heart, not of skin and organs; of the unnamed what moves by rigid parts counts") {
   CHECK(isSolid(meshNamed("bones", kSmooth)));
   CHECK(isSolid(meshNamed("heart", kRigid)));
   CHECK_FALSE(isSolid(meshNamed("skin", kRigid)));

@@ -14,9 +14,7 @@ const Body& arm() {
   return body;
 }
 
-quat about(vec3 axis, float degrees) {
-  return glm::angleAxis(glm::radians(degrees), glm::normalize(axis));
-}
+quat about(vec3 axis, float degrees) { return glm::angleAxis(glm::radians(degrees), glm::normalize(axis)); }
 
 /// The arm with each joint turned and scaled beyond its rest pose.
 Pose scaled(const std::vector<std::pair<quat, vec3>>& joints) {
@@ -39,9 +37,7 @@ float limbLength(const Pose& pose, std::size_t joint) {
   return glm::distance(vec3(pose.world[joint][3]), vec3(pose.world[joint - 1][3]));
 }
 
-float turnOf(const Pose& from, const Pose& to) {
-  return PosePath(arm().skeleton, from, to).largestTurn();
-}
+float turnOf(const Pose& from, const Pose& to) { return PosePath(arm().skeleton, from, to).largestTurn(); }
 
 }  // namespace
 

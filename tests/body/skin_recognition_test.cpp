@@ -57,12 +57,12 @@ TEST_CASE(
 
 TEST_CASE("a skin in pieces is one") {
   Body body = dollBody("vrm");
-  for (const auto& [name, parts] : std::vector<std::pair<std::string, std::vector<const char*>>>{
-           {"torso", {"hips", "neck"}},
-           {"a", {"leftUpperArm", "leftHand"}},
-           {"b", {"rightUpperArm", "rightHand"}},
-           {"c", {"leftUpperLeg", "leftFoot"}},
-           {"d", {"rightUpperLeg", "rightFoot"}}})
+  for (const auto& [name, parts] :
+       std::vector<std::pair<std::string, std::vector<const char*>>>{{"torso", {"hips", "neck"}},
+                                                                     {"a", {"leftUpperArm", "leftHand"}},
+                                                                     {"b", {"rightUpperArm", "rightHand"}},
+                                                                     {"c", {"leftUpperLeg", "leftFoot"}},
+                                                                     {"d", {"rightUpperLeg", "rightFoot"}}})
     body.meshes.push_back(sleeve(body, name, parts, 0.06f));
   recogniseSkin(body);
   REQUIRE(body.meshes.size() == 1);

@@ -24,9 +24,7 @@ Body twoJoints() {
   return body;
 }
 
-bool near(vec3 a, vec3 b) {
-  return glm::distance(a, b) < 1e-6f;
-}
+bool near(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-6f; }
 
 }  // namespace
 

@@ -29,7 +29,8 @@ TEST_CASE("at rest nothing changes") {
   auto points = stretched(network, 1);
   const auto outcome = VolumeKeeper(network).run(points);
   CHECK(outcome.largestError < 1e-7f);
-  for (std::size_t i = 0; i < points.size(); ++i) CHECK(points[i].w == doctest::Approx(network.points()[i].w).epsilon(1e-6));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    CHECK(points[i].w == doctest::Approx(network.points()[i].w).epsilon(1e-6));
 }
 
 TEST_CASE("stretched and squeezed vessels keep their volume to 1e-5, rings at forks unmoved") {
@@ -74,7 +75,8 @@ TEST_CASE("where a radius is held down the rest of the vessel keeps the volume")
   CHECK(outcome.largestError < 1e-5f);
   CHECK(outcome.clampedCount == 0);
   CHECK(points[held].w == most[held]);
-  CHECK(volumeOf(Network::pointsOf(vessel, points)) == doctest::Approx(volumeOf(network.pointsOf(vessel))).epsilon(2e-5));
+  CHECK(volumeOf(Network::pointsOf(vessel, points)) ==
+        doctest::Approx(volumeOf(network.pointsOf(vessel))).epsilon(2e-5));
   std::fill(most.begin(), most.end(), 0.0005f);
   points = stretched(network, 0.95f);
   CHECK(keeper.run(points, most).clampedCount > 0);

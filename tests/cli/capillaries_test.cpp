@@ -12,15 +12,14 @@ using namespace vasa::test;
 namespace {
 
 Outcome renderTo(const std::filesystem::path& picture, std::initializer_list<std::string> more) {
-  std::vector<std::string> arguments{"render", "--clip", "fist", "--frames", "20", "--focus", "LeftHand", "--size", "160x160", "--hide", "skin",
-                                     "--quads", "4x2", "--json", "-o", picture.string()};
+  std::vector<std::string> arguments{"render",   "--clip", "fist",    "--frames",      "20",   "--focus",
+                                     "LeftHand", "--size", "160x160", "--hide",        "skin", "--quads",
+                                     "4x2",      "--json", "-o",      picture.string()};
   arguments.insert(arguments.end(), more);
   return runProgram(arguments);
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
+void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
 }  // namespace
 
@@ -37,7 +36,8 @@ TEST_CASE("capillaries grow from the built-in human, the same again, more with e
   }
   REQUIRE(renderTo(folder.path() / "again.png", {"--capillaries", "2", "--threads", "1"}).exit == 0);
   REQUIRE(renderTo(folder.path() / "other.png", {"--capillaries", "2", "--seed", "2"}).exit == 0);
-  const auto two = readPng(folder.path() / "2.png"), again = readPng(folder.path() / "again.png"), other = readPng(folder.path() / "other.png");
+  const auto two = readPng(folder.path() / "2.png"), again = readPng(folder.path() / "again.png"),
+             other = readPng(folder.path() / "other.png");
   REQUIRE((two.ok() && again.ok() && other.ok()));
   CHECK(two->rgba == again->rgba);
   CHECK(two->rgba != other->rgba);
@@ -45,7 +45,8 @@ TEST_CASE("capillaries grow from the built-in human, the same again, more with e
 
 TEST_CASE("a budget holds") {
   TemporaryFolder folder;
-  const auto outcome = renderTo(folder.path() / "a.png", {"--capillaries", "2", "--capillary-budget", "500", "--capillary-edges", "8"});
+  const auto outcome = renderTo(
+      folder.path() / "a.png", {"--capillaries", "2", "--capillary-budget", "500", "--capillary-edges", "8"});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   CHECK(outcome.json()["capillaries"].get<int>() <= 500);
   CHECK(outcome.json()["capillaries"].get<int>() > 400);
@@ -56,9 +57,11 @@ TEST_CASE("what is wrong with capillaries is told") {
   const auto picture = folder.path() / "a.png";
   CHECK(renderTo(picture, {"--capillaries", "7"}).exit == 2);
   CHECK(renderTo(picture, {"--capillaries", "2", "--capillary-edges", "6"}).exit == 2);
-  CHECK(renderTo(picture, {"--capillaries", "2", "--growth", (folder.path() / "nothing").string()}).exit == 6);
+  CHECK(renderTo(picture, {"--capillaries", "2", "--growth", (folder.path() / "nothing").string()}).exit ==
+        6);
   write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S length 9\nS -> F [@3 S]\n");
-  write(folder.path() / "regions.csv", "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\nall,b,,,,0,3,8,\n");
+  write(folder.path() / "regions.csv",
+        "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\nall,b,,,,0,3,8,\n");
   auto outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("capillaries.lsys:4: '@3' wants a number from 0.02 to 1") != std::string::npos);
@@ -80,9 +83,12 @@ TEST_CASE("info counts what would grow, without drawing it") {
 TEST_CASE("a scene file may ask for capillaries, and the command line may have it otherwise") {
   TemporaryFolder folder;
   const auto scene = folder.path() / "scene.json";
-  write(scene, R"({"body": ")" + humanBody().string() + R"(", "networks": [")" + humanVessels().string() + R"("], "capillaries": {"levels": 1}})");
+  write(scene, R"({"body": ")" + humanBody().string() + R"(", "networks": [")" + humanVessels().string() +
+                   R"("], "capillaries": {"levels": 1}})");
   const auto render = [&](std::initializer_list<std::string> more) {
-    std::vector<std::string> arguments{"render", scene.string(), "--size", "64x64", "--hide", "skin", "--json", "-o", (folder.path() / "a.png").string()};
+    std::vector<std::string> arguments{"render", scene.string(), "--size",
+                                       "64x64",  "--hide",       "skin",
+                                       "--json", "-o",           (folder.path() / "a.png").string()};
     arguments.insert(arguments.end(), more);
     return runProgram(arguments).json()["capillaries"].get<std::int64_t>();
   };

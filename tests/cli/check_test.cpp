@@ -11,8 +11,8 @@ TEST_CASE("check has a row a frame and the worst of each in its summary") {
   REQUIRE(report["frames"].size() == 3);
   CHECK(report["frames"][0]["frame"] == 8);
   for (const auto& frame : report["frames"])
-    for (const char* key : {"frame", "contacts_before", "contacts_after", "depth_before_m", "depth_after_m", "certified",
-                            "volume_error", "moved_max_m", "moved_rms_m", "kinks", "solve_ms"})
+    for (const char* key : {"frame", "contacts_before", "contacts_after", "depth_before_m", "depth_after_m",
+                            "certified", "volume_error", "moved_max_m", "moved_rms_m", "kinks", "solve_ms"})
       CHECK_MESSAGE(frame.contains(key), key);
   for (const auto& frame : report["frames"]) {
     CHECK(frame["certified"] == (frame["contacts_after"] == 0));
@@ -48,7 +48,8 @@ TEST_CASE("check tells how far corrections step from frame to frame, at the rate
 }
 
 TEST_CASE("check --method paper looks by the paper's detection, too, which misses nothing and reports more") {
-  const auto frame = runProgram({"check", "--clip", "twist", "--frames", "20", "--method", "paper", "--json"}).json()["frames"][0];
+  const auto frame = runProgram({"check", "--clip", "twist", "--frames", "20", "--method", "paper", "--json"})
+                         .json()["frames"][0];
   CHECK(frame["exact_pairs_before"] == frame["contacts_before"]);
   CHECK(frame["exact_pairs_before"] > 0);
   CHECK(frame["paper_missed_pairs"] == 0);

@@ -23,12 +23,13 @@ std::string tubesObj(const std::vector<std::pair<std::string, float>>& tubes) {
     text += "o " + name + "\n";
     for (int ring = 0; ring <= 20; ++ring)
       for (int k = 0; k < 12; ++k)
-        text += "v " + std::to_string(x + 0.004 * std::cos(k * 0.5235988)) + " " + std::to_string(0.01 * ring) + " " +
-                std::to_string(-0.004 * std::sin(k * 0.5235988)) + "\n";
+        text += "v " + std::to_string(x + 0.004 * std::cos(k * 0.5235988)) + " " +
+                std::to_string(0.01 * ring) + " " + std::to_string(-0.004 * std::sin(k * 0.5235988)) + "\n";
     for (int ring = 0; ring < 20; ++ring)
       for (int k = 0; k < 12; ++k) {
         const int a = base + ring * 12, b = a + 12, n = (k + 1) % 12;
-        for (const int index : {a + k, a + n, b + n, b + k}) text += (index == a + k ? "f " : " ") + std::to_string(index);
+        for (const int index : {a + k, a + n, b + n, b + k})
+          text += (index == a + k ? "f " : " ") + std::to_string(index);
         text += "\n";
       }
     base += 21 * 12;
@@ -56,11 +57,12 @@ TEST_CASE("convert writes a network and reports with the keys that tools rely on
   REQUIRE(outcome.exit == 0);
   const auto report = outcome.json();
   REQUIRE(report["elements"].size() == 3);
-  for (const char* key : {"name", "kind", "status", "reason", "sweeps", "triangles", "coverage", "error_mm", "back_error_mm"})
+  for (const char* key :
+       {"name", "kind", "status", "reason", "sweeps", "triangles", "coverage", "error_mm", "back_error_mm"})
     CHECK(report["elements"][0].contains(key));
-  for (const char* key : {"elements", "ok", "partial", "failed", "vessels", "sweeps", "junctions", "components", "coverage",
-                          "error_mm", "back_error_mm", "mesh_bytes", "network_bytes", "seconds", "largest_arterial_tree_share",
-                          "bridges", "gaps"})
+  for (const char* key : {"elements", "ok", "partial", "failed", "vessels", "sweeps", "junctions",
+                          "components", "coverage", "error_mm", "back_error_mm", "mesh_bytes",
+                          "network_bytes", "seconds", "largest_arterial_tree_share", "bridges", "gaps"})
     CHECK(report["summary"].contains(key));
   for (const char* key : {"mean", "p95", "max"}) CHECK(report["summary"]["error_mm"].contains(key));
   CHECK(report["elements"][0]["kind"] == "artery");
@@ -87,7 +89,8 @@ TEST_CASE("convert --interpolate puts a sweep between every two sections, for su
   };
   CHECK(sweeps({"--interpolate"}) == 20);  // 21 rings
   CHECK(sweeps({}) < 20);
-  CHECK(runProgram({"convert", mesh, "--interpolate", "--tolerance", "1", "-o", folder.path("out.vasa")}).exit == 2);
+  CHECK(runProgram({"convert", mesh, "--interpolate", "--tolerance", "1", "-o", folder.path("out.vasa")})
+            .exit == 2);
   const auto lines = folder.write("line.swc", "1 2 0 0 0 1 -1\n2 2 0 10 0 1 1\n");
   const auto refused = runProgram({"convert", lines, "--interpolate", "-o", folder.path("lines.vasa")});
   CHECK(refused.exit == 2);
@@ -97,8 +100,8 @@ TEST_CASE("convert --interpolate puts a sweep between every two sections, for su
 TEST_CASE("convert: units, axis, kind, height, exact numbers") {
   const Folder folder;
   const auto mesh = folder.write("tube.obj", tubesObj({{"tube", 0}}));
-  const auto outcome = runProgram({"convert", mesh, "-o", folder.path("out.vasa"), "--scale", "2", "--up", "z", "--kind", "portal",
-                                   "--body-height", "1.8", "--exact"});
+  const auto outcome = runProgram({"convert", mesh, "-o", folder.path("out.vasa"), "--scale", "2", "--up",
+                                   "z", "--kind", "portal", "--body-height", "1.8", "--exact"});
   REQUIRE(outcome.exit == 0);
   CHECK(contains(outcome.out, "1: 1 ok"));
   const auto network = readNetwork(folder.path("out.vasa"));
@@ -114,10 +117,13 @@ TEST_CASE("convert --keep-patches keeps the wall around forks, and tells what be
   const Folder folder;
   std::string obj = "o aorta\n";
   const TriangleMesh surface = forkedSurface();
-  for (const vec3& p : surface.positions) obj += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+  for (const vec3& p : surface.positions)
+    obj += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   for (const uvec3& t : surface.triangles)
-    obj += "f " + std::to_string(t.x + 1) + " " + std::to_string(t.y + 1) + " " + std::to_string(t.z + 1) + "\n";
-  const auto mesh = folder.write("aorta.obj", obj), out = folder.path("out.vasa"), plain = folder.path("plain.vasa");
+    obj +=
+        "f " + std::to_string(t.x + 1) + " " + std::to_string(t.y + 1) + " " + std::to_string(t.z + 1) + "\n";
+  const auto mesh = folder.write("aorta.obj", obj), out = folder.path("out.vasa"),
+             plain = folder.path("plain.vasa");
   const auto outcome = runProgram({"convert", mesh, "-o", out, "--keep-patches", "--json"});
   REQUIRE(outcome.exit == 0);
   const auto patches = outcome.json()["patches"];
@@ -125,18 +131,22 @@ TEST_CASE("convert --keep-patches keeps the wall around forks, and tells what be
   CHECK(patches["kept"] == 2);
   CHECK(patches["without"].empty());
   REQUIRE(patches["fork"].size() == 2);
-  for (const char* key : {"vessels", "kept", "reason", "joined", "triangles"}) CHECK(patches["fork"][0].contains(key));
+  for (const char* key : {"vessels", "kept", "reason", "joined", "triangles"})
+    CHECK(patches["fork"][0].contains(key));
   REQUIRE(runProgram({"convert", mesh, "-o", plain}).exit == 0);
   CHECK(patches["bytes"] == std::filesystem::file_size(out) - std::filesystem::file_size(plain));
   CHECK(runProgram({"info", out, "--json"}).json()["patches"] == 2);
   CHECK(runProgram({"info", plain, "--json"}).json()["patches"] == 0);
-  CHECK(contains(runProgram({"convert", mesh, "-o", out, "--keep-patches"}).out, "2 of 2 forks keep the source's wall, 0 of them of several surfaces"));
+  CHECK(contains(runProgram({"convert", mesh, "-o", out, "--keep-patches"}).out,
+                 "2 of 2 forks keep the source's wall, 0 of them of several surfaces"));
 
-  const auto lines = folder.write("lines.swc", "1 0 0 0 0 5 -1\n2 0 0 100 0 5 1\n3 0 0 200 0 5 2\n4 0 80 120 0 3 2\n5 0 160 140 0 3 4\n");
+  const auto lines = folder.write(
+      "lines.swc", "1 0 0 0 0 5 -1\n2 0 0 100 0 5 1\n3 0 0 200 0 5 2\n4 0 80 120 0 3 2\n5 0 160 140 0 3 4\n");
   const auto told = runProgram({"convert", lines, "-o", out, "--scale", "0.001", "--keep-patches", "--json"});
   REQUIRE(told.exit == 0);
   CHECK(told.json()["patches"]["kept"] == 0);
-  CHECK(told.json()["patches"]["without"]["the source is centre lines, without a wall"] == told.json()["patches"]["forks"]);
+  CHECK(told.json()["patches"]["without"]["the source is centre lines, without a wall"] ==
+        told.json()["patches"]["forks"]);
 }
 
 TEST_CASE("convert tells what is wrong and leaves no file") {
@@ -153,7 +163,8 @@ TEST_CASE("convert tells what is wrong and leaves no file") {
   };
   expect({"convert", folder.path("absent.obj"), "-o", out}, 6, "absent.obj");
   expect({"convert", folder.write("bad.obj", "v 0 0 x\n"), "-o", out}, 3, "bad.obj:1");
-  expect({"convert", folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n"), "-o", out}, 3, "export the surface");
+  expect({"convert", folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n"), "-o", out}, 3,
+         "export the surface");
   expect({"convert", folder.write("mesh.ply", "ply\n"), "-o", out}, 2, "convert reads");
   expect({"convert", mesh}, 2, "--output");
   expect({"convert", mesh, "-o", out, "--up", "x"}, 2, "--up");
@@ -165,9 +176,11 @@ TEST_CASE("convert tells what is wrong and leaves no file") {
 TEST_CASE("names from files steer no terminal and forge no line, on standard output and error") {
   const Folder folder;
   const auto clean = [](const std::string& text) {
-    return std::ranges::all_of(text, [](unsigned char c) { return c == '\n' || c == '\t' || (c >= 0x20 && c != 0x7f); });
+    return std::ranges::all_of(
+        text, [](unsigned char c) { return c == '\n' || c == '\t' || (c >= 0x20 && c != 0x7f); });
   };
-  const auto mesh = folder.write("a.obj", tubesObj({{"\x1b[31mred\x07", 0}}) + "o \x1b]0;title\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n");
+  const auto mesh = folder.write("a.obj", tubesObj({{"\x1b[31mred\x07", 0}}) +
+                                              "o \x1b]0;title\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n");
   const auto made = runProgram({"convert", mesh, "-o", folder.path("a.vasa")});
   REQUIRE_MESSAGE(made.exit == 0, made.err);
   CHECK(contains(made.out, "\\x1b]0;title"));
@@ -181,9 +194,12 @@ TEST_CASE("names from files steer no terminal and forge no line, on standard out
     const auto same = runProgram({"compare", folder.path(network), folder.path(network)});
     CHECK(clean(same.out));
     CHECK(!contains(same.out, "\nerror:"));
-    CHECK(runProgram({"info", "--vessels", "--json", folder.path(network)}).json()["vessel"][0]["name"].is_string());
+    CHECK(runProgram({"info", "--vessels", "--json", folder.path(network)})
+              .json()["vessel"][0]["name"]
+              .is_string());
   }
-  CHECK(runProgram({"info", "--vessels", "--json", folder.path("b.vasa")}).json()["vessel"][0]["name"] == "a\nerror: forged 1");
+  CHECK(runProgram({"info", "--vessels", "--json", folder.path("b.vasa")}).json()["vessel"][0]["name"] ==
+        "a\nerror: forged 1");
   const auto absent = runProgram({"info", folder.path("no\nerror: \x1b[2J.vasa")});
   CHECK(absent.exit == 6);
   CHECK(clean(absent.err));
@@ -192,16 +208,20 @@ TEST_CASE("names from files steer no terminal and forge no line, on standard out
 TEST_CASE("convert stops on SIGINT without a file") {
   VASA_REQUIRE_SHARED_DATA(data);
   const Folder folder;
-  const auto outcome = runProgram({"convert", (data / "bp3d/bp3d_veins.glb").string(), "-o", folder.path("out.vasa")},
-                                  {.signalAfterMs = 400});
+  const auto outcome =
+      runProgram({"convert", (data / "bp3d/bp3d_veins.glb").string(), "-o", folder.path("out.vasa")},
+                 {.signalAfterMs = 400});
   CHECK(outcome.exit == 130);
   CHECK(listOf(folder.folder.path()).empty());
 }
 
 TEST_CASE("convert reads centre lines: an element a line, radii as told") {
   const Folder folder;
-  const auto swc = folder.write("brain artery.swc", "1 1 0 0 0 2 -1\n2 3 0 10 0 2 1\n3 3 0 20 0 1.5 2\n4 3 5 15 0 1 2\n5 3 9 18 0 1 4\n");
-  const auto outcome = runProgram({"convert", swc, "--scale", "0.001", "-o", folder.path("out.vasa"), "--json"});
+  const auto swc =
+      folder.write("brain artery.swc",
+                   "1 1 0 0 0 2 -1\n2 3 0 10 0 2 1\n3 3 0 20 0 1.5 2\n4 3 5 15 0 1 2\n5 3 9 18 0 1 4\n");
+  const auto outcome =
+      runProgram({"convert", swc, "--scale", "0.001", "-o", folder.path("out.vasa"), "--json"});
   REQUIRE(outcome.exit == 0);
   const auto report = outcome.json();
   REQUIRE(report["elements"].size() == 2);

@@ -18,9 +18,11 @@ TEST_CASE("devices lists at least one usable device") {
 }
 
 TEST_CASE("without a driver, commands that draw end with 4 and a remedy") {
-  const ProgramOptions noDriver{.environment = {"VK_ICD_FILENAMES=/nonexistent.json", "VK_DRIVER_FILES=/nonexistent.json"}};
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"devices"}, {"render", "--size", "32x32", "-o", "/tmp/never.png"}, {"profile"}}) {
+  const ProgramOptions noDriver{
+      .environment = {"VK_ICD_FILENAMES=/nonexistent.json", "VK_DRIVER_FILES=/nonexistent.json"}};
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"devices"},
+                                                    {"render", "--size", "32x32", "-o", "/tmp/never.png"},
+                                                    {"profile"}}) {
     const auto outcome = runProgram(arguments, noDriver);
     CHECK_MESSAGE(outcome.exit == 4, arguments[0] << ": " << outcome.err);
     CHECK(outcome.err.find("mesa-vulkan-drivers") != std::string::npos);
@@ -29,7 +31,8 @@ TEST_CASE("without a driver, commands that draw end with 4 and a remedy") {
 }
 
 TEST_CASE("an unknown device is told") {
-  const auto outcome = runProgram({"render", "--device", "no such card", "--size", "32x32", "-o", "/tmp/never.png"});
+  const auto outcome =
+      runProgram({"render", "--device", "no such card", "--size", "32x32", "-o", "/tmp/never.png"});
   CHECK(outcome.exit == 4);
   CHECK(outcome.err.find("no such card") != std::string::npos);
 }

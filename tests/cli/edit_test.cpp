@@ -32,9 +32,11 @@ std::string journal(const TemporaryFolder& folder, const std::string& name, cons
 
 TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are measured as such") {
   const TemporaryFolder folder;
-  const auto lesions = journal(folder, "l.vedit", "# lesions\nstenosis \"left internal carotid artery\" 0.1 12 70\n");
+  const auto lesions =
+      journal(folder, "l.vedit", "# lesions\nstenosis \"left internal carotid artery\" 0.1 12 70\n");
   const auto out = (folder.path() / "out.vasa").string();
-  const auto outcome = runProgram({"edit", lesions, "--set", "aneurysm \"abdominal aorta\" 0.7 70 55", "-o", out, "--json"});
+  const auto outcome =
+      runProgram({"edit", lesions, "--set", "aneurysm \"abdominal aorta\" 0.7 70 55", "-o", out, "--json"});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   const auto report = outcome.json();
   CHECK(report["edits"] == 2);
@@ -53,7 +55,8 @@ TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are
   const auto aorta = vesselOf(measured, "abdominal aorta");
   CHECK(std::abs(aorta["aneurysm_diameter_m"].get<double>() - 0.055) <= 2e-4);
   CHECK(aorta["aneurysm_ratio"].get<double>() > 3);
-  for (const char* key : {"saccular_index", "tortuosity", "inflections", "inflection_metric", "sum_of_angles_rad_m", "least_bend_radius_m"})
+  for (const char* key : {"saccular_index", "tortuosity", "inflections", "inflection_metric",
+                          "sum_of_angles_rad_m", "least_bend_radius_m"})
     CHECK_MESSAGE(aorta.contains(key), key);
   CHECK(measured["fork"].size() > 50);
   // The bulge presses on what lies around it, and the report says on whom.
@@ -65,7 +68,8 @@ TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are
   CHECK(std::count(profile.out.begin(), profile.out.end(), '\n') > 40);
 }
 
-TEST_CASE("an edit is undone by leaving its line out: without any, the bytes are those of the network that was read") {
+TEST_CASE(
+    "an edit is undone by leaving its line out: without any, the bytes are those of the network that was read") {
   const TemporaryFolder folder;
   const auto network = humanVessels().string();
   const auto write = [&](const std::string& text) {
@@ -74,7 +78,8 @@ TEST_CASE("an edit is undone by leaving its line out: without any, the bytes are
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
     return bytesOf(out);
   };
-  const std::string first = "occlude \"left femoral artery\" 0.6\n", second = "rename \"abdominal aorta\" \"belly aorta\"\n";
+  const std::string first = "occlude \"left femoral artery\" 0.6\n",
+                    second = "rename \"abdominal aorta\" \"belly aorta\"\n";
   const auto one = write(first);
   CHECK(write(first + second) != one);
   CHECK(write(first + "# " + second) == one);
@@ -84,12 +89,16 @@ TEST_CASE("an edit is undone by leaving its line out: without any, the bytes are
 TEST_CASE("refused edits are told with line, vessel, place and rule, and nothing is written") {
   const TemporaryFolder folder;
   const auto out = (folder.path() / "out.vasa").string();
-  const auto bad = journal(folder, "bad.vedit", "occlude \"left femoral artery\" 0.5\nocclude \"left femorla artery\" 0.5\n");
+  const auto bad = journal(folder, "bad.vedit",
+                           "occlude \"left femoral artery\" 0.5\nocclude \"left femorla artery\" 0.5\n");
   const auto refused = runProgram({"edit", bad, "-o", out});
   CHECK(refused.exit == 3);
-  CHECK_MESSAGE(refused.err.find(bad + ":2: occlude of \"left femorla artery\" at 0.5: no vessel has this name; is one of these meant: "
-                                       "\"left femoral artery\"") != std::string::npos,
-                refused.err);
+  CHECK_MESSAGE(
+      refused.err.find(
+          bad +
+          ":2: occlude of \"left femorla artery\" at 0.5: no vessel has this name; is one of these meant: "
+          "\"left femoral artery\"") != std::string::npos,
+      refused.err);
   CHECK(!std::filesystem::exists(out));
   const auto going = runProgram({"edit", bad, "-o", out, "--keep-going", "--json"});
   CHECK(going.exit == 0);

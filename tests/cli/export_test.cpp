@@ -35,7 +35,8 @@ TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes f
   const TemporaryFolder folder;
   const auto file = (folder.path() / "a.glb").string(), again = (folder.path() / "b.glb").string();
   const auto report = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "-o", file});
-  for (const char* key : {"file", "clip", "frames", "vessels", "quads", "vertices", "triangles", "shapes", "keys", "error_mm", "between_error_mm", "file_bytes"})
+  for (const char* key : {"file", "clip", "frames", "vessels", "quads", "vertices", "triangles", "shapes",
+                          "keys", "error_mm", "between_error_mm", "file_bytes"})
     CHECK_MESSAGE(report.contains(key), key);
   CHECK(report["keys"].get<int>() >= 6);
   CHECK(report["shapes"].get<int>() <= report["keys"].get<int>());
@@ -47,20 +48,24 @@ TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes f
   exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--threads", "1", "-o", again});
   CHECK(textOf(file) == textOf(again));
   // One key a frame strays farther between keys than more keys do.
-  const auto sparse = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--between", "1000", "--no-avoid", "-o", again});
-  const auto dense = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--between", "0.2", "--no-avoid", "-o", again});
+  const auto sparse = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--between", "1000",
+                                "--no-avoid", "-o", again});
+  const auto dense = exported(
+      {"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--between", "0.2", "--no-avoid", "-o", again});
   CHECK(sparse["keys"] == 6);
   CHECK(dense["keys"].get<int>() > 6);
   CHECK(dense["between_error_mm"].get<double>() < 0.5 * sparse["between_error_mm"].get<double>());
   CHECK(checkGltf(again).ok());
-  CHECK(exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--fps", "60", "--between", "1000", "--no-avoid", "-o", again})["keys"] == 11);
+  CHECK(exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--fps", "60", "--between", "1000",
+                  "--no-avoid", "-o", again})["keys"] == 11);
   const auto small = exported({"--clip", "walk", "--frames", "3:5", "--budget", "25", "-o", file});
   CHECK(small["file_bytes"].get<double>() < 25 * 1048576 + 1e5);
   CHECK(small["vertices"].get<int>() > report["vertices"].get<int>());
   const auto flat = exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--flat", "-o", file});
   CHECK(flat["file_bytes"].get<double>() < 0.6 * report["file_bytes"].get<double>());
   CHECK(checkGltf(file).ok());
-  const auto refused = runProgram({"export", "--clip", "walk", "--budget", "0.1", "-o", (folder.path() / "c.glb").string()});
+  const auto refused =
+      runProgram({"export", "--clip", "walk", "--budget", "0.1", "-o", (folder.path() / "c.glb").string()});
   CHECK(refused.exit == 1);
   CHECK(refused.err.find("--budget") != std::string::npos);
   CHECK(!std::filesystem::exists(folder.path() / "c.glb"));
@@ -77,7 +82,8 @@ TEST_CASE("export: a posed surface, and centre lines that convert reads back") {
   CHECK(elements->size() == human->vessels().size());
 
   exported({"-o", path("rest.vtp")});
-  const auto converted = runProgram({"convert", path("rest.vtp"), "--scale", "0.001", "--exact", "-o", path("rest.vasa")});
+  const auto converted =
+      runProgram({"convert", path("rest.vtp"), "--scale", "0.001", "--exact", "-o", path("rest.vasa")});
   REQUIRE_MESSAGE(converted.exit == 0, converted.err);
   const auto again = readNetwork(path("rest.vasa"));
   REQUIRE(again.ok());
@@ -87,7 +93,8 @@ TEST_CASE("export: a posed surface, and centre lines that convert reads back") {
   for (std::size_t v = 0; v < human->vessels().size(); ++v) {
     CHECK(again->vessels()[v].name == human->vessels()[v].name);
     CHECK(again->vessels()[v].kind == human->vessels()[v].kind);
-    CHECK(lengthOf(again->pointsOf(again->vessels()[v])) == doctest::Approx(lengthOf(human->pointsOf(human->vessels()[v]))).epsilon(0.01));
+    CHECK(lengthOf(again->pointsOf(again->vessels()[v])) ==
+          doctest::Approx(lengthOf(human->pointsOf(human->vessels()[v]))).epsilon(0.01));
   }
   // Written, read and written: the same bytes.
   const std::string vtp = textOf(path("rest.vtp"));
@@ -108,7 +115,9 @@ TEST_CASE("export: a row a frame and vessel") {
   std::istringstream text(textOf(file));
   std::string line;
   std::getline(text, line);
-  CHECK(line == "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m");
+  CHECK(
+      line ==
+      "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m");
   int rows = 0;
   while (std::getline(text, line)) {
     ++rows;
@@ -122,13 +131,17 @@ TEST_CASE("export: a tube list in which bench collide finds the pairs that check
   const TemporaryFolder folder;
   const auto file = (folder.path() / "twist.tubes").string();
   const auto report = exported({"--clip", "twist", "--frames", "15:20", "--no-avoid", "-o", file});
-  const auto frames = runProgram({"check", "--clip", "twist", "--frames", "15:20", "--method", "paper", "--json"}).json()["frames"];
+  const auto frames =
+      runProgram({"check", "--clip", "twist", "--frames", "15:20", "--method", "paper", "--json"})
+          .json()["frames"];
   const double height = runProgram({"info", "--json"}).json()["body"]["body_height_m"];
   for (const int pose : {0, 1}) {
     const auto& frame = frames[pose ? 5 : 0];
     const auto pairsBy = [&](const std::string& method) {
-      const auto bench = runProgram({"bench", "collide", "--tubes", file, "--pose", std::to_string(pose), "--runs", "1", "--method", method,
-                                     "--tolerance", std::to_string(1e-3 * height), "--json"}).json();
+      const auto bench =
+          runProgram({"bench", "collide", "--tubes", file, "--pose", std::to_string(pose), "--runs", "1",
+                      "--method", method, "--tolerance", std::to_string(1e-3 * height), "--json"})
+              .json();
       CHECK(bench["tubes"] == report["tubes"]);
       CHECK(bench["excluded"] == report["excluded"]);
       return bench["pairs"];

@@ -10,11 +10,13 @@ using namespace vasa::test;
 TEST_CASE("a network fitted to the body it lies in stays where it is") {
   const TemporaryFolder folder;
   const auto out = (folder.path() / "same.vasa").string();
-  const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to", humanBody().string(), "-o", out, "--exact", "--json"});
+  const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to",
+                                   humanBody().string(), "-o", out, "--exact", "--json"});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   const auto report = outcome.json();
-  for (const char* key : {"file", "vessels", "length_m", "length_before_m", "body_height_m", "radius_factor", "joints_matched", "joints_free",
-                          "points_pushed_in", "kinks", "outside_skin", "outside_skin_before"})
+  for (const char* key :
+       {"file", "vessels", "length_m", "length_before_m", "body_height_m", "radius_factor", "joints_matched",
+        "joints_free", "points_pushed_in", "kinks", "outside_skin", "outside_skin_before"})
     CHECK_MESSAGE(report.contains(key), key);
   CHECK(report["joints_free"].empty());
   CHECK(report["radius_factor"].get<double>() == doctest::Approx(1));
@@ -32,9 +34,11 @@ TEST_CASE("a network fitted to the body it lies in stays where it is") {
 TEST_CASE("the built-in human's vessels fit other bodies: less than 2 % of their length outside the skin") {
   VASA_REQUIRE_SHARED_DATA(data);
   const TemporaryFolder folder;
-  for (const char* body : {"rigs/makehuman_male_cmu31.glb", "rigs/makehuman_female_cmu31.glb", "bp3d/bp3d_body.glb"}) {
+  for (const char* body :
+       {"rigs/makehuman_male_cmu31.glb", "rigs/makehuman_female_cmu31.glb", "bp3d/bp3d_body.glb"}) {
     const auto out = (folder.path() / "fitted.vasa").string(), target = (data / body).string();
-    const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to", target, "-o", out, "--json"});
+    const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to",
+                                     target, "-o", out, "--json"});
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
     const auto report = outcome.json();
     CHECK(report["outside_skin"]["measured"] == true);
@@ -66,7 +70,8 @@ TEST_CASE("a body whose joints have no names is known by its shape, and vessels 
   VASA_REQUIRE_SHARED_DATA(data);
   const TemporaryFolder folder;
   const auto out = (folder.path() / "out.vasa").string();
-  const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to", (data / "rigs/CesiumMan.glb").string(), "-o", out, "--json"});
+  const auto outcome = runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to",
+                                   (data / "rigs/CesiumMan.glb").string(), "-o", out, "--json"});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   CHECK(outcome.json()["joints_matched"].get<int>() >= 15);
   CHECK(outcome.json()["outside_skin"]["share"].get<double>() < 0.02);

@@ -11,8 +11,9 @@ TEST_CASE("info on a network has the keys that tools rely on") {
   const auto outcome = runProgram({"info", humanVessels().string(), "--json"});
   REQUIRE(outcome.exit == 0);
   const auto report = outcome.json();
-  for (const char* key : {"kind", "vessels", "arteries", "veins", "sections", "sweeps", "junctions", "components", "length_m",
-                          "volume_m3", "body_height_m", "file_bytes", "bytes_per_sweep"})
+  for (const char* key :
+       {"kind", "vessels", "arteries", "veins", "sections", "sweeps", "junctions", "components", "length_m",
+        "volume_m3", "body_height_m", "file_bytes", "bytes_per_sweep"})
     CHECK(report.contains(key));
   CHECK(report["kind"] == "network");
   CHECK(report["vessels"].get<int>() >= 60);
@@ -33,7 +34,8 @@ TEST_CASE("info on a body and on the built-in scene") {
   CHECK(text.out.find("sweeps") != std::string::npos);
 }
 
-TEST_CASE("what a scene file names and is not there is bad input, what the command line names a file that cannot be read") {
+TEST_CASE(
+    "what a scene file names and is not there is bad input, what the command line names a file that cannot be read") {
   const TemporaryFolder folder;
   const auto scene = (folder.path() / "scene.json").string();
   const auto write = [&](const std::string& body, const std::string& network) {

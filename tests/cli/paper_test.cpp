@@ -32,7 +32,8 @@ void checkTableOne(const nlohmann::json& rows) {
   // A ring of eight a section, two triangles between neighbours.
   CHECK(rowOf("mesh: triangles")["ours"]["total"] == 16 * sweeps["total"].get<int>());
   CHECK(rowOf("mesh: vertices")["paper"]["total"] == 32892);
-  const double mesh = rowOf("mesh: bytes")["ours"]["total"], file = rowOf("sweeps: bytes of the file")["ours"]["total"];
+  const double mesh = rowOf("mesh: bytes")["ours"]["total"],
+               file = rowOf("sweeps: bytes of the file")["ours"]["total"];
   CHECK(mesh / file == doctest::Approx(rowOf("mesh : file")["ours"]["total"].get<double>()));
   CHECK(mesh > 5 * file);
 }
@@ -62,7 +63,8 @@ void checkTableThree(const nlohmann::json& rows) {
   for (const auto& row : rows) {
     for (const char* side : {"ours", "ours_every_triangle"}) {
       const auto& ours = row[side];
-      for (const char* key : {"render_ms", "collision_ms", "total_ms", "fps", "triangles"}) CHECK(ours[key] > 0);
+      for (const char* key : {"render_ms", "collision_ms", "total_ms", "fps", "triangles"})
+        CHECK(ours[key] > 0);
       CHECK(ours["total_ms"] >= ours["render_ms"]);
     }
     CHECK(row["ours"]["triangles_drawn"] < row["ours_every_triangle"]["triangles_drawn"]);

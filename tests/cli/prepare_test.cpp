@@ -31,7 +31,8 @@ struct Body {
     return {.environment = {"VASA_DATA_DIR=" + folder.path().string(), "XDG_CACHE_HOME=" + where.string()}};
   }
   std::string picture(const ProgramOptions& options, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"render", "--size", "96x160", "-o", (folder.path() / "picture.png").string()};
+    std::vector<std::string> arguments{"render", "--size", "96x160", "-o",
+                                       (folder.path() / "picture.png").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto outcome = runProgram(arguments, options);
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
@@ -41,13 +42,16 @@ struct Body {
 
 std::vector<std::string> keptFiles(const fs::path& folder) {
   std::vector<std::string> names = listOf(folder);
-  std::erase_if(names, [](const std::string& name) { return !name.ends_with(".kept") || name.starts_with("pipelines-"); });
+  std::erase_if(names, [](const std::string& name) {
+    return !name.ends_with(".kept") || name.starts_with("pipelines-");
+  });
   return names;
 }
 
 }  // namespace
 
-TEST_CASE("the first run keeps what the second finds, and pictures are the same to the bit, damaged files or none") {
+TEST_CASE(
+    "the first run keeps what the second finds, and pictures are the same to the bit, damaged files or none") {
   const Body body;
   const std::string without = body.picture(body.with(body.cache), {"--no-cache"});
   CHECK_FALSE(fs::exists(body.kept));
@@ -64,15 +68,20 @@ TEST_CASE("the first run keeps what the second finds, and pictures are the same 
   CHECK(keptFiles(body.kept) == names);
   fs::resize_file(body.kept / names[0], contents[0].size() / 2);
   fs::resize_file(body.kept / names[1], 20);
-  for (const std::size_t k : {2, 3}) std::fstream(body.kept / names[k], std::ios::in | std::ios::out | std::ios::binary).seekp(1000) << "somebody else's";
+  for (const std::size_t k : {2, 3})
+    std::fstream(body.kept / names[k], std::ios::in | std::ios::out | std::ios::binary).seekp(1000)
+        << "somebody else's";
   CHECK(body.picture(body.with(body.cache)) == without);
   CHECK(keptFiles(body.kept) == names);
-  for (std::size_t k = 0; k < names.size(); ++k) CHECK(contentOf(body.kept / names[k]) == contents[k]);  // made anew
+  // Made anew.
+  for (std::size_t k = 0; k < names.size(); ++k) CHECK(contentOf(body.kept / names[k]) == contents[k]);
 }
 
 TEST_CASE("where nothing can be kept the program goes on without, and says so with --verbose") {
   const Body body;
-  const auto outcome = runProgram({"render", "--size", "96x160", "--no-avoid", "--verbose", "-o", (body.folder.path() / "p.png").string()}, body.with("/dev/full"));
+  const auto outcome = runProgram({"render", "--size", "96x160", "--no-avoid", "--verbose", "-o",
+                                   (body.folder.path() / "p.png").string()},
+                                  body.with("/dev/full"));
   CHECK(outcome.exit == 0);
   CHECK(outcome.err.find("not kept for later runs: /dev/full/vasa/") != std::string::npos);
   CHECK(outcome.err.find(" ms  reading the body") != std::string::npos);
@@ -87,7 +96,8 @@ TEST_CASE("prepare says what it cannot do") {
   const auto file = runProgram({"prepare", "-o", (folder.path() / "file").string()});
   CHECK(file.exit == 6);
   CHECK(file.err.find("choose one that you may write to") != std::string::npos);
-  CHECK(runProgram({"prepare", "--body", "none.glb", "--network", "none.vasa", "-o", folder.path().string()}).exit == 6);
+  CHECK(runProgram({"prepare", "--body", "none.glb", "--network", "none.vasa", "-o", folder.path().string()})
+            .exit == 6);
 }
 
 TEST_CASE("what ships of the built-in human is what prepare makes, and is used") {
@@ -96,8 +106,10 @@ TEST_CASE("what ships of the built-in human is what prepare makes, and is used")
   const auto names = keptFiles(shipped);
   CHECK(names.size() == 5);
   const TemporaryFolder cache;
-  const auto outcome = runProgram({"render", "--size", "96x160", "--capillaries", "1", "-o", (cache.path() / "p.png").string()},
-                                  {.environment = {"XDG_CACHE_HOME=" + cache.path().string()}});
+  const auto outcome = runProgram(
+      {"render", "--size", "96x160", "--capillaries", "1", "-o", (cache.path() / "p.png").string()},
+      {.environment = {"XDG_CACHE_HOME=" + cache.path().string()}});
   CHECK_MESSAGE(outcome.exit == 0, outcome.err);
-  CHECK((!fs::exists(cache.path() / "vasa") || keptFiles(cache.path() / "vasa").empty()));  // nothing was to be made
+  CHECK((!fs::exists(cache.path() / "vasa") ||
+         keptFiles(cache.path() / "vasa").empty()));  // nothing was to be made
 }

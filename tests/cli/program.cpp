@@ -35,11 +35,14 @@ nlohmann::json Outcome::json() const {
 
 Outcome runProgram(const std::vector<std::string>& arguments, const ProgramOptions& options) {
   TemporaryFolder folder;
-  const auto out = options.standardOutput.empty() ? folder.path() / "out" : std::filesystem::path(options.standardOutput);
+  const auto out =
+      options.standardOutput.empty() ? folder.path() / "out" : std::filesystem::path(options.standardOutput);
   const auto err = folder.path() / "err";
   // A limit on memory is set by a shell that becomes the program.
   std::vector<std::string> words{VASA_PROGRAM};
-  if (options.memoryKiB > 0) words = {"/bin/sh", "-c", "ulimit -v \"$0\"; exec \"$@\"", std::to_string(options.memoryKiB), VASA_PROGRAM};
+  if (options.memoryKiB > 0)
+    words = {"/bin/sh", "-c", "ulimit -v \"$0\"; exec \"$@\"", std::to_string(options.memoryKiB),
+             VASA_PROGRAM};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -81,16 +84,13 @@ Outcome runProgram(const std::vector<std::string>& arguments, const ProgramOptio
   return outcome;
 }
 
-std::filesystem::path humanBody() {
-  return std::filesystem::path(VASA_BUILD_DATA_DIR) / "human.glb";
-}
-std::filesystem::path humanVessels() {
-  return std::filesystem::path(VASA_BUILD_DATA_DIR) / "human.vasa";
-}
+std::filesystem::path humanBody() { return std::filesystem::path(VASA_BUILD_DATA_DIR) / "human.glb"; }
+std::filesystem::path humanVessels() { return std::filesystem::path(VASA_BUILD_DATA_DIR) / "human.vasa"; }
 
 std::vector<std::string> listOf(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
   std::ranges::sort(names);
   return names;
 }

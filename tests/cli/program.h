@@ -9,7 +9,7 @@ namespace vasa::test {
 
 /// What a run of the program left behind.
 struct Outcome {
-  int exit = -1;  ///< exit code; 128 + signal when it was killed
+  int exit = -1;            ///< exit code; 128 + signal when it was killed
   double msFromSignal = 0;  ///< until it had ended, where one was sent
   std::string out, err;
 

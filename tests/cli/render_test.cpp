@@ -19,7 +19,9 @@ std::string bytesOf(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> walk(const std::filesystem::path& folder, std::initializer_list<std::string> more) {
-  std::vector<std::string> arguments{"render", "--clip", "walk", "--size", "192x320", "--quads", "4x2", "-o", (folder / "{frame:03}.png").string()};
+  std::vector<std::string> arguments{"render", "--clip",  "walk",
+                                     "--size", "192x320", "--quads",
+                                     "4x2",    "-o",      (folder / "{frame:03}.png").string()};
   arguments.insert(arguments.end(), more);
   return arguments;
 }
@@ -28,7 +30,8 @@ std::vector<std::string> walk(const std::filesystem::path& folder, std::initiali
 
 TEST_CASE("a clip becomes numbered pictures with vessels in them") {
   TemporaryFolder folder;
-  const auto outcome = runProgram(walk(folder.path(), {"--frames", "2:4", "--hide", "skin,bones,organs", "--json"}));
+  const auto outcome =
+      runProgram(walk(folder.path(), {"--frames", "2:4", "--hide", "skin,bones,organs", "--json"}));
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   CHECK(listOf(folder.path()) == std::vector<std::string>{"002.png", "003.png", "004.png"});
   CHECK(outcome.json()["frames"] == 3);
@@ -47,12 +50,18 @@ TEST_CASE("a clip becomes numbered pictures with vessels in them") {
 
 TEST_CASE("the same frame has the same bits on one and two threads, and in any order of frames") {
   TemporaryFolder one, two, single;
-  REQUIRE(runProgram(walk(one.path(), {"--frames", "0:3", "--threads", "1"}), {.environment = {"LP_NUM_THREADS=1"}}).exit == 0);
-  REQUIRE(runProgram(walk(two.path(), {"--frames", "0:3", "--threads", "2"}), {.environment = {"LP_NUM_THREADS=2"}}).exit == 0);
+  REQUIRE(runProgram(walk(one.path(), {"--frames", "0:3", "--threads", "1"}),
+                     {.environment = {"LP_NUM_THREADS=1"}})
+              .exit == 0);
+  REQUIRE(runProgram(walk(two.path(), {"--frames", "0:3", "--threads", "2"}),
+                     {.environment = {"LP_NUM_THREADS=2"}})
+              .exit == 0);
   REQUIRE(runProgram(walk(single.path(), {"--frames", "3"})).exit == 0);
   REQUIRE(runProgram(walk(single.path(), {"--frames", "1"})).exit == 0);
-  for (const char* name : {"000.png", "001.png", "002.png", "003.png"}) CHECK(bytesOf(one.path() / name) == bytesOf(two.path() / name));
-  for (const char* name : {"001.png", "003.png"}) CHECK(bytesOf(one.path() / name) == bytesOf(single.path() / name));
+  for (const char* name : {"000.png", "001.png", "002.png", "003.png"})
+    CHECK(bytesOf(one.path() / name) == bytesOf(two.path() / name));
+  for (const char* name : {"001.png", "003.png"})
+    CHECK(bytesOf(one.path() / name) == bytesOf(single.path() / name));
 }
 
 TEST_CASE("a track alone draws nothing, needs no device, and gives the pictures of a run without it") {
@@ -104,8 +113,10 @@ TEST_CASE("what cannot be drawn or written ends with the right code, a remedy an
   CHECK(unknown.exit == 3);
   CHECK(unknown.err.find("it has") != std::string::npos);
   CHECK(unknown.err.find("walk") != std::string::npos);
-  CHECK(runProgram({"render", "--body", "/nowhere.glb", "--network", humanVessels().string(), "-o", output}).exit == 6);
-  CHECK(runProgram({"render", "--body", humanBody().string(), "--network", "/nowhere.vasa", "-o", output}).exit == 6);
+  CHECK(runProgram({"render", "--body", "/nowhere.glb", "--network", humanVessels().string(), "-o", output})
+            .exit == 6);
+  CHECK(runProgram({"render", "--body", humanBody().string(), "--network", "/nowhere.vasa", "-o", output})
+            .exit == 6);
   CHECK(runProgram({"render", "--focus", "tail", "-o", output}).exit == 3);
   const auto full = runProgram({"render", "--size", "32x32", "-o", "/dev/full"});
   CHECK(full.exit == 6);
@@ -131,8 +142,9 @@ TEST_CASE("forks can be left out, to compare") {
   TemporaryFolder folder;
   const auto frame = [&](const char* forks) {
     const auto path = folder.path() / (std::string(forks) + ".png");
-    REQUIRE(runProgram({"render", "--clip", "walk", "--frames", "0", "--focus", "abdominal aorta", "--size", "160x160", "--hide", "skin,bones,organs",
-                        "--forks", forks, "-o", path.string()}).exit == 0);
+    REQUIRE(runProgram({"render", "--clip", "walk", "--frames", "0", "--focus", "abdominal aorta", "--size",
+                        "160x160", "--hide", "skin,bones,organs", "--forks", forks, "-o", path.string()})
+                .exit == 0);
     auto picture = readPng(path);
     REQUIRE(picture.ok());
     return std::move(picture->rgba);

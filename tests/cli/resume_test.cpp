@@ -144,5 +144,6 @@ TEST_CASE("--resume sees that a journal of edits changed") {
   const TemporaryFolder folder;
   const auto journal = folder.path() / "lesions.vedit";
   write(journal, "occlude \"left femoral artery\" 0.5\n");
-  checkHeld(folder.path(), {"--edits", journal.string()}, [&] { write(journal, "occlude \"left femoral artery\" 0.6\n"); });
+  checkHeld(folder.path(), {"--edits", journal.string()},
+            [&] { write(journal, "occlude \"left femoral artery\" 0.6\n"); });
 }

@@ -5,8 +5,8 @@
 #include "cli/program.h"
 #include "support/shared_data.h"
 
-// Signals in the middle of whatever a command does. How long an answer takes is told, not asserted, but for a bound far
-// above it: 0.2 s are promised, and a loop that never asks goes on for minutes.
+// Signals in the middle of whatever a command does. How long an answer takes is told, not asserted, but for a
+// bound far above it: 0.2 s are promised, and a loop that never asks goes on for minutes.
 
 using namespace vasa::test;
 
@@ -19,7 +19,8 @@ void writeLongLine(const std::filesystem::path& path, int samples) {
   std::ofstream file(path);
   for (int i = 1; i <= samples; ++i) {
     const int row = i / 1000, column = row % 2 ? 999 - i % 1000 : i % 1000;
-    file << i << " 3 " << column << ' ' << row % 1000 << ' ' << row / 1000 << " 0.4 " << (i == 1 ? -1 : i - 1) << '\n';
+    file << i << " 3 " << column << ' ' << row % 1000 << ' ' << row / 1000 << " 0.4 " << (i == 1 ? -1 : i - 1)
+         << '\n';
   }
 }
 
@@ -40,7 +41,9 @@ void writeTubes(const std::filesystem::path& path, int count) {
   file << count << " 0\n";
   for (int i = 0; i < count; ++i) {
     for (int pose = 0; pose < 2; ++pose)
-      for (int k = 0; k < 4; ++k) file << 0.01 * (i % 100) + 0.004 * k << ' ' << 0.01 * (i / 100 % 100) << ' ' << 0.01 * (i / 10000) << " 0.003 ";
+      for (int k = 0; k < 4; ++k)
+        file << 0.01 * (i % 100) + 0.004 * k << ' ' << 0.01 * (i / 100 % 100) << ' ' << 0.01 * (i / 10000)
+             << " 0.003 ";
     file << '\n';
   }
 }
@@ -49,7 +52,8 @@ void writeTubes(const std::filesystem::path& path, int count) {
 
 TEST_CASE("every command answers SIGINT and SIGTERM whatever it is doing, and leaves no file") {
   const TemporaryFolder folder, in;
-  const auto line = (in.path() / "line.swc").string(), sheet = (in.path() / "sheet.obj").string(), tubes = (in.path() / "tubes.txt").string();
+  const auto line = (in.path() / "line.swc").string(), sheet = (in.path() / "sheet.obj").string(),
+             tubes = (in.path() / "tubes.txt").string();
   writeLongLine(line, 400000);
   writeSheet(sheet, 500);
   writeTubes(tubes, 40000);
@@ -73,7 +77,9 @@ TEST_CASE("every command answers SIGINT and SIGTERM whatever it is doing, and le
       CAPTURE(command[0]);
       CAPTURE(after);
       const auto outcome = runProgram(command, {.environment = {"XDG_CACHE_HOME=" + in.path().string()},
-                                                .signalAfterMs = after, .signal = signal, .signalPatience = kBound});
+                                                .signalAfterMs = after,
+                                                .signal = signal,
+                                                .signalPatience = kBound});
       INFO(outcome.err);
       // What was done by then is done.
       if (outcome.exit != 0) {

@@ -4,14 +4,15 @@
 
 #include <random>
 
-#include "random_tubes.h"
 #include "math/triangle_pair.h"
+#include "random_tubes.h"
 
 using namespace vasa;
 
 namespace {
 
-std::vector<TubePair> byBruteForce(const TubeSurface& surface, std::span<const vec3> positions, const Exclusions& exclusions) {
+std::vector<TubePair> byBruteForce(const TubeSurface& surface, std::span<const vec3> positions,
+                                   const Exclusions& exclusions) {
   const auto triangle = [&](std::uint32_t tube, std::uint32_t t) {
     const uvec3 v = surface.triangle(tube, t);
     return Triangle{positions[v.x], positions[v.y], positions[v.z]};
@@ -33,7 +34,8 @@ template <class Box>
 void compareWithBruteForce() {
   constexpr std::uint32_t kCount = 61;  // no power of two
   const TubeSurface surface(5, 3);
-  const auto rest = test::randomTubes(kCount, 3, 1, 0.8f, 0.06f), other = test::randomTubes(kCount, 4, 1, 0.8f, 0.06f);
+  const auto rest = test::randomTubes(kCount, 3, 1, 0.8f, 0.06f),
+             other = test::randomTubes(kCount, 4, 1, 0.8f, 0.06f);
   std::vector<vec3> positions, moved;
   surface.shape(rest, positions);
   surface.shape(other, moved);

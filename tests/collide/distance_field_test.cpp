@@ -44,10 +44,11 @@ TEST_CASE("the field is the distance from a box, near it") {
     CHECK(field.clearance(p) <= std::max(boxDistance(p, low, high), 0.0f) + 0.001f);
     if (exact >= 0.006f) CHECK(distance <= boxDistance(p, low, high) + 1e-6f);
     const vec3 other = p + 0.05f * vec3(any(random), any(random), any(random));
-    if (distance < 0.006f) CHECK(std::min(field.distance(other), 0.006f) >= distance - std::sqrt(3.0f) * glm::distance(p, other) - 1e-6f);
+    if (distance < 0.006f)
+      CHECK(std::min(field.distance(other), 0.006f) >=
+            distance - std::sqrt(3.0f) * glm::distance(p, other) - 1e-6f);
     worst = std::max(worst, std::abs(std::min(distance, 0.006f) - exact));
-    if (exact > 0.0025f && exact < 0.004f)
-      CHECK(glm::length(gradient) == doctest::Approx(1).epsilon(0.3));
+    if (exact > 0.0025f && exact < 0.004f) CHECK(glm::length(gradient) == doctest::Approx(1).epsilon(0.3));
   }
   CHECK(worst < 0.0011f);  // half a cell, at the edges
   std::vector<vec4> balls;
@@ -87,5 +88,6 @@ TEST_CASE("the field's sign is right where a surface has rims, overlaps and the 
   CHECK(field.distance({0, 0, 0.07f}) < 0);
   CHECK(field.distance({0.015f, 0.02f, 0.025f}) < 0);
   // Beyond the band, where the nearest face that is looked at may be one seen from behind.
-  for (const vec3 out : {vec3(0.04f, 0.045f, 0.065f), vec3(-0.033f, 0, 0.062f), vec3(0.027f, 0.037f, 0.056f)}) CHECK(field.distance(out) > 0);
+  for (const vec3 out : {vec3(0.04f, 0.045f, 0.065f), vec3(-0.033f, 0, 0.062f), vec3(0.027f, 0.037f, 0.056f)})
+    CHECK(field.distance(out) > 0);
 }

@@ -37,7 +37,8 @@ TEST_CASE("every tube is a leaf once, and children lie inside their parent after
     }
     for (std::uint32_t level = 0; level + 1 < tree.levels(); ++level)
       for (std::uint32_t node = 0; node < tree.count(level); ++node) {
-        const Sphere child = tree.sphere(level, node), parent = tree.sphere(level + 1, node / SphereTree::kArity);
+        const Sphere child = tree.sphere(level, node),
+                     parent = tree.sphere(level + 1, node / SphereTree::kArity);
         CHECK(glm::distance(child.centre, parent.centre) + child.radius <= parent.radius * 1.00001f);
       }
     CHECK(tree.count(tree.levels() - 1) == 1);

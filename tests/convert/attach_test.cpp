@@ -14,9 +14,12 @@ struct Scene {
   std::vector<SourceElement> elements;
   std::uint32_t add(const char* label, vec3 a, vec3 b, float radius, VesselKind kind = VesselKind::artery) {
     elements.push_back(source(label, {}, kind));
-    return graph.add({sectionsBetween(a, b, radius, std::min(0.002f, radius)), std::uint32_t(elements.size() - 1), kind});
+    return graph.add(
+        {sectionsBetween(a, b, radius, std::min(0.002f, radius)), std::uint32_t(elements.size() - 1), kind});
   }
-  AttachReport attach(const AttachOptions& options = {}) { return attachEnds(graph, elements, 1.7f, options); }
+  AttachReport attach(const AttachOptions& options = {}) {
+    return attachEnds(graph, elements, 1.7f, options);
+  }
   std::uint32_t jointOf(std::uint32_t strand, bool last) const { return graph.jointAt({strand, last}); }
 };
 
@@ -76,7 +79,8 @@ TEST_CASE("elements of no known kind join where they touch, across a gap only by
 
 TEST_CASE("ends that face one another meet halfway, overlapping ones are cut back") {
   Scene scene;
-  const auto a = scene.add("a", {0, 0, 0}, {0, 0.05f, 0}, 0.004f), b = scene.add("b", {0, 0.052f, 0}, {0, 0.1f, 0}, 0.004f);
+  const auto a = scene.add("a", {0, 0, 0}, {0, 0.05f, 0}, 0.004f),
+             b = scene.add("b", {0, 0.052f, 0}, {0, 0.1f, 0}, 0.004f);
   const auto c = scene.add("c", {0, 0.097f, 0}, {0, 0.15f, 0}, 0.004f);
   const auto report = scene.attach();
   CHECK(report.endToEnd == 2);
@@ -105,8 +109,8 @@ TEST_CASE("a long gap is bridged only where the names continue, and is told") {
   for (const bool sameName : {true, false}) {
     Scene scene;
     const auto low = scene.add("left common carotid artery", {0, 0, 0}, {0, 0.1f, 0}, 0.003f);
-    const auto high = scene.add(sameName ? "left internal carotid artery" : "left vertebral artery", {0.01f, 0.16f, 0},
-                                {0.012f, 0.25f, 0}, 0.002f);
+    const auto high = scene.add(sameName ? "left internal carotid artery" : "left vertebral artery",
+                                {0.01f, 0.16f, 0}, {0.012f, 0.25f, 0}, 0.002f);
     const auto report = scene.attach();
     CHECK((scene.jointOf(low, true) != kNone) == sameName);
     CHECK((scene.jointOf(high, false) != kNone) == sameName);

@@ -88,7 +88,8 @@ TEST_CASE("input without a vessel is refused with a remedy, a stop is obeyed") {
 
 TEST_CASE("what is too wide for any vessel is doubtful, with what may be the matter") {
   // A vessel in millimetres that is read as metres, beside one that is right.
-  std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.3f, 0}, 0.012f)), source("torso", tubeBetween({1, 0, 0}, {1, 0.9f, 0}, 0.15f))};
+  std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.3f, 0}, 0.012f)),
+                                      source("torso", tubeBetween({1, 0, 0}, {1, 0.9f, 0}, 0.15f))};
   const auto made = convertElements(elements);
   REQUIRE(made.ok());
   CHECK(made->report.elements[0].status == ElementStatus::ok);

@@ -11,7 +11,8 @@ TEST_CASE("of elements that repeat one another the largest is kept") {
   const vec3 a(0), b(0, 0.1f, 0), shift(2e-4f, 0, 0);
   const std::vector<SourceElement> elements{
       source("whole", tubeBetween(a, b, 0.003f)),
-      source("again, coarser and moved a little", tubeBetween(a + shift, b + shift, 0.003f, TubeEnds::open, 7)),
+      source("again, coarser and moved a little",
+             tubeBetween(a + shift, b + shift, 0.003f, TubeEnds::open, 7)),
       source("its lower half", tubeBetween(a, 0.5f * b, 0.003f, TubeEnds::open)),
       source("a vein at the same place", tubeBetween(a, b, 0.003f), VesselKind::vein),
       source("a thinner one inside", tubeBetween(a, b, 0.001f)),

@@ -29,7 +29,9 @@ inline std::vector<vec4> deepBend(const Network& network, float bend) {
   std::vector<vec4> points(network.points().begin(), network.points().end());
   for (vec4& p : points) {
     const float angle = bend * (p.y - 0.1f);
-    if (bend != 0) p = vec4((p.x + 1 / bend) * std::cos(angle) - 1 / bend, 0.1f + (p.x + 1 / bend) * std::sin(angle), p.z, p.w);
+    if (bend != 0)
+      p = vec4((p.x + 1 / bend) * std::cos(angle) - 1 / bend, 0.1f + (p.x + 1 / bend) * std::sin(angle), p.z,
+               p.w);
   }
   pinEnds(network, points);
   return points;

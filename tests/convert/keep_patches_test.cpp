@@ -43,7 +43,8 @@ std::vector<vec4> bent(const Network& network) {
   std::vector<vec4> points(network.points().begin(), network.points().end());
   for (vec4& p : points) {
     const float angle = 4 * p.y;
-    p = vec4(p.x * std::cos(angle) - 0.2f * (1 - std::cos(angle)), (p.x + 0.2f) * std::sin(angle), p.z, 0.9f * p.w);
+    p = vec4(p.x * std::cos(angle) - 0.2f * (1 - std::cos(angle)), (p.x + 0.2f) * std::sin(angle), p.z,
+             0.9f * p.w);
   }
   pinEnds(network, points);
   return points;
@@ -53,7 +54,8 @@ bool sameBytes(const Network& a, const Network& b) { return encodeNetwork(a) == 
 
 }  // namespace
 
-TEST_CASE("the wall of a scanned fork is kept, closed with the tubes at rest and bent, whatever their quads") {
+TEST_CASE(
+    "the wall of a scanned fork is kept, closed with the tubes at rest and bent, whatever their quads") {
   const Forked made = forked();
   REQUIRE(made.report.forks.size() == 2);
   for (const PatchReport::Fork& fork : made.report.forks) CHECK(outcomeName(fork.outcome) == "kept");
@@ -71,11 +73,13 @@ TEST_CASE("the wall of a scanned fork is kept, closed with the tubes at rest and
 TEST_CASE("no triangle of a patch is folded at rest") {
   const Forked made = forked();
   REQUIRE(!made.network.patches().empty());
-  for (const ForkPatch& patch : made.network.patches()) CHECK(foldedTriangles({patch.positions, patch.triangles}).empty());
+  for (const ForkPatch& patch : made.network.patches())
+    CHECK(foldedTriangles({patch.positions, patch.triangles}).empty());
   TriangleMesh drawn;  // normals on loops are those of the tubes
   std::vector<vec3> normals;
   const PatchTable table = makeSweepTable(made.network).patches;
-  for (const shared::SkinVertex& v : table.vertices) drawn.positions.emplace_back(v.x, v.y, v.z), normals.push_back(unpackOctahedral(v.normal));
+  for (const shared::SkinVertex& v : table.vertices)
+    drawn.positions.emplace_back(v.x, v.y, v.z), normals.push_back(unpackOctahedral(v.normal));
   drawn.triangles = table.triangles;
   CHECK(foldedTriangles(drawn, normals).empty());
 }
@@ -85,7 +89,8 @@ TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside
   REQUIRE(!made.network.patches().empty());
   const TriangleTree wall(made.elements[0].element.mesh);
   const Network& network = made.network;
-  const SurfaceMesh mesh = surfaceMesh(network, network.points(), framesOf(network, network.points()), {8, 5});
+  const SurfaceMesh mesh =
+      surfaceMesh(network, network.points(), framesOf(network, network.points()), {8, 5});
   std::size_t on = 0, all = 0;
   for (const ForkPatch& patch : network.patches())
     for (std::size_t i = 0; i < patch.positions.size(); ++i, ++all) {
@@ -125,7 +130,8 @@ TEST_CASE("patches survive files, merging and other shapes; a plain network's fi
   const std::vector<Network> two{*read, *read};
   const auto merged = mergeNetworks(two);
   REQUIRE(merged.ok());
-  CHECK(merged->patches()[2].rings[0].vessel.value == read->patches()[0].rings[0].vessel.value + read->vessels().size());
+  CHECK(merged->patches()[2].rings[0].vessel.value ==
+        read->patches()[0].rings[0].vessel.value + read->vessels().size());
   const auto shaped = reshapeNetwork(*read, bent(*read), 1);
   REQUIRE(shaped.ok());
   CHECK(shaped->patches().size() == 2);
@@ -253,12 +259,14 @@ TEST_CASE("vessels that are surfaces of their own, or torn, keep what these make
   }
   const auto network = withPatches(std::move(conversion->network), std::move(kept.patches));
   REQUIRE(network.ok());
-  for (const std::uint32_t around : {4u, 8u, 13u}) CHECK(openEdgesOf(*network, network->points(), {around, 3}) == 0);
+  for (const std::uint32_t around : {4u, 8u, 13u})
+    CHECK(openEdgesOf(*network, network->points(), {around, 3}) == 0);
 }
 
 TEST_CASE("a short gap between vessels' walls is closed") {
-  const std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
-                                            source("left renal artery", tubeBetween({0.0105f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
+  const std::vector<SourceElement> elements{
+      source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
+      source("left renal artery", tubeBetween({0.0105f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
   auto conversion = convertElements(elements);
   REQUIRE(conversion.ok());
   KeptPatches kept = keepPatches(conversion->network, elements, conversion->elementOf);
@@ -269,9 +277,11 @@ TEST_CASE("a short gap between vessels' walls is closed") {
 }
 
 TEST_CASE("rings move out to where the walls of vessels have parted") {
-  // A branch as thick as its trunk, beside it for a while: flattened walls that touch beyond their round tubes.
-  const std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.006f)),
-                                            source("left renal artery", tubeBetween({0.001f, 0.06f, 0}, {0.04f, 0.19f, 0}, 0.0045f))};
+  // A branch as thick as its trunk, beside it for a while: flattened walls that touch beyond their round
+  // tubes.
+  const std::vector<SourceElement> elements{
+      source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.006f)),
+      source("left renal artery", tubeBetween({0.001f, 0.06f, 0}, {0.04f, 0.19f, 0}, 0.0045f))};
   auto conversion = convertElements(elements);
   REQUIRE(conversion.ok());
   KeptPatches kept = keepPatches(conversion->network, elements, conversion->elementOf);
@@ -285,8 +295,9 @@ TEST_CASE("rings move out to where the walls of vessels have parted") {
 }
 
 TEST_CASE("forks whose walls do not meet, and centre lines, are told") {
-  std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
-                                      source("left renal artery", tubeBetween({0.0105f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
+  std::vector<SourceElement> elements{
+      source("aorta", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.008f)),
+      source("left renal artery", tubeBetween({0.0105f, 0.1f, 0}, {0.08f, 0.11f, 0}, 0.003f))};
   const auto conversion = convertElements(elements);
   REQUIRE(conversion.ok());
   for (SourceElement& element : elements)

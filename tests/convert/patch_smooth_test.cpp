@@ -24,11 +24,13 @@ struct Walls {
     networkFrames(network, points, restReferences(network), frames);
     const PosedNetwork posed{table, points, frames};
     std::vector<shared::JointRows> found;
-    for (std::uint32_t seam = 0; seam < table.patches.seams.size(); ++seam) found.push_back(poseSeam(posed, seam, 8).joint);
+    for (std::uint32_t seam = 0; seam < table.patches.seams.size(); ++seam)
+      found.push_back(poseSeam(posed, seam, 8).joint);
     return found;
   }
 
-  std::vector<SurfacePoint> unsmoothed(const PatchTable::Patch& patch, std::span<const shared::JointRows> seams) const {
+  std::vector<SurfacePoint> unsmoothed(const PatchTable::Patch& patch,
+                                       std::span<const shared::JointRows> seams) const {
     std::vector<SurfacePoint> points;
     for (std::uint32_t i = 0; i < patch.vertexCount; ++i)
       points.push_back(poseVertex(table.patches.vertices[patch.firstVertex + i], seams));
@@ -39,7 +41,8 @@ struct Walls {
     float folded = 0, all = 0;
     for (std::uint32_t i = 0; i < patch.triangleCount; ++i) {
       const uvec3 t = table.patches.triangles[patch.firstTriangle + i] - patch.firstVertex;
-      const float area = glm::length(glm::cross(points[t.y].position - points[t.x].position, points[t.z].position - points[t.x].position));
+      const float area = glm::length(glm::cross(points[t.y].position - points[t.x].position,
+                                                points[t.z].position - points[t.x].position));
       all += area;
       if (folds(points[t.x], points[t.y], points[t.z])) folded += area;
     }
@@ -71,7 +74,8 @@ TEST_CASE("a fan is the triangles around a vertex, in their order; vertices on l
     }
     for (std::uint32_t v = 0; v < patch.vertexCount; ++v) {
       std::vector<std::uint32_t> found;
-      for (std::uint32_t i = table.firstFan[patch.firstVertex + v]; i < table.firstFan[patch.firstVertex + v + 1]; ++i) {
+      for (std::uint32_t i = table.firstFan[patch.firstVertex + v];
+           i < table.firstFan[patch.firstVertex + v + 1]; ++i) {
         found.push_back(table.fans[i].corners);
         CHECK(table.fans[i].perArea > 0);
       }
@@ -89,7 +93,8 @@ TEST_CASE("walls at rest, moved as a whole or bent a little are as their rings c
     const auto joints = walls.joints(points);
     for (const PatchTable::Patch& patch : walls.table.patches.patches) {
       CHECK(patchSmoothing(walls.table.patches, patch, joints) == 0);
-      CHECK(std::ranges::equal(posePatch(walls.table.patches, patch, joints), walls.unsmoothed(patch, joints), same));
+      CHECK(std::ranges::equal(posePatch(walls.table.patches, patch, joints), walls.unsmoothed(patch, joints),
+                               same));
     }
   }
 }

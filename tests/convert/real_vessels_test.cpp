@@ -91,14 +91,17 @@ TEST_CASE("VMTK's aorta: radii made of the surface agree with the reference cent
     for (const Vessel& vessel : made->network.vessels())
       for (std::uint32_t i = 0; i <= 32 * vessel.spanCount(); ++i) {
         const vec4 at = evaluate(made->network.pointsOf(vessel), float(i) / 32);
-        if (const float distance = glm::distance(vec3(at), vec3(wanted)); distance < least) least = distance, nearest = at;
+        if (const float distance = glm::distance(vec3(at), vec3(wanted)); distance < least)
+          least = distance, nearest = at;
       }
     differences.push_back(std::abs(nearest.w / wanted.w - 1));
   }
   std::ranges::sort(differences);
-  MESSAGE("radii differ by " << 100 * differences[differences.size() / 2] << " % in the median, 95 % of them by less than "
+  MESSAGE("radii differ by " << 100 * differences[differences.size() / 2]
+                             << " % in the median, 95 % of them by less than "
                              << 100 * differences[differences.size() * 95 / 100] << " %");
   CHECK(differences[differences.size() / 2] <= 0.05f);
-  // Legs that start in the fork fill what they share of its lumen: no radius falls far short of the inscribed sphere's.
+  // Legs that start in the fork fill what they share of its lumen: no radius falls far short of the inscribed
+  // sphere's.
   CHECK(differences[differences.size() * 95 / 100] < 0.15f);
 }

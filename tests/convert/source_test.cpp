@@ -25,7 +25,8 @@ TEST_CASE("the kind comes from the category, else the element's name, else the f
   CHECK(!sameFamily(VesselKind::vein, VesselKind::artery));
 }
 
-TEST_CASE("names of others tell the kind: numbers of an ontology, what is around them, at last their colour") {
+TEST_CASE(
+    "names of others tell the kind: numbers of an ontology, what is around them, at last their colour") {
   CHECK(kindOf(named("Superior_VenaCava"), "heart") == VesselKind::vein);
   CHECK(kindOf(named("SVC.001"), "heart") == VesselKind::vein);
   CHECK(kindOf(named("PulmonaryTrunk"), "heart") == VesselKind::artery);

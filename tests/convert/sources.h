@@ -6,7 +6,8 @@
 namespace vasa::test {
 
 /// A straight tube from a to b with flat or open ends.
-inline TriangleMesh tubeBetween(vec3 a, vec3 b, float radius, TubeEnds ends = TubeEnds::flat, int steps = 40) {
+inline TriangleMesh tubeBetween(vec3 a, vec3 b, float radius, TubeEnds ends = TubeEnds::flat,
+                                int steps = 40) {
   return tube([=](float t) { return a + t * (b - a); }, [=](float) { return radius; }, steps, 16, ends);
 }
 

@@ -26,7 +26,8 @@ TEST_CASE("a noisy tube costs no more spans than its budget and stays near its s
 }
 
 TEST_CASE("widely spaced sections: the spline does not swing out between them") {
-  const Sections sections{{0, 0, 0, 0.001f}, {0, 0.05f, 0, 0.001f}, {0.02f, 0.06f, 0, 0.001f}, {0.02f, 0.2f, 0, 0.001f}};
+  const Sections sections{
+      {0, 0, 0, 0.001f}, {0, 0.05f, 0, 0.001f}, {0.02f, 0.06f, 0, 0.001f}, {0.02f, 0.2f, 0, 0.001f}};
   const auto points = fitStrand(sections);
   for (int i = 0; i <= 200; ++i) {
     const vec4 at = evaluate(points, float(spanCount(points)) * float(i) / 200);
@@ -49,7 +50,8 @@ TEST_CASE("the paper's way goes through every section, a span between two") {
   Sections sections;
   for (int i = 0; i <= 24; ++i) {
     const float t = 0.2f * float(i);
-    sections.push_back(vec4(0.05f * std::cos(t), 0.01f * t, 0.05f * std::sin(t), 0.003f + 0.0005f * std::sin(3 * t)));
+    sections.push_back(
+        vec4(0.05f * std::cos(t), 0.01f * t, 0.05f * std::sin(t), 0.003f + 0.0005f * std::sin(3 * t)));
   }
   const auto through = fitStrand(sections, {.interpolate = true}), fitted = fitStrand(sections);
   REQUIRE(spanCount(through) == 24);

@@ -52,13 +52,15 @@ TEST_CASE("splitting a strand keeps its ends, its length and what hangs on it") 
   CHECK(graph.strands[second].endJoint == endJoint);
   CHECK(graph.joints[endJoint].ends[0] == StrandEnd{second, true});
   CHECK(graph.joints[cut].ends.size() == 2);
-  CHECK(lengthOf(graph.strands[trunk].sections) + lengthOf(graph.strands[second].sections) == doctest::Approx(0.1f));
+  CHECK(lengthOf(graph.strands[trunk].sections) + lengthOf(graph.strands[second].sections) ==
+        doctest::Approx(0.1f));
 }
 
 TEST_CASE("a circle of hosts is broken by splitting one of them") {
   // Two strands, each hanging with its end on the other's side.
   StrandGraph graph;
-  const auto a = addLine(graph, vec3(0), vec3(0, 0.1f, 0)), b = addLine(graph, vec3(0.03f, 0.1f, 0), vec3(0.03f, 0, 0));
+  const auto a = addLine(graph, vec3(0), vec3(0, 0.1f, 0)),
+             b = addLine(graph, vec3(0.03f, 0.1f, 0), vec3(0.03f, 0, 0));
   const StrandEnd endA{a, true}, endB{b, true};
   graph.join(b, vec3(0.03f, 0.05f, 0), std::span(&endA, 1));
   graph.join(a, vec3(0, 0.05f, 0), std::span(&endB, 1));

@@ -21,20 +21,24 @@ Assembly assembled(StrandGraph graph, const std::vector<SourceElement>& elements
 TEST_CASE("a tube measured against one that is a millimetre thicker") {
   StrandGraph graph;
   graph.add({sectionsBetween({0, 0, 0}, {0, 0.1f, 0}, 0.006f), 0, VesselKind::artery});
-  const std::vector<SourceElement> elements{source("a", tubeBetween({0, 0, 0}, {0, 0.1f, 0}, 0.005f, TubeEnds::open))};
+  const std::vector<SourceElement> elements{
+      source("a", tubeBetween({0, 0, 0}, {0, 0.1f, 0}, 0.005f, TubeEnds::open))};
   const auto errors = measureSurfaceErrors(assembled(std::move(graph), elements), elements, {});
-  const auto forward = statisticsOf(std::span(&errors[0].forward, 1)), backward = statisticsOf(std::span(&errors[0].backward, 1));
+  const auto forward = statisticsOf(std::span(&errors[0].forward, 1)),
+             backward = statisticsOf(std::span(&errors[0].backward, 1));
   CHECK(forward.mean == doctest::Approx(0.001f).epsilon(0.05));
   CHECK(forward.p95 == doctest::Approx(0.001f).epsilon(0.1));
   CHECK(backward.mean == doctest::Approx(0.001f).epsilon(0.05));
   CHECK(errors[0].coverage == 1);  // 20 % of the radius is more than the error
 }
 
-TEST_CASE("coverage is the share of the mesh near a wall; an element without vessels is measured against its stand-in") {
+TEST_CASE(
+    "coverage is the share of the mesh near a wall; an element without vessels is measured against its stand-in") {
   StrandGraph graph;
   graph.add({sectionsBetween({0, 0, 0}, {0, 0.05f, 0}, 0.005f), 0, VesselKind::artery});
   const auto mesh = tubeBetween({0, 0, 0}, {0, 0.1f, 0}, 0.005f, TubeEnds::open);
-  const std::vector<SourceElement> elements{source("half", mesh), source("again", mesh), source("alone", mesh)};
+  const std::vector<SourceElement> elements{source("half", mesh), source("again", mesh),
+                                            source("alone", mesh)};
   const std::vector<std::vector<std::uint32_t>> standIns{{}, {0}, {}};
   const auto errors = measureSurfaceErrors(assembled(std::move(graph), elements), elements, standIns);
   CHECK(errors[0].coverage == doctest::Approx(0.55).epsilon(0.06));

@@ -86,7 +86,9 @@ TEST_CASE("what ships is found, and never written") {
     const Keeping making({.shipped = {}, .own = folder.path() / "ships", .engine = 7});
     keep("things", 1, bytesOf(100));
   }
-  const Keeping keeping({.shipped = {folder.path() / "nowhere", folder.path() / "ships"}, .own = folder.path() / "own", .engine = 7});
+  const Keeping keeping({.shipped = {folder.path() / "nowhere", folder.path() / "ships"},
+                         .own = folder.path() / "own",
+                         .engine = 7});
   CHECK(findKept("things", 1) == bytesOf(100));
   CHECK_FALSE(fs::exists(folder.path() / "own"));
   keep("things", 2, bytesOf(100));
@@ -111,7 +113,8 @@ TEST_CASE("a damaged, cut, longer or foreign file is not found, and is renewed")
     change(file, at);
     CHECK(renewed());
   }
-  for (const std::uintmax_t size : {std::uintmax_t(0), std::uintmax_t(5), std::uintmax_t(32), whole - 1, whole + 1}) {
+  for (const std::uintmax_t size :
+       {std::uintmax_t(0), std::uintmax_t(5), std::uintmax_t(32), whole - 1, whole + 1}) {
     CAPTURE(size);
     fs::resize_file(file, size);
     CHECK(renewed());

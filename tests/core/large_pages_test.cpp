@@ -12,7 +12,8 @@ TEST_CASE("A large vector keeps its elements while it grows past a large page") 
   LargeVector<std::uint32_t> numbers;
   constexpr std::uint32_t kMany = 3'000'000;  // 12 MB
   for (std::uint32_t k = 0; k < kMany; ++k) numbers.push_back(k);
-  CHECK(std::accumulate(numbers.begin(), numbers.end(), std::uint64_t(0)) == std::uint64_t(kMany) * (kMany - 1) / 2);
+  CHECK(std::accumulate(numbers.begin(), numbers.end(), std::uint64_t(0)) ==
+        std::uint64_t(kMany) * (kMany - 1) / 2);
   numbers.resize(10);
   numbers.shrink_to_fit();
   CHECK(numbers.back() == 9);

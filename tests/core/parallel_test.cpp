@@ -28,12 +28,16 @@ TEST_CASE("every index is visited once, for any number of threads") {
 }
 
 TEST_CASE("an exception leaves the loop") {
-  CHECK_THROWS_AS(parallelFor(100, 1, [](std::size_t i) { if (i == 50) throw std::runtime_error("stop"); }),
+  CHECK_THROWS_AS(parallelFor(100, 1,
+                              [](std::size_t i) {
+                                if (i == 50) throw std::runtime_error("stop");
+                              }),
                   std::runtime_error);
 }
 
 #ifdef __linux__
-TEST_CASE("a thread that gives way and its loops' workers have a lower priority, and the thread beside it its own") {
+TEST_CASE(
+    "a thread that gives way and its loops' workers have a lower priority, and the thread beside it its own") {
   const auto priority = [] { return getpriority(PRIO_PROCESS, 0); };
   const int before = priority();
   setThreadCount(4);

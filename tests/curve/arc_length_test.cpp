@@ -15,7 +15,8 @@ TEST_CASE("arc length along a straight spline is the way along it, and back") {
 }
 
 TEST_CASE("arc length of a bent spline agrees with quadrature, and both ways are one another's inverse") {
-  const std::vector<vec4> points{{0, 0, 0, 1}, {1, 0, 0, 1}, {3, 1, 0, 1}, {4, 4, 1, 1}, {4, 6, 3, 1}, {0, 6, 5, 1}};
+  const std::vector<vec4> points{{0, 0, 0, 1}, {1, 0, 0, 1}, {3, 1, 0, 1},
+                                 {4, 4, 1, 1}, {4, 6, 3, 1}, {0, 6, 5, 1}};
   const ArcLength arc(points);
   CHECK(arc.length() == doctest::Approx(lengthOf(points)).epsilon(1e-4));
   for (int k = 0; k <= 30; ++k) {

@@ -26,9 +26,11 @@ double basis(int i, int degree, double u, int spans) {
     return (u >= knot(i) && u < knot(i + 1)) || last;
   }
   double sum = 0;
-  if (knot(i + degree) > knot(i)) sum += (u - knot(i)) / (knot(i + degree) - knot(i)) * basis(i, degree - 1, u, spans);
+  if (knot(i + degree) > knot(i))
+    sum += (u - knot(i)) / (knot(i + degree) - knot(i)) * basis(i, degree - 1, u, spans);
   if (knot(i + degree + 1) > knot(i + 1))
-    sum += (knot(i + degree + 1) - u) / (knot(i + degree + 1) - knot(i + 1)) * basis(i + 1, degree - 1, u, spans);
+    sum += (knot(i + degree + 1) - u) / (knot(i + degree + 1) - knot(i + 1)) *
+           basis(i + 1, degree - 1, u, spans);
   return sum;
 }
 
@@ -37,12 +39,11 @@ double basis(int i, int degree, double u, int spans) {
 TEST_CASE("inner spans have the uniform B-spline's matrix") {
   const mat4 m = spanToBezier(5, 12);
   const vec4 d(6, 12, 18, 30);  // b0 = (d0+4d1+d2)/6 and so on
-  CHECK(glm::distance(m * d, vec4((6 + 48 + 18) / 6.0f, (24 + 18) / 3.0f, (12 + 36) / 3.0f, (12 + 72 + 30) / 6.0f)) < 1e-5f);
+  CHECK(glm::distance(m * d, vec4((6 + 48 + 18) / 6.0f, (24 + 18) / 3.0f, (12 + 36) / 3.0f,
+                                  (12 + 72 + 30) / 6.0f)) < 1e-5f);
 }
 
-TEST_CASE("one span is its own Bezier") {
-  CHECK(spanToBezier(0, 1) == mat4(1));
-}
+TEST_CASE("one span is its own Bezier") { CHECK(spanToBezier(0, 1) == mat4(1)); }
 
 TEST_CASE("the spline is the one of the textbook, for every number of spans") {
   for (const std::uint32_t spans : {1u, 2u, 3u, 4u, 5u, 9u}) {
@@ -50,7 +51,8 @@ TEST_CASE("the spline is the one of the textbook, for every number of spans") {
     for (int step = 0; step <= 40; ++step) {
       const float u = float(spans) * float(step) / 40;
       glm::dvec4 expected(0);
-      for (int i = 0; i < int(points.size()); ++i) expected += basis(i, 3, double(u), int(spans)) * glm::dvec4(points[i]);
+      for (int i = 0; i < int(points.size()); ++i)
+        expected += basis(i, 3, double(u), int(spans)) * glm::dvec4(points[i]);
       CHECK(glm::distance(vec4(expected), evaluate(points, u)) < 2e-6f);
     }
     CHECK(evaluate(points, 0) == points.front());

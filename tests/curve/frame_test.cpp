@@ -14,7 +14,8 @@ std::vector<vec4> wavyVessel(std::uint32_t spans, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> side(-0.3f, 0.3f);
   std::vector<vec4> points;
-  for (std::uint32_t i = 0; i < spans + 3; ++i) points.push_back({side(random), float(i), side(random), 0.1f});
+  for (std::uint32_t i = 0; i < spans + 3; ++i)
+    points.push_back({side(random), float(i), side(random), 0.1f});
   return points;
 }
 

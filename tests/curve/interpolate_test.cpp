@@ -43,7 +43,9 @@ TEST_CASE("jagged samples are met, and no radius coefficient falls towards zero"
     std::vector<vec4> samples{{0, 0, 0, radius(random)}};
     for (int i = 0; i < 3 + round % 40; ++i) {
       const float scale = i % 5 == 0 ? 3.0f : 0.2f;
-      samples.push_back(vec4(vec3(samples.back()) + scale * vec3(step(random), step(random), 0.01f + step(random)), radius(random)));
+      samples.push_back(
+          vec4(vec3(samples.back()) + scale * vec3(step(random), step(random), 0.01f + step(random)),
+               radius(random)));
     }
     const SampledSpline spline = interpolateSamples(samples);
     CHECK(largestMiss(samples, spline) < 1e-4f);

@@ -24,7 +24,8 @@ template <class Better>
 float extremeRadius(const Network& network, const std::string& name, Better better) {
   const auto points = pointsOf(network, name);
   float best = points.front().w;
-  for (std::uint32_t k = 0; k <= 32 * spanCount(points); ++k) best = better(best, evaluate(points, float(k) / 32).w);
+  for (std::uint32_t k = 0; k <= 32 * spanCount(points); ++k)
+    best = better(best, evaluate(points, float(k) / 32).w);
   return best;
 }
 
@@ -32,9 +33,12 @@ float extremeRadius(const Network& network, const std::string& name, Better bett
 
 Network smallTree() {
   NetworkBuilder builder;
-  const VesselId trunk = builder.addVessel({"trunk", "", VesselKind::artery}, line({0, 1, 0}, {0, 1, 0.2f}, 0.005f, 0.004f, 10));
-  const VesselId side = builder.addVessel({"side", "", VesselKind::artery}, line({0, 1, 0.08f}, {0.06f, 1, 0.08f}, 0.002f, 0.002f, 6));
-  const VesselId twig = builder.addVessel({"twig", "", VesselKind::artery}, line({0.04f, 1, 0.08f}, {0.04f, 1.03f, 0.08f}, 0.001f, 0.001f, 3));
+  const VesselId trunk =
+      builder.addVessel({"trunk", "", VesselKind::artery}, line({0, 1, 0}, {0, 1, 0.2f}, 0.005f, 0.004f, 10));
+  const VesselId side = builder.addVessel({"side", "", VesselKind::artery},
+                                          line({0, 1, 0.08f}, {0.06f, 1, 0.08f}, 0.002f, 0.002f, 6));
+  const VesselId twig = builder.addVessel({"twig", "", VesselKind::artery},
+                                          line({0.04f, 1, 0.08f}, {0.04f, 1.03f, 0.08f}, 0.001f, 0.001f, 3));
   builder.addVessel({"far", "", VesselKind::vein}, line({0, 1.04f, 0}, {0, 1.04f, 0.2f}, 0.003f, 0.003f, 10));
   builder.joinToSide({side, false}, {trunk, 4});
   builder.joinToSide({twig, false}, {side, 4});

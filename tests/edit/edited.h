@@ -5,8 +5,9 @@
 
 namespace vasa::test {
 
-/// A trunk of 200 mm along z (radius 5 mm, thinning to 4), an artery "side" of 60 mm that leaves it at 80 mm along x
-/// (radius 2 mm), "twig" of 30 mm on that, and "far", 40 mm off in y beside the trunk and as long, of 3 mm radius.
+/// A trunk of 200 mm along z (radius 5 mm, thinning to 4), an artery "side" of 60 mm that leaves it at 80 mm
+/// along x (radius 2 mm), "twig" of 30 mm on that, and "far", 40 mm off in y beside the trunk and as long, of
+/// 3 mm radius.
 Network smallTree();
 
 /// The journal's lines replayed onto a network.

@@ -40,13 +40,17 @@ TEST_CASE("a graft is led around what lies across its way") {
   const Network wall = smallTree();
   // Seven vessels across the straight way, 6 mm apart: none of them is run through.
   NetworkBuilder builder;
-  for (const Vessel& vessel : wall.vessels()) builder.addVessel({vessel.name, "", vessel.kind}, {wall.pointsOf(vessel).begin(), wall.pointsOf(vessel).end()});
+  for (const Vessel& vessel : wall.vessels())
+    builder.addVessel({vessel.name, "", vessel.kind},
+                      {wall.pointsOf(vessel).begin(), wall.pointsOf(vessel).end()});
   for (int k = 0; k < 7; ++k) {
     std::vector<vec4> bar;
-    for (int j = 0; j < 7; ++j) bar.emplace_back(-0.035f + 0.01f * float(j), 1.02f, 0.07f + 0.006f * float(k), 0.0015f);
+    for (int j = 0; j < 7; ++j)
+      bar.emplace_back(-0.035f + 0.01f * float(j), 1.02f, 0.07f + 0.006f * float(k), 0.0015f);
     builder.addVessel({"bar" + std::to_string(k), "", VesselKind::vein}, bar);
   }
-  for (const Node& node : wall.nodes()) builder.addNode(node.host, {wall.ends(node).begin(), wall.ends(node).end()});
+  for (const Node& node : wall.nodes())
+    builder.addNode(node.host, {wall.ends(node).begin(), wall.ends(node).end()});
   const auto built = builder.build(1.7f);
   REQUIRE(built.ok());
   REQUIRE(overlaps(*built) == 0);
@@ -59,6 +63,8 @@ TEST_CASE("a graft is led around what lies across its way") {
 TEST_CASE("a graft passes the places that it is led through") {
   const Network after = edited(smallTree(), "graft trunk 0.2 far 0.8 2 by via -40 1020 100");
   float nearest = 1;
-  for (int k = 0; k <= 1000; ++k) nearest = std::min(nearest, glm::distance(vec3(at(after, "by", float(k) / 1000)), vec3(-0.04f, 1.02f, 0.1f)));
+  for (int k = 0; k <= 1000; ++k)
+    nearest =
+        std::min(nearest, glm::distance(vec3(at(after, "by", float(k) / 1000)), vec3(-0.04f, 1.02f, 0.1f)));
   CHECK(nearest < 0.001f);
 }

@@ -25,7 +25,8 @@ Operation only(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a journal's operations, comments, quotes and line ends are read") {
-  const auto edits = parseJournal("# lesions\r\n\n  stenosis \"a \\\"b\\\" c\" 0.1 12 70 # half\r\nkind aorta vein", "f.vedit");
+  const auto edits = parseJournal(
+      "# lesions\r\n\n  stenosis \"a \\\"b\\\" c\" 0.1 12 70 # half\r\nkind aorta vein", "f.vedit");
   REQUIRE(edits.ok());
   REQUIRE(edits->size() == 2);
   CHECK((*edits)[0].where() == "f.vedit:3");
@@ -67,34 +68,47 @@ TEST_CASE("an operation written as a line is read as the same") {
 }
 
 TEST_CASE("what is wrong in a journal is told with its line and how it is written") {
-  CHECK(faultOf("\n\nshrink v 0.1") == "f.vedit:3: 'shrink' is no operation; use one of radius, stenosis, aneurysm, move, stent, graft, branch, occlude, "
-                                       "cut, join, rename, kind, delete");
-  CHECK(faultOf("occlude \"v 0.1") == "f.vedit:1: a name's closing quote is missing; names stand in double quotes");
-  CHECK(faultOf("occlude \"v\tx\" 0.1") == "f.vedit:1: a name holds a control character; names stand in double quotes");
+  CHECK(
+      faultOf("\n\nshrink v 0.1") ==
+      "f.vedit:3: 'shrink' is no operation; use one of radius, stenosis, aneurysm, move, stent, graft, branch, occlude, "
+      "cut, join, rename, kind, delete");
+  CHECK(faultOf("occlude \"v 0.1") ==
+        "f.vedit:1: a name's closing quote is missing; names stand in double quotes");
+  CHECK(faultOf("occlude \"v\tx\" 0.1") ==
+        "f.vedit:1: a name holds a control character; names stand in double quotes");
   CHECK(faultOf("\"occlude\" v 0.1").find("is no operation") != std::string::npos);
   CHECK(faultOf("occlude v") == "f.vedit:1: occlude: s is missing; write occlude V s");
   CHECK(faultOf("occlude \"\" 1") == "f.vedit:1: occlude: V must not be empty; write occlude V s");
-  CHECK(faultOf("occlude v 1.5") == "f.vedit:1: occlude: s must be a number from 0 to 1, not '1.5'; write occlude V s");
+  CHECK(faultOf("occlude v 1.5") ==
+        "f.vedit:1: occlude: s must be a number from 0 to 1, not '1.5'; write occlude V s");
   CHECK(faultOf("occlude v nan").find("not 'nan'") != std::string::npos);
   CHECK(faultOf("occlude v \"0.5\"").find("not \"0.5\"") != std::string::npos);
   CHECK(faultOf("occlude v 0.5 0.6") == "f.vedit:1: occlude: '0.6' is one word too many; write occlude V s");
-  CHECK(faultOf("stenosis v 0.5 12 100") ==
-        "f.vedit:1: stenosis: percent must be a number from 1 to 99, not '100'; write stenosis V s length_mm percent [eccentricity]");
-  CHECK(faultOf("radius v 0.5 0.5 x2") == "f.vedit:1: radius: s0 must be less than s1; write radius V s0 s1 xF [smooth]");
+  CHECK(
+      faultOf("stenosis v 0.5 12 100") ==
+      "f.vedit:1: stenosis: percent must be a number from 1 to 99, not '100'; write stenosis V s length_mm percent [eccentricity]");
+  CHECK(faultOf("radius v 0.5 0.5 x2") ==
+        "f.vedit:1: radius: s0 must be less than s1; write radius V s0 s1 xF [smooth]");
   CHECK(faultOf("move v 0.5 0 0 0").find("dx dy dz must not all be 0") != std::string::npos);
-  CHECK(faultOf("move v 0.5 0 x 0").find("dy must be a number from -5000 to 5000, not 'x'") != std::string::npos);
-  CHECK(faultOf("kind v nerve") == "f.vedit:1: kind: kind must be one of artery, vein, other, portal, lymphatic, not 'nerve'; write kind V "
-                                   "artery|vein|other|portal|lymphatic");
+  CHECK(faultOf("move v 0.5 0 x 0").find("dy must be a number from -5000 to 5000, not 'x'") !=
+        std::string::npos);
+  CHECK(
+      faultOf("kind v nerve") ==
+      "f.vedit:1: kind: kind must be one of artery, vein, other, portal, lymphatic, not 'nerve'; write kind V "
+      "artery|vein|other|portal|lymphatic");
   CHECK(faultOf("join a a").find("A and B must be two vessels") != std::string::npos);
   CHECK(faultOf("graft a 0 a 1 2").find("A and B must be two vessels") != std::string::npos);
   CHECK(faultOf("graft a 0 b 1 2 via 1 2").find("a coordinate is missing") != std::string::npos);
-  CHECK(faultOf("aneurysm a 0 10 20 inside").find("side must be one of left, right, front, back, up, down, not 'inside'") != std::string::npos);
+  CHECK(faultOf("aneurysm a 0 10 20 inside")
+            .find("side must be one of left, right, front, back, up, down, not 'inside'") !=
+        std::string::npos);
   CHECK(readJournal("/nowhere/x.vedit").error().fault == Fault::io);
 }
 
 TEST_CASE("the grammar names every operation once") {
   const std::string grammar = journalGrammar();
   CHECK(grammar.find("graft A s B s radius_mm [name] [via x y z ...]\n") != std::string::npos);
-  CHECK(grammar.find("aneurysm V s length_mm diameter_mm [left|right|front|back|up|down]\n") != std::string::npos);
+  CHECK(grammar.find("aneurysm V s length_mm diameter_mm [left|right|front|back|up|down]\n") !=
+        std::string::npos);
   CHECK(std::count(grammar.begin(), grammar.end(), '\n') == 13);
 }

@@ -5,9 +5,11 @@
 using namespace vasa;
 
 TEST_CASE("the names that were likely meant come nearest first") {
-  const std::vector<std::string> names{"left femoral artery", "right femoral artery", "left femoral vein", "aorta"};
+  const std::vector<std::string> names{"left femoral artery", "right femoral artery", "left femoral vein",
+                                       "aorta"};
   CHECK(nearestNames("left femorla artery", names, 1) == std::vector<std::string>{"left femoral artery"});
-  CHECK(nearestNames("LEFT FEMORAL ARTERY", names, 2) == std::vector<std::string>{"left femoral artery", "right femoral artery"});
+  CHECK(nearestNames("LEFT FEMORAL ARTERY", names, 2) ==
+        std::vector<std::string>{"left femoral artery", "right femoral artery"});
   CHECK(nearestNames("femoral", names, 9).size() == 3);
   CHECK(nearestNames("aorat", names, 9) == std::vector<std::string>{"aorta"});
   CHECK(nearestNames("xyz", names, 9).empty());

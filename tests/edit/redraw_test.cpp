@@ -16,7 +16,8 @@ std::vector<vec4> helix() {
   std::vector<vec4> points;
   for (int i = 0; i < 23; ++i) {
     const float angle = 0.35f * float(i);
-    points.emplace_back(0.03f * std::cos(angle), 0.03f * std::sin(angle), 0.01f * float(i), 0.004f - 0.00008f * float(i));
+    points.emplace_back(0.03f * std::cos(angle), 0.03f * std::sin(angle), 0.01f * float(i),
+                        0.004f - 0.00008f * float(i));
   }
   return points;
 }
@@ -27,14 +28,16 @@ float farthest(std::span<const vec4> a, std::span<const vec4> b, float from, flo
   float most = 0;
   for (int k = 0; k <= 500; ++k) {
     const float s = std::lerp(from, to, float(k) / 500);
-    most = std::max(most, glm::distance(evaluate(a, along.parameterAt(s)), evaluate(b, other.parameterAt(s))));
+    most =
+        std::max(most, glm::distance(evaluate(a, along.parameterAt(s)), evaluate(b, other.parameterAt(s))));
   }
   return most;
 }
 
 }  // namespace
 
-TEST_CASE("a stretch drawn anew with nothing changed stays where it was; what is far keeps its points to the last bit") {
+TEST_CASE(
+    "a stretch drawn anew with nothing changed stays where it was; what is far keeps its points to the last bit") {
   const auto points = helix();
   const ArcLength arc(points);
   const float middle = 0.5f * arc.length();
@@ -44,8 +47,10 @@ TEST_CASE("a stretch drawn anew with nothing changed stays where it was; what is
   CHECK(drawn.centreError < 8e-5f);
   CHECK(farthest(points, drawn.points, 0, arc.length()) < 1e-4f);
   const std::size_t more = drawn.points.size() - points.size();
-  for (std::uint32_t j = 0; j <= std::uint32_t(drawn.changedFrom) + 2; ++j) CHECK(drawn.points[j] == points[j]);
-  for (std::uint32_t j = std::uint32_t(drawn.changedTo); j < points.size(); ++j) CHECK(drawn.points[j + more] == points[j]);
+  for (std::uint32_t j = 0; j <= std::uint32_t(drawn.changedFrom) + 2; ++j)
+    CHECK(drawn.points[j] == points[j]);
+  for (std::uint32_t j = std::uint32_t(drawn.changedTo); j < points.size(); ++j)
+    CHECK(drawn.points[j + more] == points[j]);
   CHECK(drawn.changedFrom >= 3);
   CHECK(drawn.changedTo <= 17);
   // Places keep where they are: exactly far off, within a fortieth of the radius elsewhere.
@@ -62,13 +67,16 @@ TEST_CASE("a radius is drawn as it was asked for, in the middle and over an end"
   const ArcLength arc(points);
   for (const float middle : {0.5f * arc.length(), 0.004f, arc.length() - 0.004f}) {
     Redrawing redrawing{std::max(middle - 0.006f, 0.0f), std::min(middle + 0.006f, arc.length()), 0.0012f};
-    redrawing.shape = [&](float along, vec4 was) { return vec4(vec3(was), was.w * (1 - 0.7f * bump((along - middle) / 0.006f))); };
+    redrawing.shape = [&](float along, vec4 was) {
+      return vec4(vec3(was), was.w * (1 - 0.7f * bump((along - middle) / 0.006f)));
+    };
     const Redrawn drawn = redrawVessel(points, redrawing);
     CHECK(drawn.radiusError < 0.006f);
     const ArcLength now(drawn.points);
     for (int k = 0; k <= 300; ++k) {
       const float s = arc.length() * float(k) / 300, was = evaluate(points, arc.parameterAt(s)).w;
-      CHECK(evaluate(drawn.points, now.parameterAt(s)).w == doctest::Approx(was * (1 - 0.7f * bump((s - middle) / 0.006f))).epsilon(0.01));
+      CHECK(evaluate(drawn.points, now.parameterAt(s)).w ==
+            doctest::Approx(was * (1 - 0.7f * bump((s - middle) / 0.006f))).epsilon(0.01));
     }
   }
 }
@@ -91,9 +99,12 @@ TEST_CASE("cutting an end off keeps the course of the rest") {
 }
 
 TEST_CASE("vessels of one span can be drawn anew") {
-  const std::vector<vec4> points{{0, 0, 0, 0.002f}, {0, 0, 0.01f, 0.002f}, {0, 0, 0.02f, 0.002f}, {0, 0, 0.03f, 0.002f}};
+  const std::vector<vec4> points{
+      {0, 0, 0, 0.002f}, {0, 0, 0.01f, 0.002f}, {0, 0, 0.02f, 0.002f}, {0, 0, 0.03f, 0.002f}};
   Redrawing redrawing{0.01f, 0.02f, 0.001f};
-  redrawing.shape = [](float along, vec4 was) { return vec4(vec3(was), was.w * (1 - 0.5f * bump((along - 0.015f) / 0.005f))); };
+  redrawing.shape = [](float along, vec4 was) {
+    return vec4(vec3(was), was.w * (1 - 0.5f * bump((along - 0.015f) / 0.005f)));
+  };
   const Redrawn drawn = redrawVessel(points, redrawing);
   CHECK(drawn.radiusError < 0.006f);
   CHECK(drawn.points.front() == points.front());

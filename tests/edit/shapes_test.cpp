@@ -13,7 +13,8 @@ TEST_CASE("a stenosis narrows the diameter by its per cent where it is, and noth
   for (const int percent : {30, 70, 95, 99}) {
     const Network after = edited(before, "stenosis trunk 0.7 12 " + std::to_string(percent));
     const float was = at(before, "trunk", 0.7f).w;
-    CHECK(leastRadius(after, "trunk") == doctest::Approx(was * (1 - 0.01 * percent)).epsilon(percent > 90 ? 0.05 : 0.005));
+    CHECK(leastRadius(after, "trunk") ==
+          doctest::Approx(was * (1 - 0.01 * percent)).epsilon(percent > 90 ? 0.05 : 0.005));
     CHECK(at(after, "trunk", 0.5f).w == doctest::Approx(at(before, "trunk", 0.5f).w).epsilon(0.002));
     CHECK(at(after, "trunk", 0.74f).w == doctest::Approx(at(before, "trunk", 0.74f).w).epsilon(0.01));
     CHECK(glm::distance(vec3(at(after, "trunk", 0.7f)), vec3(at(before, "trunk", 0.7f))) < 2e-5f);
@@ -95,14 +96,21 @@ TEST_CASE("shapes that can not be are refused with line, vessel, place and rule"
   const Network tree = smallTree();
   CHECK(refusalOf(tree, "\nstenosis trnk 0.1 12 70") ==
         "t.vedit:2: stenosis of \"trnk\" at 0.1: no vessel has this name; is one of these meant: \"trunk\"?");
-  CHECK(refusalOf(tree, "occlude spleen 0.1").find("no vessel has this name; vasa info --vessels lists all") != std::string::npos);
-  CHECK(refusalOf(tree, "stenosis side 0.5 90 70").find("length_mm 90.0 is more than the vessel's own 60.0 mm") != std::string::npos);
-  CHECK(refusalOf(tree, "aneurysm side 0.5 90 70").find("length_mm 90.0 is more than the vessel's own 60.0 mm") != std::string::npos);
-  CHECK(refusalOf(tree, "aneurysm side 0.5 10 3") ==
-        "t.vedit:1: aneurysm of \"side\" at 0.5: diameter_mm 3.0 is no more than the 4.0 mm that the vessel has there");
+  CHECK(
+      refusalOf(tree, "occlude spleen 0.1").find("no vessel has this name; vasa info --vessels lists all") !=
+      std::string::npos);
+  CHECK(refusalOf(tree, "stenosis side 0.5 90 70")
+            .find("length_mm 90.0 is more than the vessel's own 60.0 mm") != std::string::npos);
+  CHECK(refusalOf(tree, "aneurysm side 0.5 90 70")
+            .find("length_mm 90.0 is more than the vessel's own 60.0 mm") != std::string::npos);
+  CHECK(
+      refusalOf(tree, "aneurysm side 0.5 10 3") ==
+      "t.vedit:1: aneurysm of \"side\" at 0.5: diameter_mm 3.0 is no more than the 4.0 mm that the vessel has there");
   CHECK(refusalOf(tree, "aneurysm side 0.5 10 8 left").find("runs to that side itself") != std::string::npos);
-  CHECK(refusalOf(tree, "aneurysm trunk 0.7 40 40 left").find("the wall would fold over itself at") != std::string::npos);
-  CHECK(refusalOf(tree, "stent side 0.1 0.9 1").find("nowhere narrower there than radius_mm 1.00") != std::string::npos);
+  CHECK(refusalOf(tree, "aneurysm trunk 0.7 40 40 left").find("the wall would fold over itself at") !=
+        std::string::npos);
+  CHECK(refusalOf(tree, "stent side 0.1 0.9 1").find("nowhere narrower there than radius_mm 1.00") !=
+        std::string::npos);
   CHECK(refusalOf(tree, "move side 0 0 5 0").find("too near to be moved by 5.0 mm") != std::string::npos);
   CHECK(refusalOf(tree, "move side 0.5 0 5 0 3").find("too near to be moved by 5.0 mm") != std::string::npos);
 }

@@ -8,7 +8,8 @@ using namespace vasa;
 using namespace vasa::test;
 
 TEST_CASE("a branch is appended, leaves where it was asked to, and takes its host's kind") {
-  const Network before = smallTree(), after = edited(before, "branch trunk 0.8 bud 1.5 25 0 -1 0.5\nbranch far 1 on 3 20 0 0 1");
+  const Network before = smallTree(),
+                after = edited(before, "branch trunk 0.8 bud 1.5 25 0 -1 0.5\nbranch far 1 on 3 20 0 0 1");
   REQUIRE(after.vessels().size() == 6);
   CHECK(after.vessels()[4].name == "bud");
   CHECK(after.vessels()[4].kind == VesselKind::artery);
@@ -70,7 +71,8 @@ TEST_CASE("operations on vessels that can not be are refused with the rule") {
   };
   refuses("branch trunk 0.5 side 1 20 1 0 0", "another vessel is named \"side\" already");
   refuses("branch trunk 0.5 bud 1 20 0.1 0 1", "dx dy dz runs along the vessel, 6 degrees off its course");
-  refuses("branch trunk 0.5 bud 1 4 1 0 0", "length_mm 4.0 ends within the vessel, whose wall it meets after 4.5 mm");
+  refuses("branch trunk 0.5 bud 1 4 1 0 0",
+          "length_mm 4.0 ends within the vessel, whose wall it meets after 4.5 mm");
   refuses("graft trunk 0.2 fra 0.5 2", "\"fra\": no vessel has this name; is one of these meant: \"far\"?");
   refuses("graft trunk 0.2 TRUNK 0.5 2", "A and B must be two vessels");
   refuses("graft trunk 0.2 far 0.5 2 side", "another vessel is named \"side\" already");
@@ -85,6 +87,9 @@ TEST_CASE("operations on vessels that can not be are refused with the rule") {
 TEST_CASE("the last vessel can not be deleted, nor vessels joined that both meet others") {
   const Network one = edited(smallTree(), "delete trunk tree");
   CHECK(refusalOf(one, "delete far").find("no vessel would be left") != std::string::npos);
-  const Network held = edited(smallTree(), "branch far 0 low 1 9 0 0 -1\nbranch far 0 low2 1 9 1 0 -1\nbranch far 1 high 1 9 0 0 1\nbranch far 1 high2 1 9 1 0 1");
-  CHECK(refusalOf(held, "join far trunk").find("no end of it and none of \"trunk\" are both free") != std::string::npos);
+  const Network held = edited(
+      smallTree(),
+      "branch far 0 low 1 9 0 0 -1\nbranch far 0 low2 1 9 1 0 -1\nbranch far 1 high 1 9 0 0 1\nbranch far 1 high2 1 9 1 0 1");
+  CHECK(refusalOf(held, "join far trunk").find("no end of it and none of \"trunk\" are both free") !=
+        std::string::npos);
 }

@@ -15,8 +15,8 @@ trap 'rm -rf "$work"' EXIT
 echo "== export"
 "$vasa" export "$@" -o "$work/a.glb" --quads 6x3 --budget 400 --json > "$work/glb.json"
 frames=$(grep -o '"frames": [0-9]*' "$work/glb.json" | grep -o '[0-9]*')
-picked="0 $((frames / 2)) $((frames - 1))"
-for frame in $picked; do "$vasa" export "$@" --frames "$frame" --quads 6x3 -o "$work/$frame.obj" --quiet > /dev/null; done
+picked=(0 $((frames / 2)) $((frames - 1)))
+for frame in "${picked[@]}"; do "$vasa" export "$@" --frames "$frame" --quads 6x3 -o "$work/$frame.obj" --quiet > /dev/null; done
 "$vasa" export "$@" -o "$work/a.vtp" > /dev/null
 
 echo "== glTF validator"
@@ -44,7 +44,7 @@ fi
 
 echo "== Blender"
 if command -v blender > /dev/null; then
-  blender --background --factory-startup --python-exit-code 1 --python "$here/blender_compare.py" -- "$work/a.glb" "$work" $picked 2>&1 | grep -E '^(frame|error|Error|Traceback|objects)' || { echo "failed in Blender"; exit 1; }
+  blender --background --factory-startup --python-exit-code 1 --python "$here/blender_compare.py" -- "$work/a.glb" "$work" "${picked[@]}" 2>&1 | grep -E '^(frame|error|Error|Traceback|objects)' || { echo "failed in Blender"; exit 1; }
 else
   echo "skipped: blender is not installed"
 fi

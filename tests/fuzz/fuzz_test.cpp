@@ -17,7 +17,9 @@ namespace {
 
 std::vector<std::string> corpusOf(const char* name) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(sourceDirectory() / "tests/fuzz/corpus" / name)) files.push_back(entry.path());
+  for (const auto& entry :
+       std::filesystem::directory_iterator(sourceDirectory() / "tests/fuzz/corpus" / name))
+    files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<std::string> contents;
   for (const auto& file : files) {
@@ -27,7 +29,8 @@ std::vector<std::string> corpusOf(const char* name) {
   return contents;
 }
 
-// Random damage for so long; libFuzzer (./test.sh fuzz) looks where the code branches and goes on for as long as one likes.
+// Random damage for so long; libFuzzer (./test.sh fuzz) looks where the code branches and goes on for as long
+// as one likes.
 double secondsEach() {
   const char* told = std::getenv("VASA_FUZZ_SECONDS");
   return told ? std::atof(told) : 0.5;

@@ -1,5 +1,5 @@
-// Shapes that once took time or memory in the square of a file's size, or a thousand times its size: each is made n, 2n and
-// 4n large, and read or refused within the limits of io/read_limits.h.
+// Shapes that once took time or memory in the square of a file's size, or a thousand times its size: each is
+// made n, 2n and 4n large, and read or refused within the limits of io/read_limits.h.
 #include <doctest/doctest.h>
 #include <time.h>
 #include <zlib.h>
@@ -45,9 +45,7 @@ std::string times(std::size_t n, const std::function<std::string(std::size_t)>& 
 std::string times(std::size_t n, const std::string& part) {
   return times(n, [&](std::size_t) { return part; });
 }
-std::string of(std::size_t i) {
-  return std::to_string(i);
-}
+std::string of(std::size_t i) { return std::to_string(i); }
 
 double processorSeconds() {
   timespec now{};
@@ -56,7 +54,8 @@ double processorSeconds() {
 }
 
 /// The least of three runs: what else the machine does only adds. @param read  gives the message of a refusal
-double secondsFor(const std::string& file, const std::function<std::string(const std::string&)>& read, std::string& refusal) {
+double secondsFor(const std::string& file, const std::function<std::string(const std::string&)>& read,
+                  std::string& refusal) {
   double least = 1e9;
   for (int run = 0; run < 3; ++run) {
     const double before = processorSeconds();
@@ -66,7 +65,8 @@ double secondsFor(const std::string& file, const std::function<std::string(const
   return least;
 }
 
-void checkGrowth(const std::vector<Shape>& shapes, const std::function<std::string(const std::string&)>& read) {
+void checkGrowth(const std::vector<Shape>& shapes,
+                 const std::function<std::string(const std::string&)>& read) {
   const LogLevel level = logLevel();
   setLogLevel(LogLevel::quiet);
   for (const Shape& shape : shapes) {
@@ -82,12 +82,13 @@ void checkGrowth(const std::vector<Shape>& shapes, const std::function<std::stri
       CAPTURE(file.size());
       CAPTURE(memory);
       if (countsMemory()) CHECK(memory <= kMemoryTimes * file.size() + kMemoryFree);
-      told += "  " + of(file.size() / 1000) + " kB " + of(std::size_t(seconds[k] * 1e6)) + " us " + of(memory / 1000) + " kB" +
-              (refusal.empty() ? "" : " refused");
+      told += "  " + of(file.size() / 1000) + " kB " + of(std::size_t(seconds[k] * 1e6)) + " us " +
+              of(memory / 1000) + " kB" + (refusal.empty() ? "" : " refused");
       if (k == 2 && !refusal.empty()) told += ": " + refusal.substr(0, 160);
     }
     MESSAGE(std::string(shape.name) << told);
-    // In proportion it is four times as long, in the square sixteen times. The tenth of a second is for what the system does.
+    // In proportion it is four times as long, in the square sixteen times. The tenth of a second is for what
+    // the system does.
     CHECK(seconds[2] < 8 * seconds[0] + 0.1);
   }
   setLogLevel(level);
@@ -100,9 +101,7 @@ std::string messageOf(const Result<T>& result) {
   return result.error().message;
 }
 
-std::span<const std::byte> bytesOf(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
+std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 constexpr float kTriangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
@@ -115,9 +114,7 @@ const std::string kAccessor = R"({"bufferView":0,"type":"VEC3","componentType":5
 const std::string kAccessors = R"("accessors":[)" + kAccessor + "],";
 const std::string kMesh = kAccessors + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)";
 
-std::string list(const std::string& items) {
-  return "[" + items.substr(0, items.size() - 1) + "]";
-}
+std::string list(const std::string& items) { return "[" + items.substr(0, items.size() - 1) + "]"; }
 
 // Zeros, packed as tightly as zlib can.
 std::string packedZeros(std::size_t megabytes) {
@@ -129,18 +126,21 @@ std::string packedZeros(std::size_t megabytes) {
   header.insert(header.end(), megabytes, std::uint32_t(size));
   std::vector<std::byte> data;
   for (std::size_t i = 0; i < megabytes; ++i)
-    data.insert(data.end(), reinterpret_cast<std::byte*>(packed.data()), reinterpret_cast<std::byte*>(packed.data() + size));
+    data.insert(data.end(), reinterpret_cast<std::byte*>(packed.data()),
+                reinterpret_cast<std::byte*>(packed.data() + size));
   return encodeBase64(std::as_bytes(std::span(header))) + encodeBase64(data);
 }
 
 std::string vtpWith(const std::string& pieces) {
-  return R"(<VTKFile type="PolyData" byte_order="LittleEndian" compressor="vtkZLibDataCompressor"><PolyData>)" + pieces + "</PolyData></VTKFile>";
+  return R"(<VTKFile type="PolyData" byte_order="LittleEndian" compressor="vtkZLibDataCompressor"><PolyData>)" +
+         pieces + "</PolyData></VTKFile>";
 }
 std::string vtpPiece(const std::string& cells) {
   return R"(<Piece NumberOfPoints="2" NumberOfLines="1"><Points><DataArray type="Float32" format="ascii">0 0 0 1 0 0</DataArray></Points>)"
          R"(<PointData><DataArray type="Float32" Name="Radius" format="ascii">1 1</DataArray></PointData>)"
          R"(<Lines><DataArray type="Int32" Name="connectivity" format="ascii">0 1</DataArray><DataArray type="Int32" Name="offsets" format="ascii">2</DataArray></Lines>)"
-         "<CellData>" + cells + "</CellData></Piece>";
+         "<CellData>" +
+         cells + "</CellData></Piece>";
 }
 
 // The chunks of a network with header and checksum.
@@ -170,36 +170,53 @@ TEST_CASE("glTF of nasty shapes grows in proportion") {
           {"empty nodes", 30'000, [&](std::size_t n) { return nodes(R"({"mesh":0},)" + times(n, "{},")); }},
           {"nodes with one mesh", 10'000, [&](std::size_t n) { return nodes(times(n, R"({"mesh":0},)")); }},
           {"a chain of nodes", 8'000,
-           [&](std::size_t n) { return nodes(times(n, [](std::size_t i) { return R"({"children":[)" + of(i + 1) + "]},"; }) + R"({"mesh":0},)"); }},
+           [&](std::size_t n) {
+             return nodes(times(n, [](std::size_t i) { return R"({"children":[)" + of(i + 1) + "]},"; }) +
+                          R"({"mesh":0},)");
+           }},
           {"children of one node", 10'000,
            [&](std::size_t n) {
-             return nodes(R"({"mesh":0,"children":)" + list(times(n, [](std::size_t i) { return of(i + 1) + ","; })) + "}," + times(n, "{},"));
+             return nodes(R"({"mesh":0,"children":)" +
+                          list(times(n, [](std::size_t i) { return of(i + 1) + ","; })) + "}," +
+                          times(n, "{},"));
            }},
           {"primitives", 4'000,
            [](std::size_t n) {
-             return gltfWith(kAccessors + R"("meshes":[{"primitives":)" + list(times(n, R"({"attributes":{"POSITION":0}},)")) + R"(}],"nodes":[{"mesh":0}])");
+             return gltfWith(kAccessors + R"("meshes":[{"primitives":)" +
+                             list(times(n, R"({"attributes":{"POSITION":0}},)")) +
+                             R"(}],"nodes":[{"mesh":0}])");
            }},
           {"buffers", 2'000,
            [](std::size_t n) {
              std::string file = gltfWith(kMesh + R"("nodes":[{"mesh":0}])");
              const std::size_t end = file.find("],\"bufferViews");
-             return file.insert(end, times(n, R"(,{"byteLength":3,"uri":"data:application/octet-stream;base64,AAAA"})"));
+             return file.insert(
+                 end, times(n, R"(,{"byteLength":3,"uri":"data:application/octet-stream;base64,AAAA"})"));
            }},
           {"accessors that share their data", 3'000,
            [](std::size_t n) {
-             return gltfWith(R"("accessors":)" + list(times(n, kAccessor + ",")) + R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}])");
+             return gltfWith(
+                 R"("accessors":)" + list(times(n, kAccessor + ",")) +
+                 R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}])");
            }},
           {"accessors without data", 2'000,
            [](std::size_t n) {
-             return gltfWith(R"("accessors":)" + list(kAccessor + "," + times(n, R"({"type":"MAT4","componentType":5126,"count":100000},)")) +
-                             R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}])");
+             return gltfWith(
+                 R"("accessors":)" +
+                 list(kAccessor + "," + times(n, R"({"type":"MAT4","componentType":5126,"count":100000},)")) +
+                 R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}])");
            }},
-          {"numbers that nobody reads", 100'000, [](std::size_t n) { return gltfWith(kMesh + R"("nodes":[{"mesh":0,"extras":)" + list(times(n, "0,")) + "}]"); }},
+          {"numbers that nobody reads", 100'000,
+           [](std::size_t n) {
+             return gltfWith(kMesh + R"("nodes":[{"mesh":0,"extras":)" + list(times(n, "0,")) + "}]");
+           }},
           {"names that nobody reads", 10'000,
            [](std::size_t n) {
-             return gltfWith(kMesh + R"("nodes":[{"mesh":0,"extras":{"a":0)" + times(n, [](std::size_t i) { return ",\"" + of(i) + "\":{}"; }) + "}}]");
+             return gltfWith(kMesh + R"("nodes":[{"mesh":0,"extras":{"a":0)" +
+                             times(n, [](std::size_t i) { return ",\"" + of(i) + "\":{}"; }) + "}}]");
            }},
-          {"a broken end", 20'000, [&](std::size_t n) { return nodes(times(n, R"({"mesh":0},)") + R"({"mesh":7},)"); }},
+          {"a broken end", 20'000,
+           [&](std::size_t n) { return nodes(times(n, R"({"mesh":0},)") + R"({"mesh":7},)"); }},
       },
       [](const std::string& file) {
         std::vector<std::byte> bytes(bytesOf(file).begin(), bytesOf(file).end());
@@ -208,17 +225,28 @@ TEST_CASE("glTF of nasty shapes grows in proportion") {
 }
 
 TEST_CASE("bodies of nasty shapes grow in proportion") {
-  const std::string skin = R"("accessors":[)" + kAccessor + R"(,{"type":"VEC4","componentType":5121,"count":3},{"type":"VEC4","componentType":5126,"count":3}],)"
-                           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],)";
+  const std::string skin =
+      R"("accessors":[)" + kAccessor +
+      R"(,{"type":"VEC4","componentType":5121,"count":3},{"type":"VEC4","componentType":5126,"count":3}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],)";
   checkGrowth({{"joints", 4'000,
                 [&](std::size_t n) {
-                  return gltfWith(skin + R"("skins":[{"joints":)" + list(times(n, [](std::size_t i) { return of(i + 1) + ","; })) +
-                                  R"(}],"nodes":)" + list(R"({"children":)" + list(times(n, [](std::size_t i) { return of(i + 1) + ","; })) + "}," + times(n, "{},") + R"({"mesh":0,"skin":0},)"));
+                  return gltfWith(
+                      skin + R"("skins":[{"joints":)" +
+                      list(times(n, [](std::size_t i) { return of(i + 1) + ","; })) + R"(}],"nodes":)" +
+                      list(R"({"children":)" + list(times(n, [](std::size_t i) { return of(i + 1) + ","; })) +
+                           "}," + times(n, "{},") + R"({"mesh":0,"skin":0},)"));
                 }},
                {"skins that share a joint", 4'000,
-                [&](std::size_t n) { return gltfWith(skin + R"("skins":)" + list(times(n, R"({"joints":[0]},)")) + R"(,"nodes":[{},{"mesh":0,"skin":0}])"); }},
+                [&](std::size_t n) {
+                  return gltfWith(skin + R"("skins":)" + list(times(n, R"({"joints":[0]},)")) +
+                                  R"(,"nodes":[{},{"mesh":0,"skin":0}])");
+                }},
                {"nodes with one skin", 2'000,
-                [&](std::size_t n) { return gltfWith(skin + R"("skins":[{"joints":[0]}],"nodes":)" + list("{}," + times(n, R"({"mesh":0,"skin":0},)"))); }}},
+                [&](std::size_t n) {
+                  return gltfWith(skin + R"("skins":[{"joints":[0]}],"nodes":)" +
+                                  list("{}," + times(n, R"({"mesh":0,"skin":0},)")));
+                }}},
               [](const std::string& file) {
                 std::vector<std::byte> bytes(bytesOf(file).begin(), bytesOf(file).end());
                 return messageOf(parseBody(std::move(bytes), "f"));
@@ -226,49 +254,76 @@ TEST_CASE("bodies of nasty shapes grow in proportion") {
 }
 
 TEST_CASE("SWC of nasty shapes grows in proportion") {
-  const auto sample = [](std::size_t id, std::size_t parent) { return of(id) + " 0 " + of(id) + " 0 0 1 " + (id == parent ? "-1" : of(parent)) + "\n"; };
-  checkGrowth({{"a chain", 10'000, [&](std::size_t n) { return times(n, [&](std::size_t i) { return sample(i + 1, i ? i : 1); }); }},
-               {"a star", 10'000, [&](std::size_t n) { return times(n, [&](std::size_t i) { return sample(i + 1, 1); }); }},
-               {"ids that meet in one place of a hash table", 20'000,
-                [&](std::size_t n) {
-                  const std::size_t buckets = n > 62'233 ? 126'271 : n > 30'727 ? 62'233 : 30'727;  // libstdc++'s
-                  return times(n, [&](std::size_t i) { return of((i + 1) * buckets) + " 0 " + of(i) + " 0 0 1 " + (i ? of(i * buckets) : "-1") + "\n"; });
-                }},
-               {"samples without radii", 10'000,
-                [](std::size_t n) { return times(n, [n](std::size_t i) { return of(i + 1) + " 0 " + of(i) + " 0 0 " + (i + 1 == n ? "1 " : "0 ") + (i ? of(i) : "-1") + "\n"; }); }},
-               {"roots", 10'000, [](std::size_t n) { return times(n, [](std::size_t i) { return of(i) + " 0 0 0 0 1 -1\n"; }); }}},
-              [](const std::string& file) {
-                const auto samples = parseSwc(file, "f");
-                if (samples) (void)centrelinesOfSwc(*samples, "f", VesselKind::artery);
-                return messageOf(samples);
-              });
+  const auto sample = [](std::size_t id, std::size_t parent) {
+    return of(id) + " 0 " + of(id) + " 0 0 1 " + (id == parent ? "-1" : of(parent)) + "\n";
+  };
+  checkGrowth(
+      {{"a chain", 10'000,
+        [&](std::size_t n) { return times(n, [&](std::size_t i) { return sample(i + 1, i ? i : 1); }); }},
+       {"a star", 10'000,
+        [&](std::size_t n) { return times(n, [&](std::size_t i) { return sample(i + 1, 1); }); }},
+       {"ids that meet in one place of a hash table", 20'000,
+        [&](std::size_t n) {
+          // Libstdc++'s.
+          const std::size_t buckets = n > 62'233 ? 126'271 : n > 30'727 ? 62'233 : 30'727;
+          return times(n, [&](std::size_t i) {
+            return of((i + 1) * buckets) + " 0 " + of(i) + " 0 0 1 " + (i ? of(i * buckets) : "-1") + "\n";
+          });
+        }},
+       {"samples without radii", 10'000,
+        [](std::size_t n) {
+          return times(n, [n](std::size_t i) {
+            return of(i + 1) + " 0 " + of(i) + " 0 0 " + (i + 1 == n ? "1 " : "0 ") + (i ? of(i) : "-1") +
+                   "\n";
+          });
+        }},
+       {"roots", 10'000,
+        [](std::size_t n) { return times(n, [](std::size_t i) { return of(i) + " 0 0 0 0 1 -1\n"; }); }}},
+      [](const std::string& file) {
+        const auto samples = parseSwc(file, "f");
+        if (samples) (void)centrelinesOfSwc(*samples, "f", VesselKind::artery);
+        return messageOf(samples);
+      });
 }
 
 TEST_CASE("OBJ of nasty shapes grows in proportion") {
   const auto star = [](std::size_t corners) {
     return times(corners, [&](std::size_t i) {
       const double angle = 2 * kPi * double(i) / double(corners), radius = i % 2 ? 0.5 : 1;
-      return "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
+      return "v " + std::to_string(radius * std::cos(angle)) + " " +
+             std::to_string(radius * std::sin(angle)) + " 0\n";
     });
   };
-  const auto face = [](std::size_t corners) { return "f" + times(corners, [](std::size_t i) { return " " + of(i + 1); }) + "\n"; };
-  checkGrowth({{"one polygon", 200, [&](std::size_t n) { return star(n) + face(n); }},
-               {"polygons that turn inward", 20, [&](std::size_t n) { return star(512) + times(n, face(512)); }},
-               {"polygons whose corners are one", 40, [&](std::size_t n) { return "v 0 0 0\n" + times(n, "f" + times(512, " 1") + "\n"); }},
-               {"triangles", 20'000, [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "f 1 2 3\n"); }},
-               {"objects", 10'000, [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "o a\nf 1 2 3\n"); }},
-               {"objects without faces", 20'000, [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + times(n, "g a\n"); }},
-               {"vertices", 20'000, [](std::size_t n) { return times(n, "v 0 0 0\n") + "f 1 2 3\n"; }}},
-              [](const std::string& file) { return messageOf(parseObj(file, "f")); });
+  const auto face = [](std::size_t corners) {
+    return "f" + times(corners, [](std::size_t i) { return " " + of(i + 1); }) + "\n";
+  };
+  checkGrowth(
+      {{"one polygon", 200, [&](std::size_t n) { return star(n) + face(n); }},
+       {"polygons that turn inward", 20, [&](std::size_t n) { return star(512) + times(n, face(512)); }},
+       {"polygons whose corners are one", 40,
+        [&](std::size_t n) { return "v 0 0 0\n" + times(n, "f" + times(512, " 1") + "\n"); }},
+       {"triangles", 20'000,
+        [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "f 1 2 3\n"); }},
+       {"objects", 10'000,
+        [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "o a\nf 1 2 3\n"); }},
+       {"objects without faces", 20'000,
+        [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + times(n, "g a\n"); }},
+       {"vertices", 20'000, [](std::size_t n) { return times(n, "v 0 0 0\n") + "f 1 2 3\n"; }}},
+      [](const std::string& file) { return messageOf(parseObj(file, "f")); });
 }
 
 TEST_CASE("STL of nasty shapes grows in proportion") {
   const auto facet = [](std::size_t i) {
-    return "facet normal 0 0 0 outer loop vertex " + of(i) + " 0 0 vertex 1 0 0 vertex 0 1 " + of(i) + " endloop endfacet\n";
+    return "facet normal 0 0 0 outer loop vertex " + of(i) + " 0 0 vertex 1 0 0 vertex 0 1 " + of(i) +
+           " endloop endfacet\n";
   };
   checkGrowth({{"facets", 3'000, [&](std::size_t n) { return "solid a\n" + times(n, facet) + "endsolid\n"; }},
-               {"solids", 3'000, [&](std::size_t n) { return times(n, [&](std::size_t i) { return "solid a\n" + facet(i) + "endsolid\n"; }); }},
-               {"binary facets", 5'000, [](std::size_t n) {
+               {"solids", 3'000,
+                [&](std::size_t n) {
+                  return times(n, [&](std::size_t i) { return "solid a\n" + facet(i) + "endsolid\n"; });
+                }},
+               {"binary facets", 5'000,
+                [](std::size_t n) {
                   std::string file(84 + 50 * n, '\0');
                   const auto count = std::uint32_t(n);
                   std::memcpy(file.data() + 80, &count, 4);
@@ -283,65 +338,98 @@ TEST_CASE("STL of nasty shapes grows in proportion") {
 }
 
 TEST_CASE("legacy VTK of nasty shapes grows in proportion") {
-  const std::string head = "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 0 1 0 1 0 0\n";
-  checkGrowth({{"empty faces", 100'000, [&](std::size_t n) { return head + "POLYGONS " + of(n) + " " + of(n) + "\n" + times(n, "0\n"); }},
-               {"triangles", 50'000, [&](std::size_t n) { return head + "POLYGONS " + of(n) + " " + of(4 * n) + "\n" + times(n, "3 0 1 2\n"); }},
-               {"arrays", 2'000, [&](std::size_t n) { return head + "POINT_DATA 3\nFIELD f " + of(n) + "\n" + times(n, [](std::size_t i) { return 'a' + of(i) + " 1 3 int\n1 1 1\n"; }); }}},
-              [](const std::string& file) { return messageOf(parseVtkSurface(bytesOf(file), "f")); });
+  const std::string head =
+      "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 0 1 0 1 0 0\n";
+  checkGrowth(
+      {{"empty faces", 100'000,
+        [&](std::size_t n) { return head + "POLYGONS " + of(n) + " " + of(n) + "\n" + times(n, "0\n"); }},
+       {"triangles", 50'000,
+        [&](std::size_t n) {
+          return head + "POLYGONS " + of(n) + " " + of(4 * n) + "\n" + times(n, "3 0 1 2\n");
+        }},
+       {"arrays", 2'000,
+        [&](std::size_t n) {
+          return head + "POINT_DATA 3\nFIELD f " + of(n) + "\n" +
+                 times(n, [](std::size_t i) { return 'a' + of(i) + " 1 3 int\n1 1 1\n"; });
+        }}},
+      [](const std::string& file) { return messageOf(parseVtkSurface(bytesOf(file), "f")); });
 }
 
 TEST_CASE("VTP of nasty shapes grows in proportion") {
   const auto packed = [](std::size_t megabytes, const char* type) {
-    return vtpWith(R"(<Piece NumberOfPoints="2" NumberOfLines="1"><Points><DataArray type=")" + std::string(type) + R"(" format="binary">)" + packedZeros(megabytes) +
+    return vtpWith(R"(<Piece NumberOfPoints="2" NumberOfLines="1"><Points><DataArray type=")" +
+                   std::string(type) + R"(" format="binary">)" + packedZeros(megabytes) +
                    "</DataArray></Points></Piece>");
   };
   const std::string array = R"(<DataArray type="Int8" Name="a" format="ascii">0</DataArray>)";
-  checkGrowth({{"packed zeros", 16, [&](std::size_t n) { return packed(n, "UInt8"); }},
-               {"many packed zeros", 256, [&](std::size_t n) { return packed(n, "Float64"); }},
-               {"pieces", 200, [&](std::size_t n) { return vtpWith(times(n, vtpPiece(""))); }},
-               {"arrays of one name", 1'000, [&](std::size_t n) { return vtpWith(vtpPiece(times(n, array))); }},
-               {"arrays", 1'000,
-                [](std::size_t n) {
-                  return vtpWith(vtpPiece(times(n, [](std::size_t i) { return R"(<DataArray type="Int8" Name="a)" + of(i) + R"(" format="ascii">0</DataArray>)"; })));
-                }},
-               {"elements", 20'000, [](std::size_t n) { return vtpWith(vtpPiece("") + times(n, "<a/>")); }}},
-              [](const std::string& file) { return messageOf(parseVtp(bytesOf(file), "f")); });
+  checkGrowth(
+      {{"packed zeros", 16, [&](std::size_t n) { return packed(n, "UInt8"); }},
+       {"many packed zeros", 256, [&](std::size_t n) { return packed(n, "Float64"); }},
+       {"pieces", 200, [&](std::size_t n) { return vtpWith(times(n, vtpPiece(""))); }},
+       {"arrays of one name", 1'000, [&](std::size_t n) { return vtpWith(vtpPiece(times(n, array))); }},
+       {"arrays", 1'000,
+        [](std::size_t n) {
+          return vtpWith(vtpPiece(times(n, [](std::size_t i) {
+            return R"(<DataArray type="Int8" Name="a)" + of(i) + R"(" format="ascii">0</DataArray>)";
+          })));
+        }},
+       {"elements", 20'000, [](std::size_t n) { return vtpWith(vtpPiece("") + times(n, "<a/>")); }}},
+      [](const std::string& file) { return messageOf(parseVtp(bytesOf(file), "f")); });
   // One long step, and many short ones beside it.
   const auto crowd = [](std::size_t n) {
     std::string points = "0 0 0 1000 0 0 ", radii = "0.0001 0.0001 ", lines = "0 1 ", ends = "2 ";
-    for (std::size_t i = 0; i < 2 * n; ++i) points += of(i) + "e-3 " + of(i % 2) + "e-2 1 ", radii += "0.0001 ", lines += of(i + 2) + " ";
+    for (std::size_t i = 0; i < 2 * n; ++i)
+      points += of(i) + "e-3 " + of(i % 2) + "e-2 1 ", radii += "0.0001 ", lines += of(i + 2) + " ";
     for (std::size_t i = 0; i < n; ++i) ends += of(2 * i + 4) + " ";
-    return vtpWith(R"(<Piece NumberOfPoints=")" + of(2 * n + 2) + R"(" NumberOfLines=")" + of(n + 1) + R"("><Points><DataArray type="Float32" format="ascii">)" + points +
-                   R"(</DataArray></Points><PointData><DataArray type="Float32" Name="Radius" format="ascii">)" + radii +
-                   R"(</DataArray></PointData><Lines><DataArray type="Int32" Name="connectivity" format="ascii">)" + lines +
-                   R"(</DataArray><DataArray type="Int32" Name="offsets" format="ascii">)" + ends + "</DataArray></Lines></Piece>");
+    return vtpWith(
+        R"(<Piece NumberOfPoints=")" + of(2 * n + 2) + R"(" NumberOfLines=")" + of(n + 1) +
+        R"("><Points><DataArray type="Float32" format="ascii">)" + points +
+        R"(</DataArray></Points><PointData><DataArray type="Float32" Name="Radius" format="ascii">)" + radii +
+        R"(</DataArray></PointData><Lines><DataArray type="Int32" Name="connectivity" format="ascii">)" +
+        lines + R"(</DataArray><DataArray type="Int32" Name="offsets" format="ascii">)" + ends +
+        "</DataArray></Lines></Piece>");
   };
   const auto lines = parseVtp(bytesOf(crowd(20'000)), "f");
   REQUIRE(lines.ok());
-  CHECK(messageOf(centrelinesOfVtp(*lines, "f", VesselKind::artery)).find("1000 comparisons a point") != std::string::npos);
+  CHECK(messageOf(centrelinesOfVtp(*lines, "f", VesselKind::artery)).find("1000 comparisons a point") !=
+        std::string::npos);
 }
 
 TEST_CASE("BVH and joint maps of nasty shapes grow in proportion") {
   const auto motion = [](std::size_t joints, std::size_t frames) {
-    return "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n" + times(joints, "JOINT b\n{\nOFFSET 0 0 0\n}\n") +
-           "}\nMOTION\nFrames: " + of(frames) + "\nFrame Time: 0.01\n" + times(frames, "0\n");
+    return "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n" +
+           times(joints, "JOINT b\n{\nOFFSET 0 0 0\n}\n") + "}\nMOTION\nFrames: " + of(frames) +
+           "\nFrame Time: 0.01\n" + times(frames, "0\n");
   };
-  checkGrowth({{"frames", 10'000, [&](std::size_t n) { return motion(1, n); }}, {"frames of joints without channels", 5'000, [&](std::size_t n) { return motion(4000, n); }}},
+  checkGrowth({{"frames", 10'000, [&](std::size_t n) { return motion(1, n); }},
+               {"frames of joints without channels", 5'000, [&](std::size_t n) { return motion(4000, n); }}},
               [](const std::string& file) { return messageOf(parseBvh(file, "f")); });
-  checkGrowth({{"pairs", 10'000, [](std::size_t n) { return times(n, [](std::size_t i) { return of(i) + "=\n"; }); }}},
+  checkGrowth({{"pairs", 10'000,
+                [](std::size_t n) { return times(n, [](std::size_t i) { return of(i) + "=\n"; }); }}},
               [](const std::string& file) { return messageOf(parseJointMap(file, "f")); });
 }
 
 TEST_CASE("scenes and rules of nasty shapes grow in proportion") {
-  checkGrowth({{"networks", 10'000, [](std::size_t n) { return R"({"networks":)" + list(times(n, "\"\",")) + "}"; }},
-               {"numbers", 50'000, [](std::size_t n) { return R"({"camera":{"position":)" + list(times(n, "0,")) + "}}"; }}},
-              [](const std::string& file) { return messageOf(parseScene(file, "folder", "f")); });
-  checkGrowth({{"letters", 30'000, [](std::size_t n) { return "system a\naxiom S\n" + times(n, [](std::size_t i) { return "draw a" + of(i) + "\n"; }); }},
-               {"brackets", 20'000, [](std::size_t n) { return "system a\naxiom S\ndraw S\nS -> F " + times(n, "[S]") + "\n"; }}},
+  checkGrowth(
+      {{"networks", 10'000, [](std::size_t n) { return R"({"networks":)" + list(times(n, "\"\",")) + "}"; }},
+       {"numbers", 50'000,
+        [](std::size_t n) { return R"({"camera":{"position":)" + list(times(n, "0,")) + "}}"; }}},
+      [](const std::string& file) { return messageOf(parseScene(file, "folder", "f")); });
+  checkGrowth({{"letters", 30'000,
+                [](std::size_t n) {
+                  return "system a\naxiom S\n" +
+                         times(n, [](std::size_t i) { return "draw a" + of(i) + "\n"; });
+                }},
+               {"brackets", 20'000,
+                [](std::size_t n) { return "system a\naxiom S\ndraw S\nS -> F " + times(n, "[S]") + "\n"; }}},
               [](const std::string& file) { return messageOf(parseGrowthRules(file, "f")); });
   const auto rules = parseGrowthRules("system a\naxiom S\ndraw S\n", "f");
   REQUIRE(rules.ok());
-  checkGrowth({{"regions", 10'000, [](std::size_t n) { return "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\n" + times(n, "a,-,,,,,,,\n"); }}},
+  checkGrowth({{"regions", 10'000,
+                [](std::size_t n) {
+                  return "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\n" +
+                         times(n, "a,-,,,,,,,\n");
+                }}},
               [&](const std::string& file) { return messageOf(parseRegions(file, "f", *rules)); });
 }
 
@@ -353,11 +441,24 @@ TEST_CASE("networks of nasty shapes grow in proportion") {
   const std::string meta = chunk("META", std::string("\0\0\x80\x3f", 4));
   const auto vessels = [&](std::size_t n, const std::string& points) {
     const std::string name(4096, 'a');
-    return chunk("VESL", leb(n) + std::string(1, '\0') + leb(0) + leb(4096) + name + leb(0) + leb(0) + points +
-                             times(n - 1, std::string(1, '\0') + leb(4096) + leb(0) + leb(0) + leb(0) + points));
+    return chunk("VESL",
+                 leb(n) + std::string(1, '\0') + leb(0) + leb(4096) + name + leb(0) + leb(0) + points +
+                     times(n - 1, std::string(1, '\0') + leb(4096) + leb(0) + leb(0) + leb(0) + points));
   };
-  checkGrowth({{"names that share 4096 letters", 2'000, [&](std::size_t n) { return vasaOf(meta + vessels(n, leb(4)) + chunk("PNTS", times(4 * n, [&](std::size_t i) { return point(float(i)); }))); }},
-               {"vessels without points", 20'000, [&](std::size_t n) { return vasaOf(meta + chunk("VESL", leb(n) + times(n, std::string(6, '\0'))) + chunk("PNTS", "")); }},
-               {"nodes without vessels", 20'000, [&](std::size_t n) { return vasaOf(meta + chunk("VESL", leb(0)) + chunk("NODE", leb(n) + times(n, std::string("\0\1\0", 3))) + chunk("PNTS", "")); }}},
-              [](const std::string& file) { return messageOf(decodeNetwork(bytesOf(file), "f")); });
+  checkGrowth(
+      {{"names that share 4096 letters", 2'000,
+        [&](std::size_t n) {
+          return vasaOf(meta + vessels(n, leb(4)) +
+                        chunk("PNTS", times(4 * n, [&](std::size_t i) { return point(float(i)); })));
+        }},
+       {"vessels without points", 20'000,
+        [&](std::size_t n) {
+          return vasaOf(meta + chunk("VESL", leb(n) + times(n, std::string(6, '\0'))) + chunk("PNTS", ""));
+        }},
+       {"nodes without vessels", 20'000,
+        [&](std::size_t n) {
+          return vasaOf(meta + chunk("VESL", leb(0)) +
+                        chunk("NODE", leb(n) + times(n, std::string("\0\1\0", 3))) + chunk("PNTS", ""));
+        }}},
+      [](const std::string& file) { return messageOf(decodeNetwork(bytesOf(file), "f")); });
 }

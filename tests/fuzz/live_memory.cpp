@@ -20,18 +20,14 @@ std::atomic<std::size_t> live{0}, peak{0};
 
 namespace vasa::test {
 
-bool countsMemory() {
-  return VASA_OWN_ALLOCATOR;
-}
+bool countsMemory() { return VASA_OWN_ALLOCATOR; }
 
 std::size_t restartPeak() {
   peak = live.load();
   return live;
 }
 
-std::size_t peakMemory() {
-  return peak;
-}
+std::size_t peakMemory() { return peak; }
 
 }  // namespace vasa::test
 
@@ -51,7 +47,5 @@ void operator delete(void* memory) noexcept {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t) noexcept {
-  operator delete(memory);
-}
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 #endif

@@ -30,9 +30,7 @@ void must(bool holds) {
   if (!holds) std::abort();
 }
 
-std::string_view textOf(Bytes bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string_view textOf(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 template <class T>
 void messageNames(const Result<T>& result) {
@@ -51,7 +49,9 @@ void useLines(const Centrelines& lines) {
     }
   }
   for (const auto& joint : lines.joints) {
-    if (joint.host) must(joint.host->line < lines.lines.size() && joint.host->sample < lines.lines[joint.host->line].samples.size());
+    if (joint.host)
+      must(joint.host->line < lines.lines.size() &&
+           joint.host->sample < lines.lines[joint.host->line].samples.size());
     for (const auto& end : joint.ends) must(end.line < lines.lines.size());
   }
   if (lines.sampleCount() > kMostSamples) return;
@@ -73,13 +73,16 @@ void checkMesh(const Result<std::vector<MeshElement>>& elements) {
 const Body& doll() {
   static const Body body = [] {
     Body made;
-    const std::pair<const char*, int> joints[] = {{"Hips", -1}, {"Spine", 0}, {"LeftArm", 1}, {"LeftForeArm", 2}, {"LeftHand", 3}, {"LeftUpLeg", 0}, {"LeftLeg", 5}, {"LeftFoot", 6}};
+    const std::pair<const char*, int> joints[] = {{"Hips", -1},       {"Spine", 0},    {"LeftArm", 1},
+                                                  {"LeftForeArm", 2}, {"LeftHand", 3}, {"LeftUpLeg", 0},
+                                                  {"LeftLeg", 5},     {"LeftFoot", 6}};
     for (const auto& [name, parent] : joints) {
       Skeleton::Joint joint;
       joint.name = name;
       joint.rest.translation = {0.1f, parent < 0 ? 1.0f : -0.2f, 0};
       if (parent >= 0) joint.parent = {std::uint32_t(parent)};
-      joint.restWorld = (parent < 0 ? mat4(1) : made.skeleton.joints[std::size_t(parent)].restWorld) * joint.rest.matrix();
+      joint.restWorld =
+          (parent < 0 ? mat4(1) : made.skeleton.joints[std::size_t(parent)].restWorld) * joint.rest.matrix();
       made.skeleton.joints.push_back(joint);
     }
     return made;
@@ -140,7 +143,8 @@ void bvh(Bytes bytes) {
   const auto motion = parseBvh(textOf(bytes), "f");
   messageNames(motion);
   if (!motion) return;
-  must(motion->rotations.size() == motion->frameCount * motion->joints.size() && motion->translations.size() == motion->rotations.size());
+  must(motion->rotations.size() == motion->frameCount * motion->joints.size() &&
+       motion->translations.size() == motion->rotations.size());
   if (motion->frameCount * motion->joints.size() > 2000) return;
   const auto clip = retarget(*motion, doll());
   if (clip) must(samplePose(doll().skeleton, *clip, clip->end).world.size() == doll().skeleton.joints.size());
@@ -175,12 +179,14 @@ void gltf(Bytes bytes) {
   for (std::size_t j = 0; j < joints; ++j)
     if (const JointId parent = body->skeleton.joints[j].parent; parent.valid()) must(parent.value < j);
   for (const SkinnedMesh& mesh : body->meshes) {
-    must(mesh.influences.size() == mesh.mesh.positions.size() && mesh.normals.size() == mesh.mesh.positions.size());
+    must(mesh.influences.size() == mesh.mesh.positions.size() &&
+         mesh.normals.size() == mesh.mesh.positions.size());
     for (const uvec3& t : mesh.mesh.triangles) must(std::max({t.x, t.y, t.z}) < mesh.mesh.positions.size());
     for (const SkinInfluence& influence : mesh.influences)
       for (const auto joint : influence.joints) must(joint < joints);
   }
-  for (const Clip& clip : body->clips) must(samplePose(body->skeleton, clip, clip.end).world.size() == joints);
+  for (const Clip& clip : body->clips)
+    must(samplePose(body->skeleton, clip, clip.end).world.size() == joints);
 }
 
 void map(Bytes bytes) {
@@ -197,17 +203,17 @@ void rules(Bytes bytes) {
   messageNames(rules);
   if (!rules) return;
   must(!rules->systems.empty());
-  for (std::size_t s = 0; s < rules->systems.size(); ++s) must(rules->tables.system[s].axiom < rules->symbols.size());
+  for (std::size_t s = 0; s < rules->systems.size(); ++s)
+    must(rules->tables.system[s].axiom < rules->symbols.size());
   if (border == text.npos) return;
   const auto regions = parseRegions(text.substr(border + 5), "f", *rules);
   messageNames(regions);
   if (!regions) return;
-  for (const GrowthRegion& region : *regions) must(region.system == GrowthRegion::kNoSystem || region.system < rules->systems.size());
+  for (const GrowthRegion& region : *regions)
+    must(region.system == GrowthRegion::kNoSystem || region.system < rules->systems.size());
 }
 
-void scene(Bytes bytes) {
-  messageNames(parseScene(std::string(textOf(bytes)), "folder", "f"));
-}
+void scene(Bytes bytes) { messageNames(parseScene(std::string(textOf(bytes)), "folder", "f")); }
 
 void vasa(Bytes bytes) {
   std::vector<std::byte> file(24);
@@ -234,7 +240,8 @@ void vedit(Bytes bytes) {
   for (const Edit& edit : *edits) lines += journalLine(edit.operation) + "\n";
   const auto again = parseJournal(lines, "f");
   must(again.ok() && again->size() == edits->size());
-  for (std::size_t i = 0; i < edits->size(); ++i) must(journalLine((*again)[i].operation) == journalLine((*edits)[i].operation));
+  for (std::size_t i = 0; i < edits->size(); ++i)
+    must(journalLine((*again)[i].operation) == journalLine((*edits)[i].operation));
   if (edits->size() > 3) return;
   const Replay replay = replayEdits(limb(), *edits);
   for (const vec4& p : replay.network.points()) must(p.w > 0);
@@ -242,8 +249,9 @@ void vedit(Bytes bytes) {
 }
 
 std::span<const Target> targets() {
-  static constexpr Target all[] = {{"swc", swc}, {"vtp", vtp}, {"vtk", vtk}, {"bvh", bvh}, {"obj", obj}, {"stl", stl}, {"gltf", gltf}, {"map", map}, {"rules", rules}, {"scene", scene}, {"vasa", vasa},
-                                   {"vedit", vedit}};
+  static constexpr Target all[] = {{"swc", swc},     {"vtp", vtp},     {"vtk", vtk},   {"bvh", bvh},
+                                   {"obj", obj},     {"stl", stl},     {"gltf", gltf}, {"map", map},
+                                   {"rules", rules}, {"scene", scene}, {"vasa", vasa}, {"vedit", vedit}};
   return all;
 }
 

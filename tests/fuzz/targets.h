@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
-// What is done with hostile bytes, a function a kind of file. Each reads them as that kind; what is accepted is
-// used as the program uses it and must hold to what its header promises (std::abort where it does not).
+// What is done with hostile bytes, a function a kind of file. Each reads them as that kind; what is accepted
+// is used as the program uses it and must hold to what its header promises (std::abort where it does not).
 namespace vasa::fuzz {
 
 using Bytes = std::span<const std::byte>;

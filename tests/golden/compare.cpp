@@ -30,7 +30,8 @@ Difference compare(const Image& wanted, const Image& found) {
 
 bool same(const Difference& difference, std::uint32_t subPixelBits) {
   const bool coarse = subPixelBits < 8;
-  return difference.foreground > 100 && difference.mean <= (coarse ? 4 : 1) && difference.changed <= (coarse ? 0.1 : 0.01);
+  return difference.foreground > 100 && difference.mean <= (coarse ? 4 : 1) &&
+         difference.changed <= (coarse ? 0.1 : 0.01);
 }
 
 }  // namespace vasa::golden

@@ -9,8 +9,8 @@
 #include "gpu/gpu_rig.h"
 #include "io/png.h"
 
-// Pictures against those of tests/golden/pictures. After a change of the look that is meant, write them anew with
-// scripts/golden.sh and look at each one that changed.
+// Pictures against those of tests/golden/pictures. After a change of the look that is meant, write them anew
+// with scripts/golden.sh and look at each one that changed.
 
 using namespace vasa;
 
@@ -20,9 +20,7 @@ std::filesystem::path pathOf(const std::string& name) {
   return std::filesystem::path("tests/golden/pictures") / (name + ".png");
 }
 
-bool writing() {
-  return std::getenv("VASA_WRITE_GOLDEN") != nullptr;
-}
+bool writing() { return std::getenv("VASA_WRITE_GOLDEN") != nullptr; }
 
 Image stored(const std::string& name) {
   auto picture = readPng(pathOf(name));
@@ -68,7 +66,8 @@ TEST_CASE("a change in any family is seen") {
   if (writing()) return;
   std::map<std::string, int> families;
   for (const auto& pictures : {golden::syntheticPictures(), golden::humanPictures()})
-    for (const golden::Picture& picture : pictures) families[picture.name.substr(0, picture.name.find('/'))] = 0;
+    for (const golden::Picture& picture : pictures)
+      families[picture.name.substr(0, picture.name.find('/'))] = 0;
   for (const auto& mutations : {golden::syntheticMutations(), golden::humanMutations()})
     for (const golden::Picture& mutation : mutations) {
       CAPTURE(mutation.name);
@@ -84,7 +83,8 @@ TEST_CASE("a change in any family is seen") {
 
 TEST_CASE("there are at least thirty pictures, and none is left over") {
   std::size_t known = 0, files = 0;
-  for (const auto& pictures : {golden::syntheticPictures(), golden::humanPictures()}) known += pictures.size();
+  for (const auto& pictures : {golden::syntheticPictures(), golden::humanPictures()})
+    known += pictures.size();
   for (const auto& entry : std::filesystem::recursive_directory_iterator("tests/golden/pictures"))
     files += entry.path().extension() == ".png";
   CHECK(known >= 30);

@@ -37,8 +37,8 @@ struct Shot {
   const char* clip = "";
   std::uint32_t frame = 0;
   View view = View::front;
-  const char* subject = "";  // a joint to look at; none: the whole body
-  float around = 0.12f;      // [m] how much about it
+  const char* subject = "";     // a joint to look at; none: the whole body
+  float around = 0.12f;         // [m] how much about it
   const char* parts = "abhsv";  // arteries, bones, heart, skin, veins
   std::uint32_t growLevels = 0;
   bool transparent = false, occlusion = true, beating = false;
@@ -81,10 +81,17 @@ Image draw(gpu::Device& device, const Shot& shot) {
   FrameMaker maker(all.scene, {.beat = shot.beating});
   const Clip* clip = *shot.clip ? taken(findClip(all.scene.body, shot.clip)) : nullptr;
   maker.make(clip, clip ? clip->timeOfFrame(shot.frame) : 0.14f);
-  const std::uint32_t width = *shot.subject ? kWidth : kHeight, height = kWidth + kHeight - width;  // a body stands upright
+  // A body stands upright.
+  const std::uint32_t width = *shot.subject ? kWidth : kHeight, height = kWidth + kHeight - width;
   Renderer renderer(device, all.scene.network, all.scene.body.meshes,
-                    {.width = width, .height = height, .pixelError = kAutoPixelError, .supersample = 2, .occlusion = true,
-                     .growth = shot.growLevels ? &all.growth : nullptr, .capillaries = {.levels = shot.growLevels}, .timed = false});
+                    {.width = width,
+                     .height = height,
+                     .pixelError = kAutoPixelError,
+                     .supersample = 2,
+                     .occlusion = true,
+                     .growth = shot.growLevels ? &all.growth : nullptr,
+                     .capillaries = {.levels = shot.growLevels},
+                     .timed = false});
   renderer.draw({.points = maker.points(),
                  .knotFrames = maker.knotFrames(),
                  .jointMatrices = maker.jointMatrices(),

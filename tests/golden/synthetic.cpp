@@ -13,21 +13,19 @@ namespace {
 // What is drawn of a network, from where, and how finely.
 struct Shot {
   Network (*network)() = nullptr;
-  vec3 from{0, 0, 1};       // direction of view, as the camera stands off the middle
-  float nearer = 1;         // 0.3: close up
+  vec3 from{0, 0, 1};  // direction of view, as the camera stands off the middle
+  float nearer = 1;    // 0.3: close up
   RenderOptions options;
   LookStyle style = LookStyle::atlas;
   std::uint32_t growLevels = 0;
-  unsigned system = 2;      // of the capillaries: 0, 1, or 2 for both
+  unsigned system = 2;  // of the capillaries: 0, 1, or 2 for both
 };
 
 RenderOptions fixed(std::uint32_t around, std::uint32_t along) {
   return {.samples = 4, .shape = {around, along}, .timed = false};
 }
 
-RenderOptions automatic() {
-  return {.samples = 4, .pixelError = kAutoPixelError, .timed = false};
-}
+RenderOptions automatic() { return {.samples = 4, .pixelError = kAutoPixelError, .timed = false}; }
 
 Camera cameraOf(const Shot& shot, const Aabb& box) {
   Camera camera = cameraFrom(View::front, box, float(kWidth) / kHeight);
@@ -69,9 +67,7 @@ std::vector<vec4> line(vec3 from, vec3 to, float r0, float r1, vec3 bow = vec3(0
   return points;
 }
 
-Network built(const NetworkBuilder& builder) {
-  return *builder.build(1);
-}
+Network built(const NetworkBuilder& builder) { return *builder.build(1); }
 
 Network winding() { return test::windingNetwork(40, 9); }
 Network thinWinding() { return test::windingNetwork(300, 7); }
@@ -79,7 +75,8 @@ Network tapered() { return test::straightVessel(0.4f, 0.06f, 0.01f, 5); }
 
 Network bow() {
   NetworkBuilder builder;
-  builder.addVessel({"bow", "", VesselKind::vein}, line({-0.2f, 0, 0}, {0.2f, 0, 0}, 0.03f, 0.02f, {0, 0.2f, 0}));
+  builder.addVessel({"bow", "", VesselKind::vein},
+                    line({-0.2f, 0, 0}, {0.2f, 0, 0}, 0.03f, 0.02f, {0, 0.2f, 0}));
   return built(builder);
 }
 
@@ -101,8 +98,10 @@ Network star(std::initializer_list<float> degrees, float radius) {
   std::vector<VesselEnd> ends;
   for (const float d : degrees) {
     const float a = d * kPi / 180;
-    ends.push_back({builder.addVessel({"arm " + std::to_string(ends.size()), "", VesselKind::artery},
-                                      line(vec3(0), 0.3f * vec3(std::cos(a), std::sin(a), 0.05f), radius, 0.7f * radius)), false});
+    ends.push_back({builder.addVessel(
+                        {"arm " + std::to_string(ends.size()), "", VesselKind::artery},
+                        line(vec3(0), 0.3f * vec3(std::cos(a), std::sin(a), 0.05f), radius, 0.7f * radius)),
+                    false});
   }
   builder.joinEnds(ends);
   return built(builder);
@@ -110,9 +109,11 @@ Network star(std::initializer_list<float> degrees, float radius) {
 
 Network tee(float angle, float ratio) {
   NetworkBuilder builder;
-  const VesselId trunk = builder.addVessel({"trunk", "", VesselKind::artery}, line({0, -0.3f, 0}, {0, 0.3f, 0}, 0.05f, 0.045f));
+  const VesselId trunk =
+      builder.addVessel({"trunk", "", VesselKind::artery}, line({0, -0.3f, 0}, {0, 0.3f, 0}, 0.05f, 0.045f));
   const vec3 way(std::sin(angle), std::cos(angle), 0.2f);
-  const VesselId branch = builder.addVessel({"branch", "", VesselKind::artery}, line(vec3(0), 0.3f * way, 0.05f * ratio, 0.04f * ratio));
+  const VesselId branch = builder.addVessel({"branch", "", VesselKind::artery},
+                                            line(vec3(0), 0.3f * way, 0.05f * ratio, 0.04f * ratio));
   builder.joinToSide({branch, false}, {trunk, 3});
   return built(builder);
 }
@@ -145,12 +146,16 @@ std::vector<Picture> syntheticPictures() {
       picture("forks/five", {.network = fiveWay, .from = {0.1f, 0.3f, 1}, .options = automatic()}),
       picture("forks/small_tee", {.network = smallTee, .from = {0.5f, 0.1f, 1}, .options = automatic()}),
       picture("forks/large_tee", {.network = largeTee, .from = {0.4f, 0.1f, 1}, .options = automatic()}),
-      picture("forks/clinical", {.network = largeTee, .from = {-0.4f, 0.1f, 1}, .options = automatic(), .style = LookStyle::clinical}),
+      picture("forks/clinical", {.network = largeTee,
+                                 .from = {-0.4f, 0.1f, 1},
+                                 .options = automatic(),
+                                 .style = LookStyle::clinical}),
       picture("capillaries/oak_1", {.network = bow, .options = automatic(), .growLevels = 1, .system = 0}),
       picture("capillaries/oak_2", {.network = bow, .options = automatic(), .growLevels = 2, .system = 0}),
       picture("capillaries/oak_3", {.network = bow, .options = automatic(), .growLevels = 3, .system = 0}),
       picture("capillaries/reed_2", {.network = bow, .options = automatic(), .growLevels = 2, .system = 1}),
-      picture("capillaries/reed_4", {.network = bow, .nearer = 0.6f, .options = automatic(), .growLevels = 4, .system = 1}),
+      picture("capillaries/reed_4",
+              {.network = bow, .nearer = 0.6f, .options = automatic(), .growLevels = 4, .system = 1}),
   };
 }
 

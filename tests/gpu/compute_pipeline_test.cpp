@@ -116,6 +116,5 @@ TEST_CASE("all iterations that a shader may make are made") {
     return rig.download<std::uint32_t>(counted)[0];
   };
   CHECK(made(30'000) == 30'000);
-  if (rig.device().isCpu())
-    MESSAGE("of 100,000 iterations this device makes " << made(100'000));
+  if (rig.device().isCpu()) MESSAGE("of 100,000 iterations this device makes " << made(100'000));
 }

@@ -64,5 +64,7 @@ TEST_CASE("a device without what vasa needs is refused, with the list") {
   const auto made = gpu::attempt([&] { gpu::Device device(host.foreign); });
   REQUIRE(!made.ok());
   CHECK(made.error().fault == Fault::noDevice);
-  CHECK(made.error().message.find("lacks timelineSemaphore switched on, maintenance4 switched on; create it with") != std::string::npos);
+  CHECK(made.error().message.find(
+            "lacks timelineSemaphore switched on, maintenance4 switched on; create it with") !=
+        std::string::npos);
 }

@@ -81,11 +81,10 @@ struct RoomyBuffer {
 constexpr gpu::Validation kSynchronization{.synchronization = true};
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-// Synchronization validation sees passes that use addresses through VK_KHR_push_descriptor (gpu/address_shadow.h).
+// Synchronization validation sees passes that use addresses through VK_KHR_push_descriptor
+// (gpu/address_shadow.h).
 bool followsAddresses(gpu::Device& device) {
   if (device.addresses()) return true;
   MESSAGE("not tried: this driver lacks VK_KHR_push_descriptor");
@@ -169,7 +168,8 @@ TEST_CASE("a barrier left out between a compute pass and a draw is reported") {
 TEST_CASE("a write behind the end of a buffer is reported with its invocation") {
   VASA_REQUIRE_GPU(rig);
   if (!rig.device().features().core.features.shaderInt64) {
-    MESSAGE("not tried: GPU-assisted validation looks at addresses with shaderInt64, which this driver lacks");
+    MESSAGE(
+        "not tried: GPU-assisted validation looks at addresses with shaderInt64, which this driver lacks");
     return;
   }
   Bench bench({.gpuAssisted = true}, 1);

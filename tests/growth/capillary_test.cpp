@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <glm/gtc/quaternion.hpp>
 #include <algorithm>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 
 #include "core/hash.h"
@@ -55,7 +55,8 @@ TEST_CASE("a tree begins inside of its vessel, so that no gap shows at the root"
     const vec4 root = capillaryAt(scene, sprout, 1, 0).curve.b[0];
     const vec3 arm = vec3(root) - section.centre;
     CHECK(std::abs(glm::dot(arm, section.frame.tangent)) <= 1e-6f);  // in the section's plane
-    CHECK(glm::length(arm) <= 0.5f * section.radius + 1e-6f);        // half way to the wall: inside of three quads, too
+    CHECK(glm::length(arm) <=
+          0.5f * section.radius + 1e-6f);  // half way to the wall: inside of three quads, too
     if (sprout.number & shared::kTipSprout) CHECK(glm::length(arm) == 0);
     CHECK(root.w <= section.radius);
     ++roots;
@@ -112,7 +113,8 @@ TEST_CASE("curves get thinner on their way, and everything is finite") {
   const GrowthScene scene = grown.scene(posed);
   forEachSprout(grown, [&](Sprout sprout) {
     for (const Capillary& capillary : treeOf(scene, sprout, 4)) {
-      for (int i = 0; i < 4; ++i) REQUIRE(std::isfinite(glm::dot(capillary.curve.b[std::size_t(i)], vec4(1))));
+      for (int i = 0; i < 4; ++i)
+        REQUIRE(std::isfinite(glm::dot(capillary.curve.b[std::size_t(i)], vec4(1))));
       for (std::size_t i = 1; i < 4; ++i) CHECK(capillary.curve.b[i].w <= capillary.curve.b[i - 1].w);
       CHECK(capillary.curve.b[3].w > 0);
       CHECK(capillary.phase < 1);
@@ -126,15 +128,18 @@ TEST_CASE("an address gives the same curve again, other seeds and addresses give
   const auto hashOfAll = [&](const GrowthScene& scene) {
     std::uint64_t hash = 0;
     forEachSprout(grown, [&](Sprout sprout) {
-      for (const Capillary& capillary : treeOf(scene, sprout)) hash = hashOf(std::span<const vec4>(capillary.curve.b), hash);
+      for (const Capillary& capillary : treeOf(scene, sprout))
+        hash = hashOf(std::span<const vec4>(capillary.curve.b), hash);
     });
     return hash;
   };
   CHECK(hashOfAll(grown.scene(posed)) == hashOfAll(again.scene(other)));
   CHECK(hashOfAll(grown.scene(posed, 1)) != hashOfAll(grown.scene(posed, 2)));
-  CHECK(capillaryAt(grown.scene(posed), {2, 0}, 3, 0).curve.b != capillaryAt(grown.scene(posed), {2, 1}, 3, 0).curve.b);
+  CHECK(capillaryAt(grown.scene(posed), {2, 0}, 3, 0).curve.b !=
+        capillaryAt(grown.scene(posed), {2, 1}, 3, 0).curve.b);
   // What deeper generations add leaves the others where they are.
-  CHECK(capillaryAt(grown.scene(posed), {2, 0}, 2, 1).curve.b == capillaryAt(grown.scene(posed), {2, 0}, 3, 1).curve.b);
+  CHECK(capillaryAt(grown.scene(posed), {2, 0}, 2, 1).curve.b ==
+        capillaryAt(grown.scene(posed), {2, 0}, 3, 1).curve.b);
 }
 
 TEST_CASE("a vessel that is moved takes its capillaries along rigidly") {
@@ -153,20 +158,25 @@ TEST_CASE("a vessel that is moved takes its capillaries along rigidly") {
     const auto before = treeOf(grown.scene(posed), sprout), then = treeOf(moved.scene(after), sprout);
     for (std::size_t i = 0; i < before.size(); ++i)
       for (std::size_t k = 0; k < 4; ++k)
-        worst = std::max(worst, glm::distance(turn * vec3(before[i].curve.b[k]) + way, vec3(then[i].curve.b[k])));
+        worst =
+            std::max(worst, glm::distance(turn * vec3(before[i].curve.b[k]) + way, vec3(then[i].curve.b[k])));
   });
   CHECK(worst < 2e-4f);
 }
 
 TEST_CASE("a vessel that grows wider has thicker and longer capillaries") {
-  test::GrownNetwork grown(test::straightVessel(1, 0.004f, 0.004f, 4)), wider(test::straightVessel(1, 0.006f, 0.006f, 4));
+  test::GrownNetwork grown(test::straightVessel(1, 0.004f, 0.004f, 4)),
+      wider(test::straightVessel(1, 0.006f, 0.006f, 4));
   const PosedNetwork a = grown.posed(), b = wider.posed();
-  const auto narrow = capillaryAt(grown.scene(a), {1, 0}, 1, 0).curve, wide = capillaryAt(wider.scene(b), {1, 0}, 1, 0).curve;
+  const auto narrow = capillaryAt(grown.scene(a), {1, 0}, 1, 0).curve,
+             wide = capillaryAt(wider.scene(b), {1, 0}, 1, 0).curve;
   CHECK(wide.b[0].w / narrow.b[0].w == doctest::Approx(1.5f));
-  CHECK(glm::distance(vec3(wide.b[0]), vec3(wide.b[1])) == doctest::Approx(1.5f * glm::distance(vec3(narrow.b[0]), vec3(narrow.b[1]))).epsilon(1e-4));
+  CHECK(glm::distance(vec3(wide.b[0]), vec3(wide.b[1])) ==
+        doctest::Approx(1.5f * glm::distance(vec3(narrow.b[0]), vec3(narrow.b[1]))).epsilon(1e-4));
 }
 
-TEST_CASE("the last curves of a tree run into the ends of its partner's curves before the last, and change colour on their way") {
+TEST_CASE(
+    "the last curves of a tree run into the ends of its partner's curves before the last, and change colour on their way") {
   test::GrownNetwork grown(test::windingNetwork(12, 3));
   for (std::uint32_t span = 0; span + 1 < grown.sites.sites.size(); span += 2) {
     grown.sites.sites[span].partner = span + 1;

@@ -38,7 +38,8 @@ std::pair<float, float> flows(const GrowthRules& rules, std::uint32_t letter) {
 TEST_CASE("a system worked by hand") {
   const auto rules = parseGrowthRules(
       "system fork  # two legs\naxiom S\nroot share 0.25 thickest_mm 2 lean 90\ndraw S length 10~0.5 taper 1\n"
-      "S -> F [@1 &37.5 S] [@1 &37.5~5 /180~3 \"0.5 S]\n", "g");
+      "S -> F [@1 &37.5 S] [@1 &37.5~5 /180~3 \"0.5 S]\n",
+      "g");
   REQUIRE(rules.ok());
   const auto& system = rules->tables.system[0];
   CHECK(rules->systems == std::vector<std::string>{"fork"});
@@ -63,12 +64,14 @@ TEST_CASE("Murray's law holds at every branching of every letter: what the progr
     for (std::uint32_t letter = 0; letter < rules->symbols.size(); ++letter) {
       CAPTURE(rules->symbols[letter]);
       const auto [branches, kept] = flows(*rules, letter);
-      if (rules->tables.symbol[letter].childCount > 0) CHECK(branches + kept == doctest::Approx(1).epsilon(1e-5));
+      if (rules->tables.symbol[letter].childCount > 0)
+        CHECK(branches + kept == doctest::Approx(1).epsilon(1e-5));
     }
 }
 
 TEST_CASE("side branches take what the taper gives away around them") {
-  const auto rules = parseGrowthRules(kHead + "draw S length 9 taper 0.5\nS -> F [@0.25 &40 S] [@0.75 &40 S]\n", "g");
+  const auto rules =
+      parseGrowthRules(kHead + "draw S length 9 taper 0.5\nS -> F [@0.25 &40 S] [@0.75 &40 S]\n", "g");
   REQUIRE(rules.ok());
   const float middle = 0.75f;  // radius half way, where the two stretches meet
   CHECK(rules->tables.child[0].radius == doctest::Approx(std::cbrt(1 - std::pow(middle, 3.0f))));
@@ -80,21 +83,30 @@ TEST_CASE("faults are told with file, line, cause and remedy") {
   CHECK(messageOf("axiom S\n").starts_with("g.lsys:1: 'axiom' stands before any system"));
   CHECK(messageOf("system a\n").find("has no axiom; add a line") != std::string::npos);
   CHECK(messageOf(kHead).find("the axiom 'S' is never drawn") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length ten\n") == "g.lsys:3: 'length' wants a number from 0.5 to 400 (how far it strays after a ~)");
+  CHECK(messageOf(kHead + "draw S length ten\n") ==
+        "g.lsys:3: 'length' wants a number from 0.5 to 400 (how far it strays after a ~)");
   CHECK(messageOf(kHead + "draw S length 10 length\n").starts_with("g.lsys:3: 'length' wants a number"));
-  CHECK(messageOf(kHead + "draw S width 1\n").starts_with("g.lsys:3: 'width' is not known here; use along, curl"));
+  CHECK(messageOf(kHead + "draw S width 1\n")
+            .starts_with("g.lsys:3: 'width' is not known here; use along, curl"));
   CHECK(messageOf(kHead + "\n\nsprout 3\n").starts_with("g.lsys:5: 'sprout' begins no line that is known"));
-  CHECK(messageOf(kHead + "draw S length 9\ndraw S length 9\n").find("was drawn in line 3 already") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9 taper 0.5\nS -> F [@0.5 &30 T]\n").starts_with("g.lsys:4: letter 'T' is never drawn"));
-  CHECK(messageOf(kHead + "draw S length 9\nS -> [@1 S]\n").find("draws one curve first") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S length 9\ndraw S length 9\n").find("was drawn in line 3 already") !=
+        std::string::npos);
+  CHECK(messageOf(kHead + "draw S length 9 taper 0.5\nS -> F [@0.5 &30 T]\n")
+            .starts_with("g.lsys:4: letter 'T' is never drawn"));
+  CHECK(messageOf(kHead + "draw S length 9\nS -> [@1 S]\n").find("draws one curve first") !=
+        std::string::npos);
   CHECK(messageOf(kHead + "draw S length 9\nS -> F [@1 S\n").find("not closed") != std::string::npos);
   CHECK(messageOf(kHead + "draw S length 9\nS -> F []\n").find("is empty") != std::string::npos);
   CHECK(messageOf(kHead + "draw S length 9\nS -> F S\n").find("outside of brackets") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nS -> F [@2 S]\n").find("'@2' wants a number from 0.02 to 1") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S length 9\nS -> F [@2 S]\n").find("'@2' wants a number from 0.02 to 1") !=
+        std::string::npos);
   CHECK(messageOf(kHead + "draw S length 9\nS -> F [=1 S]\n").find("is no module") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9 taper 0.5\nS -> F [@1 S]\n").find("grows thinner but has no branch on its side") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9 taper 1\nS -> F [@0.5 S]\n").find("keeps its thickness") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nsystem a\n").find("was described in line 1 already") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S length 9 taper 0.5\nS -> F [@1 S]\n")
+            .find("grows thinner but has no branch on its side") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S length 9 taper 1\nS -> F [@0.5 S]\n").find("keeps its thickness") !=
+        std::string::npos);
+  CHECK(messageOf(kHead + "draw S length 9\nsystem a\n").find("was described in line 1 already") !=
+        std::string::npos);
   CHECK(messageOf(kHead + "tips count 2.5\n").find("whole number") != std::string::npos);
 }
 
@@ -113,7 +125,8 @@ TEST_CASE("trees and tables have a limit, which is told") {
 TEST_CASE("cut, doubled and scrambled files are read or refused, never more") {
   const std::string text = test::growthText();
   std::mt19937 engine(7);
-  for (std::size_t length = 0; length < text.size(); length += 7) (void)parseGrowthRules(std::string_view(text).substr(0, length), "g");
+  for (std::size_t length = 0; length < text.size(); length += 7)
+    (void)parseGrowthRules(std::string_view(text).substr(0, length), "g");
   for (int i = 0; i < 3000; ++i) {
     std::string broken = text;
     for (int k = 0; k < 4; ++k) broken[engine() % broken.size()] = char(engine() % 256);

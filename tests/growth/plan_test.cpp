@@ -27,7 +27,8 @@ shared::GrowthView viewOf(float width, vec3 middle) {
   return view;
 }
 
-CapillaryPlan planOf(const test::GrownNetwork& grown, const shared::GrowthView& view, const CapillaryWish& wish) {
+CapillaryPlan planOf(const test::GrownNetwork& grown, const shared::GrowthView& view,
+                     const CapillaryWish& wish) {
   CapillaryPlan plan;
   planCapillaries({grown.points, grown.rules.tables, grown.sites, view}, wish, plan);
   return plan;
@@ -51,10 +52,12 @@ TEST_CASE("a plan has every tree once, whole, in batches that fit the ring") {
     sum += batch.curves;
     for (std::uint32_t j = 0; j < batch.jobCount; ++j) {
       const shared::GrowthJob& job = plan.jobs[batch.firstJob + j];
-      const std::uint32_t end = j + 1 < batch.jobCount ? plan.jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
+      const std::uint32_t end =
+          j + 1 < batch.jobCount ? plan.jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
       const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.span].system & 0xffu, job.levels);
       CHECK((end - job.firstCurve) % size == 0);
-      for (std::uint32_t k = 0; k < (end - job.firstCurve) / size; ++k) CHECK(trees.insert({job.span, job.firstSprout + k}).second);
+      for (std::uint32_t k = 0; k < (end - job.firstCurve) / size; ++k)
+        CHECK(trees.insert({job.span, job.firstSprout + k}).second);
     }
   }
   CHECK(sum == plan.curves);
@@ -70,7 +73,8 @@ TEST_CASE("what is out of the picture is left out, and what is far off has fewer
   CHECK(part.curves < planOf(grown, viewOf(10, vec3(0.5f)), kAll).curves);
   CapillaryWish fine = kAll;
   fine.smallest = 1;
-  const auto near = planOf(grown, viewOf(3, vec3(0.5f)), fine), far = planOf(grown, viewOf(300, vec3(0.5f)), fine),
+  const auto near = planOf(grown, viewOf(3, vec3(0.5f)), fine),
+             far = planOf(grown, viewOf(300, vec3(0.5f)), fine),
              farthest = planOf(grown, viewOf(3e5f, vec3(0.5f)), fine);
   CHECK(far.curves < near.curves);
   CHECK(farthest.curves == 0);
@@ -81,7 +85,8 @@ TEST_CASE("the budget holds, and takes from all vessels alike") {
   const test::GrownNetwork grown(test::windingNetwork(100, 6));
   const auto view = viewOf(10, vec3(0.5f));
   const auto all = planOf(grown, view, kAll);
-  for (const std::uint32_t budget : {1u, 500u, std::uint32_t(all.curves / 3), std::uint32_t(all.curves - 1)}) {
+  for (const std::uint32_t budget :
+       {1u, 500u, std::uint32_t(all.curves / 3), std::uint32_t(all.curves - 1)}) {
     CapillaryWish wish = kAll;
     wish.budget = budget;
     const auto plan = planOf(grown, view, wish);
@@ -108,7 +113,9 @@ TEST_CASE("polylines have as many edges as was said, or more where they are larg
 TEST_CASE("trees thinner than a pixel are threads, unless all is to be drawn or edges are said") {
   const test::GrownNetwork grown(test::windingNetwork(20, 6));
   CapillaryWish wish{.levels = 3};
-  const auto edgesAt = [&](float width) { return planOf(grown, viewOf(width, vec3(0.5f)), wish).batches.front().edges; };
+  const auto edgesAt = [&](float width) {
+    return planOf(grown, viewOf(width, vec3(0.5f)), wish).batches.front().edges;
+  };
   CHECK(edgesAt(0.5f) == 10);
   CHECK(edgesAt(100) == shared::kThreads);
   wish.edges = 3;
@@ -140,10 +147,12 @@ TEST_CASE("the farthest trees come first, and the plan is the same again") {
   const test::GrownNetwork grown(test::windingNetwork(80, 8));
   const auto view = viewOf(10, vec3(0.5f));
   const auto plan = planOf(grown, view, kAll), again = planOf(grown, view, kAll);
-  CHECK(hashOf(std::span<const shared::GrowthJob>(plan.jobs)) == hashOf(std::span<const shared::GrowthJob>(again.jobs)));
+  CHECK(hashOf(std::span<const shared::GrowthJob>(plan.jobs)) ==
+        hashOf(std::span<const shared::GrowthJob>(again.jobs)));
   const auto heightOf = [&](const shared::GrowthJob& job) {
     const vec4* p = &grown.points[grown.sites.spans[job.span].point];
     return (p[0].z + p[1].z + p[2].z + p[3].z) / 4;
   };
-  for (std::size_t i = 1; i < plan.jobs.size(); ++i) CHECK(heightOf(plan.jobs[i]) >= heightOf(plan.jobs[i - 1]) - 1e-6f);
+  for (std::size_t i = 1; i < plan.jobs.size(); ++i)
+    CHECK(heightOf(plan.jobs[i]) >= heightOf(plan.jobs[i - 1]) - 1e-6f);
 }

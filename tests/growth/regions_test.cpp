@@ -62,22 +62,29 @@ TEST_CASE("what the program ships can be read") {
   CHECK(systemOf({"left middle cerebral artery", "", "Head", VesselKind::artery}) == "brain");
   CHECK(systemOf({"left facial artery", "", "Neck1", VesselKind::artery}) == "face");
   CHECK(systemOf({"plantar arch left", "", "LeftFoot", VesselKind::artery}) == "foot");
-  CHECK(systemOf({"ulnar palmar digital artery of ring finger left", "", "LeftHandFinger3", VesselKind::artery}) == "hand");
+  CHECK(systemOf({"ulnar palmar digital artery of ring finger left", "", "LeftHandFinger3",
+                  VesselKind::artery}) == "hand");
   CHECK(systemOf({"popliteal vein", "", "LeftLeg", VesselKind::vein}) == "limb");
   CHECK(systemOf({"lumbar vein", "", "LowerBack", VesselKind::vein}) == "muscle");
 }
 
 TEST_CASE("faults are told with file, line, cause and remedy") {
-  CHECK(messageOf("") .starts_with("r.csv: has no regions"));
-  CHECK(messageOf("region,system\n") == "r.csv:1: the first line must name the columns: " + kColumns.substr(0, kColumns.size() - 1));
+  CHECK(messageOf("").starts_with("r.csv: has no regions"));
+  CHECK(messageOf("region,system\n") ==
+        "r.csv:1: the first line must name the columns: " + kColumns.substr(0, kColumns.size() - 1));
   CHECK(messageOf(kColumns + "a,oak\n").starts_with("r.csv:2: has 2 cells but must have 9"));
-  CHECK(messageOf(kColumns + "a,elm,,,,0,3,8,\n") == "r.csv:2: there is no system 'elm'; use one of -, oak, reed");
+  CHECK(messageOf(kColumns + "a,elm,,,,0,3,8,\n") ==
+        "r.csv:2: there is no system 'elm'; use one of -, oak, reed");
   CHECK(messageOf(kColumns + "a,oak,,,tube,0,3,8,\n").find("no kind of vessel") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,three,8,\n") == "r.csv:2: thickest_mm is 'three' but must be a number from 0 to 100");
+  CHECK(messageOf(kColumns + "a,oak,,,,0,three,8,\n") ==
+        "r.csv:2: thickest_mm is 'three' but must be a number from 0 to 100");
   CHECK(messageOf(kColumns + "a,oak,,,,0,nan,8,\n").find("must be a number") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,0,\n").find("spacing_mm must be at least 0.1") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,0,\n").find("spacing_mm must be at least 0.1") !=
+        std::string::npos);
   CHECK(messageOf(kColumns + "a,oak,,,,4,3,8,\n").find("exchange them") != std::string::npos);
   CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head\n").find("must be JOINT:(x y z)") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2)\n").find("must be JOINT:(x y z)") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2 x)\n").find("where a number of millimetres belongs") != std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2)\n").find("must be JOINT:(x y z)") !=
+        std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2 x)\n").find("where a number of millimetres belongs") !=
+        std::string::npos);
 }

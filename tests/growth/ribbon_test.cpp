@@ -13,7 +13,8 @@ struct Scene {
   std::vector<shared::CapillaryVertex> vertices = std::vector<shared::CapillaryVertex>(12);
 
   Scene() {
-    for (int i = 0; i < 4; ++i) capillary.curve.b[std::size_t(i)] = vec4(float(i) / 3, 0, 0, 0.02f - 0.01f * float(i) / 3);
+    for (int i = 0; i < 4; ++i)
+      capillary.curve.b[std::size_t(i)] = vec4(float(i) / 3, 0, 0, 0.02f - 0.01f * float(i) / 3);
     view.viewProjection = mat4(1);
     view.eye = {0, 0, 1};
     view.depth = {0, 0, 0, 1};
@@ -125,5 +126,6 @@ TEST_CASE("a leaf's thread has two triangles, between the same corners, and fade
   CHECK(thread[0].clip == thread[1].clip);
   CHECK(thread[4].clip == thread[5].clip);
   CHECK(areaOf(thread) == doctest::Approx(areaOf(ribbon) * 2 / 3).epsilon(0.01));
-  CHECK(float(thread[1].colour >> 24) / float(ribbon[1].colour >> 24) == doctest::Approx(1.25f).epsilon(0.02));
+  CHECK(float(thread[1].colour >> 24) / float(ribbon[1].colour >> 24) ==
+        doctest::Approx(1.25f).epsilon(0.02));
 }

@@ -29,7 +29,8 @@ AnimatedMesh sample() {
   return mesh;
 }
 
-std::filesystem::path write(const TemporaryFolder& folder, const char* name, std::span<const std::byte> bytes) {
+std::filesystem::path write(const TemporaryFolder& folder, const char* name,
+                            std::span<const std::byte> bytes) {
   REQUIRE(writeFileAtomically(folder.path() / name, bytes).ok());
   return folder.path() / name;
 }

@@ -25,7 +25,9 @@ void expectFault(const std::string& text, const char* message) {
 }  // namespace
 
 TEST_CASE("BVH: hierarchy, places, rotations in the order of the channels") {
-  const auto motion = parseBvh(kHierarchy + "MOTION\r\nFrames: 2\nFrame Time: .0333333\n1 2 3 0 0 0 0 0 0\n1 2 3 90 0 0 0 90 90\n", "a.bvh");
+  const auto motion = parseBvh(
+      kHierarchy + "MOTION\r\nFrames: 2\nFrame Time: .0333333\n1 2 3 0 0 0 0 0 0\n1 2 3 90 0 0 0 90 90\n",
+      "a.bvh");
   if (!motion.ok()) FAIL(motion.error().message);
   REQUIRE(motion->joints.size() == 2);
   CHECK(motion->joints[0].name == "Hips");
@@ -55,11 +57,14 @@ TEST_CASE("what is wrong with a BVH file is told with its line") {
   const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
   expectFault("", "a.bvh:1: expected HIERARCHY, found the file's end");
   expectFault("HIERARCHY\nJOINT a\n", "a.bvh:2: expected ROOT, found 'JOINT'");
-  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 nan 0\n", "a.bvh:4: an offset must be a finite number, found 'nan'");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 nan 0\n",
+              "a.bvh:4: an offset must be a finite number, found 'nan'");
   expectFault("HIERARCHY\nROOT\n{\n", "needs a name");
-  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 1 Xscale\n", "a.bvh:5: a channel must be a position or rotation such as Xrotation, found 'Xscale'");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 1 Xscale\n",
+              "a.bvh:5: a channel must be a position or rotation such as Xrotation, found 'Xscale'");
   expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 9 Xrotation\n", "from 0 to 6");
-  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n BONE b\n", "expected JOINT, End Site or }, found 'BONE'");
+  expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n BONE b\n",
+              "expected JOINT, End Site or }, found 'BONE'");
   expectFault(kHierarchy, "expected MOTION");
   expectFault(kHierarchy + "MOTION\nFrames: 0\n", "there are no frames");
   expectFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 0\n", "must be above zero");

@@ -149,7 +149,8 @@ TEST_CASE("two skins in different binding spaces share their joints") {
   CHECK(atRest(body, 1) == atRest(body, 0));
 }
 
-TEST_CASE("rest is the pose that the skin is bound in, whatever pose the nodes have; a second skin bound otherwise doubles joints") {
+TEST_CASE(
+    "rest is the pose that the skin is bound in, whatever pose the nodes have; a second skin bound otherwise doubles joints") {
   GltfBuilder file = bodyFile();
   file.document["nodes"][1]["translation"] = {0, -0.75, 0};  // bound at -0.5, in the nodes' pose 0.25 lower
   Body body = bodyOf(file);
@@ -158,7 +159,8 @@ TEST_CASE("rest is the pose that the skin is bound in, whatever pose the nodes h
   CHECK(near(atRest(body)[2], {0, 0, 0}));
   CHECK(near(vec3(body.skeleton.joints[1].restWorld[3]), {0, 0.5f, 0}));
   // What the clip does not move is where the nodes have it: the knee is turned, its place is not told.
-  CHECK(near(posed(body, body.meshes[0], samplePose(body.skeleton, body.clips[0], 0.2f))[2], {0.5f, 0.25f, 0}));
+  CHECK(
+      near(posed(body, body.meshes[0], samplePose(body.skeleton, body.clips[0], 0.2f))[2], {0.5f, 0.25f, 0}));
   std::vector<float> binds = matrixAt({0, -1, 0});
   const auto knee = matrixAt({0, -0.25f, 0});
   binds.insert(binds.end(), knee.begin(), knee.end());
@@ -175,7 +177,8 @@ TEST_CASE("rest is the pose that the skin is bound in, whatever pose the nodes h
   CHECK(near(posed(body, body.meshes[1], bent)[2], {0.25f, 0.25f, 0}));
 }
 
-TEST_CASE("a file saved in a jump, bound in centimetres with +Z up below nodes that say so, rests upright in metres") {
+TEST_CASE(
+    "a file saved in a jump, bound in centimetres with +Z up below nodes that say so, rests upright in metres") {
   GltfBuilder file = bodyFile();
   // Bind space: centimetres, +Z up; the node above is turned and scaled; the hip is raised and the knee bent.
   const std::vector<float> up{0.01f, 0, 0, 0, 0, 0, -0.01f, 0, 0, 0.01f, 0, 0, 0, 0, 0, 1};
@@ -236,9 +239,18 @@ TEST_CASE("VRM's table names the joints, in both of its versions; what is no tab
     const Body body = bodyOf(file);
     return body.skeleton.joints[0].name + " " + body.skeleton.joints[1].name;
   };
-  CHECK(names({{"VRM", {{"humanoid", {{"humanBones", {{{"bone", "hips"}, {"node", 0}}, {{"bone", "leftLowerLeg"}, {"node", 1}}}}}}}}}) == "hips leftLowerLeg");
-  CHECK(names({{"VRMC_vrm", {{"humanoid", {{"humanBones", {{"hips", {{"node", 0}}}, {"leftLowerLeg", {{"node", 1}}}}}}}}}}) == "hips leftLowerLeg");
-  CHECK(names({{"VRM", {{"humanoid", {{"humanBones", {{{"bone", "hips"}, {"node", 99}}, {{"bone", 3}}, 7}}}}}}}) == "hip knee");
+  CHECK(names({{"VRM",
+                {{"humanoid",
+                  {{"humanBones",
+                    {{{"bone", "hips"}, {"node", 0}}, {{"bone", "leftLowerLeg"}, {"node", 1}}}}}}}}}) ==
+        "hips leftLowerLeg");
+  CHECK(names({{"VRMC_vrm",
+                {{"humanoid",
+                  {{"humanBones", {{"hips", {{"node", 0}}}, {"leftLowerLeg", {{"node", 1}}}}}}}}}}) ==
+        "hips leftLowerLeg");
+  CHECK(names({{"VRM",
+                {{"humanoid", {{"humanBones", {{{"bone", "hips"}, {"node", 99}}, {{"bone", 3}}, 7}}}}}}}) ==
+        "hip knee");
 }
 
 TEST_CASE("what is no body is refused") {
@@ -261,7 +273,8 @@ TEST_CASE("what is no body is refused") {
   CHECK(refusal(flat).find("/nodes/1: the joint's scale is 0 at rest") != std::string::npos);
   GltfBuilder endless = bodyFile();
   const float aYear = 31557600;
-  std::memcpy(endless.binary.data() + endless.document["bufferViews"][4]["byteOffset"].get<std::size_t>() + 8, &aYear, 4);
+  std::memcpy(endless.binary.data() + endless.document["bufferViews"][4]["byteOffset"].get<std::size_t>() + 8,
+              &aYear, 4);
   CHECK(refusal(endless).find("/animations/0: lasts 31557600") != std::string::npos);
   GltfBuilder empty = bodyFile();
   empty.document["accessors"][4].erase("bufferView");

@@ -100,9 +100,7 @@ inline GltfBuilder triangleFile() {
   return file;
 }
 
-inline std::vector<float> matrixAt(vec3 t) {
-  return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t.x, t.y, t.z, 1};
-}
+inline std::vector<float> matrixAt(vec3 t) { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t.x, t.y, t.z, 1}; }
 
 /// A triangle on two joints, "hip" at (0,1,0) and its child "knee" at (0,0.5,0); vertices 0 and 1 on the hip,
 /// 2 on the knee; a clip "bend" of three keys, 0.1 s apart, that turns the knee about z by 0, 45 and 90

@@ -142,7 +142,9 @@ TEST_CASE("broken accessors") {
       {"/accessors/0/byteOffset", "without a bufferView",
        both(erase("/accessors/0", "bufferView"), set("/accessors/0/byteOffset", 0))},
       {"/accessors/7", "3000000000 numbers are more than the",
-       [](GltfBuilder& f) { f.add("accessors", {{"type", "VEC3"}, {"componentType", 5126}, {"count", 1000000000}}); }},
+       [](GltfBuilder& f) {
+         f.add("accessors", {{"type", "VEC3"}, {"componentType", 5126}, {"count", 1000000000}});
+       }},
       {"/accessors/0/normalized", "can be normalised", set("/accessors/0/normalized", true)},
       {"/accessors/0/min", "must hold 3 numbers, holds 2", set("/accessors/0/min", {0, 0})},
       {"/accessors/0/min/1", "must be a number", set("/accessors/0/min", {0, "x", 0})},
@@ -197,10 +199,14 @@ TEST_CASE("broken meshes") {
        both(set("/bufferViews/6/byteStride", 4), set("/accessors/6/count", 1))},
       {"/accessors/6", "index 0 is 65535, which asks drivers to begin a new strip",
        [](GltfBuilder& f) { f.binary[f.binary.size() - 6] = f.binary[f.binary.size() - 5] = 255; }},
-      {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "its buffer view holds another attribute, too, and has no byteStride",
+      {"/meshes/0/primitives/0/attributes/WEIGHTS_0",
+       "its buffer view holds another attribute, too, and has no byteStride",
        both(set("/accessors/1/bufferView", 2), set("/accessors/1/count", 3))},
       {"/accessors/7", "element 1 must be a unit vector, has length 2",
-       [](GltfBuilder& f) { f.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = f.floats({0, 0, 1, 2, 0, 0, 0, 0, 0}, "VEC3"); }},
+       [](GltfBuilder& f) {
+         f.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+             f.floats({0, 0, 1, 2, 0, 0, 0, 0, 0}, "VEC3");
+       }},
   });
 }
 

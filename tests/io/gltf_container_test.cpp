@@ -114,7 +114,8 @@ TEST_CASE("what is no regular file is refused as an I/O fault, without hanging")
   CHECK(has(refusal(pipe, Fault::io), "is not a regular file"));
   // What a file names and is not there is the file's fault.
   writeBytes(folder.path() / "a.gltf", textNaming("pipe.glb"));
-  CHECK(has(refusal(folder.path() / "a.gltf", Fault::badInput), "/buffers/0/uri: \"pipe.glb\" is not a regular file"));
+  CHECK(has(refusal(folder.path() / "a.gltf", Fault::badInput),
+            "/buffers/0/uri: \"pipe.glb\" is not a regular file"));
   writeBytes(folder.path() / "b.gltf", textNaming("absent.bin"));
   CHECK(has(refusal(folder.path() / "b.gltf", Fault::badInput), "/buffers/0/uri: \"absent.bin\" is missing"));
 }

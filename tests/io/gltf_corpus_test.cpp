@@ -48,13 +48,15 @@ const std::map<std::string, const char*> kTolerated = {
     {"IMAGE_UNEXPECTED_EOS", "pictures are never opened"},
     {"INVALID_URI", "of a picture, which is never opened (of a buffer it is refused)"},
     {"IO_ERROR", "of a picture, which is never opened"},
-    {"MESH_PRIMITIVE_INVALID_ATTRIBUTE", "attributes are looked up by the names that are used; others are passed over"},
+    {"MESH_PRIMITIVE_INVALID_ATTRIBUTE",
+     "attributes are looked up by the names that are used; others are passed over"},
     {"MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", "bounds are computed from the positions"},
     {"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "textures are not drawn"},
     {"NODE_SKIN_NO_SCENE", "joints are posed by the tree that they hang in, whichever scene lists it"},
     {"ONE_OF_MISMATCH", "of a camera, which is not read (of a picture it is refused)"},
     {"SKIN_SKELETON_INVALID", "the named node is not used: the joints' own tree is"},
-    {"UNDECLARED_EXTENSION", "no extension's properties are read; KHR_mesh_quantization counts only where it is declared"},
+    {"UNDECLARED_EXTENSION",
+     "no extension's properties are read; KHR_mesh_quantization counts only where it is declared"},
     {"UNSATISFIED_DEPENDENCY", "a picture's missing MIME type: it is never opened (all others are refused)"},
 };
 

@@ -9,7 +9,6 @@
 using namespace vasa;
 using namespace vasa::test;
 
-
 TEST_CASE("damaged files never crash the readers, and what is accepted is whole") {
   const LogLevel before = logLevel();
   setLogLevel(LogLevel::quiet);

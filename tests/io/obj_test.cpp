@@ -31,8 +31,9 @@ constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\n";
 
 TEST_CASE("an OBJ gives one element an object, polygons cut into triangles, other vertices left out") {
   ObjFile file;
-  const auto elements = file.read(std::string("# a comment\nmtllib ../../etc/passwd\n") + kSquare +
-                                  "v 9 9 9\nvn 0 0 1\no left vein\nf 1//1 2//1 3//1 4//1\no right\nf -5 -4 -3\n");
+  const auto elements =
+      file.read(std::string("# a comment\nmtllib ../../etc/passwd\n") + kSquare +
+                "v 9 9 9\nvn 0 0 1\no left vein\nf 1//1 2//1 3//1 4//1\no right\nf -5 -4 -3\n");
   REQUIRE(elements.ok());
   REQUIRE(elements->size() == 2);
   CHECK((*elements)[0].name == "left vein");
@@ -45,7 +46,8 @@ TEST_CASE("an OBJ gives one element an object, polygons cut into triangles, othe
 
 TEST_CASE("an OBJ in millimetres with Z up comes out in metres with Y up") {
   ObjFile file;
-  const auto elements = file.read("v 0 0 0\nv 1000 0 0\nv 0 2000 3000\nf 1 2 3\n", {0.001f, ImportFrame::Up::z});
+  const auto elements =
+      file.read("v 0 0 0\nv 1000 0 0\nv 0 2000 3000\nf 1 2 3\n", {0.001f, ImportFrame::Up::z});
   REQUIRE(elements.ok());
   CHECK((*elements)[0].name == "vessel");
   CHECK(glm::distance((*elements)[0].mesh.positions[2], vec3(0, 3, -2)) < 1e-6f);
@@ -53,11 +55,14 @@ TEST_CASE("an OBJ in millimetres with Z up comes out in metres with Y up") {
 
 TEST_CASE("faults of an OBJ are named with file and line") {
   ObjFile file;
-  CHECK(contains(file.fault("v 0 0 nan\n"), "vessel.obj:1: a vertex needs three finite numbers, found 'nan'"));
+  CHECK(
+      contains(file.fault("v 0 0 nan\n"), "vessel.obj:1: a vertex needs three finite numbers, found 'nan'"));
   CHECK(contains(file.fault("v 0 0\n"), "needs three finite numbers"));
   CHECK(contains(file.fault("v 0 0 1e9\n"), "--scale"));
-  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2\n"), "vessel.obj:5: a face needs at least three corners"));
-  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 7\n"), ":5: face index 7 lies outside the 4 vertices"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2\n"),
+                 "vessel.obj:5: a face needs at least three corners"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 7\n"),
+                 ":5: face index 7 lies outside the 4 vertices"));
   CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 -9\n"), "face index -9"));
   CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 0\n"), "needs a vertex index"));
   CHECK(contains(file.fault(std::string(kSquare) + "f a b c\n"), "needs a vertex index, found 'a'"));

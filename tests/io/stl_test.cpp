@@ -36,7 +36,9 @@ std::string facet(const std::string& a, const std::string& b, const std::string&
 std::string binary(const std::vector<std::array<vec3, 3>>& triangles, std::uint32_t promised) {
   std::string bytes(80, 's');
   bytes.replace(0, 5, "solid");
-  const auto put = [&bytes](const void* at, std::size_t size) { bytes.append(static_cast<const char*>(at), size); };
+  const auto put = [&bytes](const void* at, std::size_t size) {
+    bytes.append(static_cast<const char*>(at), size);
+  };
   put(&promised, 4);
   for (const auto& triangle : triangles) {
     const vec3 normal(0);
@@ -54,9 +56,10 @@ const std::vector<std::array<vec3, 3>> kTwo{{vec3(0, 0, 0), vec3(1, 0, 0), vec3(
 
 TEST_CASE("ASCII STL: one element a solid, equal corners shared") {
   StlFile file;
-  const auto elements = file.read("solid left vein\n" + facet("0 0 0", "1 0 0", "0 1 0") +
-                                  facet("1 0 0", "1 1 0", "0 1 -0") + "endsolid left vein\nsolid\n" +
-                                  facet("0 0 0", "+1e0 0 0", "0 1 0") + facet("0 0 0", "0 0 0", "1 1 1") + "endsolid\n");
+  const auto elements =
+      file.read("solid left vein\n" + facet("0 0 0", "1 0 0", "0 1 0") + facet("1 0 0", "1 1 0", "0 1 -0") +
+                "endsolid left vein\nsolid\n" + facet("0 0 0", "+1e0 0 0", "0 1 0") +
+                facet("0 0 0", "0 0 0", "1 1 1") + "endsolid\n");
   REQUIRE(elements.ok());
   REQUIRE(elements->size() == 2);
   CHECK((*elements)[0].name == "left vein");
@@ -89,10 +92,14 @@ TEST_CASE("faults of an STL are named with file and place") {
   CHECK(contains(file.fault(binary({}, 0)), "no triangles with an area"));
   CHECK(contains(file.fault("solid a\nendsolid a\n"), "no triangles with an area"));
   CHECK(contains(file.fault("solid a\nfacet normal 0 0 1\nendfacet\n"), "a facet without 'outer loop'"));
-  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 x")), ":6: a corner needs three finite numbers"));
-  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 nan 0")), ":6: a coordinate is not finite"));
-  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0\n vertex 1 1 1")), "more than three corners"));
-  CHECK(contains(file.fault("solid a\nfacet\nouter loop\nvertex 0 0 0\nendloop\n"), "needs three corners, found 'endloop'"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 x")),
+                 ":6: a corner needs three finite numbers"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 nan 0")),
+                 ":6: a coordinate is not finite"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0\n vertex 1 1 1")),
+                 "more than three corners"));
+  CHECK(contains(file.fault("solid a\nfacet\nouter loop\nvertex 0 0 0\nendloop\n"),
+                 "needs three corners, found 'endloop'"));
   CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0")), "ends before 'endsolid'"));
   CHECK(contains(file.fault("solid a\nrubbish\n"), "expected 'facet' or 'endsolid', found 'rubbish'"));
 }

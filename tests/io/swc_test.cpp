@@ -23,7 +23,9 @@ void expectFault(const char* text, const char* message) {
 }  // namespace
 
 TEST_CASE("an SWC tree: units, comments, a parent further down, a fork") {
-  const auto samples = parseSwc("# a comment\n2 3 0 10 0 2 1\r\n1 1 0 0 0 2 -1 # root\n\n3 3 0 20 0 2 2\n4 3 5 15 0 1 2 99\n", "a.swc", kMillimetres);
+  const auto samples =
+      parseSwc("# a comment\n2 3 0 10 0 2 1\r\n1 1 0 0 0 2 -1 # root\n\n3 3 0 20 0 2 2\n4 3 5 15 0 1 2 99\n",
+               "a.swc", kMillimetres);
   REQUIRE(samples.ok());
   REQUIRE(samples->size() == 4);
   CHECK((*samples)[0].position == vec3(0, 0.01f, 0));
@@ -64,7 +66,8 @@ TEST_CASE("what is wrong with an SWC file is told with its line") {
 }
 
 TEST_CASE("SWC written is read back the same, byte for byte") {
-  const auto samples = parseSwc("7 1 0.1 -0.2 0.3 0.77 -1\n9 3 1.23456 10 0 2 7\n8 3 0 20 1e-3 2 9\n", "a.swc", kMillimetres);
+  const auto samples =
+      parseSwc("7 1 0.1 -0.2 0.3 0.77 -1\n9 3 1.23456 10 0 2 7\n8 3 0 20 1e-3 2 9\n", "a.swc", kMillimetres);
   REQUIRE(samples.ok());
   const std::string text = encodeSwc(*samples, kMillimetres);
   const auto again = parseSwc(text, "b.swc", kMillimetres);
@@ -79,8 +82,10 @@ TEST_CASE("SWC written is read back the same, byte for byte") {
 
 TEST_CASE("a network of lines with a loop becomes a forest of all its samples") {
   Centrelines lines;
-  lines.lines.push_back({"a", {}, VesselKind::artery, {{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 2, 0, 1}, {0, 3, 0, 1}}});
-  lines.lines.push_back({"b", {}, VesselKind::artery, {{0, 1, 0, 1}, {1, 1, 0, 1}, {1, 2, 0, 1}, {0, 2, 0, 1}}});
+  lines.lines.push_back(
+      {"a", {}, VesselKind::artery, {{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 2, 0, 1}, {0, 3, 0, 1}}});
+  lines.lines.push_back(
+      {"b", {}, VesselKind::artery, {{0, 1, 0, 1}, {1, 1, 0, 1}, {1, 2, 0, 1}, {0, 2, 0, 1}}});
   lines.joints = {{Centrelines::Place{0, 1}, {{1, false}}}, {Centrelines::Place{0, 2}, {{1, true}}}};
   const auto samples = swcOfCentrelines(lines);
   CHECK(samples.size() == 7);  // six places, and the loop's end once more
@@ -111,8 +116,9 @@ TEST_CASE("traced brain arteries: every sample is met within 1 % of its radius")
       }
     CHECK(worst < 0.01f);
     CHECK(miss < 0.06f);
-    MESSAGE(entry.path().filename().string() << ": " << samples->size() << " samples, " << made->network.vessels().size() << " vessels, "
-                               << made->network.sweepCount() << " sweeps, radius within " << 100 * worst << " %");
+    MESSAGE(entry.path().filename().string()
+            << ": " << samples->size() << " samples, " << made->network.vessels().size() << " vessels, "
+            << made->network.sweepCount() << " sweeps, radius within " << 100 * worst << " %");
     const auto written = swcOfCentrelines(lines);
     CHECK(written.size() == samples->size());
     const std::string text = encodeSwc(written, kMillimetres);

@@ -10,9 +10,7 @@ using namespace vasa::test;
 
 namespace {
 
-std::span<const std::byte> bytesOf(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
+std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 template <class T>
 std::string bigEndian(const std::vector<T>& values) {

@@ -17,24 +17,30 @@ const ImportFrame kMillimetres{0.001, ImportFrame::Up::y};
 std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 // Three points in one line, every array in its own encoding.
-std::string file(const std::string& points, const std::string& radius, const std::string& connectivity, const std::string& head = "",
-                 const std::string& tail = "") {
+std::string file(const std::string& points, const std::string& radius, const std::string& connectivity,
+                 const std::string& head = "", const std::string& tail = "") {
   return "<?xml version=\"1.0\"?><VTKFile type=\"PolyData\" version=\"0.1\" " + head +
-         "><PolyData><Piece NumberOfPoints=\"3\" NumberOfLines=\"1\"><PointData>" + radius + "</PointData><Points>" + points +
-         "</Points><Lines>" + connectivity + "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray></Lines></Piece></PolyData>" +
+         "><PolyData><Piece NumberOfPoints=\"3\" NumberOfLines=\"1\"><PointData>" + radius +
+         "</PointData><Points>" + points + "</Points><Lines>" + connectivity +
+         "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray></Lines></Piece></PolyData>" +
          tail + "</VTKFile>";
 }
-const std::string kPoints = "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0\n2 0 0</DataArray>";
-const std::string kRadius = "<DataArray type=\"Float64\" Name=\"MaximumInscribedSphereRadius\" format=\"ascii\">1 2 3</DataArray>";
-const std::string kLine = "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>";
+const std::string kPoints =
+    "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0\n2 0 0</DataArray>";
+const std::string kRadius =
+    "<DataArray type=\"Float64\" Name=\"MaximumInscribedSphereRadius\" format=\"ascii\">1 2 3</DataArray>";
+const std::string kLine =
+    "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>";
 
 template <class T>
 std::vector<std::byte> packed(const std::vector<T>& values, bool bigEndian = false) {
   std::vector<std::byte> bytes;
   for (const T& value : values) {
     const auto one = std::as_bytes(std::span(&value, 1));
-    if (bigEndian) bytes.insert(bytes.end(), one.rbegin(), one.rend());
-    else bytes.insert(bytes.end(), one.begin(), one.end());
+    if (bigEndian)
+      bytes.insert(bytes.end(), one.rbegin(), one.rend());
+    else
+      bytes.insert(bytes.end(), one.begin(), one.end());
   }
   return bytes;
 }
@@ -69,24 +75,31 @@ TEST_CASE("VTP data in every encoding") {
   const auto plain = packed<std::uint32_t>({12}) + packed(radii);
   expectRead(file(kPoints, radius("format=\"binary\"", "\n  " + encodeBase64(plain) + "\n"), kLine));
   const auto big = packed<std::uint64_t>({12}, true) + packed(radii, true);
-  expectRead(file(kPoints, radius("format=\"binary\"", encodeBase64(big)), kLine, "byte_order=\"BigEndian\" header_type=\"UInt64\""));
+  expectRead(file(kPoints, radius("format=\"binary\"", encodeBase64(big)), kLine,
+                  "byte_order=\"BigEndian\" header_type=\"UInt64\""));
   std::vector<std::byte> squeezed(100);
   uLongf length = 100;
-  REQUIRE(compress(reinterpret_cast<Bytef*>(squeezed.data()), &length, reinterpret_cast<const Bytef*>(radii.data()), 12) == Z_OK);
+  REQUIRE(compress(reinterpret_cast<Bytef*>(squeezed.data()), &length,
+                   reinterpret_cast<const Bytef*>(radii.data()), 12) == Z_OK);
   squeezed.resize(length);
   const auto header = packed<std::uint32_t>({1, 32768, 12, std::uint32_t(length)});
   const std::string zlib = "compressor=\"vtkZLibDataCompressor\"";
-  expectRead(file(kPoints, radius("format=\"binary\"", encodeBase64(header) + encodeBase64(squeezed)), kLine, zlib));
+  expectRead(
+      file(kPoints, radius("format=\"binary\"", encodeBase64(header) + encodeBase64(squeezed)), kLine, zlib));
   const auto raw = header + squeezed;
   const std::string rawText(reinterpret_cast<const char*>(raw.data()), raw.size());
-  expectRead(file(kPoints, radius("format=\"appended\" offset=\"2\"", ""), kLine, zlib, "<AppendedData encoding=\"raw\">_\x01<" + rawText + "</AppendedData>"));
+  expectRead(file(kPoints, radius("format=\"appended\" offset=\"2\"", ""), kLine, zlib,
+                  "<AppendedData encoding=\"raw\">_\x01<" + rawText + "</AppendedData>"));
   expectRead(file(kPoints, radius("format=\"appended\" offset=\"4\"", ""), kLine, zlib,
-                  "<AppendedData encoding=\"base64\">_AAAA" + encodeBase64(header) + encodeBase64(squeezed) + encodeBase64(header) + "</AppendedData>"));
+                  "<AppendedData encoding=\"base64\">_AAAA" + encodeBase64(header) + encodeBase64(squeezed) +
+                      encodeBase64(header) + "</AppendedData>"));
 }
 
 TEST_CASE("what is wrong with a VTP file is told with its place") {
-  const auto array = [](const char* type, const char* name, const char* content, const char* format = "ascii") {
-    return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" format=\"" + format + "\">" + content + "</DataArray>";
+  const auto array = [](const char* type, const char* name, const char* content,
+                        const char* format = "ascii") {
+    return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" format=\"" + format + "\">" +
+           content + "</DataArray>";
   };
   const char* r = "MaximumInscribedSphereRadius";
   expectFault("", "not valid XML");
@@ -95,8 +108,10 @@ TEST_CASE("what is wrong with a VTP file is told with its place") {
   expectFault("<VTKFile type=\"ImageData\"/>", "holds ImageData, not PolyData");
   expectFault("<VTKFile compressor=\"vtkLZ4DataCompressor\"/>", "save the file with zlib");
   expectFault("<VTKFile><PolyData/></VTKFile>", "no lines");
-  expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"x\" NumberOfLines=\"1\"/></PolyData></VTKFile>", "Piece[0]/NumberOfPoints: must be a whole number");
-  expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"99999999999\"/></PolyData></VTKFile>", "must lie between");
+  expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"x\" NumberOfLines=\"1\"/></PolyData></VTKFile>",
+              "Piece[0]/NumberOfPoints: must be a whole number");
+  expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"99999999999\"/></PolyData></VTKFile>",
+              "must lie between");
   expectFault(file("", kRadius, kLine), "Points: is missing");
   expectFault(file(kPoints, "", kLine), "has no array MaximumInscribedSphereRadius");
   expectFault(file(kPoints, array("Float64", r, "1 2"), kLine), "holds 2 numbers for 3 points");
@@ -107,15 +122,20 @@ TEST_CASE("what is wrong with a VTP file is told with its place") {
   expectFault(file(kPoints, array("Float64", r, "1 2 3", "hex"), kLine), "must be ascii, binary or appended");
   expectFault(file(kPoints, array("Float64", r, "###", "binary"), kLine), "is not base64");
   expectFault(file(kPoints, array("Float64", r, "//8AAAAA", "binary"), kLine), "is cut short");
-  expectFault(file(kPoints, kRadius, array("Int64", "connectivity", "0 1 3")), "value 2 lies outside the 3 points");
+  expectFault(file(kPoints, kRadius, array("Int64", "connectivity", "0 1 3")),
+              "value 2 lies outside the 3 points");
   expectFault(file(kPoints, kRadius, array("Int64", "connectivity", "0 1")), "must not fall and not exceed");
   CHECK(readVtp("/nowhere/a.vtp").error().fault == Fault::io);
 }
 
 TEST_CASE("VTP written is read back the same, byte for byte") {
   Centrelines lines;
-  lines.lines.push_back({"left \xc3\xa4orta & <co>", {}, VesselKind::vein, {{0, 0, 0, 0.01f}, {0.1f, 0.2f, 0.3f, 0.02f}, {0.7f, 0, 0, 0.03f}}});
-  lines.lines.push_back({"branch", {}, VesselKind::artery, {{0.1f, 0.2f, 0.3f, 0.001f}, {0.1f, 0.5f, 0.3f, 0.002f}}});
+  lines.lines.push_back({"left \xc3\xa4orta & <co>",
+                         {},
+                         VesselKind::vein,
+                         {{0, 0, 0, 0.01f}, {0.1f, 0.2f, 0.3f, 0.02f}, {0.7f, 0, 0, 0.03f}}});
+  lines.lines.push_back(
+      {"branch", {}, VesselKind::artery, {{0.1f, 0.2f, 0.3f, 0.001f}, {0.1f, 0.5f, 0.3f, 0.002f}}});
   lines.joints = {{Centrelines::Place{0, 1}, {{1, false}}}};
   const std::string text = encodeVtp(vtpOfCentrelines(lines), kMillimetres);
   const auto read = parseVtp(bytesOf(text), "a.vtp", kMillimetres);
@@ -172,7 +192,8 @@ TEST_CASE("VMTK's aorta: one tree, radii within 1 % of the source's at every sam
     }
     CHECK(worst < 0.01f);
     CHECK(farthest < 5e-4f);
-    MESSAGE(std::string(name) << ": " << made->network.sweepCount() << " sweeps, radius within " << 100 * worst << " %, centre within " << 1000 * farthest << " mm");
+    MESSAGE(std::string(name) << ": " << made->network.sweepCount() << " sweeps, radius within "
+                              << 100 * worst << " %, centre within " << 1000 * farthest << " mm");
   }
 }
 
@@ -198,14 +219,17 @@ VtpLines pieces(const std::vector<std::vector<vec4>>& polylines, bool shared, fl
 
 }  // namespace
 
-TEST_CASE("two-point lines that share points are vessels with forks, by number, by place and by about the same place") {
+TEST_CASE(
+    "two-point lines that share points are vessels with forks, by number, by place and by about the same place") {
   std::vector<vec4> trunk, branch, other;
   for (int i = 0; i <= 40; ++i) trunk.push_back({0, float(i), 0, 1});
   for (int i = 0; i <= 20; ++i) branch.push_back({float(i), 20 + 0.5f * float(i), 0, 0.5f});
   for (int i = 0; i <= 20; ++i) other.push_back({60 + float(i), 0, 0, 0.5f});
   branch[0].w = trunk[20].w;  // the shared point has one radius
-  for (const auto& [shared, rounding] : {std::pair(true, 0.0f), std::pair(false, 0.0f), std::pair(false, 0.01f)}) {
-    const auto lines = centrelinesOfVtp(pieces({trunk, branch, other}, shared, rounding), "brain", VesselKind::artery);
+  for (const auto& [shared, rounding] :
+       {std::pair(true, 0.0f), std::pair(false, 0.0f), std::pair(false, 0.01f)}) {
+    const auto lines =
+        centrelinesOfVtp(pieces({trunk, branch, other}, shared, rounding), "brain", VesselKind::artery);
     REQUIRE(lines.ok());
     REQUIRE(lines->lines.size() == 3);
     CHECK(lines->lines[0].samples.size() == 41);

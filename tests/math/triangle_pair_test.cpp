@@ -12,9 +12,7 @@ namespace {
 
 const Triangle kFloor{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-Triangle moved(const Triangle& t, vec3 by) {
-  return {t.a + by, t.b + by, t.c + by};
-}
+Triangle moved(const Triangle& t, vec3 by) { return {t.a + by, t.b + by, t.c + by}; }
 
 // By edges against triangles, both ways: another method.
 float gap(const Triangle& p, const Triangle& q) {
@@ -34,8 +32,8 @@ TEST_CASE("triangles that stand in one another cross; apart, side by side and in
   const Triangle wall{{0.2f, 0.2f, -1}, {0.2f, 0.2f, 1}, {0.2f, 2, 0}};
   CHECK(trianglesCross(kFloor, wall));
   CHECK(trianglesCross(wall, kFloor));
-  CHECK_FALSE(trianglesCross(kFloor, moved(wall, {0, 0, 2})));   // above
-  CHECK_FALSE(trianglesCross(kFloor, moved(wall, {2, 0, 0})));   // through the plane, beside the triangle
+  CHECK_FALSE(trianglesCross(kFloor, moved(wall, {0, 0, 2})));  // above
+  CHECK_FALSE(trianglesCross(kFloor, moved(wall, {2, 0, 0})));  // through the plane, beside the triangle
   CHECK_FALSE(trianglesCross(kFloor, moved(kFloor, {0.1f, 0.1f, 0})));
   CHECK_FALSE(trianglesCross(kFloor, kFloor));
   CHECK_FALSE(trianglesCross(kFloor, {{2, 2, 2}, {2, 2, 2}, {2, 2, 2}}));
@@ -57,8 +55,10 @@ TEST_CASE("random triangles cross where an edge of one pierces the other") {
     const bool found = trianglesCross(p, q);
     CHECK(found == trianglesCross(q, p));
     const float between = gap(p, q);
-    if (found) CHECK(between < 1e-5f);
-    else CHECK(between > 0);
+    if (found)
+      CHECK(between < 1e-5f);
+    else
+      CHECK(between > 0);
     crossing += found;
   }
   CHECK(crossing > 400);

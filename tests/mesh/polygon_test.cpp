@@ -41,7 +41,9 @@ TEST_CASE("a quadrangle is cut along its shorter diagonal") {
 }
 
 TEST_CASE("a star's triangles cover it once and turn as it does, however it lies") {
-  const std::pair<vec3, vec3> planes[] = {{vec3(1, 0, 0), vec3(0, 1, 0)}, {vec3(0, 1, 0), vec3(1, 0, 0)}, {vec3(0, 0, 1), vec3(0, 1, 0)},
+  const std::pair<vec3, vec3> planes[] = {{vec3(1, 0, 0), vec3(0, 1, 0)},
+                                          {vec3(0, 1, 0), vec3(1, 0, 0)},
+                                          {vec3(0, 0, 1), vec3(0, 1, 0)},
                                           {vec3(0.6f, 0, 0.8f), vec3(0, 1, 0)}};
   for (const auto& [u, v] : planes) {
     const auto corners = star(24, u, v);

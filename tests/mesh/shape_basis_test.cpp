@@ -12,7 +12,8 @@ std::vector<std::vector<vec3>> turning(int count, float angle) {
   for (int f = 0; f < count; ++f) {
     const float a = angle * float(f) / float(std::max(1, count - 1));
     std::vector<vec3> frame;
-    for (int v = 0; v < 200; ++v) frame.push_back(0.01f * float(v) * vec3(std::cos(a), std::sin(a), 0.1f * float(v % 3)));
+    for (int v = 0; v < 200; ++v)
+      frame.push_back(0.01f * float(v) * vec3(std::cos(a), std::sin(a), 0.1f * float(v % 3)));
     frames.push_back(frame);
   }
   return frames;
@@ -70,5 +71,6 @@ TEST_CASE("another quantity of the same frames follows the same weights") {
   const auto shapes = shapesForWeights(doubled, basis.weights);
   REQUIRE(shapes.size() == basis.shapes.size());
   for (std::size_t k = 0; k < shapes.size(); ++k)
-    for (std::size_t v = 0; v < shapes[k].size(); ++v) CHECK(glm::distance(shapes[k][v], 2.0f * basis.shapes[k][v]) < 1e-3f);
+    for (std::size_t v = 0; v < shapes[k].size(); ++v)
+      CHECK(glm::distance(shapes[k][v], 2.0f * basis.shapes[k][v]) < 1e-3f);
 }

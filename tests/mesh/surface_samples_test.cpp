@@ -6,8 +6,9 @@ using namespace vasa;
 
 TEST_CASE("samples share a surface by area and lie on it") {
   // Two squares, one of four times the area of the other, in many and in few triangles.
-  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 0, 0}, {7, 0, 0}, {7, 2, 0}, {5, 2, 0}, {6, 1, 0}},
-                    {{0, 1, 2}, {0, 2, 3}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}}};
+  TriangleMesh mesh{
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 0, 0}, {7, 0, 0}, {7, 2, 0}, {5, 2, 0}, {6, 1, 0}},
+      {{0, 1, 2}, {0, 2, 3}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}}};
   const auto samples = sampleSurface(mesh, 1000);
   REQUIRE(samples.size() == 1000);
   int small = 0;

@@ -16,9 +16,12 @@ TEST_CASE("the winding number is 1 inside a closed surface, 0 outside and 2 wher
     for (std::uint32_t row = 0; row <= kRows; ++row)
       for (std::uint32_t column = 0; column < kColumns; ++column) {
         const float theta = kPi * float(row) / kRows, phi = 2 * kPi * float(column) / kColumns;
-        positions.push_back(centre + radius * vec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)));
+        positions.push_back(centre + radius * vec3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                                                   -std::sin(theta) * std::sin(phi)));
       }
-    const auto at = [&](std::uint32_t row, std::uint32_t column) { return first + row * kColumns + column % kColumns; };
+    const auto at = [&](std::uint32_t row, std::uint32_t column) {
+      return first + row * kColumns + column % kColumns;
+    };
     for (std::uint32_t row = 0; row < kRows; ++row)
       for (std::uint32_t column = 0; column < kColumns; ++column) {
         triangles.push_back({at(row, column), at(row + 1, column), at(row + 1, column + 1)});
@@ -34,7 +37,8 @@ TEST_CASE("the winding number is 1 inside a closed surface, 0 outside and 2 wher
     const vec3 p(any(random), any(random), any(random));
     const float one = glm::length(p) - 1, other = glm::distance(p, vec3(0.8f, 0, 0)) - 0.7f;
     if (std::min(std::abs(one), std::abs(other)) < 0.02f) continue;
-    CHECK(winding.at(p) == doctest::Approx((one < 0 ? 1 : 0) + (other < 0 ? 1 : 0)).epsilon(0.0).scale(1).epsilon(0.05));
+    CHECK(winding.at(p) ==
+          doctest::Approx((one < 0 ? 1 : 0) + (other < 0 ? 1 : 0)).epsilon(0.0).scale(1).epsilon(0.05));
   }
 }
 

@@ -39,7 +39,8 @@ TEST_CASE("ends are moved exactly onto their nodes, and follow when the network 
   const auto network = builder.build(1.75f);
   REQUIRE(network.ok());
   std::vector<vec4> points(network->points().begin(), network->points().end());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] += vec4(0.01f * std::sin(float(i)), 0, 0.02f * std::cos(float(3 * i)), 0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] += vec4(0.01f * std::sin(float(i)), 0, 0.02f * std::cos(float(3 * i)), 0);
   pinEnds(*network, points);
   const auto of = [&](std::uint32_t v) { return Network::pointsOf(network->vessel({v}), points); };
   CHECK(vec3(of(1).front()) == vec3(evaluate(of(0), 2.5f)));
@@ -122,7 +123,5 @@ TEST_CASE("what cannot be a network is refused by name and cause") {
     builder.joinToSide({b, false}, {a, 0.0f});
     CHECK(messageOf(builder).find("hang on one another in a circle") != std::string::npos);
   }
-  SUBCASE("body height") {
-    CHECK(!builder.build(0).ok());
-  }
+  SUBCASE("body height") { CHECK(!builder.build(0).ok()); }
 }

@@ -22,19 +22,22 @@ std::vector<vec4> straight(vec3 from, vec3 to) { return test::straightVessel(fro
 
 TEST_CASE("vessels of one name or one id are compared, others are not") {
   const VesselKind artery = VesselKind::artery;
-  const Network ours = networkOf({{{"left renal artery", "FMA14753", artery}, straight({0, 0, 0}, {0.1f, 0, 0})},
-                                  {{"principal artery", "FMA1", artery}, straight({0, 0, 0}, {0, 0.1f, 0})},
-                                  {{"alone", "", artery}, straight({0, 0, 0}, {0, 0, 0.1f})}});
-  const Network theirs = networkOf({{{"arteria princeps", "FMA1", artery}, straight({0, 0.2f, 0}, {0, 0.1f, 0})},
-                                    {{"left renal artery", "", artery}, straight({0, 0.003f, 0}, {0.1f, 0.003f, 0})},
-                                    {{"left renal artery (2)", "", artery}, straight({0.1f, 0.003f, 0}, {0.2f, 0.003f, 0})},
-                                    {{"other (left)", "", artery}, straight({0, 0, 0}, {0, 0, 0.1f})}});
+  const Network ours =
+      networkOf({{{"left renal artery", "FMA14753", artery}, straight({0, 0, 0}, {0.1f, 0, 0})},
+                 {{"principal artery", "FMA1", artery}, straight({0, 0, 0}, {0, 0.1f, 0})},
+                 {{"alone", "", artery}, straight({0, 0, 0}, {0, 0, 0.1f})}});
+  const Network theirs =
+      networkOf({{{"arteria princeps", "FMA1", artery}, straight({0, 0.2f, 0}, {0, 0.1f, 0})},
+                 {{"left renal artery", "", artery}, straight({0, 0.003f, 0}, {0.1f, 0.003f, 0})},
+                 {{"left renal artery (2)", "", artery}, straight({0.1f, 0.003f, 0}, {0.2f, 0.003f, 0})},
+                 {{"other (left)", "", artery}, straight({0, 0, 0}, {0, 0, 0.1f})}});
   const auto all = compareVessels(ours, theirs);
   REQUIRE(all.size() == 2);
   CHECK(all[0].name == "left renal artery");
   CHECK(all[0].lengthRatio() == doctest::Approx(0.5));
   CHECK(all[0].distance == doctest::Approx(0.003));
-  CHECK(all[0].otherDistance == doctest::Approx(0.0265).epsilon(0.02));  // half of it lies 0 to 0.1 m beyond the end
+  CHECK(all[0].otherDistance ==
+        doctest::Approx(0.0265).epsilon(0.02));  // half of it lies 0 to 0.1 m beyond the end
   CHECK(all[0].apart() == all[0].distance);
   CHECK(all[1].name == "principal artery");
   CHECK(all[1].lengthRatio() == doctest::Approx(1));

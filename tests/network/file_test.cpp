@@ -69,7 +69,8 @@ TEST_CASE("a quantised file is half the size, near, and stable when written agai
   CHECK(error <= 1.6e-5f);
   for (std::size_t i = 0; i < network.points().size(); ++i) {
     const vec4 difference = glm::abs(read->points()[i] - network.points()[i]);
-    for (int axis = 0; axis < 3; ++axis) CHECK(difference[axis] <= 2 * error);  // pinned ends follow their host
+    // Pinned ends follow their host.
+    for (int axis = 0; axis < 3; ++axis) CHECK(difference[axis] <= 2 * error);
     CHECK(difference.w <= 0.01f / 131070 + 1e-9f);
   }
   CHECK(encodeNetwork(*read, {.quantise = true}) == bytes);
@@ -78,12 +79,15 @@ TEST_CASE("a quantised file is half the size, near, and stable when written agai
 TEST_CASE("an empty network survives") {
   const auto network = NetworkBuilder().build(1);
   REQUIRE(network.ok());
-  for (const bool quantise : {false, true}) CHECK(decodeNetwork(encodeNetwork(*network, {quantise}), "x").ok());
+  for (const bool quantise : {false, true})
+    CHECK(decodeNetwork(encodeNetwork(*network, {quantise}), "x").ok());
 }
 
 TEST_CASE("damage is told from foreign files and other versions") {
   auto bytes = encodeNetwork(sample());
-  SUBCASE("foreign") { CHECK(messageOf(std::as_bytes(std::span("hello there"))).find("not a .vasa file") != std::string::npos); }
+  SUBCASE("foreign") {
+    CHECK(messageOf(std::as_bytes(std::span("hello there"))).find("not a .vasa file") != std::string::npos);
+  }
   SUBCASE("nothing") { CHECK(messageOf({}).find("not a .vasa file") != std::string::npos); }
   SUBCASE("version") {
     bytes[4] = std::byte(9);
@@ -111,7 +115,8 @@ TEST_CASE("no signed garbage makes the reader crash") {
   int accepted = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     auto bytes = good;
-    for (int flips = 1 + int(random() % 3); flips; --flips) bytes[24 + random() % (bytes.size() - 24)] = std::byte(random());
+    for (int flips = 1 + int(random() % 3); flips; --flips)
+      bytes[24 + random() % (bytes.size() - 24)] = std::byte(random());
     sign(bytes);
     accepted += decodeNetwork(bytes, "x.vasa").ok();
   }

@@ -37,7 +37,8 @@ TEST_CASE("what the control polygon calls straight never kinks") {
   int sharp = 0;
   for (int trial = 0; trial < 5000; ++trial) {
     Bezier tube;
-    for (std::size_t k = 0; k < 4; ++k) tube.b[k] = vec4(0.01f * float(k) + normal(random), normal(random), normal(random), 0.004f);
+    for (std::size_t k = 0; k < 4; ++k)
+      tube.b[k] = vec4(0.01f * float(k) + normal(random), normal(random), normal(random), 0.004f);
     bool slow = false;  // by 200 samples
     for (int k = 0; k <= 200; ++k) {
       const vec3 first(tube.derivative(float(k) / 200)), second(tube.secondDerivative(float(k) / 200));

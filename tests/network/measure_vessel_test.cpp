@@ -22,7 +22,8 @@ std::vector<vec4> drawn(int count, At at) {
 // 100 mm along z with a radius told by place [mm].
 template <class Radius>
 std::vector<ProfileStation> straightWith(Radius radius) {
-  return stationsOf(drawn(200, [&](double s) { return vec4(0, 0, 0.1 * s, 1e-3 * radius(100 * s)); }), 2.5e-4f);
+  return stationsOf(drawn(200, [&](double s) { return vec4(0, 0, 0.1 * s, 1e-3 * radius(100 * s)); }),
+                    2.5e-4f);
 }
 
 double dip(double from, double to, double at) {
@@ -44,7 +45,8 @@ TEST_CASE("stations lie at equal distances with the lumen's radius and area") {
 
 TEST_CASE("a stenosis by hand: NASCET against the distal lumen, ECST against what would be there, area") {
   // From 4 mm it thins to 3 mm; in its middle it is narrowed to 1 mm.
-  const auto stenosis = worstStenosis(straightWith([](double z) { return 4 - z / 100 - 2.5 * dip(40, 60, z); }));
+  const auto stenosis =
+      worstStenosis(straightWith([](double z) { return 4 - z / 100 - 2.5 * dip(40, 60, z); }));
   REQUIRE(stenosis);
   CHECK(stenosis->along == doctest::Approx(0.05).epsilon(0.01));
   CHECK(stenosis->radius == doctest::Approx(0.001).epsilon(0.01));
@@ -56,10 +58,15 @@ TEST_CASE("a stenosis by hand: NASCET against the distal lumen, ECST against wha
 }
 
 TEST_CASE("a long narrowing, and the worse of two") {
-  const auto stenosis = worstStenosis(straightWith([](double z) { return z > 20 && z < 80 ? 1.5 : z <= 20 ? 3 - 1.5 * std::max(0.0, (z - 15) / 5) : 1.5 + 1.5 * std::min(1.0, (z - 80) / 5); }));
+  const auto stenosis = worstStenosis(straightWith([](double z) {
+    return z > 20 && z < 80 ? 1.5
+           : z <= 20        ? 3 - 1.5 * std::max(0.0, (z - 15) / 5)
+                            : 1.5 + 1.5 * std::min(1.0, (z - 80) / 5);
+  }));
   REQUIRE(stenosis);
   CHECK(stenosis->ecst() == doctest::Approx(0.5).epsilon(0.03));
-  const auto worse = worstStenosis(straightWith([](double z) { return 3 - 1 * dip(20, 30, z) - 2 * dip(60, 75, z); }));
+  const auto worse =
+      worstStenosis(straightWith([](double z) { return 3 - 1 * dip(20, 30, z) - 2 * dip(60, 75, z); }));
   REQUIRE(worse);
   CHECK(worse->along == doctest::Approx(0.0675).epsilon(0.01));
 }
@@ -74,7 +81,8 @@ TEST_CASE("healthy vessels have neither stenosis nor aneurysm: even, thinning, o
   }
 }
 
-TEST_CASE("an aneurysm by hand: its diameter, its ratio, diameter over length; a stenosis beside it is its own") {
+TEST_CASE(
+    "an aneurysm by hand: its diameter, its ratio, diameter over length; a stenosis beside it is its own") {
   const auto stations = straightWith([](double z) { return 8 + 12 * dip(30, 70, z) - 4 * dip(80, 95, z); });
   const auto aneurysm = widestAneurysm(stations);
   REQUIRE(aneurysm);
@@ -91,7 +99,9 @@ TEST_CASE("an aneurysm by hand: its diameter, its ratio, diameter over length; a
 }
 
 TEST_CASE("the course of a half circle: arc over chord, least bend radius, no inflection") {
-  const auto course = measureCourse(drawn(60, [](double s) { return vec4(0.02 * std::cos(3.14159265 * s), 0.02 * std::sin(3.14159265 * s), 0, 0.004); }));
+  const auto course = measureCourse(drawn(60, [](double s) {
+    return vec4(0.02 * std::cos(3.14159265 * s), 0.02 * std::sin(3.14159265 * s), 0, 0.004);
+  }));
   CHECK(course.arc == doctest::Approx(0.02 * 3.14159265).epsilon(1e-3));
   CHECK(course.chord == doctest::Approx(0.04));
   CHECK(course.tortuosity == doctest::Approx(3.14159265 / 2).epsilon(1e-3));
@@ -102,8 +112,10 @@ TEST_CASE("the course of a half circle: arc over chord, least bend radius, no in
   CHECK(course.greatestKink == doctest::Approx(0.2).epsilon(0.05));
 }
 
-TEST_CASE("a sine of two periods turns three times; a straight vessel never; a closed one has no arc over chord") {
-  const auto wave = measureCourse(drawn(80, [](double s) { return vec4(0.01 * std::sin(4 * 3.14159265 * s), 0, 0.1 * s, 0.002); }));
+TEST_CASE(
+    "a sine of two periods turns three times; a straight vessel never; a closed one has no arc over chord") {
+  const auto wave = measureCourse(
+      drawn(80, [](double s) { return vec4(0.01 * std::sin(4 * 3.14159265 * s), 0, 0.1 * s, 0.002); }));
   CHECK(wave.inflections == 3);
   CHECK(wave.inflectionMetric == doctest::Approx(4 * wave.tortuosity));
   const auto straight = measureCourse(drawn(5, [](double s) { return vec4(0, 0, 0.1 * s, 0.002); }));
@@ -111,7 +123,9 @@ TEST_CASE("a sine of two periods turns three times; a straight vessel never; a c
   CHECK(straight.inflections == 0);
   CHECK(straight.sumOfAngles == doctest::Approx(0));
   CHECK(straight.leastBendRadius == 0);
-  const auto ring = measureCourse(drawn(80, [](double s) { return vec4(0.02 * std::cos(6.2831853 * s), 0.02 * std::sin(6.2831853 * s), 0, 0.002); }));
+  const auto ring = measureCourse(drawn(80, [](double s) {
+    return vec4(0.02 * std::cos(6.2831853 * s), 0.02 * std::sin(6.2831853 * s), 0, 0.002);
+  }));
   CHECK(ring.tortuosity == 0);
 }
 

@@ -21,6 +21,4 @@ TEST_CASE("two networks stand side by side in one, each as it was") {
   CHECK(merged->node({2}).host->vessel.value == 5);
 }
 
-TEST_CASE("nothing to merge is refused") {
-  CHECK(!mergeNetworks({}).ok());
-}
+TEST_CASE("nothing to merge is refused") { CHECK(!mergeNetworks({}).ok()); }

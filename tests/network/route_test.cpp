@@ -11,7 +11,8 @@ namespace {
 
 std::vector<vec4> straight(vec3 from, vec3 to) {
   std::vector<vec4> points;
-  for (const float t : {0.0f, 1 / 6.0f, 0.5f, 5 / 6.0f, 1.0f}) points.push_back(vec4(glm::mix(from, to, t), 0.01f));
+  for (const float t : {0.0f, 1 / 6.0f, 0.5f, 5 / 6.0f, 1.0f})
+    points.push_back(vec4(glm::mix(from, to, t), 0.01f));
   return points;
 }
 

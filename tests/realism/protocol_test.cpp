@@ -11,9 +11,7 @@ using namespace vasa;
 
 namespace {
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
+void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
 const std::string kHeader =
     "id,from,to,first_share,last_share,from_pose,to_pose,metric,level_mm,mean,sd,low,high,blind,source,link,note\n";

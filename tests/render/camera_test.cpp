@@ -72,9 +72,9 @@ TEST_CASE("every named view holds the whole box, and not much more") {
 
 TEST_CASE("sides are the body's own") {
   const Aabb box = boxOf({-1, -1, -1}, {1, 1, 1});
-  CHECK(cameraAxes(cameraFrom(View::front, box, 1))[0].x == doctest::Approx(1));   // its left is on our right
-  CHECK(cameraAxes(cameraFrom(View::left, box, 1))[2].x == doctest::Approx(1));    // we stand at +X
-  CHECK(cameraAxes(cameraFrom(View::top, box, 1))[1].z == doctest::Approx(-1));    // it faces the lower edge
+  CHECK(cameraAxes(cameraFrom(View::front, box, 1))[0].x == doctest::Approx(1));  // its left is on our right
+  CHECK(cameraAxes(cameraFrom(View::left, box, 1))[2].x == doctest::Approx(1));   // we stand at +X
+  CHECK(cameraAxes(cameraFrom(View::top, box, 1))[1].z == doctest::Approx(-1));   // it faces the lower edge
   CHECK(viewNamed("back") == View::back);
   CHECK(!viewNamed("Front"));
 }

@@ -36,7 +36,8 @@ struct Difference {
 
 int byteDifference(std::uint32_t a, std::uint32_t b) {
   int worst = 0;
-  for (int shift = 0; shift < 32; shift += 8) worst = std::max(worst, std::abs(int(a >> shift & 255u) - int(b >> shift & 255u)));
+  for (int shift = 0; shift < 32; shift += 8)
+    worst = std::max(worst, std::abs(int(a >> shift & 255u) - int(b >> shift & 255u)));
   return worst;
 }
 
@@ -45,12 +46,14 @@ void compare(Difference& worst, const shared::CapillaryVertex& found, const shar
   worst.place = std::max(worst.place, std::isfinite(place) ? place : 1e9f);
   worst.colour = std::max(worst.colour, byteDifference(found.colour, wanted.colour));
   for (int shift = 0; shift < 32; shift += 16)
-    worst.across = std::max(worst.across, float(std::abs(std::int16_t(found.across >> shift) - std::int16_t(wanted.across >> shift))) / 32767);
+    worst.across = std::max(
+        worst.across,
+        float(std::abs(std::int16_t(found.across >> shift) - std::int16_t(wanted.across >> shift))) / 32767);
 }
 
 // Every curve of every batch of a plan, as the device grows it and as the specification does.
-Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::GrownNetwork& grown, const Camera& camera,
-                                      const CapillaryWish& wish, std::uint32_t seed) {
+Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::GrownNetwork& grown,
+                                      const Camera& camera, const CapillaryWish& wish, std::uint32_t seed) {
   const TubeSet tubes(rig.device(), grown.network, {.shape = {3, 2}}, 100);
   CapillaryPass pass(rig.device(), kTarget, tubes, grown.rules, grown.sites, wish);
   const gpu::Buffer points = rig.upload(grown.points), knots = rig.upload(grown.frames);
@@ -72,20 +75,27 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
     std::vector<shared::CapillaryVertex> wanted(each);
     for (std::uint32_t j = 0; j < batch.jobCount; ++j) {
       const shared::GrowthJob& job = pass.plan().jobs[batch.firstJob + j];
-      const std::uint32_t end = j + 1 < batch.jobCount ? pass.plan().jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
+      const std::uint32_t end =
+          j + 1 < batch.jobCount ? pass.plan().jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
       const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.span].system & 0xffu, job.levels);
       const auto kind = grown.network.vessels()[grown.sites.spans[job.span].vessel].kind;
       for (std::uint32_t curve = job.firstCurve; curve < end; ++curve) {
         const std::uint32_t within = curve - job.firstCurve;
-        const Capillary capillary = capillaryAt(scene, {job.span, job.firstSprout + within / size}, job.levels, within % size);
+        const Capillary capillary =
+            capillaryAt(scene, {job.span, job.firstSprout + within / size}, job.levels, within % size);
         const std::uint32_t partner = grown.sites.sites[job.span].partner;
-        const auto far = partner == shared::kNoPartner ? kind : grown.network.vessels()[grown.sites.spans[partner].vessel].kind;
+        const auto far = partner == shared::kNoPartner
+                             ? kind
+                             : grown.network.vessels()[grown.sites.spans[partner].vessel].kind;
         const std::uint32_t root = packColour(colourOf(kind)), farRoot = packColour(colourOf(far));
-        if (batch.edges == shared::kThreads) writeThread(capillary, view, root, farRoot, wanted);
-        else writeRibbon(capillary, view, root, farRoot, batch.edges, wanted);
+        if (batch.edges == shared::kThreads)
+          writeThread(capillary, view, root, farRoot, wanted);
+        else
+          writeRibbon(capillary, view, root, farRoot, batch.edges, wanted);
         worst.threads += batch.edges == shared::kThreads;
         worst.joined += capillary.joined;
-        for (std::uint32_t v = 0; v < each; ++v) compare(worst, found[std::size_t(curve) * each + v], wanted[v]);
+        for (std::uint32_t v = 0; v < each; ++v)
+          compare(worst, found[std::size_t(curve) * each + v], wanted[v]);
         ++worst.curves;
       }
     }
@@ -94,16 +104,15 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
   return worst;
 }
 
-Growth growthOf(const test::GrownNetwork& grown) {
-  return {grown.rules, grown.sites};
-}
+Growth growthOf(const test::GrownNetwork& grown) { return {grown.rules, grown.sites}; }
 
 struct Picture {
   Image image;
   CapillaryCounts counts;
 };
 
-Picture pictureOf(const test::GpuRig& rig, const test::GrownNetwork& grown, const Camera& camera, RenderOptions options) {
+Picture pictureOf(const test::GpuRig& rig, const test::GrownNetwork& grown, const Camera& camera,
+                  RenderOptions options) {
   const Growth growth = growthOf(grown);
   options.width = 200;
   options.height = 160;
@@ -116,9 +125,7 @@ Picture pictureOf(const test::GpuRig& rig, const test::GrownNetwork& grown, cons
   return {renderer.readBack(), renderer.capillaryCounts()};
 }
 
-std::uint64_t hashOfPicture(const Image& image) {
-  return hashOf(std::span<const std::uint8_t>(image.rgba));
-}
+std::uint64_t hashOfPicture(const Image& image) { return hashOf(std::span<const std::uint8_t>(image.rgba)); }
 
 std::size_t covered(const Image& image) {
   std::size_t count = 0;
@@ -136,11 +143,14 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
     bool perspective;
     float distance = 2;
   };
-  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true}, Case{3, 0, 7, true, 30}, Case{2, 0, 7, false, 12}}) {
+  for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true},
+                        Case{3, 0, 7, true, 30}, Case{2, 0, 7, false, 12}}) {
     CAPTURE(c.levels);
     CAPTURE(c.edges);
-    const CapillaryWish wish{.levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.edges ? 0 : 1e-6f};
-    const Difference worst = deviceAgainstSpecification(rig, grown, lookingAt(grown, c.distance, c.perspective), wish, c.seed);
+    const CapillaryWish wish{
+        .levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.edges ? 0 : 1e-6f};
+    const Difference worst =
+        deviceAgainstSpecification(rig, grown, lookingAt(grown, c.distance, c.perspective), wish, c.seed);
     CHECK(worst.threads == (c.edges ? 0 : worst.curves));
     CHECK(worst.curves > 200);
     CHECK((worst.joined > 0) == (c.levels > 1));
@@ -214,11 +224,15 @@ TEST_CASE("more generations cover more of the picture; hidden vessels have none"
   CHECK(covered(renderer.readBack()) == 0);
 }
 
-TEST_CASE("a picture made in slices is the same to the bit, and one that is left half done leaves nothing behind") {
+TEST_CASE(
+    "a picture made in slices is the same to the bit, and one that is left half done leaves nothing behind") {
   VASA_REQUIRE_GPU(rig);
   const test::GrownNetwork grown(test::windingNetwork(60, 5));
   const Growth growth = growthOf(grown);
-  RenderOptions options{.width = 120, .height = 90, .growth = &growth, .capillaries = {.levels = 3, .edges = 10, .smallest = 0}};
+  RenderOptions options{.width = 120,
+                        .height = 90,
+                        .growth = &growth,
+                        .capillaries = {.levels = 3, .edges = 10, .smallest = 0}};
   options.timed = false;
   Renderer renderer(rig.device(), grown.network, {}, options);
   const RenderInput input{grown.points, grown.frames, {}, lookingAt(grown, 2, true), {}};

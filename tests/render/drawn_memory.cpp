@@ -43,7 +43,8 @@ void note(VkBuffer buffer) {
 extern "C" {
 
 VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
-                                                const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+                                                const VkAllocationCallbacks* callbacks,
+                                                VkDeviceMemory* memory) {
   VASA_LOADERS(vkAllocateMemory);
   const VkResult result = real(device, info, callbacks, memory);
   const std::lock_guard lock(known().mutex);
@@ -51,7 +52,8 @@ VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryA
   return result;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL vkBindBufferMemory(VkDevice device, VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset) {
+VKAPI_ATTR VkResult VKAPI_CALL vkBindBufferMemory(VkDevice device, VkBuffer buffer, VkDeviceMemory memory,
+                                                  VkDeviceSize offset) {
   VASA_LOADERS(vkBindBufferMemory);
   {
     const std::lock_guard lock(known().mutex);
@@ -60,7 +62,8 @@ VKAPI_ATTR VkResult VKAPI_CALL vkBindBufferMemory(VkDevice device, VkBuffer buff
   return real(device, buffer, memory, offset);
 }
 
-VKAPI_ATTR VkDeviceAddress VKAPI_CALL vkGetBufferDeviceAddress(VkDevice device, const VkBufferDeviceAddressInfo* info) {
+VKAPI_ATTR VkDeviceAddress VKAPI_CALL vkGetBufferDeviceAddress(VkDevice device,
+                                                               const VkBufferDeviceAddressInfo* info) {
   VASA_LOADERS(vkGetBufferDeviceAddress);
   const VkDeviceAddress address = real(device, info);
   const std::lock_guard lock(known().mutex);
@@ -68,34 +71,40 @@ VKAPI_ATTR VkDeviceAddress VKAPI_CALL vkGetBufferDeviceAddress(VkDevice device, 
   return address;
 }
 
-VKAPI_ATTR void VKAPI_CALL vkCmdBindVertexBuffers(VkCommandBuffer commands, std::uint32_t first, std::uint32_t count,
-                                                  const VkBuffer* buffers, const VkDeviceSize* offsets) {
+VKAPI_ATTR void VKAPI_CALL vkCmdBindVertexBuffers(VkCommandBuffer commands, std::uint32_t first,
+                                                  std::uint32_t count, const VkBuffer* buffers,
+                                                  const VkDeviceSize* offsets) {
   VASA_LOADERS(vkCmdBindVertexBuffers);
   for (std::uint32_t i = 0; i < count; ++i) note(buffers[i]);
   real(commands, first, count, buffers, offsets);
 }
 
-VKAPI_ATTR void VKAPI_CALL vkCmdBindIndexBuffer(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkIndexType type) {
+VKAPI_ATTR void VKAPI_CALL vkCmdBindIndexBuffer(VkCommandBuffer commands, VkBuffer buffer,
+                                                VkDeviceSize offset, VkIndexType type) {
   VASA_LOADERS(vkCmdBindIndexBuffer);
   note(buffer);
   real(commands, buffer, offset, type);
 }
 
-VKAPI_ATTR void VKAPI_CALL vkCmdDrawIndexedIndirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset,
-                                                    std::uint32_t count, std::uint32_t stride) {
+VKAPI_ATTR void VKAPI_CALL vkCmdDrawIndexedIndirect(VkCommandBuffer commands, VkBuffer buffer,
+                                                    VkDeviceSize offset, std::uint32_t count,
+                                                    std::uint32_t stride) {
   VASA_LOADERS(vkCmdDrawIndexedIndirect);
   note(buffer);
   real(commands, buffer, offset, count, stride);
 }
 
-VKAPI_ATTR void VKAPI_CALL vkCmdPushConstants(VkCommandBuffer commands, VkPipelineLayout layout, VkShaderStageFlags stages,
-                                              std::uint32_t offset, std::uint32_t bytes, const void* values) {
+VKAPI_ATTR void VKAPI_CALL vkCmdPushConstants(VkCommandBuffer commands, VkPipelineLayout layout,
+                                              VkShaderStageFlags stages, std::uint32_t offset,
+                                              std::uint32_t bytes, const void* values) {
   VASA_LOADERS(vkCmdPushConstants);
   if (stages & VK_SHADER_STAGE_VERTEX_BIT && bytes == sizeof(vasa::shared::DrawPush)) {
     VkDeviceAddress colours;
-    std::memcpy(&colours, static_cast<const std::byte*>(values) + offsetof(vasa::shared::DrawPush, colours), sizeof colours);
+    std::memcpy(&colours, static_cast<const std::byte*>(values) + offsetof(vasa::shared::DrawPush, colours),
+                sizeof colours);
     const std::lock_guard lock(known().mutex);
-    if (const auto found = known().bufferAt.find(colours); found != known().bufferAt.end()) known().drawn.insert(found->second);
+    if (const auto found = known().bufferAt.find(colours); found != known().bufferAt.end())
+      known().drawn.insert(found->second);
   }
   real(commands, layout, stages, offset, bytes, values);
 }
@@ -112,7 +121,8 @@ void watchDraws() {
 DrawnMemory drawnMemory() {
   const std::lock_guard lock(known().mutex);
   DrawnMemory sum;
-  for (const VkBuffer buffer : known().drawn) sum.bytes += known().allocated[known().memoryOf[buffer]], ++sum.buffers;
+  for (const VkBuffer buffer : known().drawn)
+    sum.bytes += known().allocated[known().memoryOf[buffer]], ++sum.buffers;
   return sum;
 }
 

@@ -8,7 +8,7 @@ namespace vasa::test {
 void watchDraws();
 
 struct DrawnMemory {
-  std::size_t bytes = 0;    ///< allocated for all buffers that draws read: vertices, indices, draws, colours
+  std::size_t bytes = 0;  ///< allocated for all buffers that draws read: vertices, indices, draws, colours
   std::size_t buffers = 0;
 };
 DrawnMemory drawnMemory();

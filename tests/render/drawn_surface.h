@@ -19,7 +19,8 @@ struct Drawn {
 
 /// Where each item's vertices begin in what a round wrote.
 /// @param vertices  of each item, 0 where it is not drawn
-inline std::vector<std::uint32_t> firstVertices(std::span<const std::uint32_t> vertices, std::uint32_t perGroup,
+inline std::vector<std::uint32_t> firstVertices(std::span<const std::uint32_t> vertices,
+                                                std::uint32_t perGroup,
                                                 std::span<const shared::DrawCommand> draws) {
   std::vector<std::uint32_t> first;
   std::uint32_t next = 0;
@@ -64,17 +65,23 @@ struct Forks {
     rig.run([&](VkCommandBuffer commands) {
       detailPass.record(commands, tubes, pointBuffer.address(), view);
       if (!patches.empty())
-        patchPass.record(commands, {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address(), false});
+        patchPass.record(commands,
+                         {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address(), false});
       filling.recordStart(commands, all);
-      tubePass.record(commands, {tubes, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, false});
-      gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+      tubePass.record(
+          commands, {tubes, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, false});
+      gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
       if (all.forkEnd > 0)
-        forkPass.record(commands, {tubes, forks, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, false});
-      gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+        forkPass.record(commands, {tubes, forks, detailPass, pointBuffer.address(), knotBuffer.address(),
+                                   filling, filled, false});
+      gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
       planPass.record(commands, filling, filled);
     });
-    tubesDrawn = forksDrawn = {rig.download<shared::TubeVertex>(filled.pool), rig.download<std::uint32_t>(filled.pool),
-                               rig.download<shared::DrawCommand>(filled.draws)};
+    tubesDrawn =
+        forksDrawn = {rig.download<shared::TubeVertex>(filled.pool), rig.download<std::uint32_t>(filled.pool),
+                      rig.download<shared::DrawCommand>(filled.draws)};
     tubesDrawn.draws.resize(filling.room().tubeWindow);
     forksDrawn.draws.erase(forksDrawn.draws.begin(), forksDrawn.draws.begin() + filling.room().tubeWindow);
     if (!patches.empty()) patchesDrawn = download(patches.draws());
@@ -94,7 +101,8 @@ struct Forks {
   std::vector<std::uint32_t> firstTubeVertices() const {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t i = 0; i < along.size(); ++i) {
-      const std::uint32_t m = around[tubes.table().vesselOfSweep[i]], caps = std::uint32_t(std::popcount(tubes.table().sweeps[i].caps));
+      const std::uint32_t m = around[tubes.table().vesselOfSweep[i]],
+                          caps = std::uint32_t(std::popcount(tubes.table().sweeps[i].caps));
       counts.push_back((along[i] + 1 + capRings(m, view) * caps) * m);
     }
     return firstVertices(counts, tubes.groupSweeps(), tubesDrawn.draws);
@@ -125,11 +133,12 @@ inline void take(const Drawn& drawn, std::vector<vec3>& positions, std::vector<u
   const std::uint32_t base = std::uint32_t(positions.size());
   for (const shared::TubeVertex& v : drawn.vertices) positions.emplace_back(v.x, v.y, v.z);
   for (const shared::DrawCommand& draw : drawn.draws)
-    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) triangles.push_back(cornersAt(drawn, draw, i) + base);
+    for (std::uint32_t i = 0; i < draw.indexCount; i += 3)
+      triangles.push_back(cornersAt(drawn, draw, i) + base);
 }
 
-/// Edges that do not belong to exactly two triangles. A cap's pole is a ring of vertices in one place: triangles without
-/// area there are left out.
+/// Edges that do not belong to exactly two triangles. A cap's pole is a ring of vertices in one place:
+/// triangles without area there are left out.
 inline std::size_t openEdgesDrawn(const Forks& passes) {
   std::vector<vec3> positions;
   std::vector<uvec3> triangles;

@@ -9,12 +9,14 @@
 
 namespace vasa::test {
 
-/// A small scene with everything that a picture can have: tubes, caps, forks, capillaries, bones, heart, skin.
+/// A small scene with everything that a picture can have: tubes, caps, forks, capillaries, bones, heart,
+/// skin.
 struct Everything {
   explicit Everything(std::uint32_t vessels = 25) : grown(windingNetwork(vessels, 3)) {
     growth.rules = grown.rules;
     growth.sites = grown.sites;
-    meshes = {boxMesh("skin", {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f}), boxMesh("bones", {-0.1f, 0, -0.1f}, {0.1f, 1, 0.1f}),
+    meshes = {boxMesh("skin", {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f}),
+              boxMesh("bones", {-0.1f, 0, -0.1f}, {0.1f, 1, 0.1f}),
               boxMesh("heart", {0.1f, 0.5f, 0.1f}, {0.2f, 0.6f, 0.2f})};
     rest = grown.points;
     camera = cameraFrom(View::front, measure(grown.network, rest).bounds, 1);
@@ -37,12 +39,17 @@ struct Everything {
   /// Everything turned about the vertical axis, in each look by turns.
   RenderInput turned(float angle, unsigned look) {
     const mat4 turn = glm::rotate(mat4(1), angle, vec3(0, 1, 0));
-    for (std::size_t k = 0; k < rest.size(); ++k) grown.points[k] = vec4(vec3(turn * vec4(vec3(rest[k]), 1)), rest[k].w);
+    for (std::size_t k = 0; k < rest.size(); ++k)
+      grown.points[k] = vec4(vec3(turn * vec4(vec3(rest[k]), 1)), rest[k].w);
     grown.pose();
     joints = {turn};
     const char* const looks[]{"atlas", "clinical", "xray"};
-    return {.points = grown.points, .knotFrames = grown.frames, .jointMatrices = joints, .camera = camera,
-            .look = *lookNamed(looks[look % 3]), .heartScale = 1 - 0.1f * std::abs(std::sin(9 * angle))};
+    return {.points = grown.points,
+            .knotFrames = grown.frames,
+            .jointMatrices = joints,
+            .camera = camera,
+            .look = *lookNamed(looks[look % 3]),
+            .heartScale = 1 - 0.1f * std::abs(std::sin(9 * angle))};
   }
 
   GrownNetwork grown;

@@ -9,9 +9,7 @@ using namespace vasa;
 
 namespace {
 
-std::uint64_t hashOfPicture(const Image& image) {
-  return hashOf(std::span<const std::uint8_t>(image.rgba));
-}
+std::uint64_t hashOfPicture(const Image& image) { return hashOf(std::span<const std::uint8_t>(image.rgba)); }
 
 }  // namespace
 
@@ -31,8 +29,12 @@ TEST_CASE("three hundred frames with everything switched on, without a word from
 
 TEST_CASE("thirty frames with everything switched on under validation, GPU-assisted where the device can") {
   VASA_REQUIRE_GPU(rig);
-  const bool assisted = rig.device().features().core.features.shaderInt64;  // what the layer writes addresses with
-  gpu::Device device({.choice = {}, .validation = {.synchronization = !assisted, .gpuAssisted = assisted}, .instanceExtensions = {}, .deviceExtensions = {}});
+  // What the layer writes addresses with.
+  const bool assisted = rig.device().features().core.features.shaderInt64;
+  gpu::Device device({.choice = {},
+                      .validation = {.synchronization = !assisted, .gpuAssisted = assisted},
+                      .instanceExtensions = {},
+                      .deviceExtensions = {}});
   test::Everything scene(9);
   // Every access to memory is looked up: a few pixels and curves take every path that many do.
   RenderOptions options = scene.options(1);

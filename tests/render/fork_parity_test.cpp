@@ -11,8 +11,9 @@
 #include "surface/fork_template.h"
 #include "surface/octahedral.h"
 
-// The forks' pass against its CPU reference: 1e-6 of the body's height (here 1 m) in position, 2e-4 in normals (they are
-// packed to 7e-5), triangles alike; and against the tubes' pass: the rings that they share, bit for bit.
+// The forks' pass against its CPU reference: 1e-6 of the body's height (here 1 m) in position, 2e-4 in
+// normals (they are packed to 7e-5), triangles alike; and against the tubes' pass: the rings that they share,
+// bit for bit.
 
 using namespace vasa;
 
@@ -51,14 +52,16 @@ void checkAgainstReference(const Forks& passes) {
   CHECK(normal <= 2e-4f);
   std::vector<uvec3> found;
   for (const shared::DrawCommand& draw : passes.forksDrawn.draws)
-    for (std::uint32_t i = 0; i < draw.indexCount; i += 3) found.push_back(test::cornersAt(passes.forksDrawn, draw, i));
+    for (std::uint32_t i = 0; i < draw.indexCount; i += 3)
+      found.push_back(test::cornersAt(passes.forksDrawn, draw, i));
   CHECK(found == wanted);
 }
 
 using Bits = std::array<std::uint32_t, 3>;
 
 Bits bitsOf(const shared::TubeVertex& v) {
-  return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z)};
+  return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y),
+          std::bit_cast<std::uint32_t>(v.z)};
 }
 
 // Every vertex of a fork's rings is a vertex of a tube or of another fork's ring.
@@ -79,7 +82,8 @@ void checkSeams(const Forks& passes) {
     for (std::uint32_t i = 0; i < table.forks.size(); ++i) {
       const ForkShape shape = passes.shapeOf(table.forks[i]);
       std::vector<std::uint32_t> ringRows{0, shared::kTrunkRows - 1};
-      for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch) ringRows.push_back(branchRow(branch));
+      for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch)
+        ringRows.push_back(branchRow(branch));
       for (const std::uint32_t row : ringRows) {
         for (std::uint32_t k = 0; k < shape.rowSize(row); ++k)
           act(bitsOf(passes.forksDrawn.vertices[forks[i] + shape.rowStart(row) + k]));

@@ -10,9 +10,9 @@
 #include "shared/patch.h"
 #include "shared/tubes.h"
 
-// lavapipe stops all loops of an invocation silently when they have gone round 65,535 times together. So the most that
-// an invocation of each compute pass may do is added up here from the constants that bound its loops, and has to stay
-// below half of that. tests/gpu shows that the limit is there.
+// lavapipe stops all loops of an invocation silently when they have gone round 65,535 times together. So the
+// most that an invocation of each compute pass may do is added up here from the constants that bound its
+// loops, and has to stay below half of that. tests/gpu shows that the limit is there.
 
 using namespace vasa;
 
@@ -29,11 +29,13 @@ std::map<std::string, unsigned> mostLoops() {
       {"measure.comp", chord + kMaxAlong},
       {"around.comp", m},
       // rings looked at and written, quads, vertices, triangles, blocks of vertices, sums over the group
-      {"tubes.comp", 2 * rings + kMaxStrips * m + rings * m + kMaxStrips * 2 * m + rings * m / kBlockVertices + kGroupSweeps},
-      // a ring search, m vertices and their directions a row, quads found and vertices smoothed, triangles written, sums over
-      // the group
+      {"tubes.comp", 2 * rings + kMaxStrips * m + rings * m + kMaxStrips * 2 * m +
+                         rings * m / kBlockVertices + kGroupSweeps},
+      // a ring search, m vertices and their directions a row, quads found and vertices smoothed, triangles
+      // written, sums over the group
       {"forks.comp", 4 * kMostForkVertices + forkTries * (kMostForkTriangles / 2 + 2 * kMostForkVertices) +
-                         2 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks + 2 * kMostForkVertices / 32 + kMostForkVertices},
+                         2 * kMostForkTriangles + forkRows * 4 * m + 5 * m + kGroupForks +
+                         2 * kMostForkVertices / 32 + kMostForkVertices},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
       {"patch_triangles.comp", 2 * kThreadTriangles + kPatchThreads},
       // patches, their pairs of rings

@@ -51,14 +51,16 @@ float farthest(const TriangleMesh& mesh, const std::vector<uvec3>& triangles) {
 SkinnedMesh skinned(TriangleMesh mesh) {
   SkinnedMesh result;
   result.mesh = std::move(mesh);
-  for (const vec3& p : result.mesh.positions) result.normals.push_back(p == vec3(0) ? vec3(0, 0, 1) : glm::normalize(p));
+  for (const vec3& p : result.mesh.positions)
+    result.normals.push_back(p == vec3(0) ? vec3(0, 0, 1) : glm::normalize(p));
   return result;
 }
 
 // A level's triangles over the mesh's own numbers.
 std::vector<uvec3> trianglesOf(const MeshLevel& level) {
   std::vector<uvec3> triangles;
-  for (const uvec3& t : level.triangles) triangles.push_back({level.vertices[t.x], level.vertices[t.y], level.vertices[t.z]});
+  for (const uvec3& t : level.triangles)
+    triangles.push_back({level.vertices[t.x], level.vertices[t.y], level.vertices[t.z]});
   return triangles;
 }
 
@@ -79,7 +81,8 @@ TEST_CASE("coarser levels have fewer triangles, keep their error and stay closed
     const std::vector<uvec3> triangles = trianglesOf(level);
     CAPTURE(level.error);
     CHECK(triangles.size() < before);
-    CHECK(level.vertices.size() <= 1.05 * double(triangles.size() / 2 + 2));  // none that is not used, few twice
+    CHECK(level.vertices.size() <=
+          1.05 * double(triangles.size() / 2 + 2));  // none that is not used, few twice
     CHECK(level.error > error);
     CHECK(farthest(mesh.mesh, triangles) <= 2 * level.error);
     const float volume = TriangleMesh{mesh.mesh.positions, triangles}.volume();
@@ -160,7 +163,8 @@ TEST_CASE("the nearest depth is that of the nearest ball in front of the camera,
 TEST_CASE("a pixel's side grows with the depth, or is everywhere the same") {
   Camera camera{.position = {0, 0, 4}, .target = {0, 0, 0}};
   CHECK(pixelAt(3, camera, 100) == doctest::Approx(2 * std::tan(camera.verticalAngle / 2) * 3 / 100));
-  CHECK(pixelAt(0, camera, 100) == doctest::Approx(2 * std::tan(camera.verticalAngle / 2) * camera.nearDistance / 100));
+  CHECK(pixelAt(0, camera, 100) ==
+        doctest::Approx(2 * std::tan(camera.verticalAngle / 2) * camera.nearDistance / 100));
   camera.orthographicHeight = 2;
   CHECK(pixelAt(3, camera, 100) == doctest::Approx(0.02));
 }

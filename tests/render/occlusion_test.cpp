@@ -39,19 +39,20 @@ Camera roomCamera() {
 }
 
 // After earlier commands. @param layout  in which the image is, and stays
-void copyFloats(VkCommandBuffer commands, const gpu::Image& image, VkImageLayout layout, const gpu::Buffer& to) {
+void copyFloats(VkCommandBuffer commands, const gpu::Image& image, VkImageLayout layout,
+                const gpu::Buffer& to) {
   constexpr VkImageLayout source = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-  gpu::changeLayout(commands, {.image = image.handle(), .aspect = image.aspect(), .before = layout, .after = source});
+  gpu::changeLayout(commands,
+                    {.image = image.handle(), .aspect = image.aspect(), .before = layout, .after = source});
   VkBufferImageCopy region{};
   region.imageSubresource = {image.aspect(), 0, 0, 1};
   region.imageExtent = {image.size().width, image.size().height, 1};
   vkCmdCopyImageToBuffer(commands, image.handle(), source, to.handle(), 1, &region);
-  gpu::changeLayout(commands, {.image = image.handle(), .aspect = image.aspect(), .before = source, .after = layout});
+  gpu::changeLayout(commands,
+                    {.image = image.handle(), .aspect = image.aspect(), .before = source, .after = layout});
 }
 
-float least(const std::vector<float>& values) {
-  return *std::min_element(values.begin(), values.end());
-}
+float least(const std::vector<float>& values) { return *std::min_element(values.begin(), values.end()); }
 
 }  // namespace
 
@@ -59,10 +60,11 @@ TEST_CASE("a floor keeps its light, and loses it towards a wall") {
   const Camera camera = roomCamera();
   const shared::OcclusionPush constants = occlusionConstants(camera, kWidth, kHeight, 0.2f, 1);
   CHECK(least(occlusionOf(roomDepth(camera, false), constants)) > 0.98f);
-  const std::vector<float> depth = roomDepth(camera, true), light = smoothed(depth, occlusionOf(depth, constants), constants);
+  const std::vector<float> depth = roomDepth(camera, true),
+                           light = smoothed(depth, occlusionOf(depth, constants), constants);
   const auto at = [&](std::uint32_t y) { return light[y * kWidth + kWidth / 2]; };
-  CHECK(at(kHeight / 2) < 0.8f);       // the corner between them
-  CHECK(at(kHeight - 3) > 0.95f);      // the floor before it
+  CHECK(at(kHeight / 2) < 0.8f);   // the corner between them
+  CHECK(at(kHeight - 3) > 0.95f);  // the floor before it
 }
 
 TEST_CASE("no depth, no occlusion; strength 0, none either") {
@@ -72,14 +74,17 @@ TEST_CASE("no depth, no occlusion; strength 0, none either") {
   CHECK(least(occlusionOf(room, occlusionConstants(camera, kWidth, kHeight, 0.2f, 0))) == 1);
 }
 
-TEST_CASE("the passes find what the CPU reference does, for one and four samples, perspective and orthographic") {
+TEST_CASE(
+    "the passes find what the CPU reference does, for one and four samples, perspective and orthographic") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::windingNetwork(40, 9);
   std::vector<quat> frames(network.sectionCount());
   networkFrames(network, network.points(), restReferences(network), frames);
   for (const float orthographic : {0.0f, 1.3f})
     for (const VkSampleCountFlagBits samples : {VK_SAMPLE_COUNT_1_BIT, VK_SAMPLE_COUNT_4_BIT}) {
-      const gpu::Target target(rig.device(), {.name = "picture", .size = {kWidth, kHeight}, .samples = samples, .readDepth = true});
+      const gpu::Target target(
+          rig.device(),
+          {.name = "picture", .size = {kWidth, kHeight}, .samples = samples, .readDepth = true});
       const SurfacePass surface(rig.device(), target.spec());
       const OcclusionPass pass(rig.device(), target);
       const TubeSet tubes(rig.device(), network, {}, 1u << 20);
@@ -90,20 +95,24 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
       const FillRange all{0, std::uint32_t(tubes.table().sweeps.size()), 0, 0};
       const Filling filling(rig.device(), tubes, forks, roomForAll(tubes, forks, all));
       const Template filled(rig.device(), filling.room());
-      const gpu::Buffer points = rig.upload(std::vector<vec4>(network.points().begin(), network.points().end()));
+      const gpu::Buffer points =
+          rig.upload(std::vector<vec4>(network.points().begin(), network.points().end()));
       const gpu::Buffer knots = rig.upload(frames);
       const std::vector<float> none(kWidth * kHeight);
       const gpu::Buffer depths = rig.upload(none), raws = rig.upload(none), lights = rig.upload(none);
-      Camera camera = cameraFrom(View::front, measure(network, network.points()).bounds, float(kWidth) / kHeight);
+      Camera camera =
+          cameraFrom(View::front, measure(network, network.points()).bounds, float(kWidth) / kHeight);
       camera.orthographicHeight = orthographic;
       const shared::DetailView view = detailView(camera, {}, target.spec().size, tubes.detail(), 0.01f);
       rig.run([&](VkCommandBuffer commands) {
         detail.record(commands, tubes, points.address(), view);
         filling.recordStart(commands, all);
         tubePass.record(commands, {tubes, detail, points.address(), knots.address(), filling, filled});
-        gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+        gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
         planPass.record(commands, filling, filled);
-        gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
+        gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                          VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
         target.begin(commands, {1, 1, 1, 1}, 0, gpu::Stretch::first);
         surface.recordVessels(commands, drawConstants(camera, {}, target.spec().size), drawsOf(filled));
         target.pause(commands);
@@ -121,7 +130,8 @@ TEST_CASE("the passes find what the CPU reference does, for one and four samples
       const shared::OcclusionPush constants = occlusionConstants(camera, kWidth, kHeight, 0.05f, 1);
       const std::vector<float> depth = rig.download<float>(depths), raw = rig.download<float>(raws);
       const std::vector<float> light = rig.download<float>(lights);
-      const std::vector<float> wantedRaw = occlusionOf(depth, constants), wanted = smoothed(depth, raw, constants);
+      const std::vector<float> wantedRaw = occlusionOf(depth, constants),
+                               wanted = smoothed(depth, raw, constants);
       CHECK(*std::max_element(depth.begin(), depth.end()) > 0);
       CAPTURE(orthographic);
       CAPTURE(samples);

@@ -14,8 +14,8 @@
 #include "render/tube_pass.h"
 #include "shared/sweep.h"
 #include "support/networks.h"
-#include "surface/octahedral.h"
 #include "surface/detail.h"
+#include "surface/octahedral.h"
 #include "surface/tessellate.h"
 #include "surface/visible.h"
 
@@ -31,7 +31,8 @@ struct Difference {
   std::size_t vertices = 0;
 };
 
-void compare(Difference& worst, std::span<const shared::TubeVertex> found, std::span<const SurfacePoint> wanted) {
+void compare(Difference& worst, std::span<const shared::TubeVertex> found,
+             std::span<const SurfacePoint> wanted) {
   REQUIRE(found.size() == wanted.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const shared::TubeVertex& v = found[i];
@@ -111,9 +112,10 @@ Drawn drawnTubes(const Tubes& tubes, const shared::DetailView& view, bool cull) 
   tubes.rig.run([&](VkCommandBuffer commands) {
     filling.recordStart(commands, all);
     tubes.detailPass.record(commands, tubes.set, tubes.pointBuffer.address(), view);
-    tubes.pass.record(commands, {tubes.set, tubes.detailPass, tubes.pointBuffer.address(), tubes.knotBuffer.address(), filling,
-                                 filled, cull});
-    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+    tubes.pass.record(commands, {tubes.set, tubes.detailPass, tubes.pointBuffer.address(),
+                                 tubes.knotBuffer.address(), filling, filled, cull});
+    gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
     tubes.planPass.record(commands, filling, filled);
   });
   return {tubes.rig.download<shared::TubeVertex>(filled.pool), tubes.rig.download<std::uint32_t>(filled.pool),
@@ -133,7 +135,8 @@ Rings ringsOf(const PosedNetwork& network, std::uint32_t sweep, std::uint32_t ar
   Rings rings;
   const auto add = [&](std::uint32_t ring, std::uint32_t polar, float outward) {
     const Section section = ringSection(network, sweep, ring, along);
-    for (const vec2& direction : directions) rings.points.push_back(capPoint(section, direction, angles[polar], outward));
+    for (const vec2& direction : directions)
+      rings.points.push_back(capPoint(section, direction, angles[polar], outward));
     const vec4 centre(section.centre + section.radius * outward * angles[polar].y * section.frame.tangent, 1);
     rings.near.push_back(glm::dot(view.planes[4], centre) <= 1.01f * section.radius);
   };
@@ -163,8 +166,10 @@ Triangles trianglesOf(const Drawn& drawn, const shared::DetailView& view, std::u
     for (std::uint32_t k = 0; k < m; ++k) {
       const std::uint32_t a = base + strip * m + k, b = base + strip * m + (k + 1) % m, c = b + m, d = a + m;
       const auto at = [&](std::uint32_t i) { return placeOf(drawn.vertices[i], view); };
-      const std::uint32_t seen = near[strip] || near[strip + 1]
-                                     ? 3 : seenOfQuad(at(a), at(b), at(c), at(d), {{view.columns, view.rows}, view.snap, samples});
+      const std::uint32_t seen =
+          near[strip] || near[strip + 1]
+              ? 3
+              : seenOfQuad(at(a), at(b), at(c), at(d), {{view.columns, view.rows}, view.snap, samples});
       triangles.all.insert(triangles.all.end(), {{a, b, c}, {a, c, d}});
       if (seen & 1) triangles.seen.push_back({a, b, c});
       if (seen & 2) triangles.seen.push_back({a, c, d});
@@ -176,7 +181,8 @@ using Corners = std::array<std::uint32_t, 12>;  // a triangle's vertices, bit fo
 
 Corners cornersOf(const Drawn& drawn, const uvec3& triangle) {
   Corners corners;
-  for (int i = 0; i < 3; ++i) std::memcpy(&corners[4 * i], &drawn.vertices[triangle[i]], sizeof(shared::TubeVertex));
+  for (int i = 0; i < 3; ++i)
+    std::memcpy(&corners[4 * i], &drawn.vertices[triangle[i]], sizeof(shared::TubeVertex));
   return corners;
 }
 
@@ -215,7 +221,8 @@ Outcome passAgainstReference(const Tubes& tubes, const shared::DetailView& view,
       compare(outcome.vertices, std::span(whole.vertices).subspan(base, rings.points.size()), rings.points);
       const Triangles triangles = trianglesOf(whole, view, base, rings.near, m, tubes.samples);
       outcome.triangles += triangles.all.size();
-      for (const uvec3& triangle : cull ? triangles.seen : triangles.all) wanted.push_back(cornersOf(whole, triangle));
+      for (const uvec3& triangle : cull ? triangles.seen : triangles.all)
+        wanted.push_back(cornersOf(whole, triangle));
     }
     std::vector<Corners> found = drawnTriangles(drawn, group), different;
     outcome.drawn += found.size();
@@ -267,8 +274,9 @@ TEST_CASE("m, n and what is left out are what the CPU reference says, from near 
   for (const float tolerance : {0.2f, 0.8f})
     for (const std::uint32_t samples : {1u, 4u}) {
       const Tubes tubes(rig, network, restPoints(network), {{}, tolerance}, samples);
-      for (const Camera& camera : {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
-                                   cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)}) {
+      for (const Camera& camera :
+           {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
+            cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)}) {
         const shared::DetailView view = tubes.view(camera);
         const NetworkDetail wanted = tubes.chosen(view);
         rig.run([&](VkCommandBuffer commands) {
@@ -282,7 +290,7 @@ TEST_CASE("m, n and what is left out are what the CPU reference says, from near 
         drawn += outcome.drawn;
         wrong += outcome.wrong;
       }
-  }
+    }
   CHECK(drawn > 1000);
   CHECK(double(wrong) <= 1e-3 * double(drawn));  // the reference's margins may round the other way
 }

@@ -11,8 +11,9 @@
 #include "surface/patch_smooth.h"
 #include "surface/visible.h"
 
-// The patches' pass against its CPU reference: 1e-6 m in position, 2e-4 in normals (they are packed to 7e-5), triangles
-// alike, and 2e-5 m where steps of smoothing start from packed normals that differ in their last bit; and with the tubes' and forks' passes: one closed surface, bit for bit.
+// The patches' pass against its CPU reference: 1e-6 m in position, 2e-4 in normals (they are packed to 7e-5),
+// triangles alike, and 2e-5 m where steps of smoothing start from packed normals that differ in their last
+// bit; and with the tubes' and forks' passes: one closed surface, bit for bit.
 
 using namespace vasa;
 
@@ -40,7 +41,8 @@ void checkAgainstReference(const Forks& passes, float apart = 1e-6f) {
     for (std::uint32_t k = 0; k < posed.ring.size(); ++k) compare(seam.vertex + k, posed.ring[k]);
     CHECK(posed.strip.size() == stripTriangles(seam, passes.around[seam.vessel]));
     std::size_t different = 0;
-    for (std::uint32_t t = 0; t < posed.strip.size(); ++t) different += triangleAt(seam.index + 3 * t) != posed.strip[t];
+    for (std::uint32_t t = 0; t < posed.strip.size(); ++t)
+      different += triangleAt(seam.index + 3 * t) != posed.strip[t];
     CHECK(different == 0);
   }
   for (const PatchTable::Patch& patch : table.patches) {
@@ -66,7 +68,8 @@ std::vector<Corners> seenOf(const test::Drawn& whole, const shared::DetailView& 
     for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
       const Corners t{whole.indices[i], whole.indices[i + 1], whole.indices[i + 2]};
       const vec2 a = placeOf(t[0]), b = placeOf(t[1]), c = placeOf(t[2]);
-      if (t[0] != t[1] && (seenOfQuad(a, b, c, c, {{view.columns, view.rows}, view.snap}) & 1)) seen.push_back(t);
+      if (t[0] != t[1] && (seenOfQuad(a, b, c, c, {{view.columns, view.rows}, view.snap}) & 1))
+        seen.push_back(t);
     }
   return seen;
 }
@@ -81,7 +84,8 @@ std::vector<Corners> drawnOf(const test::Drawn& drawn) {
 
 }  // namespace
 
-TEST_CASE("patches' triangles that cannot be seen are left out as the reference says, the others keep their order") {
+TEST_CASE(
+    "patches' triangles that cannot be seen are left out as the reference says, the others keep their order") {
   VASA_REQUIRE_GPU(rig);
   const test::Forked made = test::forked();
   const std::vector<vec4> points(made.network.points().begin(), made.network.points().end());
@@ -96,11 +100,12 @@ TEST_CASE("patches' triangles that cannot be seen are left out as the reference 
     Camera camera;
     camera.position = from;
     camera.target = {0, 0.1f, 0};
-    const shared::DetailView view = detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
+    const shared::DetailView view =
+        detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
     rig.run([&](VkCommandBuffer commands) {
       passes.detailPass.record(commands, passes.tubes, pointBuffer.address(), view);
-      passes.patchPass.record(commands, {passes.tubes, passes.patches, passes.detailPass, pointBuffer.address(),
-                                         knotBuffer.address(), true});
+      passes.patchPass.record(commands, {passes.tubes, passes.patches, passes.detailPass,
+                                         pointBuffer.address(), knotBuffer.address(), true});
     });
     const std::vector<Corners> found = drawnOf(passes.download(passes.patches.draws()));
     const std::vector<Corners> wanted = seenOf(passes.patchesDrawn, view);
@@ -108,7 +113,8 @@ TEST_CASE("patches' triangles that cannot be seen are left out as the reference 
     CHECK(found.size() < all / 2);
     drawn += found.size();
     std::vector<Corners> different;
-    std::ranges::set_symmetric_difference(std::set(found.begin(), found.end()), std::set(wanted.begin(), wanted.end()),
+    std::ranges::set_symmetric_difference(std::set(found.begin(), found.end()),
+                                          std::set(wanted.begin(), wanted.end()),
                                           std::back_inserter(different));
     CHECK(different.size() <= 1 + wanted.size() / 500);  // those at a margin
     if (different.empty()) CHECK(found == wanted);
@@ -125,8 +131,8 @@ TEST_CASE("patches on the device are those of the reference and close the surfac
     std::vector<vec4> points(made.network.points().begin(), made.network.points().end());
     for (vec4& p : points) {  // twisted about the upright axis, and thinner
       const float angle = bend * p.y;
-      p = vec4(p.x * std::cos(angle) - p.z * std::sin(angle), p.y, p.x * std::sin(angle) + p.z * std::cos(angle),
-               p.w * (1 - 0.04f * bend));
+      p = vec4(p.x * std::cos(angle) - p.z * std::sin(angle), p.y,
+               p.x * std::sin(angle) + p.z * std::cos(angle), p.w * (1 - 0.04f * bend));
     }
     pinEnds(made.network, points);
     std::vector<quat> frames(made.network.sectionCount());
@@ -142,7 +148,8 @@ TEST_CASE("patches on the device are those of the reference and close the surfac
   }
 }
 
-TEST_CASE("patches that a deep bend presses together are smoothed on the device as the reference does, and stay closed") {
+TEST_CASE(
+    "patches that a deep bend presses together are smoothed on the device as the reference does, and stay closed") {
   VASA_REQUIRE_GPU(rig);
   const test::Forked made = test::forked();
   for (const float bend : {20.0f, 45.0f, 80.0f}) {
@@ -155,8 +162,10 @@ TEST_CASE("patches that a deep bend presses together are smoothed on the device 
       const Forks passes(rig, made.network, points, frames, detail);
       const PatchTable& table = passes.tubes.table().patches;
       std::vector<shared::JointRows> joints;
-      for (std::uint32_t i = 0; i < table.seams.size(); ++i) joints.push_back(poseSeam(passes.posed(), i, 8).joint);
-      CHECK(std::ranges::any_of(table.patches, [&](const auto& patch) { return patchSmoothing(table, patch, joints) > 0; }));
+      for (std::uint32_t i = 0; i < table.seams.size(); ++i)
+        joints.push_back(poseSeam(passes.posed(), i, 8).joint);
+      CHECK(std::ranges::any_of(table.patches,
+                                [&](const auto& patch) { return patchSmoothing(table, patch, joints) > 0; }));
       checkAgainstReference(passes, 2e-5f);
       CHECK(test::openEdgesDrawn(passes) == 0);
     }

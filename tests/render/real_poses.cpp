@@ -6,14 +6,17 @@
 
 namespace vasa::test {
 
-Result<RealPoses> realPoses(const std::filesystem::path& data, const std::vector<std::string>& clips, int steps) {
+Result<RealPoses> realPoses(const std::filesystem::path& data, const std::vector<std::string>& clips,
+                            int steps) {
   const TemporaryFolder folder;
   const Result<Scene> scene = realScene(data, folder.path());
   if (!scene) return scene.error();
   FrameMaker maker(*scene);
   RealPoses result{scene->network, {}};
   const auto add = [&](const std::string& name, bool middle) {
-    result.poses.push_back({name, middle, {maker.points().begin(), maker.points().end()},
+    result.poses.push_back({name,
+                            middle,
+                            {maker.points().begin(), maker.points().end()},
                             {maker.knotFrames().begin(), maker.knotFrames().end()}});
   };
   maker.make(nullptr, 0);

@@ -24,9 +24,7 @@ Pixel at(const Image& image, std::uint32_t x, std::uint32_t y) {
   return {p[0], p[1], p[2], p[3]};
 }
 
-std::uint64_t hashOfPicture(const Image& image) {
-  return hashOf(std::span<const std::uint8_t>(image.rgba));
-}
+std::uint64_t hashOfPicture(const Image& image) { return hashOf(std::span<const std::uint8_t>(image.rgba)); }
 
 // Everything that a RenderInput points at.
 struct Subject {
@@ -241,11 +239,12 @@ TEST_CASE("a cutting plane of any direction takes away what lies behind it, and 
       return double(covered(renderer.readBack()));
     };
     const double whole = pixels(std::nullopt);
-    CHECK(pixels(vec4(0, 0, 1, 0)) == whole);                                             // before all of it
-    CHECK(pixels(vec4(0, 0, -1, 0)) == 0);                                                // behind
-    CHECK(pixels(vec4(0, 0, 1, -0.4f)) == doctest::Approx(whole / 2).epsilon(0.06));      // edge on
+    CHECK(pixels(vec4(0, 0, 1, 0)) == whole);                                         // before all of it
+    CHECK(pixels(vec4(0, 0, -1, 0)) == 0);                                            // behind
+    CHECK(pixels(vec4(0, 0, 1, -0.4f)) == doctest::Approx(whole / 2).epsilon(0.06));  // edge on
     CHECK(pixels(vec4(0, 1, 0, 0)) == doctest::Approx(whole / 2).epsilon(0.06));
-    CHECK(pixels(vec4(0, 0.6f, 0.8f, -0.32f)) == doctest::Approx(whole / 2).epsilon(0.1));  // aslant through the middle
+    CHECK(pixels(vec4(0, 0.6f, 0.8f, -0.32f)) ==
+          doctest::Approx(whole / 2).epsilon(0.1));  // aslant through the middle
   }
 }
 
@@ -265,7 +264,8 @@ TEST_CASE("a translucent bone covers its share of the samples, the same ones eve
     };
     const double whole = share(1);
     CHECK(share(0) == 0);
-    for (const float opacity : {0.2f, 0.5f, 0.8f}) CHECK(share(opacity) == doctest::Approx(opacity * whole).epsilon(0.05));
+    for (const float opacity : {0.2f, 0.5f, 0.8f})
+      CHECK(share(opacity) == doctest::Approx(opacity * whole).epsilon(0.05));
     CHECK(share(0.5f) == share(0.5f));
   }
 }
@@ -292,7 +292,8 @@ TEST_CASE("a picture depends on its input alone: not on its templates, nor on fr
   CHECK(std::count(hashes.begin(), hashes.end(), hashes[0]) == std::ptrdiff_t(hashes.size()));
 }
 
-TEST_CASE("a picture after others of other sizes is that of a renderer made for its size, ambient occlusion and all") {
+TEST_CASE(
+    "a picture after others of other sizes is that of a renderer made for its size, ambient occlusion and all") {
   VASA_REQUIRE_GPU(rig);
   const Subject subject(test::branchingNetwork(6, 3));
   for (const std::uint32_t samples : {1u, 4u}) {

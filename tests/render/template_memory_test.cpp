@@ -7,7 +7,8 @@
 #include "render/renderer.h"
 #include "support/networks.h"
 
-// A template is used again and again: what tubes, caps and forks take of the device does not depend on how many there are.
+// A template is used again and again: what tubes, caps and forks take of the device does not depend on how
+// many there are.
 
 using namespace vasa;
 
@@ -20,12 +21,16 @@ struct DrawnFrame {
   std::uint64_t picture = 0, triangles = 0;
 };
 
-// Two frames of a network that is all in view, from far and from near: the device's memory that their draws read.
+// Two frames of a network that is all in view, from far and from near: the device's memory that their draws
+// read.
 DrawnFrame drawn(const test::GpuRig& rig, const Network& network, const RenderOptions& options) {
   std::vector<quat> frames(network.sectionCount());
   networkFrames(network, network.points(), restReferences(network), frames);
-  const RenderInput far{.points = network.points(), .knotFrames = frames, .jointMatrices = {},
-                        .camera = cameraFrom(View::front, measure(network, network.points()).bounds, 1), .look = {}};
+  const RenderInput far{.points = network.points(),
+                        .knotFrames = frames,
+                        .jointMatrices = {},
+                        .camera = cameraFrom(View::front, measure(network, network.points()).bounds, 1),
+                        .look = {}};
   RenderInput near = far;
   near.camera.position = glm::mix(far.camera.position, far.camera.target, 0.8f);
   test::watchDraws();
@@ -52,7 +57,8 @@ RenderOptions small(SweepShape shape, float pixelError) {
 
 }  // namespace
 
-TEST_CASE("tubes, caps and forks take less than 2 MiB of the device, however many there are and whatever is seen of them") {
+TEST_CASE(
+    "tubes, caps and forks take less than 2 MiB of the device, however many there are and whatever is seen of them") {
   VASA_REQUIRE_GPU(rig);
   std::size_t largest = 0;
   for (const std::uint32_t vessels : {60u, 600u, 3000u}) {
@@ -77,7 +83,8 @@ TEST_CASE("tubes, caps and forks take less than 2 MiB of the device, however man
   CHECK(largest > kBound / 2);  // both templates were in use
 }
 
-TEST_CASE("what a round has no room for comes in later ones, in the same order: the picture is that of one large template") {
+TEST_CASE(
+    "what a round has no room for comes in later ones, in the same order: the picture is that of one large template") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::branchingNetwork(60, 3);
   for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{8, 10}}) {

@@ -45,7 +45,8 @@ TEST_CASE("vessels on the heart follow it, those far off do not, wherever the bo
   beat.apply(0.9f, std::vector{carried}, beating);
   const vec3 centre(carried[3]);
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    const float before = glm::distance(vec3(posed[i]), centre), after = glm::distance(vec3(beating[i]), centre);
+    const float before = glm::distance(vec3(posed[i]), centre),
+                after = glm::distance(vec3(beating[i]), centre);
     CHECK(beating[i].w == posed[i].w);
     if (rest[i].z < 0.13f) CHECK(after == doctest::Approx(0.9f * before));
     if (rest[i].z > 0.3f) CHECK(beating[i] == posed[i]);

@@ -11,10 +11,14 @@ namespace {
 
 // A vessel of one metre along z from the origin, in a box of skin whose near side lies 2 cm off.
 struct Room {
-  Room() : network(test::straightVessel(1, 0.005f, 0.005f, 4)), table(makeSweepTable(network)), frames(table.knotCount) {
+  Room()
+      : network(test::straightVessel(1, 0.005f, 0.005f, 4)),
+        table(makeSweepTable(network)),
+        frames(table.knotCount) {
     body.skeleton.joints.resize(2);
     body.meshes = {test::boxMesh("skin", {-0.02f, -0.3f, -0.1f}, {0.3f, 0.3f, 1.1f})};
-    for (SkinInfluence& influence : body.meshes[0].influences) influence = {{0, 1}, {0.5f, 0.5f, 0, 0}};  // skin bends
+    // Skin bends.
+    for (SkinInfluence& influence : body.meshes[0].influences) influence = {{0, 1}, {0.5f, 0.5f, 0, 0}};
     networkFrames(network, network.points(), restReferences(network), frames);
   }
   PosedNetwork rest() const { return {table, network.points(), frames}; }
@@ -42,7 +46,8 @@ TEST_CASE("without skin a site has its whole reach") {
   CHECK(site.wall[0] == vec4(0));
 }
 
-TEST_CASE("no vertex of the skin lies in a site's room, wherever on its span a tree grows, and the vessel does") {
+TEST_CASE(
+    "no vertex of the skin lies in a site's room, wherever on its span a tree grows, and the vessel does") {
   const Room room;
   const auto spans = wholeSpans(room.network);
   for (const float most : {0.08f, 0.5f}) {
@@ -55,7 +60,8 @@ TEST_CASE("no vertex of the skin lies in a site's room, wherever on its span a t
       for (const float t : {0.0f, 0.25f, 0.5f, 1.0f}) {
         const Section section = sectionOn(room.rest(), span, t);
         const mat3 inverse = glm::transpose(mat3(section.frame.u, section.frame.v, section.frame.tangent));
-        for (const vec3 p : room.body.meshes[0].mesh.positions) CHECK(!inside(site, inverse * (p - section.centre)));
+        for (const vec3 p : room.body.meshes[0].mesh.positions)
+          CHECK(!inside(site, inverse * (p - section.centre)));
       }
     }
   }

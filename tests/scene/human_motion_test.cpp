@@ -54,9 +54,9 @@ Played play(const Clip& clip, float framesPerSecond) {
     played.excess += now->excess;
     played.excessFrames += now->excess > 0;
     if (now->worst)
-      MESSAGE(clip.name << " frame " << frame << ": " << human().network.vessel(now->worst->vessel).name << " at "
-                        << now->worst->parameter << " steps " << 1e3f * now->worst->step << " mm of "
-                        << 1e3f * now->worst->bound << " mm");
+      MESSAGE(clip.name << " frame " << frame << ": " << human().network.vessel(now->worst->vessel).name
+                        << " at " << now->worst->parameter << " steps " << 1e3f * now->worst->step
+                        << " mm of " << 1e3f * now->worst->bound << " mm");
   }
   MESSAGE(clip.name << " at " << framesPerSecond << ": " << played.frames << " frames, largest step "
                     << 1e3f * played.largestStep << " mm, " << played.excess << " samples in excess");

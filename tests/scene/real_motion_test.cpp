@@ -23,8 +23,7 @@ TEST_CASE("a real body's vessels part in its motions, none changes sides, and fe
     const char* clip;
     std::uint32_t mostInBone;  // tubes of a frame, of 14,149
   };
-  for (const Motion& motion :
-       {Motion{"elbow_flex", 0}, Motion{"fist", 6}, Motion{"neck_turn", 0}}) {
+  for (const Motion& motion : {Motion{"elbow_flex", 0}, Motion{"fist", 6}, Motion{"neck_turn", 0}}) {
     const char* name = motion.clip;
     CAPTURE(std::string(name));
     const auto clip = findClip(scene->body, name);

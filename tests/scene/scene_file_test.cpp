@@ -21,9 +21,14 @@ std::string messageOf(const std::string& text) {
 TEST_CASE("a full scene is read, paths relative to the file") {
   test::TemporaryFolder folder;
   const auto path = folder.path() / "scene.json";
-  REQUIRE(writeFileAtomically(path, std::string(R"({"body": "b.glb", "networks": ["a.vasa", "/abs/v.vasa"], "edits": ["l.vedit"], "clip": "walk",
+  REQUIRE(
+      writeFileAtomically(
+          path,
+          std::string(
+              R"({"body": "b.glb", "networks": ["a.vasa", "/abs/v.vasa"], "edits": ["l.vedit"], "clip": "walk",
     "camera": {"position": [1, 2, 3], "target": [0, 1, 0], "angle": 20, "focus": "aorta"},
-    "look": {"background": [1, 1, 1, 0], "skin": false, "skin_opacity": 0.5}})")).ok());
+    "look": {"background": [1, 1, 1, 0], "skin": false, "skin_opacity": 0.5}})"))
+          .ok());
   const auto scene = readSceneFile(path);
   REQUIRE(scene.ok());
   CHECK(scene->body == folder.path() / "b.glb");
@@ -48,15 +53,19 @@ TEST_CASE("a motion file's path is relative to the scene, a clip's name is no pa
 }
 
 TEST_CASE("a scene may ask for capillaries") {
-  const auto scene = parseScene(R"({"capillaries": {"levels": 3, "edges": 8, "budget": 1000, "smallest": 2.5, "rules": "mine"}})", "/here", "x.json");
+  const auto scene = parseScene(
+      R"({"capillaries": {"levels": 3, "edges": 8, "budget": 1000, "smallest": 2.5, "rules": "mine"}})",
+      "/here", "x.json");
   REQUIRE(scene.ok());
   CHECK(scene->capillaries.levels == 3);
   CHECK(scene->capillaries.edges == 8);
   CHECK(scene->capillaries.budget == 1000);
   CHECK(scene->capillaries.smallest == 2.5f);
   CHECK(scene->capillaries.rules == "/here/mine");
-  CHECK(messageOf(R"({"capillaries": {"levels": 7}})") == "x.json: /capillaries/levels must be a whole number from 0 to 6");
-  CHECK(messageOf(R"({"capillaries": {"levels": 1.5}})") == "x.json: /capillaries/levels must be a whole number from 0 to 6");
+  CHECK(messageOf(R"({"capillaries": {"levels": 7}})") ==
+        "x.json: /capillaries/levels must be a whole number from 0 to 6");
+  CHECK(messageOf(R"({"capillaries": {"levels": 1.5}})") ==
+        "x.json: /capillaries/levels must be a whole number from 0 to 6");
   CHECK(messageOf(R"({"capillaries": {"edges": 4}})").find("must be 3, 5, 8, 10, or 0") != std::string::npos);
 }
 
@@ -70,14 +79,20 @@ TEST_CASE("an empty scene is the default one") {
 TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("{").find("x.json: is not valid JSON") == 0);
   CHECK(messageOf("[1]") == "x.json: / must be an object");
-  CHECK(messageOf(R"({"boddy": 1})") == "x.json: /boddy is not a known key; use one of body, camera, capillaries, clip, edits, joint_map, look, networks");
+  CHECK(
+      messageOf(R"({"boddy": 1})") ==
+      "x.json: /boddy is not a known key; use one of body, camera, capillaries, clip, edits, joint_map, look, networks");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");
-  CHECK(messageOf(R"({"camera": {"angle": 0}})").find("/camera/angle must be a number from 1.0 to 150.0") != std::string::npos);
-  CHECK(messageOf(R"({"camera": {"position": [1, 2]}})") == "x.json: /camera/position must be a list of 3 numbers");
-  CHECK(messageOf(R"({"camera": {"position": [1, 2, 1e99]}})").find("/camera/position/2") != std::string::npos);
-  CHECK(messageOf(R"({"camera": {"view": "below"}})") == "x.json: /camera/view must be front, back, left, right or top");
+  CHECK(messageOf(R"({"camera": {"angle": 0}})").find("/camera/angle must be a number from 1.0 to 150.0") !=
+        std::string::npos);
+  CHECK(messageOf(R"({"camera": {"position": [1, 2]}})") ==
+        "x.json: /camera/position must be a list of 3 numbers");
+  CHECK(messageOf(R"({"camera": {"position": [1, 2, 1e99]}})").find("/camera/position/2") !=
+        std::string::npos);
+  CHECK(messageOf(R"({"camera": {"view": "below"}})") ==
+        "x.json: /camera/view must be front, back, left, right or top");
   CHECK(messageOf(R"({"look": {"skin": 1}})") == "x.json: /look/skin must be true or false");
   CHECK(messageOf(std::string(100000, '[')).find("nested too deeply") != std::string::npos);
 }

@@ -62,7 +62,7 @@ def signals(program, folder, all_commands, count):
     bad = 0
     for name, arguments in all_commands.items():
         longest = 8.0
-        answers, cut, late = [], 0, 0
+        answers, cut = [], 0
         for _ in range(count):
             for left in (folder / "out").iterdir(): left.unlink()
             number = random.choice([signal.SIGINT, signal.SIGTERM])

@@ -60,8 +60,6 @@ GrownNetwork::GrownNetwork(Network chosen)
   }
 }
 
-void GrownNetwork::pose() {
-  networkFrames(network, points, restReferences(network), frames);
-}
+void GrownNetwork::pose() { networkFrames(network, points, restReferences(network), frames); }
 
 }  // namespace vasa::test

@@ -4,7 +4,8 @@
 
 namespace vasa::test {
 
-/// Every vessel of a network with capillaries of two systems on it, by turns: what growing and drawing them need.
+/// Every vessel of a network with capillaries of two systems on it, by turns: what growing and drawing them
+/// need.
 struct GrownNetwork {
   explicit GrownNetwork(Network chosen);
   GrownNetwork(const GrownNetwork&) = delete;

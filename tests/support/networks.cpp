@@ -45,7 +45,8 @@ std::vector<vec4> windingPoints(Random& random, vec3 start, std::uint32_t count)
   return points;
 }
 
-constexpr VesselKind kKinds[] = {VesselKind::artery, VesselKind::vein, VesselKind::portalVein, VesselKind::other};
+constexpr VesselKind kKinds[] = {VesselKind::artery, VesselKind::vein, VesselKind::portalVein,
+                                 VesselKind::other};
 
 }  // namespace
 
@@ -63,8 +64,8 @@ Network windingNetwork(std::uint32_t vessels, std::uint32_t seed) {
       parameter = random.in(0.1f, 0.9f) * float(spanCount(points));
       start = vec3(evaluate(points, parameter));
     }
-    const VesselId vessel =
-        builder.addVessel({"vessel " + std::to_string(i), "", kKinds[i % 4]}, windingPoints(random, start, count));
+    const VesselId vessel = builder.addVessel({"vessel " + std::to_string(i), "", kKinds[i % 4]},
+                                              windingPoints(random, start, count));
     if (branch) builder.joinToSide({vessel, false}, {host, parameter});
   }
   return built(builder);
@@ -83,7 +84,8 @@ Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed) {
       heading = glm::normalize(heading + 0.15f * random.direction());
       radius *= random.in(0.93f, 1.02f);
     }
-    return builder.addVessel({"vessel " + std::to_string(builder.vesselCount()), "", kKinds[0]}, std::move(points));
+    return builder.addVessel({"vessel " + std::to_string(builder.vesselCount()), "", kKinds[0]},
+                             std::move(points));
   };
   while (builder.vesselCount() < vessels) {
     const vec3 place(random.in(-0.4f, 0.4f), random.in(0, 1), random.in(-0.4f, 0.4f));
@@ -98,15 +100,17 @@ Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed) {
       return std::cos(angle) * along + std::sin(angle) * side;
     };
     for (std::uint32_t i = 0, count = 1 + random.below(3); i < count; ++i)  // often at one place
-      builder.joinToSide({add(vec3(at), leaving(2.6f), at.w * random.in(0.15f, 1)), false}, {trunk, parameter});
+      builder.joinToSide({add(vec3(at), leaving(2.6f), at.w * random.in(0.15f, 1)), false},
+                         {trunk, parameter});
     const vec4 tip = points.back();
     const vec3 onward = glm::normalize(vec3(points.back() - points[points.size() - 2]));
     std::vector<VesselEnd> ends{{trunk, true}};
     for (std::uint32_t i = 0, count = 1 + random.below(3); i < count; ++i) {
       const vec3 side = glm::normalize(glm::cross(onward, random.direction()));
       const float angle = count == 1 ? 0.3f : random.in(0.35f, 0.9f);
-      ends.push_back({add(vec3(tip), std::cos(angle) * onward + std::sin(angle) * side, tip.w * random.in(0.5f, 0.95f)),
-                      false});
+      ends.push_back(
+          {add(vec3(tip), std::cos(angle) * onward + std::sin(angle) * side, tip.w * random.in(0.5f, 0.95f)),
+           false});
     }
     builder.joinEnds(ends);
   }

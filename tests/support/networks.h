@@ -8,14 +8,15 @@ namespace vasa::test {
 /// @param vessels  at least 1
 Network windingNetwork(std::uint32_t vessels, std::uint32_t seed);
 
-/// Seeded trees of vessels that branch as bodies' do: side branches at all angles and sizes, forks in two and three,
-/// vessels joined end to end, several branches at one place. Every third vessel is a trunk.
+/// Seeded trees of vessels that branch as bodies' do: side branches at all angles and sizes, forks in two and
+/// three, vessels joined end to end, several branches at one place. Every third vessel is a trunk.
 Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed);
 
 /// One straight vessel from (0, 0, 0) to (0, 0, length) whose radius runs from r0 to r1.
 Network straightVessel(float length, float r0, float r1, std::uint32_t spans);
 
-/// One straight vessel of 17 spans along x at a height y, of 2 mm radius, whose control points run from -reach to +reach.
+/// One straight vessel of 17 spans along x at a height y, of 2 mm radius, whose control points run from
+/// -reach to +reach.
 Network levelVessel(float reach, float y);
 
 }  // namespace vasa::test

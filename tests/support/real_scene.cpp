@@ -12,12 +12,14 @@ Result<Scene> realScene(const std::filesystem::path& data, const std::filesystem
   for (const char* name : {"bp3d_arteries", "bp3d_veins"}) {
     auto elements = readGltfElements(data / "bp3d" / (std::string(name) + ".glb"));
     if (!elements) return elements.error();
-    for (SourceElement& source : describeElements(std::move(*elements), name)) sources.push_back(std::move(source));
+    for (SourceElement& source : describeElements(std::move(*elements), name))
+      sources.push_back(std::move(source));
   }
   auto conversion = convertElements(
       sources, {.mend = [](const Network& network) { return Result(separateAtRest(network).network); }});
   if (!conversion) return conversion.error();
-  if (auto written = writeNetwork(folder / "real.vasa", conversion->network); !written) return written.error();
+  if (auto written = writeNetwork(folder / "real.vasa", conversion->network); !written)
+    return written.error();
   SceneFile file;
   file.body = data / "bp3d/bp3d_body.glb";
   file.networks = {folder / "real.vasa"};

@@ -15,9 +15,7 @@ std::optional<std::filesystem::path> sharedData() {
   return folder;
 }
 
-std::filesystem::path sourceDirectory() {
-  return VASA_SOURCE_DIR;
-}
+std::filesystem::path sourceDirectory() { return VASA_SOURCE_DIR; }
 
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "vasa-test-XXXXXX").string();

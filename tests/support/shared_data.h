@@ -26,10 +26,10 @@ class TemporaryFolder {
 }  // namespace vasa::test
 
 /// Leaves the test case with a message where the real data is absent; `var` is the folder otherwise.
-#define VASA_REQUIRE_SHARED_DATA(var)                    \
-  const auto var##Found = ::vasa::test::sharedData();    \
-  if (!var##Found) {                                     \
-    MESSAGE("skipped: shared data not present");         \
-    return;                                              \
-  }                                                      \
+#define VASA_REQUIRE_SHARED_DATA(var)                 \
+  const auto var##Found = ::vasa::test::sharedData(); \
+  if (!var##Found) {                                  \
+    MESSAGE("skipped: shared data not present");      \
+    return;                                           \
+  }                                                   \
   const std::filesystem::path var = *var##Found

@@ -163,8 +163,6 @@ class Grower {
 
 }  // namespace
 
-TubeList makeTubeNetwork(std::uint32_t tubes, std::uint32_t seed) {
-  return Grower(tubes, seed).run();
-}
+TubeList makeTubeNetwork(std::uint32_t tubes, std::uint32_t seed) { return Grower(tubes, seed).run(); }
 
 }  // namespace vasa::test

@@ -78,7 +78,8 @@ TriangleMesh forkedSurface() {
   const auto field = [&](vec3 p) {
     constexpr float kSoft = 0.0008f;
     float sum = 0;
-    for (const Limb& limb : limbs) sum += std::exp(-std::min(capsuleDistance(p, limb.a, limb.b, limb.radius), 0.05f) / kSoft);
+    for (const Limb& limb : limbs)
+      sum += std::exp(-std::min(capsuleDistance(p, limb.a, limb.b, limb.radius), 0.05f) / kSoft);
     return -kSoft * std::log(sum);
   };
   return isosurface(field, {-0.065f, -0.02f, -0.02f}, {0.085f, 0.215f, 0.025f}, 0.0016f);

@@ -85,7 +85,8 @@ inline float capsuleDistance(vec3 p, vec3 a, vec3 b, float radius) {
   return glm::distance(p, a + t * ab) - radius;
 }
 
-/// One surface as from a scan: a trunk that ends in two legs, with a branch on its side, wall flowing into wall.
+/// One surface as from a scan: a trunk that ends in two legs, with a branch on its side, wall flowing into
+/// wall.
 TriangleMesh forkedSurface();
 
 }  // namespace vasa::test

@@ -28,13 +28,11 @@ shared::DetailView frontView(float tolerance) {
 }
 
 Bezier straight(vec3 from, vec3 to, float radius) {
-  return {{vec4(from, radius), vec4(glm::mix(from, to, 1 / 3.0f), radius), vec4(glm::mix(from, to, 2 / 3.0f), radius),
-           vec4(to, radius)}};
+  return {{vec4(from, radius), vec4(glm::mix(from, to, 1 / 3.0f), radius),
+           vec4(glm::mix(from, to, 2 / 3.0f), radius), vec4(to, radius)}};
 }
 
-SweepExtent extentOf(const Bezier& z, const shared::DetailView& view) {
-  return sweepExtent(z.b, z, view);
-}
+SweepExtent extentOf(const Bezier& z, const shared::DetailView& view) { return sweepExtent(z.b, z, view); }
 
 }  // namespace
 
@@ -56,7 +54,9 @@ TEST_CASE("m and n are the least that keep the error") {
       const std::uint32_t m = aroundFor(size, tolerance), n = alongFor(size, tolerance);
       const auto sagitta = [&](std::uint32_t k) { return size * (1 - std::cos(kPi / float(k))); };
       const bool coarse = tolerance >= shared::kCoarse;
-      const auto share = [&](std::uint32_t k) { return (coarse && k < shared::kRoundAround ? shared::kThinShare : 1) * tolerance; };
+      const auto share = [&](std::uint32_t k) {
+        return (coarse && k < shared::kRoundAround ? shared::kThinShare : 1) * tolerance;
+      };
       const std::uint32_t least = coarse ? shared::kMinAround : shared::kRoundAround;
       if (!coarse) CHECK((m == shared::kThinAround) == (size <= tolerance));
       if (m < shared::kMaxAround) CHECK(sagitta(m) <= share(m) * 1.0001f);
@@ -71,7 +71,8 @@ TEST_CASE("the bend's height bounds how far an arc is from its chords") {
   for (const float turn : {0.1f, 0.5f, 1.2f}) {
     const float r = 0.3f, tube = 0.1f, k = 4.0f / 3 * std::tan(turn / 4) * r;
     const vec2 end(std::cos(turn), std::sin(turn)), back(end.y, -end.x);
-    Bezier arc{{vec4(r, 0, 0, tube), vec4(r, k, 0, tube), vec4(r * end + k * back, 0, tube), vec4(r * end, 0, tube)}};
+    Bezier arc{{vec4(r, 0, 0, tube), vec4(r, k, 0, tube), vec4(r * end + k * back, 0, tube),
+                vec4(r * end, 0, tube)}};
     const float bend = extentOf(arc, view).bendPixels, scale = 100 / (2 - tube);
     for (std::uint32_t n = 1; n < 8; ++n) {
       const float height = (r + tube) * (1 - std::cos(turn / float(2 * n))) * scale;  // of the outer side
@@ -91,7 +92,8 @@ TEST_CASE("m is the same for all sweeps of a vessel, fixed quads stay as they ar
   const NetworkDetail detail = networkDetail(posed, view);
   REQUIRE(detail.around.size() == network.vessels().size());
   REQUIRE(detail.along.size() == table.sweeps.size());
-  CHECK(*std::max_element(detail.around.begin(), detail.around.end()) > *std::min_element(detail.around.begin(), detail.around.end()));
+  CHECK(*std::max_element(detail.around.begin(), detail.around.end()) >
+        *std::min_element(detail.around.begin(), detail.around.end()));
   view.around = 8;
   view.along = 5;
   for (const std::uint32_t m : networkDetail(posed, view).around) CHECK(m == 8);

@@ -31,7 +31,8 @@ Network trunkWith(const std::vector<std::pair<vec3, float>>& branches) {
   NetworkBuilder builder;
   const VesselId trunk = builder.addVessel({"trunk"}, straight({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f));
   for (const auto& [along, radius] : branches)
-    builder.joinToSide({builder.addVessel({"branch"}, straight({0, 0, 0}, 0.2f * along, radius)), false}, {trunk, 2});
+    builder.joinToSide({builder.addVessel({"branch"}, straight({0, 0, 0}, 0.2f * along, radius)), false},
+                       {trunk, 2});
   auto network = builder.build(1);
   REQUIRE(network.ok());
   return std::move(*network);
@@ -61,13 +62,14 @@ Outcome checkedSurface(const Network& network) {
   networkFrames(network, network.points(), restReferences(network), frames);
   const SweepTable table = makeSweepTable(network);
   const PosedNetwork posed{table, network.points(), frames};
-  for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{4, 20}, SweepShape{7, 5}, SweepShape{8, 5}, SweepShape{16, 2},
-                                 SweepShape{16, 20}}) {
+  for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{4, 20}, SweepShape{7, 5}, SweepShape{8, 5},
+                                 SweepShape{16, 2}, SweepShape{16, 20}}) {
     const SurfaceMesh mesh = surfaceMesh(posed, shape);
     CHECK(test::openEdges(mesh.triangles) == 0);
     CHECK(test::openEdges(test::weldedByBits(mesh.positions, mesh.triangles)) == 0);
   }
-  for (const shared::ForkRecord& fork : table.forks) outcome.folds += foldedTriangles(posed, fork, 8, ForkForm::bare);
+  for (const shared::ForkRecord& fork : table.forks)
+    outcome.folds += foldedTriangles(posed, fork, 8, ForkForm::bare);
   return outcome;
 }
 
@@ -97,15 +99,22 @@ TEST_CASE("crossings: two branches at one place, one fork where they leave on di
 TEST_CASE("vessels that end in one point: in two, three, four and five") {
   for (const float spread : {25.0f, 40.0f, 60.0f}) {
     CAPTURE(spread);
-    const Outcome fork = checkedSurface(star({{direction(180), 0.01f}, {direction(spread), 0.008f}, {direction(-spread), 0.007f}}));
+    const Outcome fork = checkedSurface(
+        star({{direction(180), 0.01f}, {direction(spread), 0.008f}, {direction(-spread), 0.007f}}));
     CHECK(fork.report.forked == 1);
     CHECK(fork.report.joins == 1);
     CHECK(fork.folds == 0);
   }
   CHECK(checkedSurface(star({{direction(180), 0.01f}, {direction(20), 0.006f}})).report.joins == 1);
-  CHECK(checkedSurface(star({{direction(180), 0.01f}, {direction(0), 0.01f}, {direction(90), 0.008f}, {direction(-90), 0.008f}}))
+  CHECK(checkedSurface(star({{direction(180), 0.01f},
+                             {direction(0), 0.01f},
+                             {direction(90), 0.008f},
+                             {direction(-90), 0.008f}}))
             .folds == 0);
-  CHECK(checkedSurface(star({{direction(180), 0.01f}, {direction(0), 0.01f}, {direction(90), 0.004f}, {direction(90, 120), 0.004f},
+  CHECK(checkedSurface(star({{direction(180), 0.01f},
+                             {direction(0), 0.01f},
+                             {direction(90), 0.004f},
+                             {direction(90, 120), 0.004f},
                              {direction(90, 240), 0.004f}}))
             .folds == 0);
 }
@@ -113,7 +122,8 @@ TEST_CASE("vessels that end in one point: in two, three, four and five") {
 TEST_CASE("what cannot be forked stays a closed tube of its own, and is counted") {
   NetworkBuilder builder;
   const VesselId trunk = builder.addVessel({"trunk"}, straight({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f));
-  builder.joinToSide({builder.addVessel({"inside"}, straight({0, 0, 0}, {0.003f, 0, 0.1f}, 0.002f)), false}, {trunk, 2});
+  builder.joinToSide({builder.addVessel({"inside"}, straight({0, 0, 0}, {0.003f, 0, 0.1f}, 0.002f)), false},
+                     {trunk, 2});
   const auto network = builder.build(1);
   REQUIRE(network.ok());
   const Outcome outcome = checkedSurface(*network);
@@ -125,7 +135,8 @@ TEST_CASE("random trees: every branch is accounted for, no fork folds at rest") 
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     const Network network = test::branchingNetwork(20, seed);
     const ForkPlan::Report report = planForks(network).report;
-    CHECK(report.branches == report.forked + report.hidden + report.tooShort + report.crowded + report.folded);
+    CHECK(report.branches ==
+          report.forked + report.hidden + report.tooShort + report.crowded + report.folded);
     std::vector<quat> frames(network.sectionCount());
     networkFrames(network, network.points(), restReferences(network), frames);
     const SweepTable table = makeSweepTable(network);

@@ -39,8 +39,13 @@ TEST_CASE("rooms never overlap, stay within bounds and hold the least they need"
   std::uniform_real_distribution<float> number(0, 1);
   for (int round = 0; round < 500; ++round) {
     std::vector<ForkRoom> rooms(1 + engine() % 6);
-    for (ForkRoom& room : rooms) room = {.centre = 10 * number(engine), .before = number(engine), .after = number(engine), .want = 2 * number(engine)};
-    std::sort(rooms.begin(), rooms.end(), [](const ForkRoom& a, const ForkRoom& b) { return a.centre < b.centre; });
+    for (ForkRoom& room : rooms)
+      room = {.centre = 10 * number(engine),
+              .before = number(engine),
+              .after = number(engine),
+              .want = 2 * number(engine)};
+    std::sort(rooms.begin(), rooms.end(),
+              [](const ForkRoom& a, const ForkRoom& b) { return a.centre < b.centre; });
     if (!shareRoom(rooms, 0, 10, 0.05f)) continue;
     for (std::size_t i = 0; i < rooms.size(); ++i) {
       CHECK(rooms[i].low >= (i > 0 ? rooms[i - 1].high : 0));

@@ -12,12 +12,14 @@ namespace {
 // A network whose points follow waves of 3 cm through space.
 class Waves {
  public:
-  explicit Waves(const Network& network) : table(makeSweepTable(network)), network_(network), frames_(network.sectionCount()) {}
+  explicit Waves(const Network& network)
+      : table(makeSweepTable(network)), network_(network), frames_(network.sectionCount()) {}
 
   /// @param height  of the waves [m]
   PosedNetwork at(float height) {
     points_.assign(network_.points().begin(), network_.points().end());
-    for (vec4& p : points_) p += height * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
+    for (vec4& p : points_)
+      p += height * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
     pinEnds(network_, points_);
     networkFrames(network_, points_, restReferences(network_), frames_);
     return {table, points_, frames_};

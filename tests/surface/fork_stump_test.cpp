@@ -16,7 +16,8 @@ namespace {
 
 // A network whose points were thrown about by a share of their vessel's reach.
 struct Thrown {
-  Thrown(const Network& network, float share, std::uint32_t seed) : table(makeSweepTable(network)), frames(network.sectionCount()) {
+  Thrown(const Network& network, float share, std::uint32_t seed)
+      : table(makeSweepTable(network)), frames(network.sectionCount()) {
     points.assign(network.points().begin(), network.points().end());
     std::mt19937 random(seed);
     const auto signedShare = [&] { return share * (2 * float(random() % 4096) / 4095 - 1); };
@@ -52,7 +53,8 @@ TEST_CASE("a stump's tip lies where it is wanted, or half a radius deep") {
   CHECK(glm::distance(stump.tip(), vec3(2, 0, 0.1f)) < 1e-6f);
 }
 
-TEST_CASE("however a network is thrown about, no triangle of its forks looks the wrong way, and its surface is closed") {
+TEST_CASE(
+    "however a network is thrown about, no triangle of its forks looks the wrong way, and its surface is closed") {
   const Network network = test::branchingNetwork(41, 6);
   std::uint32_t open = 0;
   for (const float share : {0.005f, 0.02f, 0.1f}) {

@@ -7,7 +7,8 @@
 using namespace vasa;
 
 TEST_CASE("the axes survive packing exactly") {
-  for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)})
+  for (const vec3 axis :
+       {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)})
     CHECK(glm::distance(unpackOctahedral(packOctahedral(axis)), axis) < 1e-7f);
 }
 

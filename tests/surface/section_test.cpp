@@ -32,7 +32,8 @@ TEST_CASE("normals are those of the surface, by central differences on random sw
   for (int trial = 0; trial < 200; ++trial) {
     Bezier bezier;
     for (int i = 0; i < 4; ++i)
-      bezier.b[i] = vec4(jitter(engine), jitter(engine), float(i) * 0.4f + jitter(engine), 0.1f + 0.3f * jitter(engine));
+      bezier.b[i] = vec4(jitter(engine), jitter(engine), float(i) * 0.4f + jitter(engine),
+                         0.1f + 0.3f * jitter(engine));
     const float t = 0.25f + 0.01f * float(trial % 50), h = 1e-3f;
     const auto at = [&](float u) { return sectionAt(bezier, vec3(0, 0, 1), kIdentity, kIdentity, u); };
     const Section section = at(t);
@@ -62,7 +63,8 @@ TEST_CASE("where the curve stands still the chord gives the direction") {
 }
 
 TEST_CASE("normals stay finite where a bend folds over itself") {
-  const Bezier hairpin{{vec4(0, 0, 0, 1), vec4(0, 0, 1, 0.8f), vec4(0.1f, 0, 1, 0.7f), vec4(0.1f, 0, 0, 0.5f)}};
+  const Bezier hairpin{
+      {vec4(0, 0, 0, 1), vec4(0, 0, 1, 0.8f), vec4(0.1f, 0, 1, 0.7f), vec4(0.1f, 0, 0, 0.5f)}};
   for (int i = 0; i <= 20; ++i) {
     const Section section = sectionAt(hairpin, vec3(0.1f, 0, 0), kIdentity, kIdentity, float(i) / 20);
     for (const vec2 d : ringDirections(16))

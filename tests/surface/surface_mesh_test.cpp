@@ -35,8 +35,8 @@ TEST_CASE("the surface of branching networks is closed at all extremes of m and 
   for (const std::uint32_t seed : {1u, 2u, 3u}) {
     const Network network = test::branchingNetwork(41, seed);
     const std::vector<quat> frames = framesOf(network);
-    for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{4, 5}, SweepShape{5, 3}, SweepShape{16, 2},
-                                   SweepShape{8, 20}}) {
+    for (const SweepShape shape :
+         {SweepShape{3, 2}, SweepShape{4, 5}, SweepShape{5, 3}, SweepShape{16, 2}, SweepShape{8, 20}}) {
       setThreadCount(1);
       const SurfaceMesh one = surfaceMesh(network, network.points(), frames, shape);
       setThreadCount(3);

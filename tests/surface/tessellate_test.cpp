@@ -71,7 +71,8 @@ TEST_CASE("every ring lies on its circle") {
       const float u = float(table.sweeps[i].point - vessel.firstPoint) + t;
       const vec4 truth = evaluate(network.pointsOf(vessel), u);
       for (std::uint32_t k = 0; k < 5; ++k)
-        CHECK(glm::distance(points[ring * 5 + k].position, vec3(truth)) == doctest::Approx(truth.w).epsilon(1e-4));
+        CHECK(glm::distance(points[ring * 5 + k].position, vec3(truth)) ==
+              doctest::Approx(truth.w).epsilon(1e-4));
     }
   }
 }

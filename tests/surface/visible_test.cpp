@@ -47,7 +47,9 @@ bool seen(const Corners& t, vec2 size = kSize, std::uint32_t samples = 1) {
 
 struct Chance {
   std::mt19937 engine{11};
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  double operator()(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
 };
 
 // Mostly thin and small, as a vessel's are that is seen from afar.
@@ -67,7 +69,8 @@ TEST_CASE("a triangle that covers a sample wherever its corners are moved to is 
       Corners t = someTriangle(chance);
       for (glm::dvec2& p : t) p = glm::dvec2(vec2(p));
       Corners moved = t;
-      for (glm::dvec2& p : moved) p += 0.99 * kSnap * glm::dvec2(chance(0, 1) < 0.5 ? -1 : 1, chance(0, 1) < 0.5 ? -1 : 1);
+      for (glm::dvec2& p : moved)
+        p += 0.99 * kSnap * glm::dvec2(chance(0, 1) < 0.5 ? -1 : 1, chance(0, 1) < 0.5 ? -1 : 1);
       if (!coversAny(moved, samples)) continue;
       ++covering;
       missed += !seen(t, kSize, samples);
@@ -87,10 +90,13 @@ TEST_CASE("what misses every sample by more than its corners may move is not see
       drawn += seen(t, kSize, samples);
     }
     CHECK(drawn >= covering);
-    CHECK(drawn < 1.25 * covering);  // few for nothing: most of these have edges a hundred times as long as a move
+    CHECK(drawn <
+          1.25 * covering);  // few for nothing: most of these have edges a hundred times as long as a move
   }
   // A sliver whose upper corner is above a sample, then below it by half a move and by two and a half.
-  const auto sliver = [](double below) { return Corners{{{2.6, 3 + below + 0.05}, {3.4, 3 + below + 0.05}, {3, 3 + below}}}; };
+  const auto sliver = [](double below) {
+    return Corners{{{2.6, 3 + below + 0.05}, {3.4, 3 + below + 0.05}, {3, 3 + below}}};
+  };
   CHECK(coversFront(sliver(-0.02), {3, 3}));
   CHECK(seen(sliver(-0.02)));
   CHECK(seen(sliver(0.5 * kSnap)));

@@ -10,7 +10,8 @@ using namespace vasa::viewer;
 
 namespace {
 
-constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+constexpr ImGuiWindowFlags kFlags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
 constexpr Rect kPicture{0, 0, 300, 200};
 
 // A picture with a head on it, a side and a foot, as the app has them.
@@ -39,7 +40,8 @@ class Panels {
     changes.keepChanged(data, kPicture);
     std::vector<int> corners;
     int sum = 0;
-    for (int i = 0; i < data.CmdListsCount; ++i) corners.push_back(data.CmdLists[i]->VtxBuffer.Size), sum += corners.back();
+    for (int i = 0; i < data.CmdListsCount; ++i)
+      corners.push_back(data.CmdLists[i]->VtxBuffer.Size), sum += corners.back();
     CHECK(sum == data.TotalVtxCount);
     return corners;
   }

@@ -29,7 +29,8 @@ std::string contentOf(const std::filesystem::path& path) {
 
 // The script with OUT/ standing for a folder, in a file there.
 std::filesystem::path scriptIn(const std::filesystem::path& folder, std::string text) {
-  for (std::size_t at = 0; (at = text.find("OUT/", at)) != std::string::npos;) text.replace(at, 4, folder.string() + "/");
+  for (std::size_t at = 0; (at = text.find("OUT/", at)) != std::string::npos;)
+    text.replace(at, 4, folder.string() + "/");
   const auto path = folder / "script.txt";
   std::ofstream(path) << text;
   return path;
@@ -37,7 +38,9 @@ std::filesystem::path scriptIn(const std::filesystem::path& folder, std::string 
 
 ProgramOptions on(const VirtualDisplay& display, const TemporaryFolder& home) {
   static const TemporaryFolder cache;  // the driver compiles shaders once for all sessions
-  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(), "XDG_CACHE_HOME=" + cache.path().string()}, .folder = home.path().string()};
+  return {.environment = {display.variable(), "XDG_CONFIG_HOME=" + home.path().string(),
+                          "XDG_CACHE_HOME=" + cache.path().string()},
+          .folder = home.path().string()};
 }
 
 void checkPicture(const std::filesystem::path& found, const std::string& name) {
@@ -62,7 +65,9 @@ void checkPicture(const std::filesystem::path& found, const std::string& name) {
 
 // As ffprobe counts them.
 int videoFrames(const std::filesystem::path& video) {
-  const std::string command = "ffprobe -v error -count_frames -select_streams v -show_entries stream=nb_read_frames -of csv=p=0 '" + video.string() + "'";
+  const std::string command =
+      "ffprobe -v error -count_frames -select_streams v -show_entries stream=nb_read_frames -of csv=p=0 '" +
+      video.string() + "'";
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe);
   int frames = -1;
@@ -73,20 +78,27 @@ int videoFrames(const std::filesystem::path& video) {
 
 }  // namespace
 
-TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts, writes pictures and a video, resizes 50 times, opens "
-          "what is dropped and quits, and validation is silent") {
+TEST_CASE(
+    "a session opens, poses, plays, turns, picks, searches, measures, cuts, writes pictures and a video, resizes 50 times, opens "
+    "what is dropped and quits, and validation is silent") {
   const VirtualDisplay display;
   const TemporaryFolder folder;
   REQUIRE(runProgram({"export", "-o", (folder.path() / "lines.vtp").string()}).exit == 0);
   std::ofstream(folder.path() / "bad.swc") << "1 1 0 0 0 nonsense -1\n";
   std::string text = contentOf("tests/view/session.txt");
-  for (int i = 0; i < 50; ++i) text += "resize " + std::to_string(400 + 13 * (i * 7 % 50)) + " " + std::to_string(300 + 9 * (i * 11 % 50)) + "\n";
+  for (int i = 0; i < 50; ++i)
+    text += "resize " + std::to_string(400 + 13 * (i * 7 % 50)) + " " +
+            std::to_string(300 + 9 * (i * 11 % 50)) + "\n";
   text += "resize 960 640\nkey 1\nkey home\nsettle\nwindow OUT/resized.png\n";
   // Panels are drawn where they change; after a change of size all of them are.
-  text += "key space\nframes 4\nkey space\nsettle\nwindow OUT/changed.png\nresize 900 600\nframes 2\nresize 960 640\nsettle\nwindow OUT/anew.png\n";
-  text += "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 252\npress left\nrelease left\nsettle\n";
+  text +=
+      "key space\nframes 4\nkey space\nsettle\nwindow OUT/changed.png\nresize 900 600\nframes 2\nresize 960 640\nsettle\nwindow OUT/anew.png\n";
+  text +=
+      "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 252\npress left\nrelease left\nsettle\n";
   auto options = on(display, folder);
-  const auto outcome = runProgram({"view", "--clip", "walk", "--size", "960x640", "--validate", "--json", "--script", scriptIn(folder.path(), text)}, options);
+  const auto outcome = runProgram({"view", "--clip", "walk", "--size", "960x640", "--validate", "--json",
+                                   "--script", scriptIn(folder.path(), text)},
+                                  options);
   CHECK_MESSAGE(outcome.exit == 0, outcome.err);
   // Nothing but in which unit the dropped lines were read.
   CHECK_MESSAGE(outcome.err.find("lines.vtp: read as millimetres") != std::string::npos, outcome.err);
@@ -96,8 +108,9 @@ TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts
   CHECK(report["files"].size() == 15);
   CHECK(report["pictures"].get<int>() > 60);  // each new size is drawn
   CHECK(report["selected"] != "");
-  CHECK(report["width"] == 640);              // the panels have the rest
-  for (const char* name : {"posed", "measured", "searched"}) checkPicture(folder.path() / (std::string(name) + ".png"), name);
+  CHECK(report["width"] == 640);  // the panels have the rest
+  for (const char* name : {"posed", "measured", "searched"})
+    checkPicture(folder.path() / (std::string(name) + ".png"), name);
   CHECK(contentOf(folder.path() / "changed.png") == contentOf(folder.path() / "anew.png"));
   CHECK(readPng(folder.path() / "picked.png")->width == 960);
   CHECK(readPng(folder.path() / "vasa_001.png")->width == 640);
@@ -109,14 +122,20 @@ TEST_CASE("a session opens, poses, plays, turns, picks, searches, measures, cuts
   CHECK(report["loads"][2]["outcome"] == "opened");
 }
 
-TEST_CASE("opening goes on beside a living window, and Esc ends it within a step; a still's capillaries come in slices") {
+TEST_CASE(
+    "opening goes on beside a living window, and Esc ends it within a step; a still's capillaries come in slices") {
   const VirtualDisplay display;
   const TemporaryFolder folder;
-  REQUIRE(runProgram({"export", "--quads", "10x8", "-o", (folder.path() / "vessels.obj").string()}).exit == 0);
+  REQUIRE(runProgram({"export", "--quads", "10x8", "-o", (folder.path() / "vessels.obj").string()}).exit ==
+          0);
   const auto scene = folder.path() / "scene.json";
-  std::ofstream(scene) << R"({"body": ")" + humanBody().string() + R"(", "networks": [")" + humanVessels().string() + R"("], "capillaries": {"levels": 1}})";
-  const std::string text = "settle\ndrop OUT/vessels.obj\nlive 1.5\nwindow OUT/opening.png\nkey escape\nsettle\nwindow OUT/still.png\n";
-  const auto outcome = runProgram({"view", scene.string(), "--size", "640x480", "--json", "--script", scriptIn(folder.path(), text)}, on(display, folder));
+  std::ofstream(scene) << R"({"body": ")" + humanBody().string() + R"(", "networks": [")" +
+                              humanVessels().string() + R"("], "capillaries": {"levels": 1}})";
+  const std::string text =
+      "settle\ndrop OUT/vessels.obj\nlive 1.5\nwindow OUT/opening.png\nkey escape\nsettle\nwindow OUT/still.png\n";
+  const auto outcome = runProgram(
+      {"view", scene.string(), "--size", "640x480", "--json", "--script", scriptIn(folder.path(), text)},
+      on(display, folder));
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   const auto report = outcome.json();
   CHECK(report["still_slices"].get<int>() > 4);  // 33,695 stems, 8,192 at most in each
@@ -125,8 +144,9 @@ TEST_CASE("opening goes on beside a living window, and Esc ends it within a step
   CHECK(load["outcome"] == "cancelled");
   CHECK(load["frames"].get<int>() > 8);
   REQUIRE(report["stop_ms"].size() == 1);
-  MESSAGE("opening: " << load["frames"] << " pictures of the window in " << load["seconds"] << " s, the longest " << load["longest_ms"]
-                      << " ms; stopped after " << report["stop_ms"][0] << " ms");
+  MESSAGE("opening: " << load["frames"] << " pictures of the window in " << load["seconds"]
+                      << " s, the longest " << load["longest_ms"] << " ms; stopped after "
+                      << report["stop_ms"][0] << " ms");
   CHECK(report["stop_ms"][0].get<double>() < 1000);
   CHECK(load["longest_ms"].get<double>() < 1000);
 }
@@ -136,7 +156,9 @@ TEST_CASE("on a high-DPI screen window, panels and texts are as large as on an o
   const std::string text = "settle\nwindow OUT/large.png\n";
   {
     const VirtualDisplay display;
-    const auto outcome = runProgram({"view", "--ui-scale", "2", "--size", "1920x1280", "--json", "--script", scriptIn(folder.path(), text)}, on(display, folder));
+    const auto outcome = runProgram({"view", "--ui-scale", "2", "--size", "1920x1280", "--json", "--script",
+                                     scriptIn(folder.path(), text)},
+                                    on(display, folder));
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
     CHECK(outcome.json()["width"] == 1920 - 2 * 320);
     CHECK(outcome.json()["height"] == 1280 - 2 * 46);
@@ -152,21 +174,25 @@ TEST_CASE("on a high-DPI screen window, panels and texts are as large as on an o
   CHECK(kept["width"] == 2560);
   CHECK(kept["height"] == 1440);
   CHECK(runProgram({"view"}, options).exit == 130);
-  CHECK(nlohmann::json::parse(contentOf(folder.path() / "vasa" / "view.json"), nullptr, false)["width"] == 2560);  // no larger each time
+  CHECK(nlohmann::json::parse(contentOf(folder.path() / "vasa" / "view.json"), nullptr, false)["width"] ==
+        2560);  // no larger each time
 }
 
 TEST_CASE("a recorded session does the same again") {
   const VirtualDisplay display;
   const TemporaryFolder folder;
   const auto recorded = folder.path() / "recorded.txt";
-  const std::string text = "settle\nkey tab\nkey 3\nmove 100 100\npress left\nmove 140 120\nrelease left\nfrayed";
+  const std::string text =
+      "settle\nkey tab\nkey 3\nmove 100 100\npress left\nmove 140 120\nrelease left\nfrayed";
   const auto wrong = runProgram({"view", "--script", scriptIn(folder.path(), text)}, on(display, folder));
   CHECK(wrong.exit == 3);
   CHECK(wrong.err.find("script.txt:8: 'frayed'") != std::string::npos);
   const std::string start = "settle\n", end = "settle\nwindow OUT/end.png\n";
-  const std::string middle = "key tab\nkey 3\nmove 100 100\npress left\nmove 140 120\nrelease left\nframes 2\n";
+  const std::string middle =
+      "key tab\nkey 3\nmove 100 100\npress left\nmove 140 120\nrelease left\nframes 2\n";
   const auto session = [&](const std::string& script, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"view", "--size", "400x300", "--json", "--script", scriptIn(folder.path(), script)};
+    std::vector<std::string> arguments{"view",   "--size",   "400x300",
+                                       "--json", "--script", scriptIn(folder.path(), script)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto outcome = runProgram(arguments, on(display, folder));
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
@@ -195,7 +221,8 @@ TEST_CASE("what is wrong is told before a window opens, or by its closing") {
   CHECK(runProgram({"view", "--device", "no such device"}, on(display, folder)).exit == 4);
   std::ofstream(folder.path() / "bad.json") << "{ \"body\": 3 }";
   CHECK(runProgram({"view", (folder.path() / "bad.json").string()}, on(display, folder)).exit == 3);
-  const auto missing = runProgram({"view", "--body", "none.glb", "--network", "none.vasa"}, on(display, folder));
+  const auto missing =
+      runProgram({"view", "--body", "none.glb", "--network", "none.vasa"}, on(display, folder));
   CHECK(missing.exit == 6);
 }
 
@@ -203,7 +230,8 @@ TEST_CASE("settings are kept when a person ends the session, and only then") {
   const VirtualDisplay display;
   const TemporaryFolder home;
   auto options = on(display, home);
-  const auto scripted = runProgram({"view", "--size", "400x300", "--script", scriptIn(home.path(), "settle\n")}, options);
+  const auto scripted =
+      runProgram({"view", "--size", "400x300", "--script", scriptIn(home.path(), "settle\n")}, options);
   CHECK(scripted.exit == 0);
   CHECK_FALSE(std::filesystem::exists(home.path() / "vasa"));
   options.signalAfterMs = 6000;

@@ -22,7 +22,8 @@ VirtualDisplay::VirtualDisplay(int dpi) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], 3);
   posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  const std::array arguments{"Xvfb", "-displayfd", "3", "-screen", "0", "2560x1600x24", "-noreset", "-nolisten", "tcp"};
+  const std::array arguments{"Xvfb",         "-displayfd", "3",         "-screen", "0",
+                             "2560x1600x24", "-noreset",   "-nolisten", "tcp"};
   std::array<char*, arguments.size() + 1> argv{};
   for (std::size_t i = 0; i < arguments.size(); ++i) argv[i] = const_cast<char*>(arguments[i]);
   const int error = posix_spawnp(&server_, "Xvfb", &actions, nullptr, argv.data(), environ);
@@ -42,7 +43,8 @@ void VirtualDisplay::tellDpi(int dpi) const {
   REQUIRE(xlib);
   const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(xlib, "XOpenDisplay"));
   const auto root = reinterpret_cast<unsigned long (*)(void*)>(dlsym(xlib, "XDefaultRootWindow"));
-  const auto change = reinterpret_cast<int (*)(void*, unsigned long, unsigned long, unsigned long, int, int, const char*, int)>(dlsym(xlib, "XChangeProperty"));
+  const auto change = reinterpret_cast<int (*)(void*, unsigned long, unsigned long, unsigned long, int, int,
+                                               const char*, int)>(dlsym(xlib, "XChangeProperty"));
   const auto close = reinterpret_cast<int (*)(void*)>(dlsym(xlib, "XCloseDisplay"));
   constexpr unsigned long kResourceManager = 23, kString = 31;
   void* display = open(name_.c_str());

@@ -5,7 +5,8 @@
 
 namespace vasa::test {
 
-/// An X server without a screen (Xvfb) for as long as the object lives. Fails the test case where it cannot be started.
+/// An X server without a screen (Xvfb) for as long as the object lives. Fails the test case where it cannot
+/// be started.
 class VirtualDisplay {
  public:
   /// @param dpi  that it tells programs, as desktops do; 0: nothing, which is 96

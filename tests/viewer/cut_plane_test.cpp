@@ -9,9 +9,7 @@ namespace {
 
 const Aabb kBox{{-1, 0, -0.5f}, {1, 2, 0.5f}};
 
-float heightOver(const CutPlane& cut, vec3 place) {
-  return glm::dot(cutThrough(cut, kBox), vec4(place, 1));
-}
+float heightOver(const CutPlane& cut, vec3 place) { return glm::dot(cutThrough(cut, kBox), vec4(place, 1)); }
 
 }  // namespace
 
@@ -33,9 +31,11 @@ TEST_CASE("turned and tilted planes hold the box between their first and last pl
       CHECK(glm::length(cutDirection(cut)) == doctest::Approx(1));
       float least = 1e9f;
       for (int corner = 0; corner < 8; ++corner)
-        least = std::min(least, heightOver(cut, {corner & 1 ? 1 : -1, corner & 2 ? 2 : 0, corner & 4 ? 0.5f : -0.5f}));
+        least = std::min(
+            least, heightOver(cut, {corner & 1 ? 1 : -1, corner & 2 ? 2 : 0, corner & 4 ? 0.5f : -0.5f}));
       CHECK(least == doctest::Approx(0).epsilon(1e-5));
-      for (const vec3& place : cutOutline(cut, kBox)) CHECK(heightOver(cut, place) == doctest::Approx(0).epsilon(1e-4));
+      for (const vec3& place : cutOutline(cut, kBox))
+        CHECK(heightOver(cut, place) == doctest::Approx(0).epsilon(1e-4));
     }
 }
 

@@ -43,7 +43,8 @@ std::filesystem::path largeMesh(const std::filesystem::path& folder, std::uint32
   };
   for (std::uint32_t ring = 0; ring < rings; ++ring)
     for (std::uint32_t side = 0; side < around; ++side) {
-      const vec3 a = place(ring, side), b = place(ring, (side + 1) % around), c = place(ring + 1, side), d = place(ring + 1, (side + 1) % around);
+      const vec3 a = place(ring, side), b = place(ring, (side + 1) % around), c = place(ring + 1, side),
+                 d = place(ring + 1, (side + 1) % around);
       triangle(a, b, c);
       triangle(b, d, c);
     }
@@ -59,7 +60,8 @@ double slowestStop(const SceneFile& file, double lastMs) {
   for (int i = 0; i < kMoments; ++i) {
     Loader loader;
     loader.start({"scene", [file] { return file; }, kData / "growth"}, [] {});
-    std::this_thread::sleep_for(std::chrono::microseconds(std::int64_t(1000 * lastMs * (i + 0.5) / kMoments)));
+    std::this_thread::sleep_for(
+        std::chrono::microseconds(std::int64_t(1000 * lastMs * (i + 0.5) / kMoments)));
     loader.stop();
     for (const double ms : loader.takeStopTimes()) slowest = std::max(slowest, ms);
   }

@@ -13,7 +13,9 @@ struct Hand {
   ViewState state;
   PointerTool tool;
   double now = 0;
-  std::optional<Click> feed(InputEvent event, bool free = true) { return tool.feed(event, kPicture, free, now, state); }
+  std::optional<Click> feed(InputEvent event, bool free = true) {
+    return tool.feed(event, kPicture, free, now, state);
+  }
   std::optional<Click> clickAt(vec2 place) {
     feed(PointerMoved{place});
     feed(ButtonChanged{Button::left, true});

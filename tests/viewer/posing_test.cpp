@@ -30,7 +30,8 @@ Skeleton leg() {
   for (int j = 0; j < 4; ++j) {
     Skeleton::Joint joint;
     if (j > 0) joint.parent = JointId{std::uint32_t(j - 1)};
-    joint.restWorld = glm::mat4_cast(glm::angleAxis(0.7f * float(j), vec3(0, 0.6f, 0.8f)));  // a rig's axes are anyhow
+    joint.restWorld =
+        glm::mat4_cast(glm::angleAxis(0.7f * float(j), vec3(0, 0.6f, 0.8f)));  // a rig's axes are anyhow
     joint.restWorld[3] = vec4(places[j], 1);
     skeleton.joints.push_back(joint);
   }
@@ -47,7 +48,8 @@ vec3 ankleAt(const Skeleton& skeleton, JointId joint, const JointMotion& motion,
 TEST_CASE("joints bend forwards, spread outwards and twist about their length, whatever a rig's axes are") {
   const Skeleton skeleton = leg();
   const vec3 rest(skeleton.joints[2].restWorld[3]);
-  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"), knee = jointMotion(skeleton, {1}, "leftLowerLeg");
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"),
+                    knee = jointMotion(skeleton, {1}, "leftLowerLeg");
   CHECK(ankleAt(skeleton, {0}, hip, {0.3f, 0, 0}).z > rest.z + 0.2f);
   CHECK(ankleAt(skeleton, {1}, knee, {-0.3f, 0, 0}).z < rest.z - 0.1f);
   CHECK(ankleAt(skeleton, {0}, hip, {0, -0.3f, 0}).x > rest.x + 0.2f);  // the body's left is +X
@@ -56,8 +58,10 @@ TEST_CASE("joints bend forwards, spread outwards and twist about their length, w
 
 TEST_CASE("each axis has its own range") {
   const Skeleton skeleton = leg();
-  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"), other = jointMotion(skeleton, {0}, "rightUpperLeg");
-  const JointMotion knee = jointMotion(skeleton, {1}, "leftLowerLeg"), unknown = jointMotion(skeleton, {1}, "");
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"),
+                    other = jointMotion(skeleton, {0}, "rightUpperLeg");
+  const JointMotion knee = jointMotion(skeleton, {1}, "leftLowerLeg"),
+                    unknown = jointMotion(skeleton, {1}, "");
   CHECK(knee.most.x < glm::radians(10.0f));
   CHECK(knee.least.x < glm::radians(-120.0f));
   CHECK(hip.most.y == -other.least.y);
@@ -70,8 +74,10 @@ TEST_CASE("a turn about an axis of the world is one about the joint's own axes, 
   const Skeleton skeleton = leg();
   const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg");
   const mat4 world = skeleton.joints[0].restWorld;
-  const vec3 angles = turnedFurther({0, 0, 0}, hip, world, {-1, 0, 0}, 0.4f);  // hanging down, it goes forwards
+  // Hanging down, it goes forwards.
+  const vec3 angles = turnedFurther({0, 0, 0}, hip, world, {-1, 0, 0}, 0.4f);
   CHECK(glm::distance(angles, vec3(0.4f, 0, 0)) < 1e-5f);
-  CHECK(glm::distance(turnedFurther({0.3f, -0.2f, 0.5f}, hip, world, {0, 1, 0}, 0), vec3(0.3f, -0.2f, 0.5f)) < 1e-5f);
+  CHECK(glm::distance(turnedFurther({0.3f, -0.2f, 0.5f}, hip, world, {0, 1, 0}, 0), vec3(0.3f, -0.2f, 0.5f)) <
+        1e-5f);
   CHECK(turnedFurther({0, 0, 0}, hip, world, {-1, 0, 0}, -1).x == doctest::Approx(hip.least.x));
 }

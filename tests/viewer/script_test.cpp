@@ -32,8 +32,9 @@ TEST_CASE("a script is written as it was read") {
 }
 
 TEST_CASE("no name and no text of a recorded session becomes a line of its own") {
-  for (const std::string& name : {std::string("a\nwindow /b.png"), std::string("\"quoted\""), std::string(" a "), std::string("back\\slash\r\n"), std::string("\x01\x7f"),
-                                  std::string("plain \\ \xff.glb")}) {
+  for (const std::string& name :
+       {std::string("a\nwindow /b.png"), std::string("\"quoted\""), std::string(" a "),
+        std::string("back\\slash\r\n"), std::string("\x01\x7f"), std::string("plain \\ \xff.glb")}) {
     CAPTURE(name);
     const std::string line = scriptLine(InputEvent(FileDropped{name}));
     CHECK(line.find('\n') == std::string::npos);
@@ -43,7 +44,8 @@ TEST_CASE("no name and no text of a recorded session becomes a line of its own")
   }
   CHECK(scriptLine(InputEvent(TextTyped{'\n'})).empty());
   CHECK(scriptLine(InputEvent(TextTyped{0x9b})).empty());
-  for (const char* wrong : {"drop \"open\n", "drop \"a\\n\"\n", "drop \"a\" b\"\n", "drop \"\\x1\"\n"}) CHECK_FALSE(parseScript(wrong, "s.txt"));
+  for (const char* wrong : {"drop \"open\n", "drop \"a\\n\"\n", "drop \"a\" b\"\n", "drop \"\\x1\"\n"})
+    CHECK_FALSE(parseScript(wrong, "s.txt"));
 }
 
 TEST_CASE("what a script writes lies below one folder") {
@@ -52,12 +54,15 @@ TEST_CASE("what a script writes lies below one folder") {
   std::filesystem::create_directories(out / "inner");
   std::filesystem::create_directory_symlink(folder.path(), out / "way");
   std::filesystem::create_symlink(folder.path() / "elsewhere.png", out / "link.png");
-  for (const std::string& name : {std::string("a.png"), std::string("inner/a.png"), std::string("inner/../b.png"), (out / "c.png").string()}) {
+  for (const std::string& name : {std::string("a.png"), std::string("inner/a.png"),
+                                  std::string("inner/../b.png"), (out / "c.png").string()}) {
     CAPTURE(name);
     CHECK(placeBelow(out, name));
   }
-  for (const std::string& name : {std::string("../a.png"), std::string("/tmp/a.png"), std::string("inner/../../a.png"), std::string("way/a.png"), std::string("link.png"),
-                                  std::string("."), (folder.path() / "outer.png").string()}) {
+  for (const std::string& name :
+       {std::string("../a.png"), std::string("/tmp/a.png"), std::string("inner/../../a.png"),
+        std::string("way/a.png"), std::string("link.png"), std::string("."),
+        (folder.path() / "outer.png").string()}) {
     CAPTURE(name);
     const auto refused = placeBelow(out, name);
     REQUIRE_FALSE(refused);
@@ -98,6 +103,7 @@ TEST_CASE("a recorded session can be replayed: of moves in one frame the last, f
   recorder.endFrame();
   recorder.add(ButtonChanged{Button::left, false});
   recorder.endFrame();
-  CHECK(recorder.text() == "# vasa view session\nframes 2\nmove 3 4\npress left\nframes 1\nrelease left\nframes 1\n");
+  CHECK(recorder.text() ==
+        "# vasa view session\nframes 2\nmove 3 4\npress left\nframes 1\nrelease left\nframes 1\n");
   CHECK(parseScript(recorder.text(), "recorded"));
 }

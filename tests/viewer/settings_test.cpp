@@ -30,7 +30,9 @@ TEST_CASE("settings come back as they were written") {
 }
 
 TEST_CASE("what makes no sense is passed over") {
-  for (const char* text : {"", "[]", "{", "{\"around\": 99, \"speed\": \"fast\", \"preset\": \"sepia\", \"width\": -3, \"more\": 1}"}) {
+  for (const char* text :
+       {"", "[]", "{",
+        "{\"around\": 99, \"speed\": \"fast\", \"preset\": \"sepia\", \"width\": -3, \"more\": 1}"}) {
     Settings settings;
     readSettings(text, settings);
     CHECK(settings.state.detail.around == 8);

@@ -1,9 +1,9 @@
 // Poses a body's vessels without drawing them. No Vulkan, no window: vasa::scene alone.
 // usage: control_points BODY.glb NETWORK.vasa CLIP SECONDS VESSEL
-#include <cstdio>
-#include <cstdlib>
 #include <vasa/scene/frame.h>
 #include <vasa/scene/scene.h>
+#include <cstdio>
+#include <cstdlib>
 
 int main(int argc, char** argv) {
   if (argc != 6) return std::fprintf(stderr, "usage: control_points BODY NETWORK CLIP SECONDS VESSEL\n"), 2;
@@ -31,5 +31,7 @@ int main(int argc, char** argv) {
 
   // Whether every pair of vessels is apart is not hoped but proven.
   const vasa::AvoidReport& avoid = maker.report().avoid;
-  std::fprintf(stderr, "%s\n", avoid.after.holds() ? "certified: no vessel runs through another" : "some vessels still touch");
+  std::fprintf(
+      stderr, "%s\n",
+      avoid.after.holds() ? "certified: no vessel runs through another" : "some vessels still touch");
 }

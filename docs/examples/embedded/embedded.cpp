@@ -27,7 +27,8 @@ int draw(Host& host, char** argv) {
   if (!clip) return std::fprintf(stderr, "%s\n", clip.error().message.c_str()), 1;
 
   // The host's device, in vasa's hands until the end of this function.
-  vasa::gpu::Device device({host.instance, host.physical, host.device, host.queue, host.queueFamily, host.enabled});
+  vasa::gpu::Device device(
+      {host.instance, host.physical, host.device, host.queue, host.queueFamily, host.enabled});
   vasa::Renderer renderer(device, scene->network, scene->body.meshes, {.width = kWidth, .height = kHeight});
 
   vasa::FrameMaker maker(*scene, {.keepVolume = true, .avoid = true});

@@ -15,7 +15,8 @@ class Host {
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// Copies an image in TRANSFER_SRC layout, 4 bytes a pixel, to memory, with commands and a buffer of the host's own.
+  /// Copies an image in TRANSFER_SRC layout, 4 bytes a pixel, to memory, with commands and a buffer of the
+  /// host's own.
   std::vector<std::uint8_t> read(VkImage image, std::uint32_t width, std::uint32_t height);
 
   VkInstance instance = VK_NULL_HANDLE;
