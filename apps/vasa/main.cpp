@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   addConvert(app, command);
   addFit(app, command);
   addPlace(app, command);
+  addPoses(app, command);
   addEdit(app, command);
   addExport(app, command);
   addPrepare(app, command);

@@ -46,6 +46,8 @@ float bendOf(const Bezier& tube, float limit) {
 
 }  // namespace
 
+float sharpestBend(const Bezier& tube) { return bendOf(tube, 0); }
+
 bool kinks(const Bezier& tube) { return bendOf(tube, 1) >= 1; }
 
 std::uint32_t kinkCount(const Network& network, std::span<const vec4> points) {

@@ -9,6 +9,9 @@ namespace vasa {
 /// tubes are told straight enough by their control polygon alone.
 bool kinks(const Bezier& tube);
 
+/// r κ at the sharpest of nine places: from 1 on the inside of the bend folds.
+float sharpestBend(const Bezier& tube);
+
 /// Spans that kink. O(spans).
 std::uint32_t kinkCount(const Network& network, std::span<const vec4> points);
 

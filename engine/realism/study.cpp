@@ -7,6 +7,7 @@
 #include "core/cancellation.h"
 #include "io/csv.h"
 #include "realism/bone_gap.h"
+#include "realism/mirror.h"
 #include "realism/path_measures.h"
 #include "realism/vessel_path.h"
 
@@ -19,26 +20,7 @@ constexpr float kForkReach = 0.01f;  // [m] over which a branch's direction is t
 constexpr float kPerRange = 4;       // standard deviations that a range counts as
 constexpr float kNoChange = 0.02f;   // of a figure's mean: less is no change in its direction
 
-// "left renal artery" <-> "right renal artery", "leftUpperLeg" <-> "rightUpperLeg".
-std::string mirrored(std::string text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto is = [&](std::string_view word) { return text.compare(i, word.size(), word) == 0; };
-    if (is("left"))
-      out += "right", i += 4;
-    else if (is("right"))
-      out += "left", i += 5;
-    else
-      out += text[i++];
-  }
-  return out;
-}
-
-bool hasSide(std::string_view text) {
-  return text.find("left") != text.npos || text.find("right") != text.npos;
-}
-
-std::vector<JointAngles> mirrored(std::vector<JointAngles> pose) {
+std::vector<JointAngles> otherSide(std::vector<JointAngles> pose) {
   for (JointAngles& angles : pose) {
     const bool middle = !hasSide(angles.part);
     angles.part = mirrored(angles.part);
@@ -100,7 +82,7 @@ class Study {
     if (const auto found = posed_.find(key); found != posed_.end()) return &found->second;
     std::vector<JointAngles> angles;
     if (name != "rest") angles = protocol_.poses.find(name)->second;
-    auto pose = poseByAngles(scene_.body.skeleton, mirror ? mirrored(angles) : angles, share);
+    auto pose = poseByAngles(scene_.body.skeleton, mirror ? otherSide(angles) : angles, share);
     if (!pose) return pose.error();
     checkpoint();
     maker_.make(*pose);

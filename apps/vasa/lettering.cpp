@@ -1,0 +1,85 @@
+#include "lettering.h"
+
+#include <ft2build.h>
+
+#include <cmath>
+#include FT_FREETYPE_H
+
+namespace vasa::cli {
+namespace {
+
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr int kSubpixels = 64;  // FreeType counts in these
+
+// The code points of valid UTF-8; a broken byte is a question mark.
+std::u32string codePoints(std::string_view text) {
+  std::u32string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const int more = lead < 0x80 ? 0 : lead >> 5 == 6 ? 1 : lead >> 4 == 14 ? 2 : lead >> 3 == 30 ? 3 : -1;
+    if (more < 0 || i + std::size_t(more) >= text.size()) {
+      out += U'?', ++i;
+      continue;
+    }
+    char32_t code = more == 0 ? lead : lead & (0x3f >> more);
+    for (int k = 1; k <= more; ++k) code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3f);
+    out += code;
+    i += std::size_t(more) + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+struct Lettering::Face {
+  FT_Library library = nullptr;
+  FT_Face face = nullptr;
+  Face() = default;
+  Face(const Face&) = delete;
+  Face& operator=(const Face&) = delete;
+  ~Face() {
+    if (face) FT_Done_Face(face);
+    if (library) FT_Done_FreeType(library);
+  }
+};
+
+Lettering::Lettering(std::unique_ptr<Face> face) : face_(std::move(face)) {}
+Lettering::Lettering(Lettering&&) noexcept = default;
+Lettering::~Lettering() = default;
+
+Result<Lettering> Lettering::load(float size) {
+  auto face = std::make_unique<Face>();
+  if (FT_Init_FreeType(&face->library) != 0 || FT_New_Face(face->library, kFont, 0, &face->face) != 0 ||
+      FT_Set_Char_Size(face->face, 0, FT_F26Dot6(std::lround(size * kSubpixels)), 72, 72) != 0)
+    return ioError(std::string(kFont) + ": cannot be read; install Debian's fonts-dejavu-core");
+  return Lettering(std::move(face));
+}
+
+int Lettering::widthOf(std::string_view utf8) const {
+  FT_Pos width = 0;
+  for (const char32_t code : codePoints(utf8))
+    if (FT_Load_Char(face_->face, code, FT_LOAD_DEFAULT) == 0) width += face_->face->glyph->advance.x;
+  return int(width / kSubpixels);
+}
+
+void Lettering::write(Image& picture, int x, int y, std::string_view utf8, Align align, vec3 colour) const {
+  FT_Pos pen = FT_Pos(x) * kSubpixels;
+  if (align != Align::left) pen -= FT_Pos(widthOf(utf8)) * kSubpixels / (align == Align::centre ? 2 : 1);
+  for (const char32_t code : codePoints(utf8)) {
+    if (FT_Load_Char(face_->face, code, FT_LOAD_RENDER) != 0) continue;
+    const FT_GlyphSlot glyph = face_->face->glyph;
+    const int left = int(pen / kSubpixels) + glyph->bitmap_left, top = y - glyph->bitmap_top;
+    for (int row = 0; row < int(glyph->bitmap.rows); ++row)
+      for (int column = 0; column < int(glyph->bitmap.width); ++column) {
+        const int px = left + column, py = top + row;
+        if (px < 0 || py < 0 || px >= int(picture.width) || py >= int(picture.height)) continue;
+        const float cover = float(glyph->bitmap.buffer[row * glyph->bitmap.pitch + column]) / 255;
+        std::uint8_t* pixel = &picture.rgba[4 * (std::size_t(py) * picture.width + std::size_t(px))];
+        for (int c = 0; c < 3; ++c)
+          pixel[c] = std::uint8_t(std::lround(glm::mix(float(pixel[c]), 255 * colour[c], cover)));
+      }
+    pen += glyph->advance.x;
+  }
+}
+
+}  // namespace vasa::cli
