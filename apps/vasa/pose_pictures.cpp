@@ -119,7 +119,7 @@ Result<Image> drawStrains(const Scene& scene, std::span<const float> strains, fl
   maker.make(nullptr, 0);
   Look look = lookNamed("atlas").value_or(Look{});
   look.background = vec4(1);
-  look.boneOpacity = 0.4f;
+  look.boneOpacity = 0.4f, look.drawHeart = false;
   const Aabb box = motionBounds(scene, nullptr);
   const Camera camera = focusOn({.position = box.centre() + vec3(0, 0, 1),
                                  .target = box.centre(),

@@ -85,7 +85,7 @@ Result<std::vector<PoseRay>> chooseRays(const Options& options) {
   return singleRays(chosen);
 }
 
-double inDegrees(float angle) { return std::round(100 * double(glm::degrees(angle))) / 100; }
+double inDegrees(float angle) { return std::round(100 * double(glm::degrees(angle))) / 100 + 0.0; }  // no -0
 
 // What a ray's file holds: all that the map needs of it.
 Report reportOf(const PoseRay& ray, const RayReport& walked, const Network& network) {
@@ -196,17 +196,19 @@ class PoseWork {
                            " (rows) and " + rays_.front().range.name
                      : "The worst that happens to a vessel, one joint at a time";
     map.axis = pair ? rays_.front().range.name : "angle from rest";
-    std::string before;
+    std::string last;
     for (std::size_t r = 0; r < rays_.size(); ++r) {
       const std::string name =
           pair ? fmt::format("{:.0f}°", inDegrees(rays_[r].held->angle)) : rays_[r].range.name;
-      if (name != before) map.rows.push_back({name, {}});
-      before = name;
+      if (name != last) map.rows.push_back({name, {}});
+      last = name;
       const Report& steps = reports_[r]["steps"];
       const auto at = [&](std::size_t i) { return steps[i]["deg"].get<float>(); };
       for (std::size_t i = 0; i < steps.size(); ++i) {
-        const float half = 0.5f * std::abs(at(1) - at(0));
-        map.rows.back().cells.push_back({at(i) - half, at(i) + half, steps[i]["severity"].get<float>()});
+        const float before = i > 0 ? 0.5f * (at(i - 1) + at(i)) : at(i),
+                    after = i + 1 < steps.size() ? 0.5f * (at(i) + at(i + 1)) : at(i);
+        map.rows.back().cells.push_back(
+            {std::min(before, after), std::max(before, after), steps[i]["severity"].get<float>()});
       }
     }
     return map;

@@ -18,6 +18,7 @@ constexpr std::array kWords{
     LoadWords{"stretch", "% of the length at rest"}, LoadWords{"shortening", "% of the length at rest"},
     LoadWords{"bone", "mm deeper than at rest"}};
 
+constexpr float kAdded = 0.05f;      // of r κ: a bend that a pose makes less sharper is that of the rest
 constexpr float kShortest = 0.005f;  // [m] strain of a stub between two forks is their walls' matter
 
 // Chords of a sixteenth of a span: of a quarter circle they miss less than a thousandth.
@@ -68,7 +69,7 @@ float VesselLoad::severity(LoadKind kind, const LoadLimits& limits) const {
     case LoadKind::kink:
       return kink / limits.kink;
     case LoadKind::squeeze:
-      return lumen < 1 ? limits.lumen / std::max(lumen, 1e-3f) : 0;
+      return (1 - lumen) / (1 - limits.lumen);
     case LoadKind::stretch:
       return std::max(strain, 0.0f) / limits.strain;
     case LoadKind::shortening:
@@ -100,7 +101,8 @@ std::vector<VesselLoad> LoadMeter::run(std::span<const vec4> points, const Avoid
     const float spans = float(vessel.spanCount());
     for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
       const Bezier posed = bezierOfSpan(own, span), before = bezierOfSpan(rest, span);
-      if (const float bend = sharpestBend(posed); bend > bends_[firstSpan[v] + span] && bend > load.kink)
+      if (const float bend = sharpestBend(posed);
+          bend > bends_[firstSpan[v] + span] + kAdded && bend > load.kink)
         load.kink = bend, load.kinkPlace = (float(span) + 0.5f) / spans;
       const float share = posed.b[0].w / before.b[0].w;
       if (share * share < load.lumen) load.lumen = share * share, load.lumenPlace = float(span) / spans;

@@ -23,7 +23,7 @@ struct LoadLimits {
 
 /// One vessel in one pose. Places are shares of its parameter, as in the landmark NAME@share.
 struct VesselLoad {
-  float kink = 0, kinkPlace = 0;  ///< largest r κ of the spans that the pose bends more than they are at rest
+  float kink = 0, kinkPlace = 0;  ///< largest r κ of the spans that the pose bends clearly more than they are at rest
   float lumen = 1, lumenPlace = 0;  ///< least area by that at rest
   float strain = 0;                 ///< length by that at rest, less 1
   float depth = 0, depthPlace = 0;  ///< [m] in a bone or the heart, by more than at rest
@@ -31,7 +31,7 @@ struct VesselLoad {
   /// In the unit of the kind; the strain is a stretch where it is positive, else a shortening.
   float value(LoadKind kind) const;
   float place(LoadKind kind) const;
-  /// By how much a limit is exceeded: 1 at it, more beyond. 0: nothing of this kind.
+  /// 0: nothing of this kind; 1: at its limit; in between and beyond in proportion.
   float severity(LoadKind kind, const LoadLimits& limits) const;
 };
 
