@@ -23,7 +23,8 @@ struct LoadLimits {
 
 /// One vessel in one pose. Places are shares of its parameter, as in the landmark NAME@share.
 struct VesselLoad {
-  float kink = 0, kinkPlace = 0;  ///< largest r κ of the spans that the pose bends clearly more than they are at rest
+  float kink = 0,
+        kinkPlace = 0;              ///< largest r κ where the pose bends more than rest
   float lumen = 1, lumenPlace = 0;  ///< least area by that at rest
   float strain = 0;                 ///< length by that at rest, less 1
   float depth = 0, depthPlace = 0;  ///< [m] in a bone or the heart, by more than at rest
