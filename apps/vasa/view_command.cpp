@@ -91,7 +91,7 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     view.script = std::move(*script);
   }
   view.out = options.out;
-  if (const auto folder = dataFolder()) view.rules = *folder / "growth";
+  if (const auto folder = dataFolder()) view.rules = *folder / "growth", view.builtIn = *folder;
   view.file = std::move(*choice);
   view.device = globals.device;
   view.uiScale = options.uiScale;
@@ -132,6 +132,7 @@ Report asReport(const viewer::ViewReport& view) {
           {"longest_slice_ms", view.longestSliceMs},
           {"shown_ms", view.frameMs},
           {"fps", view.frameMs > 0 ? 1000 / view.frameMs : 0},
+          {"edit_ms", view.editMs},
           {"shape_ms", view.shapeMs},
           {"picture_ms", view.pictureMs},
           {"stages", stages},

@@ -12,8 +12,9 @@
 namespace vasa::viewer {
 
 struct ViewOptions {
-  SceneFile file;               ///< what is opened first; look.preset empty: as in the last session
-  std::filesystem::path rules;  ///< folder of the capillaries' rules; empty: there are none
+  SceneFile file;                 ///< what is opened first; look.preset empty: as in the last session
+  std::filesystem::path rules;    ///< folder of the capillaries' rules; empty: there are none
+  std::filesystem::path builtIn;  ///< folder of the human that ships with the program; empty: none
   std::vector<std::filesystem::path> dropped;  ///< files that are opened at once, as if they had been dropped
   std::string device;                          ///< as --device
   std::uint32_t seed = 1;
@@ -49,6 +50,7 @@ struct ViewReport {
   std::uint64_t slices = 0, stillsGivenUp = 0;  ///< of finer stills: slices made, and stills left half done
   double longestSliceMs = 0;
   double frameMs = 0;  ///< median between pictures shown while things moved
+  double editMs = 0;   ///< median from an edit to the picture that shows it
   double shapeMs = 0, pictureMs = 0;
   std::vector<std::pair<std::string, double>> stages;  ///< medians [ms], as the timing panel has them
   std::string device, selected, title;

@@ -1,13 +1,50 @@
 #include "viewer/document.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
 #include "core/stage_log.h"
+#include "edit/replay.h"
 #include "network/measure.h"
 
 namespace vasa::viewer {
+namespace {
 
-GrowthBehind::GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table)
-    : settled_(std::async(std::launch::async,
+// A journal as the lines that mean something.
+Result<std::vector<std::string>> linesOf(const std::filesystem::path& path) {
+  const auto edits = readJournal(path);
+  if (!edits) return edits.error();
+  std::vector<std::string> lines;
+  for (const Edit& edit : *edits) lines.push_back(journalLine(edit.operation));
+  return lines;
+}
+
+Aabb boundsOf(const Scene& scene) {
+  Aabb bounds = measure(scene.network, scene.network.points()).bounds;
+  for (const SkinnedMesh& mesh : scene.body.meshes) bounds.add(mesh.mesh.bounds());
+  return bounds;
+}
+
+bool sameLayout(const Network& a, const Network& b) {
+  return std::ranges::equal(a.vessels(), b.vessels(), {}, &Vessel::pointCount, &Vessel::pointCount);
+}
+
+// What each vessel was in the base, for Rebinder.
+std::vector<Rebinder::Kept> keptOf(const Network& base, const Replay& replay) {
+  std::vector<Rebinder::Kept> vessels;
+  for (std::size_t v = 0; v < replay.origins.size(); ++v) {
+    const Vessel& vessel = replay.network.vessels()[v];
+    const bool kept = replay.origins[v].valid() && !replay.redrawn[v];
+    vessels.push_back({vessel.firstPoint, vessel.pointCount,
+                       kept ? std::optional(base.vessel(replay.origins[v]).firstPoint) : std::nullopt});
+  }
+  return vessels;
+}
+
+}  // namespace
+
+GrowthBehind::GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table, std::launch when)
+    : settled_(std::async(when,
                           [growth = std::make_unique<SceneGrowth>(std::move(rules)), &scene, &table,
                            cancellation = cancellation_]() mutable -> std::unique_ptr<const SceneGrowth> {
                             const CancellationScope scope(cancellation);
@@ -23,6 +60,7 @@ GrowthBehind::GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTab
 
 GrowthBehind::~GrowthBehind() {
   if (!settled_.valid()) return;
+  if (settled_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred) return;
   cancellation_.ask();
   settled_.wait();
 }
@@ -37,7 +75,15 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
   auto document = std::make_shared<Document>();
   document->file = file;
   document->title = titleOf(file);
-  auto scene = loadScene(file, told);
+  SceneFile others = file;
+  std::vector<std::string> journal;
+  if (!file.edits.empty() && !file.path.empty() && file.edits.back() == ownJournal(file.path)) {
+    auto lines = linesOf(file.edits.back());
+    if (!lines) return lines.error();
+    journal = std::move(*lines);
+    others.edits.pop_back();
+  }
+  auto scene = loadScene(others, told);
   if (!scene) return scene.error();
   document->scene = std::move(*scene);
   if (!file.clip.empty())
@@ -53,12 +99,61 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
     if (part == 0)
       document->table = makeSweepTable(document->scene.network);
     else
-      document->levels = bodyLevels(document->scene.body.meshes);
+      document->levels = std::make_shared<const BodyLevels>(bodyLevels(document->scene.body.meshes));
   });
-  document->bounds = measure(document->scene.network, document->scene.network.points()).bounds;
-  for (const SkinnedMesh& mesh : document->scene.body.meshes) document->bounds.add(mesh.mesh.bounds());
+  document->bounds = boundsOf(document->scene);
+  document->base = std::make_shared<const Network>(document->scene.network);
+  document->rebinder = std::make_shared<const Rebinder>(document->scene.body, document->scene.binding.spines);
+  document->baseBinding = std::make_shared<const Binding>(document->scene.binding);
+  document->rules = folder;
+  if (!journal.empty()) return editedDocument(*document, std::move(journal), false);
   if (!folder.empty()) document->growth = GrowthBehind(std::move(*growth), document->scene, document->table);
   return std::shared_ptr<const Document>(std::move(document));
+}
+
+std::filesystem::path ownJournal(const std::filesystem::path& scene) {
+  return std::filesystem::path(scene).replace_extension(".vedit");
+}
+
+Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
+                                                       std::vector<std::string> journal, bool live) {
+  std::string text;
+  for (const std::string& line : journal) text += line + "\n";
+  const auto edits = parseJournal(text, "edit");
+  if (!edits) return edits.error();
+  Replay replay = replayEdits(*document.base, *edits);
+  for (const ReplayRow& row : replay.rows)
+    if (!row.applied()) return badInput(row.refusal);
+  checkpoint();
+  auto made = std::make_shared<Document>();
+  made->file = document.file;
+  made->levels = document.levels;
+  made->title = document.title;
+  made->base = document.base;
+  made->baseBinding = document.baseBinding;
+  made->rebinder = document.rebinder;
+  made->rules = document.rules;
+  made->journal = std::move(journal);
+  made->scene.body = document.scene.body;
+  made->scene.binding = document.rebinder->rebind(*document.baseBinding, replay.network.points(),
+                                                  keptOf(*document.base, replay));
+  made->scene.network = std::move(replay.network);
+  checkpoint();
+  if (live && sameLayout(made->scene.network, document.scene.network)) {
+    made->table = document.table;
+  } else {
+    ForkPlan plan = planForks(made->scene.network);
+    PatchTable patches = takePatches(made->scene.network, plan);
+    made->table = makeSweepTable(made->scene.network, std::move(plan));
+    made->table.patches = std::move(patches);
+  }
+  made->bounds = boundsOf(made->scene);
+  if (!made->rules.empty()) {
+    auto growth = readGrowth(made->scene, made->rules);
+    if (!growth) return growth.error();
+    made->growth = GrowthBehind(std::move(*growth), made->scene, made->table, std::launch::deferred);
+  }
+  return std::shared_ptr<const Document>(std::move(made));
 }
 
 }  // namespace vasa::viewer

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "body/rebind.h"
 #include "core/cancellation.h"
 #include "render/mesh_levels.h"
 #include "scene/growth.h"
@@ -16,7 +17,9 @@ class GrowthBehind {
  public:
   GrowthBehind() = default;  ///< none
   /// @param rules  readGrowth(). Scene and table must outlive this
-  GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table);
+  /// @param when  deferred: not before get()
+  GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table,
+               std::launch when = std::launch::async);
   ~GrowthBehind();  ///< cancels
   GrowthBehind(const GrowthBehind&) = delete;
   GrowthBehind& operator=(GrowthBehind&&) = default;
@@ -34,11 +37,18 @@ class GrowthBehind {
 struct Document {
   SceneFile file;
   Scene scene;
-  SweepTable table;   ///< of the network, with the forks planned
-  BodyLevels levels;  ///< of the body's meshes
+  SweepTable table;                          ///< of the network, with the forks planned
+  std::shared_ptr<const BodyLevels> levels;  ///< of the body's meshes
   std::string title;
-  Aabb bounds;          ///< at rest [m]
-  GrowthBehind growth;  ///< of its capillaries; none where there are no rules for them
+  Aabb bounds;  ///< at rest [m]
+  /// What its own journal is replayed onto; its own: the last that the scene names, if that lies beside the
+  /// scene under the scene's name (ownJournal).
+  std::shared_ptr<const Network> base;
+  std::shared_ptr<const Binding> baseBinding;
+  std::vector<std::string> journal;  ///< lines that were replayed
+  std::shared_ptr<const Rebinder> rebinder;
+  std::filesystem::path rules;  ///< of the capillaries; empty: none
+  GrowthBehind growth;          ///< of its capillaries; none where there are no rules for them
 };
 
 /// What a scene is called in the window.
@@ -49,5 +59,14 @@ std::string titleOf(const SceneFile& file);
 Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
                                                      const std::filesystem::path& rules,
                                                      const ReadingProgress& told);
+
+/// The journal that belongs to a scene file: beside it, with its name.
+std::filesystem::path ownJournal(const std::filesystem::path& scene);
+
+/// The same document with another own journal: only vessels that changed are bound anew. badInput with the
+/// refusal of the first line that is refused.
+/// @param live  to be replaced at once: forks stay planned as they are where the network has as many points
+Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
+                                                       std::vector<std::string> journal, bool live);
 
 }  // namespace vasa::viewer

@@ -36,6 +36,8 @@ class Orbit {
   /// @param reach  [m] radius of the scene about the pivot
   Camera camera(float cut, float reach) const;
 
+  bool operator==(const Orbit&) const = default;
+
  private:
   vec3 backwards() const;
   Camera plain() const;

@@ -24,8 +24,15 @@ RenderInput inputOf(const Shot& shot) {
 void Painter::choose(std::shared_ptr<const Document> document, const Detail& detail, bool timed) {
   if (document == document_ && detail == detail_ && timed == timed_) return;
   last_ = nullptr;
-  live_ = {};
-  still_ = {};
+  // Edits leave the body as it is; with capillaries, which grow from the vessels, all is made anew.
+  const bool edited = document_ && document && document->levels == document_->levels && detail == detail_ &&
+                      timed == timed_ && detail.capillaries == 0;
+  for (Brush* brush : {&live_, &still_}) {
+    if (edited && brush->renderer)
+      brush->renderer->take(document->scene.network, document->table), brush->colours.clear();
+    else
+      *brush = {};
+  }
   document_ = std::move(document);
   detail_ = detail;
   timed_ = timed;
@@ -41,7 +48,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                         .pixelError = !detail_.automatic ? 0
                                       : shot.fine        ? kAutoPixelError
                                                          : kMovingPixelError,
-                        .levels = &document_->levels,
+                        .levels = document_->levels.get(),
                         .table = &document_->table,
                         .bgra = true,
                         .occlusion = shot.fine,

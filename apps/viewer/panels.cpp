@@ -123,7 +123,9 @@ void showPanels(const PanelInput& in) {
   showCutOutline(in);
   showChosen(in);
   showHandles(in);
+  showEditHandle(in);
   showHeads(in);
+  showEdit(in);
   if (in.state.panels) {
     showSide(in);
     place(in.layout.transport);
@@ -131,6 +133,7 @@ void showPanels(const PanelInput& in) {
     ImGui::End();
   }
   showHelp(in);
+  showQuestion(in);
   showLoading(in);
 }
 

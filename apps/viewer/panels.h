@@ -13,6 +13,8 @@
 // is, and writes what a person changes into the state. Between UiContext::begin() and end() only.
 namespace vasa::viewer {
 
+class Editor;
+
 struct PanelInput {
   ViewState& state;
   const Document* document = nullptr;  ///< null: nothing is loaded
@@ -22,6 +24,7 @@ struct PanelInput {
   float scale = 1;                     ///< pixels for one of an ordinary screen
   Camera camera;                       ///< of the picture
   Aabb bodyBox;                        ///< where the body is [m]
+  Editor* editor = nullptr;            ///< null: nothing can be edited
   JointId heldJoint;                   ///< that is being dragged
   const Profiler* profiler = nullptr;  ///< running or done; null: never run
   bool fine = false;                   ///< the picture is a still
@@ -44,7 +47,10 @@ void showInspectorSection(const PanelInput& in);
 void showChosen(
     const PanelInput& in);  ///< the chosen vessel's line over the picture, also where something hides it
 void showPoseSection(const PanelInput& in);
-void showHandles(const PanelInput& in);  ///< joints to drag, over the picture
+void showHandles(const PanelInput& in);     ///< joints to drag, over the picture
+void showEdit(const PanelInput& in);        ///< what edits the chosen vessel, over the picture
+void showEditHandle(const PanelInput& in);  ///< the chosen place, to drag
+void showQuestion(const PanelInput& in);    ///< before quitting with something unsaved
 void showTimingSection(const PanelInput& in);
 
 }  // namespace vasa::viewer

@@ -29,6 +29,8 @@ struct JointTurn {
   JointId joint;
   vec3 angles{0};         ///< [rad] about x, then y, then z of JointMotion::axes
   quat axes{1, 0, 0, 0};  ///< JointMotion::axes
+
+  bool operator==(const JointTurn&) const = default;
 };
 
 /// The pose with these joints turned, and what hangs on them along.

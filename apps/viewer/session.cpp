@@ -24,8 +24,11 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       state_(settings.state),
       pointer_(ui_.scale()),
       poseTool_(ui_.scale()),
+      editor_(ui_.scale()),
+      keeper_(options.builtIn),
       loader_(loader),
       worker_([] { Window::wake(); }, device_.isCpu()),
+      reshaper_([] { Window::wake(); }),
       width_(window.width()),
       height_(window.height()) {
   ui_.useClipboard(window);
@@ -67,6 +70,8 @@ Result<ViewReport> Session::go() {
     now_ += pass();
     gather();
     adopt();
+    travel();
+    reshape();
     orderShape();
     takeShape();
     if (width_ > 0 && height_ > 0) {
@@ -106,7 +111,7 @@ double Session::pass() {
 
 void Session::orderShape() {
   if (!document_) return;
-  PoseOrder order{.document = document_,
+  PoseOrder order{.document = coming_ ? coming_ : document_,
                   .clip = state_.playback.clip,
                   .time = state_.playback.time,
                   .turns = state_.turns,
@@ -115,12 +120,16 @@ void Session::orderShape() {
                   .measures = state_.selected && !state_.playback.playing};
   const bool done = body_ && !body_->provisional && body_->order == order;
   // While a shape is being made only a person's wishes go before it, not the next moment of a clip.
-  if (!done && !worker_.busy()) worker_.order(std::move(order));
+  if (!done && (!worker_.busy() || (coming_ && ordered_ != coming_))) {
+    ordered_ = order.document;
+    worker_.order(std::move(order));
+  }
   if (steady() && (recording_.running() || body_ || settling_)) worker_.wait();
 }
 
 void Session::takeShape() {
   const auto latest = worker_.latest();
+  if (latest && coming_ && latest->order.document == coming_) changeTo(std::exchange(coming_, nullptr));
   if (!latest || latest == body_ || latest->order.document != document_) return;
   body_ = latest;
   follow();
@@ -131,12 +140,14 @@ void Session::takeShape() {
 
 void Session::follow() {
   const vec3 way = wayOverFloor(document_->scene, body_->pose);
-  if (state_.follow && !state_.wishHome) state_.orbit.shift(way - way_);
+  if (state_.follow && !state_.wishHome) carried_ += way - way_;
   way_ = way;
 }
 
 void Session::meetWishes() {
-  if (state_.wishQuit) ending_ = true;
+  if (std::exchange(state_.wishSave, false)) saveScene();
+  if (std::exchange(state_.wishQuit, false)) (history_.unsaved(state_) ? state_.asking : ending_) = true;
+  if (state_.wishDiscard) ending_ = true;
   if (state_.wishCancel && loader_.busy()) cancelLoading();
   if (state_.wishPicture && shown_) save({freeName(options_.out, "png"), false});
   state_.wishPicture = state_.wishCancel = false;
@@ -153,6 +164,7 @@ void Session::say(std::string message, double seconds) {
 bool Session::idle() const {
   if (loader_.busy() || profiling_) return false;
   if (!document_) return true;
+  if (coming_ || reshaper_.busy()) return false;
   return shown_ && !worker_.busy() && (shown_->fine || !state_.fineStills || state_.playback.playing);
 }
 
@@ -168,8 +180,8 @@ void Session::rest(double drawn) {
     window_.wait(0);
     return;
   }
-  const bool waiting =
-      worker_.busy() || (shown_ && !shown_->fine && state_.fineStills) || now_ < messageUntil_;
+  const bool waiting = worker_.busy() || reshaper_.busy() || (shown_ && !shown_->fine && state_.fineStills) ||
+                       now_ < messageUntil_;
   const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0)
                          : moving || due           ? std::max(kFrame - drawn, 0.0)
                          : waiting                 ? 0.05
@@ -179,6 +191,7 @@ void Session::rest(double drawn) {
 
 ViewReport Session::report() const {
   ViewReport result = report_;
+  result.editMs = timings_.edit().median();
   result.frameMs = timings_.shown().median();
   result.shapeMs = timings_.shape().median();
   result.pictureMs = timings_.picture().median();

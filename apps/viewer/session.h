@@ -5,16 +5,20 @@
 #include "gpu/swapchain.h"
 #include "render/profiler.h"
 #include "viewer/app.h"
+#include "viewer/editor.h"
 #include "viewer/loader.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
 #include "viewer/pointer.h"
 #include "viewer/pose_tool.h"
 #include "viewer/recording.h"
+#include "viewer/reshaper.h"
+#include "viewer/scene_keeper.h"
 #include "viewer/settings.h"
 #include "viewer/timings.h"
 #include "viewer/ui_context.h"
 #include "viewer/ui_pass.h"
+#include "viewer/undo_history.h"
 
 namespace vasa::viewer {
 
@@ -78,6 +82,14 @@ class Session {
   /// Time goes on in steps and shapes are waited for.
   bool steady() const { return (options_.script && !liveUntil_) || recording_.running(); }
 
+  // edits
+  void reshape();
+  void changeTo(std::shared_ptr<const Document> edited);
+  void noteEdit();
+  void travel();
+  void entitle();
+  void saveScene();
+
   // pictures
   Rect pictureRect() const;
   Camera cameraNow() const;
@@ -108,11 +120,21 @@ class Session {
   ViewState state_;
   PointerTool pointer_;
   PoseTool poseTool_;
+  Editor editor_;
+  UndoHistory history_;
+  SceneKeeper keeper_;
   Recording recording_;
   std::unique_ptr<Profiler> profiler_;
   Loader& loader_;
   PoseWorker worker_;
   std::shared_ptr<const Document> document_;
+  std::shared_ptr<const Document> coming_;   // edited, until it has a shape
+  std::shared_ptr<const Document> ordered_;  // whose shape was ordered last
+  Reshaper reshaper_;
+  std::vector<std::string> wanted_;  // journal of the latest wish
+  bool wantedLive_ = false;
+  std::optional<Clock::time_point> editedAt_;  // what is coming, until it is seen
+  std::string title_;
   std::shared_ptr<const PosedBody> body_;
   Timings timings_;
   ScriptRecorder recorder_;
@@ -123,10 +145,10 @@ class Session {
   bool settling_ = false;
   std::optional<Clock::time_point> liveUntil_;
   std::optional<SavePicture> saving_;
-  std::optional<Shot> shown_, making_;  // the latter: a still, slice by slice
-  Detail detail_;                       // of both
-  vec3 way_{0};
-  double now_ = 0, still_ = 0;  // [s]
+  std::optional<Shot> shown_, making_;            // the latter: a still, slice by slice
+  Detail detail_;                                 // of both
+  vec3 way_{0}, carried_{0};                      // of the body over the floor; of the camera along with it
+  double now_ = 0, still_ = 0, scrolledAt_ = -1;  // [s]
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
   Clock::time_point loadStart_, lastWatched_;

@@ -84,11 +84,13 @@ void Session::handle(const InputEvent& event) {
     if (key->down && key->key == Key::escape && loader_.busy())
       state_.wishCancel = true;
     else if (key->down && !ui_.wantsKeys())
-      applyShortcut(key->key, pointer_.control(), state_, document_.get());
+      applyShortcut(key->key, pointer_.control(), pointer_.shift(), state_, document_.get());
   } else if (const auto* file = std::get_if<FileDropped>(&event)) {
     dropped_.emplace_back(file->path);
   } else if (std::holds_alternative<CloseAsked>(event)) {
-    ending_ = true;
+    state_.wishQuit = true;
+  } else if (std::holds_alternative<Scrolled>(event)) {
+    scrolledAt_ = now_;
   }
   const bool free = !ui_.wantsPointer();
   if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !poseTool_.held())
@@ -96,6 +98,11 @@ void Session::handle(const InputEvent& event) {
   const bool posing = state_.posing && document_ && body_ && (free || poseTool_.held());
   const bool posed = posing && poseTool_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
   if (posed && !std::holds_alternative<PointerMoved>(event)) return;
+  if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !editor_.held())
+    editor_.hover(moved->place);
+  const bool editing = state_.editing && document_ && body_ && (free || editor_.held());
+  const bool edited = editing && editor_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
+  if (edited && !std::holds_alternative<PointerMoved>(event)) return;
   if (const auto clicked = pointer_.feed(event, pictureRect(), free, now_, state_)) click(*clicked);
 }
 

@@ -1,3 +1,4 @@
+#include "edit/replay.h"
 #include "viewer/session.h"
 
 // How a session comes by what it shows: loaded beside the window, adopted when all of it is there.
@@ -79,14 +80,21 @@ void Session::adopt() {
   shown_.reset();
   leaveStill();
   timings_.clear();
+  coming_.reset();
+  wanted_ = document_->journal;
+  wantedLive_ = false;
+  way_ = carried_ = vec3(0);
+  state_.journal = document_->journal;
   state_.selected.reset();
-  state_.turns.clear();
+  state_.turns = turnsOf(document_->scene.body.skeleton, document_->file.pose);
   state_.from = state_.to = std::nullopt;
   state_.joint = {};
   profiler_.reset();
   profiling_ = false;
   takeChoices();
-  window_.setTitle(document_->title + " - vasa");
+  keeper_.opened(document_->file, state_);
+  history_.start(state_);
+  entitle();
 }
 
 // What the scene says of how it is to be shown.
@@ -99,8 +107,11 @@ void Session::takeChoices() {
   else
     state_.playback.clip = body.clips.empty() ? -1 : 0;
   state_.playback.time = state_.playback.clip >= 0 ? body.clips[std::size_t(state_.playback.clip)].start : 0;
+  if (state_.playback.clip >= 0 && choice.time > 0)
+    state_.playback.time =
+        std::min(state_.playback.time + choice.time, body.clips[std::size_t(state_.playback.clip)].end);
   state_.detail.capillaries = int(choice.capillaries.levels);
-  if (!choice.look.preset.empty() && choice.look.preset != state_.preset) {
+  if (!choice.look.preset.empty()) {
     state_.preset = choice.look.preset;
     state_.look = lookNamed(state_.preset).value_or(Look{});
   }
@@ -118,6 +129,9 @@ void Session::takeChoices() {
     state_.orbit.take({.position = *choice.camera.position,
                        .target = choice.camera.target.value_or(document_->bounds.centre()),
                        .verticalAngle = glm::radians(choice.camera.angleDegrees)});
+  if (!choice.chosen.empty())
+    if (const auto vessel = findVessel(document_->scene.network, choice.chosen))
+      state_.selected = VesselPlace{*vessel, 0};
   if (choice.camera.focus.empty()) return;
   if (const auto subject = findSubject(document_->scene, choice.camera.focus);
       subject && subject->vessel.valid()) {

@@ -105,6 +105,7 @@ void Session::click(const Click& click) {
   if (hit && (hit->distance > farthest || hit->distance > hiddenBehind(*document_, *body_, state_.look, ray)))
     hit.reset();
   const auto place = hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;
+  if (state_.editing && editor_.click(click.place, place, *document_, *body_, camera, rect, state_)) return;
   if (state_.measuring && place) {
     if (!state_.from || state_.to)
       state_.from = place, state_.to.reset();

@@ -55,6 +55,8 @@ Rect Session::pictureRect() const {
 
 Camera Session::cameraNow() const {
   Camera camera = state_.orbit.camera(state_.cut, 0.5f * glm::length(document_->bounds.extent()));
+  camera.position += carried_;
+  camera.target += carried_;
   if (state_.cutPlane.on) camera.cut = cutThrough(state_.cutPlane, bodyBox());
   return camera;
 }
@@ -87,16 +89,18 @@ void Session::moveCamera() {
         motionBounds(document_->scene, state_.playback.clip >= 0
                                            ? &document_->scene.body.clips[std::size_t(state_.playback.clip)]
                                            : nullptr);
-    box.low += way_;
-    box.high += way_;
+    carried_ = state_.follow ? way_ : vec3(0);
+    box.low += way_ - carried_;
+    box.high += way_ - carried_;
     state_.orbit.frame(box, rect.width / rect.height);
     state_.wishHome = false;
   }
   if (state_.wishFocus && state_.selected) {
     const Rect rect = pictureRect();
-    state_.orbit.frame(
-        subjectBounds(document_->scene, {state_.selected->vessel, {}}, body_->pose, body_->points),
-        rect.width / rect.height);
+    Aabb box = subjectBounds(document_->scene, {state_.selected->vessel, {}}, body_->pose, body_->points);
+    box.low -= carried_;
+    box.high -= carried_;
+    state_.orbit.frame(box, rect.width / rect.height);
     const Vessel& vessel = document_->scene.network.vessel(state_.selected->vessel);
     const vec3 middle(evaluate(Network::pointsOf(vessel, body_->points), 0.5f * float(vessel.spanCount())));
     if (isHidden(middle))
@@ -136,6 +140,7 @@ bool Session::drawScene() {
   if (lastShown_ && state_.playback.playing) timings_.addShown(msBetween(*lastShown_, end));
   lastShown_ = end;
   shown_ = std::move(shot);
+  noteEdit();
   return true;
 }
 
@@ -179,6 +184,7 @@ void Session::drawWindow() {
               .scale = ui_.scale(),
               .camera = shown_ ? shown_->camera : Camera{},
               .bodyBox = document_ ? bodyBox() : Aabb{},
+              .editor = &editor_,
               .heldJoint = poseTool_.held().value_or(JointId{}),
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,

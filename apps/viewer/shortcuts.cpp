@@ -1,5 +1,7 @@
 #include "viewer/shortcuts.h"
 
+#include <utility>
+
 namespace vasa::viewer {
 namespace {
 
@@ -19,6 +21,11 @@ constexpr Shortcut kShortcuts[] = {
     {"I", "only the chosen vessel and its tree"},
     {"M", "measure along the vessels"},
     {"P", "pose: drag joints"},
+    {"E", "edit: drag, narrow, widen, branch, graft"},
+    {"Del", "delete the chosen vessel, while editing"},
+    {"Ctrl Z", "undo edits, pose, look, view"},
+    {"Ctrl Y", "redo; Ctrl Shift Z, too"},
+    {"Ctrl S", "save the scene"},
     {"X", "cutting plane"},
     {"R", "record a video"},
     {"C", "contacts"},
@@ -52,7 +59,7 @@ void choose(ViewState& state, bool measuring) {
 
 std::span<const Shortcut> shortcuts() { return kShortcuts; }
 
-void applyShortcut(Key key, bool control, ViewState& state, const Document* document) {
+void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Document* document) {
   switch (key) {
     case Key::space:
       state.playback.playing = document && state.playback.clip >= 0 && !state.playback.playing;
@@ -76,9 +83,13 @@ void applyShortcut(Key key, bool control, ViewState& state, const Document* docu
       state.wishPicture = true;
       return;
     case Key::escape:
+      if (std::exchange(state.asking, false)) return;
       state.selected.reset();
       state.isolate = state.help = false;
       choose(state, false);
+      return;
+    case Key::del:
+      state.wishDelete = state.editing;
       return;
     case Key::left:
     case Key::right:
@@ -99,6 +110,10 @@ void applyShortcut(Key key, bool control, ViewState& state, const Document* docu
   if (key == keyOf('I')) state.isolate = !state.isolate && state.selected;
   if (key == keyOf('M')) choose(state, !state.measuring);
   if (key == keyOf('P')) state.posing = !state.posing;
+  if (key == keyOf('E') && !control) state.editing = !state.editing;
+  if (key == keyOf('Z') && control) (shift ? state.wishRedo : state.wishUndo) = true;
+  if (key == keyOf('Y') && control) state.wishRedo = true;
+  if (key == keyOf('S') && control) state.wishSave = true;
   if (key == keyOf('X') && !control) state.cutPlane.on = !state.cutPlane.on;
   if (key == keyOf('R')) state.recording = !state.recording;
   if (key == keyOf('C') && !control) state.contacts = !state.contacts;

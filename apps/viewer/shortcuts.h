@@ -8,7 +8,7 @@
 namespace vasa::viewer {
 
 /// What a pressed key does.
-void applyShortcut(Key key, bool control, ViewState& state, const Document* document);
+void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Document* document);
 
 /// Keys and what they do, for help texts.
 struct Shortcut {

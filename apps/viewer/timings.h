@@ -41,17 +41,20 @@ class Timings {
   /// A picture shown on the window, so long after the one before while things moved.
   void addShown(double ms) { shown_.add(float(ms)); }
 
+  void addEdit(double ms) { edit_.add(float(ms)); }  ///< from an edit to the picture that shows it
+
   const std::vector<Stage>& stages() const { return stages_; }
   const History& shape() const { return shape_; }      ///< [ms] of a whole shape, on its own thread
   const History& picture() const { return picture_; }  ///< [ms] of drawing it
   const History& shown() const { return shown_; }      ///< [ms] between pictures
+  const History& edit() const { return edit_; }
   void clear() { *this = {}; }
 
  private:
   void add(const char* name, double ms);
 
   std::vector<Stage> stages_;
-  History shape_, picture_, shown_;
+  History shape_, picture_, shown_, edit_;
 };
 
 }  // namespace vasa::viewer

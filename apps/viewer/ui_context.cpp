@@ -132,6 +132,8 @@ void UiContext::feed(const InputEvent& event) { std::visit(Feeder{ImGui::GetIO()
 
 bool UiContext::wantsPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
+bool UiContext::isHeld() const { return ImGui::IsAnyItemActive(); }
+
 bool UiContext::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
 
 Window::Pointer UiContext::pointer() const {

@@ -17,6 +17,7 @@ class UiContext {
   UiContext& operator=(const UiContext&) = delete;
 
   void feed(const InputEvent& event);
+  bool isHeld() const;        ///< a slider or a text is being changed
   bool wantsPointer() const;  ///< it is over a panel, or a panel has hold of it
   bool wantsKeys() const;     ///< text is being typed
   Window::Pointer pointer() const;

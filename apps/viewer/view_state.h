@@ -21,23 +21,31 @@ struct Detail {
   bool operator==(const Detail&) const = default;
 };
 
-/// Everything a person can set, apart from how it is set: panels and shortcuts write it, the loop reads it.
-/// Nothing in here knows of windows or of Vulkan.
-struct ViewState {
+/// What undoing brings back (undo_history.h); small, by value.
+struct Undoable {
   std::string preset = "atlas";
   Look look = *lookNamed("atlas");
   Detail detail;
   bool fineStills = true;  ///< what stands still is drawn anew with 4 samples a pixel and occlusion
   Forces forces;
-  Playback playback;
-  Orbit orbit;
+  Orbit orbit;    ///< beside a body that has not walked: Session adds the way
   float cut = 0;  ///< Orbit::camera()
   CutPlane cutPlane;
   bool follow = true;     ///< the camera goes along with a body that walks
   bool contacts = false;  ///< vessels grey, those that touch in colour
-  bool panels = true, timing = false, help = false;
   std::vector<JointTurn> turns;
+  std::vector<std::string> journal;  ///< lines of edits (edit/journal.h), on top of those of other files
+
+  bool operator==(const Undoable&) const = default;
+};
+
+/// Everything a person can set, apart from how it is set: panels and shortcuts write it, the loop reads it.
+/// Nothing in here knows of windows or of Vulkan.
+struct ViewState : Undoable {
+  Playback playback;
+  bool panels = true, timing = false, help = false;
   bool posing = false;     ///< joints can be dragged
+  bool editing = false;    ///< the chosen vessel can be changed
   JointId joint;           ///< whose sliders are shown
   bool recording = false;  ///< pictures go to a video, a thirtieth of a second each
   std::optional<VesselPlace> selected;
@@ -48,7 +56,9 @@ struct ViewState {
 
   // Wishes, taken back when they are met.
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
-       wishSearch = false, wishCancel = false;
+       wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
+       wishDelete = false, wishDiscard = false;
+  bool asking = false;  ///< whether to quit with something unsaved
 };
 
 }  // namespace vasa::viewer

@@ -8,6 +8,7 @@
 #include "body/arcs.h"
 #include "body/belonging.h"
 #include "body/kept_binding.h"
+#include "body/rebind.h"
 #include "body/stillness.h"
 #include "body/ties.h"
 #include "core/cancellation.h"
@@ -167,6 +168,15 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
   return Bound{std::move(binding), behind};
 }
 
+// Where each point's records begin, and behind the last.
+std::vector<std::uint32_t> firstRecords(const Binding& binding) {
+  std::vector<std::uint32_t> firsts{0};
+  std::uint32_t share = 0;
+  for (std::uint32_t r = 0; r < binding.records.size(); ++r)
+    if ((share += binding.records[r].share) == kWholeShare) share = 0, firsts.push_back(r + 1);
+  return firsts;
+}
+
 Binding warned(Bound bound, const Body& body, std::string_view name) {
   if (bound.behind > kMostLeftBehind)
     logWarning(fmt::format(
@@ -177,6 +187,48 @@ Binding warned(Bound bound, const Body& body, std::string_view name) {
 }
 
 }  // namespace
+
+struct Rebinder::Fields {
+  Fields(const Body& body, SpineSet of) : spines(std::move(of)), bones(body, spines), skin(body) {}
+  SpineSet spines;
+  BoneField bones;
+  SkinField skin;
+};
+
+Rebinder::Rebinder(const Body& body, SpineSet spines)
+    : fields_(std::make_unique<Fields>(body, std::move(spines))) {}
+Rebinder::~Rebinder() = default;
+
+Binding Rebinder::rebind(const Binding& bound, std::span<const vec4> points,
+                         std::span<const Kept> vessels) const {
+  std::vector<vec4> others;
+  std::vector<Tie> ties;  // along the vessels that changed: what they hang on was no steeper before
+  for (const Kept& vessel : vessels) {
+    if (vessel.before) continue;
+    for (std::uint32_t i = 0; i < vessel.pointCount; ++i) {
+      if (i > 0) ties.push_back({std::uint32_t(others.size() - 1), std::uint32_t(others.size())});
+      others.push_back(points[vessel.firstPoint + i]);
+    }
+  }
+  Phases phases = measurePhases(fields_->spines, fields_->bones, fields_->skin, others);
+  limitSlopes(phases, fields_->spines, others, ties);
+  PointBinder binder(fields_->spines, phases);
+  const std::vector<std::uint32_t> firsts = firstRecords(bound);
+  Binding binding{fields_->spines, std::uint32_t(points.size()), {}, {}};
+  std::size_t point = 0, other = 0;
+  for (const Kept& vessel : vessels)
+    for (std::uint32_t i = 0; i < vessel.pointCount; ++i, ++point) {
+      if (point % Binding::kBlock == 0) binding.firstRecord.push_back(std::uint32_t(binding.records.size()));
+      if (!vessel.before) {
+        appendRecords(binder.bind(other++), binding.records);
+        continue;
+      }
+      const std::uint32_t* first = &firsts[*vessel.before + i];
+      binding.records.insert(binding.records.end(), bound.records.begin() + first[0],
+                             bound.records.begin() + first[1]);
+    }
+  return binding;
+}
 
 Result<Binding> bindPoints(const Body& body, std::span<const vec4> points, std::string_view name,
                            std::span<const Tie> ties) {

@@ -67,12 +67,16 @@ float detailSnap(const gpu::Device& device, VkExtent2D size) {
 DetailPass::DetailPass(gpu::Device& device, const TubeSet& tubes)
     : measure_(device, {spirv::measure_comp, sizeof(shared::MeasurePush)}),
       choose_(device, {spirv::around_comp, sizeof(shared::AroundPush)}),
-      view_(device, {"detail view", sizeof(shared::DetailView)}),
-      along_(device, {"quads along", 4 * tubes.table().sweeps.size()}),
-      sizes_(
-          gpu::makeBuffer(device, "vessel sizes",
-                          std::span<const std::uint32_t>(std::vector<std::uint32_t>(tubes.vesselCount())))),
-      around_(device, {"quads around", 4 * VkDeviceSize(tubes.vesselCount())}) {}
+      view_(device, {"detail view", sizeof(shared::DetailView)}) {
+  fit(device, tubes);
+}
+
+void DetailPass::fit(gpu::Device& device, const TubeSet& tubes) {
+  along_ = gpu::Buffer(device, {"quads along", 4 * tubes.table().sweeps.size()});
+  sizes_ = gpu::makeBuffer(device, "vessel sizes",
+                           std::span<const std::uint32_t>(std::vector<std::uint32_t>(tubes.vesselCount())));
+  around_ = gpu::Buffer(device, {"quads around", 4 * VkDeviceSize(tubes.vesselCount())});
+}
 
 void DetailPass::record(VkCommandBuffer commands, const TubeSet& tubes, VkDeviceAddress points,
                         const shared::DetailView& view) const {

@@ -18,6 +18,9 @@ class DetailPass {
  public:
   DetailPass(gpu::Device& device, const TubeSet& tubes);
 
+  /// For other tubes from now on; what is compiled stays.
+  void fit(gpu::Device& device, const TubeSet& tubes);
+
   /// Barriers included: later compute passes see what it wrote.
   /// @param points  de Boor points (vec4) of the frame
   void record(VkCommandBuffer commands, const TubeSet& tubes, VkDeviceAddress points,

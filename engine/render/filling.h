@@ -36,6 +36,8 @@ class Filling {
   Filling(gpu::Device& device, const TubeSet& tubes, const ForkSet& forks, const shared::FillRoom& room);
 
   const shared::FillRoom& room() const { return room_; }
+  std::uint32_t groupSweeps() const { return groupSweeps_; }  ///< TubeSet::groupSweeps()
+  std::uint32_t groupForks() const { return groupForks_; }
   const gpu::Buffer& state() const { return state_; }
 
   /// Before a frame's first round. Barriers included: compute passes and indirect dispatches see it.

@@ -32,6 +32,8 @@ struct Look {
   float skinOpacity = 0.3f;  ///< in [0, 1]: less where the skin is seen face on, more towards its outline
   /// Strength of ambient occlusion, 0 (none, fast) to 1; not in xray.
   float occlusion = 0;
+
+  bool operator==(const Look&) const = default;
 };
 
 /// Whether some bone, organ or vessel lets others shine through by its opacity.

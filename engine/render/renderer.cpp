@@ -433,6 +433,32 @@ bool Renderer::step() {
   return s.begun.has_value();
 }
 
+void Renderer::take(const Network& network, const SweepTable& table) {
+  State& s = *state_;
+  const std::uint32_t bytes = s.options.templateBytes;
+  s.begun.reset();
+  s.capillaries.reset();
+  s.ownColours = kindColours(network);
+  s.tubes =
+      TubeSet(s.device, network, {s.options.shape, s.options.pixelError, s.options.forks, &table}, bytes);
+  s.forks = ForkSet(s.device, s.tubes.table(), s.tubes.detail(), bytes);
+  s.patches = PatchSet(s.device, s.tubes.table().patches);
+  if (s.filling.groupSweeps() != s.tubes.groupSweeps())
+    s.tubePass = TubePass(s.device, s.options.samples, s.tubes);
+  if (s.filling.groupForks() != s.forks.groupForks())
+    s.forkPass = ForkPass(s.device, s.options.samples, s.forks);
+  if (!s.patches.empty() && !s.patchPass) s.patchPass.emplace(s.device, s.options.samples);
+  if (s.patches.empty()) s.patchPass.reset();
+  s.upload =
+      FrameUpload(s.device, s.tubes.table().pointCount, s.tubes.table().knotCount, s.meshes.jointCount());
+  s.detailPass.fit(s.device, s.tubes);
+  s.vessels = everything(s.tubes);
+  s.filling = Filling(s.device, s.tubes, s.forks, fillRoom(s.tubes, s.forks, s.vessels, bytes));
+  s.first = Template(s.device, s.filling.room());
+  s.second.reset();
+  s.setColours({});
+}
+
 void Renderer::resize(std::uint32_t width, std::uint32_t height) {
   State& s = *state_;
   if (width == s.options.width && height == s.options.height) return;

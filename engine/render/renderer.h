@@ -117,6 +117,11 @@ class Renderer {
   void begin(const RenderInput& input);
   bool step();
 
+  /// Another network in the same body from the next frame on, without capillaries: meshes, pipelines and size
+  /// stay, so that it takes as long as its tables take to upload.
+  /// @param table  of the network; read, not kept
+  void take(const Network& network, const SweepTable& table);
+
   /// Pictures of another size from the next frame on. Network, meshes and pipelines stay.
   void resize(std::uint32_t width, std::uint32_t height);
 

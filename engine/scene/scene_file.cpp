@@ -151,6 +151,15 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
     reader.fail(place + "/preset", "must be atlas, clinical or xray");
 }
 
+void readPose(Reader& reader, const Json& value, const std::string& place, std::vector<TurnChoice>& pose) {
+  if (!value.is_object()) return reader.fail(place, "must be an object of joints");
+  for (const auto& [joint, turn] : value.items()) {
+    std::optional<vec3> degrees;
+    reader.vector(degrees, -360, 360)(turn, place + "/" + joint);
+    if (degrees) pose.push_back({joint, *degrees});
+  }
+}
+
 }  // namespace
 
 bool isMotionFile(std::string_view clip) { return clip.ends_with(".bvh") || clip.ends_with(".BVH"); }
@@ -178,7 +187,10 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
        {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
        {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }},
        {"capillaries",
-        [&](const Json& v, const std::string& p) { readCapillaries(reader, v, p, scene.capillaries); }}});
+        [&](const Json& v, const std::string& p) { readCapillaries(reader, v, p, scene.capillaries); }},
+       {"time", reader.number(scene.time, 0, 1e6f)},
+       {"pose", [&](const Json& v, const std::string& p) { readPose(reader, v, p, scene.pose); }},
+       {"chosen", reader.text(scene.chosen)}});
   if (reader.fault)
     return badInput(name + ": " + (reader.fault->place.empty() ? "/" : reader.fault->place) + " " +
                     reader.fault->rule);
@@ -189,8 +201,10 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
 Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
   const auto bytes = readFile(path, kMaximumBytes);
   if (!bytes) return bytes.error();
-  return parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(),
-                    path.string());
+  auto scene = parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(),
+                          path.string());
+  if (scene) scene->path = path;
+  return scene;
 }
 
 }  // namespace vasa

@@ -36,6 +36,12 @@ struct CapillaryChoice {
   std::filesystem::path rules;  ///< folder with capillaries.lsys and regions.csv; empty: the program's own
 };
 
+/// How far a joint is turned beside what the clip does with it: bend, spread and twist, as the app has them.
+struct TurnChoice {
+  std::string joint;
+  vec3 degrees{0};
+};
+
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
 ///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
@@ -44,7 +50,8 @@ struct CapillaryChoice {
 ///     true, "organs": true, "arteries": true, "veins": true,
 ///               "skin_opacity": 0.3 },
 ///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5,
-///     "rules": "folder" } }
+///     "rules": "folder" },
+///     "time": 1.5, "pose": { "LeftForeArm": [bend, spread, twist] }, "chosen": "aorta" }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
@@ -55,6 +62,10 @@ struct SceneFile {
   CameraChoice camera;
   LookChoice look;
   CapillaryChoice capillaries;
+  float time = 0;                ///< [s] in the clip, where the app begins
+  std::vector<TurnChoice> pose;  ///< of the app; by the joint's name
+  std::string chosen;            ///< name of the vessel that is chosen in the app; empty: none
+  std::filesystem::path path;    ///< the scene file itself; empty: there is none
 };
 
 /// Whether a clip is meant that a file of its own holds.
@@ -68,5 +79,9 @@ Result<SceneFile> readSceneFile(const std::filesystem::path& path);
 /// The same from text. @param folder  that relative paths start from; @param name  for messages
 Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder,
                              const std::string& name);
+
+/// The text that parseScene() reads as this scene: every key that is not its default, paths relative to the
+/// folder. A scene that was read from such a text gives the same bytes.
+std::string sceneText(const SceneFile& scene, const std::filesystem::path& folder);
 
 }  // namespace vasa

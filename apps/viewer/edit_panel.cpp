@@ -1,0 +1,108 @@
+#include <imgui.h>
+
+#include "viewer/editor.h"
+#include "viewer/panels.h"
+#include "viewer/projection.h"
+
+// What edits the chosen vessel, over the picture; the handle that moves it; the question before quitting.
+namespace vasa::viewer {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_AlwaysAutoResize;
+
+void showTools(const PanelInput& in) {
+  Editor& editor = *in.editor;
+  ViewState& state = in.state;
+  const Document& document = *in.document;
+  ImGui::PushItemWidth(120 * in.scale);
+  const auto stenosis = editor.stenosisThere(document, state);
+  float percent = stenosis ? float(stenosis->percent) : 0;
+  if (ImGui::SliderFloat("stenosis", &percent, 0, 95, "%.0f %%", ImGuiSliderFlags_AlwaysClamp) &&
+      percent >= 1)
+    editor.setStenosis(percent, document, state);
+  const auto radius = editor.radiusThere(document, state);
+  float factor = radius ? float(radius->factor) : 1;
+  if (ImGui::SliderFloat("radius", &factor, 0.3f, 3, "x %.2f", ImGuiSliderFlags_AlwaysClamp))
+    editor.setRadius(factor, document, state);
+  ImGui::SliderFloat("length", &editor.lengthMm, 2, 100, "%.0f mm", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::PopItemWidth();
+  const auto tool = [&](const char* name, Editor::Tool which) {
+    if (ImGui::RadioButton(name, editor.tool == which)) editor.tool = which;
+    ImGui::SameLine();
+  };
+  tool("move", Editor::Tool::change);
+  tool("branch", Editor::Tool::branch);
+  tool("graft", Editor::Tool::graft);
+  if (ImGui::Button("Delete")) state.wishDelete = true;
+  ImGui::TextDisabled("%s", editor.tool == Editor::Tool::branch ? "click where the branch is to end"
+                            : editor.tool == Editor::Tool::graft
+                                ? "click the vessel where the graft is to end"
+                                : "drag the ring to move the vessel");
+}
+
+void showJournal(const PanelInput& in) {
+  constexpr std::size_t kShown = 5;
+  const auto& journal = in.state.journal;
+  for (std::size_t i = journal.size() > kShown ? journal.size() - kShown : 0; i < journal.size(); ++i)
+    ImGui::TextDisabled("%zu  %s", i + 1, journal[i].c_str());
+}
+
+}  // namespace
+
+void showEdit(const PanelInput& in) {
+  if (!in.state.editing || !in.document || !in.editor) return;
+  const float edge = 6 * in.scale;
+  const Rect& picture = in.layout.picture;
+  ImGui::SetNextWindowPos({picture.left + edge, picture.top + picture.height - edge}, 0, {0, 1});
+  ImGui::SetNextWindowSizeConstraints({260 * in.scale, 0}, {picture.width - 2 * edge, picture.height});
+  if (ImGui::Begin("##edit", nullptr, kFixed)) {
+    if (in.state.selected) {
+      ImGui::Text("%s at %.4g", in.document->scene.network.vessel(in.state.selected->vessel).name.c_str(),
+                  shareOf(in.document->scene.network, *in.state.selected));
+      showTools(in);
+    } else {
+      ImGui::TextDisabled("Click a vessel to edit it.");
+    }
+    showJournal(in);
+    if (!in.editor->refusal.empty()) {
+      ImGui::PushTextWrapPos(std::min(picture.width - 4 * edge, 420 * in.scale));
+      ImGui::TextColored({0.98f, 0.62f, 0.35f, 1}, "%s", in.editor->refusal.c_str());
+      ImGui::PopTextWrapPos();
+    }
+  }
+  ImGui::End();
+}
+
+void showEditHandle(const PanelInput& in) {
+  if (!in.state.editing || !in.document || !in.body || !in.editor || !in.state.selected) return;
+  const auto place =
+      seenAt(centreOf(*in.document, *in.body, *in.state.selected), in.camera, in.layout.picture);
+  if (!place || !in.layout.picture.holds(*place)) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos, at{place->x, place->y};
+  const bool lit = in.editor->held() || (!ImGui::GetIO().WantCaptureMouse &&
+                                         glm::distance(*place, vec2(mouse.x, mouse.y)) < 9 * in.scale);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddCircle(at, 7 * in.scale, IM_COL32(30, 30, 34, 255), 0, 4 * in.scale);
+  list.AddCircle(at, 7 * in.scale, lit ? IM_COL32(255, 190, 25, 255) : IM_COL32(255, 255, 255, 255), 0,
+                 2 * in.scale);
+}
+
+void showQuestion(const PanelInput& in) {
+  if (!in.state.asking) return;
+  const Rect& picture = in.layout.picture;
+  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
+                          {0.5f, 0.5f});
+  if (ImGui::Begin("##question", nullptr, kFixed)) {
+    ImGui::TextUnformatted("Edits or the pose are not saved.");
+    if (ImGui::Button("Save and quit")) in.state.wishSave = in.state.wishQuit = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Quit without saving")) in.state.wishDiscard = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Go on (Esc)")) in.state.asking = false;
+  }
+  ImGui::End();
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,214 @@
+#include "viewer/editor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "curve/arc_length.h"
+#include "curve/frame.h"
+#include "edit/replay.h"
+#include "surface/sweep_table.h"
+#include "viewer/projection.h"
+
+namespace vasa::viewer {
+namespace {
+
+constexpr float kReach = 9;          // [pixels of an ordinary screen] of the handle, as a joint's
+constexpr double kSamePlace = 2e-3;  // of a vessel
+
+double rounded(double value, double step) { return std::round(value / step) * step; }
+// A number of so many decimals that is written with no more of them.
+double decimals(double value, int count) { return std::stod(fmt::format("{:.{}f}", value, count)) + 0.0; }
+
+// [m] of a pixel in the plane through a place that lies parallel to the picture.
+float metresPerPixel(const Camera& camera, vec3 place, float height) {
+  if (camera.orthographicHeight > 0) return camera.orthographicHeight / height;
+  const float depth = glm::dot(place - camera.position, -cameraAxes(camera)[2]);
+  return 2 * depth * std::tan(camera.verticalAngle / 2) / height;
+}
+
+vec3 wayInPlane(const Camera& camera, vec3 place, vec2 pixels, float height) {
+  const mat3 axes = cameraAxes(camera);
+  return metresPerPixel(camera, place, height) * (pixels.x * axes[0] - pixels.y * axes[1]);
+}
+
+template <class Line>
+std::optional<Line> lastLine(const ViewState& state) {
+  if (state.journal.empty()) return std::nullopt;
+  const auto edits = parseJournal(state.journal.back(), "");
+  if (!edits || edits->empty()) return std::nullopt;
+  const auto* line = std::get_if<Line>(&edits->front().operation);
+  return line ? std::optional(*line) : std::nullopt;
+}
+
+struct Chosen {
+  std::string vessel;
+  double share;
+};
+std::optional<Chosen> chosenOf(const Document& document, const ViewState& state) {
+  if (!state.selected) return std::nullopt;
+  const Network& network = document.scene.network;
+  return Chosen{network.vessel(state.selected->vessel).name, shareOf(network, *state.selected)};
+}
+
+// The last line where it is of this kind and about this place.
+template <class Line>
+std::optional<Line> lineThere(const std::optional<Chosen>& chosen, const ViewState& state) {
+  const auto line = lastLine<Line>(state);
+  if (!line || !chosen || line->vessel != chosen->vessel ||
+      std::abs(placeOf(EditOperation(*line)) - chosen->share) > kSamePlace)
+    return std::nullopt;
+  return line;
+}
+
+void write(ViewState& state, const EditOperation& operation, bool anew) {
+  if (anew) state.journal.pop_back();
+  state.journal.push_back(journalLine(operation));
+}
+
+double lengthOf(const Network& network, VesselId vessel) {
+  return 1e3 * ArcLength(network.pointsOf(network.vessel(vessel))).length();
+}
+
+float radiusAt(const Network& network, const VesselPlace& place) {
+  return evaluate(network.pointsOf(network.vessel(place.vessel)), place.parameter).w;
+}
+
+// A name that no vessel has.
+std::string newName(const Network& network, const std::string& stem) {
+  for (int n = 1;; ++n) {
+    const std::string name = n == 1 ? stem : fmt::format("{} {}", stem, n);
+    if (std::ranges::none_of(network.vessels(), [&](const Vessel& v) { return v.name == name; })) return name;
+  }
+}
+
+}  // namespace
+
+double shareOf(const Network& network, const VesselPlace& place) {
+  const ArcLength arc(network.pointsOf(network.vessel(place.vessel)));
+  return arc.length() > 0 ? decimals(double(arc.along(place.parameter) / arc.length()), 4) : 0;
+}
+
+VesselPlace placeAt(const Network& network, VesselId vessel, double share) {
+  const ArcLength arc(network.pointsOf(network.vessel(vessel)));
+  return {vessel, arc.parameterAt(float(share) * arc.length())};
+}
+
+vec3 centreOf(const Document& document, const PosedBody& body, const VesselPlace& place) {
+  const Vessel& vessel = document.scene.network.vessel(place.vessel);
+  return vec3(evaluate(Network::pointsOf(vessel, body.points), place.parameter));
+}
+
+// Both frames are carried along the vessel from its start, whose reference turns with what surrounds it.
+quat turnSinceRest(const Document& document, const PosedBody& body, const VesselPlace& place) {
+  const Network& network = document.scene.network;
+  const Vessel& vessel = network.vessel(place.vessel);
+  const auto points = network.pointsOf(vessel);
+  std::vector<quat> rest(vessel.spanCount() + 1);
+  knotFrames(points, anyPerpendicular(unitTangent(points, 0)), rest);
+  const auto knot = std::min(std::uint32_t(std::lround(place.parameter)), vessel.spanCount());
+  return body.knotFrames[firstKnot(network, place.vessel) + knot] * glm::inverse(rest[knot]);
+}
+
+bool Editor::feed(const InputEvent& event, const Document& document, const PosedBody& body,
+                  const Camera& camera, const Rect& picture, ViewState& state) {
+  if (const auto* moved = std::get_if<PointerMoved>(&event)) {
+    place_ = moved->place;
+    if (!held_ || place_ == held_->pressed) return held();
+    const vec3 way = held_->back * wayInPlane(camera, held_->from, place_ - held_->pressed, picture.height);
+    for (int axis = 0; axis < 3; ++axis) held_->line.byMm[axis] = decimals(1e3 * double(way[axis]), 2);
+    write(state, held_->line, std::exchange(held_->written, true));
+    return true;
+  }
+  const auto* button = std::get_if<ButtonChanged>(&event);
+  if (!button || button->button != Button::left) return false;
+  if (!button->down) return std::exchange(held_, std::nullopt).has_value();
+  if (tool != Tool::change || !state.selected) return false;
+  const vec3 centre = centreOf(document, body, *state.selected);
+  const auto seen = seenAt(centre, camera, picture);
+  if (!seen || glm::distance(*seen, place_) > kReach * scale_) return false;
+  const auto chosen = chosenOf(document, state);
+  Held& held = held_.emplace();
+  held.line.vessel = chosen->vessel;
+  held.line.at = chosen->share;
+  held.from = centre;
+  held.back = glm::inverse(turnSinceRest(document, body, *state.selected));
+  held.pressed = place_;
+  return true;
+}
+
+bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Document& document,
+                   const PosedBody& body, const Camera& camera, const Rect& picture, ViewState& state) {
+  if (tool == Tool::change || !state.selected) return false;
+  const Network& network = document.scene.network;
+  const auto chosen = chosenOf(document, state);
+  const double radius = decimals(1e3 * double(radiusAt(network, *state.selected)), 2);
+  if (std::exchange(tool, Tool::change) == Tool::graft) {
+    if (!hit) {
+      refusal = "There is no vessel where the graft is to end.";
+      return true;
+    }
+    const std::string& other = network.vessel(hit->vessel).name;
+    const double least = std::min(radius, decimals(1e3 * double(radiusAt(network, *hit)), 2));
+    write(state,
+          GraftEdit{chosen->vessel,
+                    chosen->share,
+                    other,
+                    shareOf(network, *hit),
+                    least,
+                    newName(network, "graft from " + chosen->vessel + " to " + other),
+                    {}},
+          false);
+    return true;
+  }
+  const vec3 centre = centreOf(document, body, *state.selected);
+  const auto seen = seenAt(centre, camera, picture);
+  if (!seen) return true;
+  const vec3 way = glm::inverse(turnSinceRest(document, body, *state.selected)) *
+                   wayInPlane(camera, centre, place - *seen, picture.height);
+  BranchEdit line{chosen->vessel, chosen->share, newName(network, "branch of " + chosen->vessel)};
+  line.radiusMm = decimals(0.5 * radius, 2);
+  line.lengthMm = decimals(1e3 * double(glm::length(way)), 2);
+  for (int axis = 0; axis < 3; ++axis)
+    line.direction[axis] = decimals(double(way[axis]) / std::max(double(glm::length(way)), 1e-9), 3);
+  write(state, line, false);
+  return true;
+}
+
+std::optional<StenosisEdit> Editor::stenosisThere(const Document& document, const ViewState& state) const {
+  return lineThere<StenosisEdit>(chosenOf(document, state), state);
+}
+
+std::optional<RadiusEdit> Editor::radiusThere(const Document& document, const ViewState& state) const {
+  return lineThere<RadiusEdit>(chosenOf(document, state), state);
+}
+
+void Editor::setStenosis(double percent, const Document& document, ViewState& state) const {
+  const auto chosen = chosenOf(document, state);
+  if (!chosen) return;
+  const auto before = stenosisThere(document, state);
+  StenosisEdit line = before.value_or(StenosisEdit{chosen->vessel, chosen->share});
+  line.lengthMm = decimals(lengthMm, 1);
+  line.percent = rounded(percent, 1);
+  write(state, line, before.has_value());
+}
+
+// All along the stretch, which may be cut short by the vessel's ends.
+void Editor::setRadius(double factor, const Document& document, ViewState& state) const {
+  const auto chosen = chosenOf(document, state);
+  if (!chosen) return;
+  const auto before = radiusThere(document, state);
+  const double length = lengthOf(document.scene.network, state.selected->vessel);
+  const double half = std::min({0.5 * lengthMm / length, chosen->share, 1 - chosen->share});
+  RadiusEdit line{chosen->vessel, decimals(chosen->share - half, 4), decimals(chosen->share + half, 4)};
+  if (before) line = *before;
+  line.factor = decimals(factor, 2);
+  write(state, line, before.has_value());
+}
+
+void Editor::remove(const Document& document, ViewState& state) const {
+  if (const auto chosen = chosenOf(document, state)) write(state, DeleteEdit{chosen->vessel}, false);
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,104 @@
+#include "viewer/scene_keeper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/atomic_file.h"
+#include "viewer/pose_tool.h"
+
+namespace vasa::viewer {
+namespace {
+
+// To so many parts of a whole, as the nearest float: nothing more is written of it.
+float rounded(float value, double parts) { return float(std::round(double(value) * parts) / parts); }
+
+CameraChoice cameraOf(Orbit orbit) {
+  orbit.setOrthographic(false);
+  const Camera camera = orbit.camera(0, 1);
+  CameraChoice choice;
+  choice.position = camera.position;
+  choice.target = camera.target;
+  choice.angleDegrees = rounded(glm::degrees(camera.verticalAngle), 1000);
+  return choice;
+}
+
+LookChoice lookOf(const ViewState& state) {
+  LookChoice choice;
+  const Look& look = state.look;
+  const Look preset = lookNamed(state.preset).value_or(Look{});
+  choice.preset = state.preset;
+  if (look.background != preset.background) choice.background = look.background;
+  if (look.skinOpacity != preset.skinOpacity) choice.skinOpacity = look.skinOpacity;
+  choice.skin = look.drawSkin;
+  choice.bones = look.drawBones;
+  choice.organs = look.drawHeart || look.drawOther;
+  choice.arteries = look.drawArteries;
+  choice.veins = look.drawVeins;
+  return choice;
+}
+
+}  // namespace
+
+std::vector<TurnChoice> poseOf(const Skeleton& skeleton, std::span<const JointTurn> turns) {
+  std::vector<TurnChoice> pose;
+  for (const JointTurn& turn : turns) {
+    vec3 degrees;
+    for (int axis = 0; axis < 3; ++axis) degrees[axis] = rounded(glm::degrees(turn.angles[axis]), 100);
+    if (degrees != vec3(0)) pose.push_back({skeleton.joints[turn.joint.value].name, degrees});
+  }
+  return pose;
+}
+
+std::vector<JointTurn> turnsOf(const Skeleton& skeleton, std::span<const TurnChoice> pose) {
+  std::vector<JointTurn> turns;
+  if (pose.empty()) return turns;
+  const std::vector<JointMotion> motions = jointMotions(skeleton);
+  for (const TurnChoice& choice : pose) {
+    const auto joint = std::ranges::find(skeleton.joints, choice.joint, &Skeleton::Joint::name);
+    if (joint == skeleton.joints.end()) continue;
+    const JointId id{std::uint32_t(joint - skeleton.joints.begin())};
+    turns.push_back({id, glm::radians(choice.degrees), motions[id.value].axes});
+  }
+  return turns;
+}
+
+void SceneKeeper::opened(const SceneFile& file, const ViewState& state) {
+  file_ = file;
+  orbit_ = state.orbit;
+}
+
+Result<std::filesystem::path> SceneKeeper::save(const Document& document, const ViewState& state,
+                                                const std::filesystem::path& unnamed) {
+  SceneFile file = file_;
+  if (file.path.empty()) file.path = unnamed;
+  const Body& body = document.scene.body;
+  const Playback& playback = state.playback;
+  const auto& clips = body.clips;
+  file.clip = playback.clip >= 0 ? clips[std::size_t(playback.clip)].name : "";
+  file.time =
+      playback.clip >= 0 ? rounded(playback.time - clips[std::size_t(playback.clip)].start, 10000) : 0;
+  if (!file.camera.position || state.orbit != orbit_) file.camera = cameraOf(state.orbit);
+  file.look = lookOf(state);
+  file.capillaries.levels = unsigned(state.detail.capillaries);
+  file.pose = poseOf(body.skeleton, state.turns);
+  file.chosen = state.selected ? document.scene.network.vessel(state.selected->vessel).name : "";
+  const auto journal = ownJournal(file.path);
+  std::string lines;
+  for (const std::string& line : document.journal) lines += line + "\n";
+  const bool named = !file.edits.empty() && file.edits.back() == journal;
+  if (!named && !lines.empty()) file.edits.push_back(journal);
+  if (named || !lines.empty())
+    if (const auto written = writeFileAtomically(journal, lines); !written) return written.error();
+  SceneFile written = file;
+  if (!builtIn_.empty() && file.body == builtIn_ / "human.glb" &&
+      file.networks == std::vector{builtIn_ / "human.vasa"}) {
+    written.body.clear();
+    written.networks.clear();
+  }
+  if (const auto done = writeFileAtomically(file.path, sceneText(written, file.path.parent_path())); !done)
+    return done.error();
+  opened(file, state);
+  return file.path;
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <utility>
+
+#include "edit/replay.h"
+#include "viewer/session.h"
+
+// How a session goes from one document to the next: by the journal in its state, whoever wrote it there, an
+// edit or undoing one.
+namespace vasa::viewer {
+namespace {
+
+constexpr double kScrollEnds = 0.3;  // [s] steps of the wheel that follow one another are one
+
+// The same place on the edited vessel of this name, where there is one.
+std::optional<VesselPlace> carriedOver(const std::optional<VesselPlace>& place, const Network& before,
+                                       const Network& after) {
+  if (!place) return std::nullopt;
+  const std::string& name = before.vessel(place->vessel).name;
+  const auto found = std::ranges::find(after.vessels(), name, &Vessel::name);
+  if (found == after.vessels().end()) return std::nullopt;
+  return placeAt(after, {std::uint32_t(found - after.vessels().begin())}, shareOf(before, *place));
+}
+
+}  // namespace
+
+// Back and on through what was done; what was done in this frame becomes a step.
+void Session::travel() {
+  if (!document_) return;
+  if (std::exchange(state_.wishDelete, false) && state_.editing) editor_.remove(*document_, state_);
+  const bool undo = std::exchange(state_.wishUndo, false), redo = std::exchange(state_.wishRedo, false);
+  // Where the camera begins is no step, nor an edit that may yet be refused.
+  const bool held = state_.wishHome || state_.wishFocus || pointer_.dragging() || poseTool_.held() ||
+                    editor_.held() || ui_.isHeld() || now_ - scrolledAt_ < kScrollEnds ||
+                    state_.journal != document_->journal;
+  if (arriving_) return history_.start(state_);  // the view is still being found
+  if (undo || redo) {
+    const bool gone = undo ? history_.undo(state_) : history_.redo(state_);
+    if (!gone) say(undo ? "Nothing to undo" : "Nothing to redo");
+    editor_.refusal.clear();
+  } else {
+    history_.watch(state_, held);
+  }
+  entitle();
+}
+
+// One document at a time: what is coming is seen before the next is made.
+void Session::reshape() {
+  if (!document_ || !body_) return;
+  const bool live = editor_.held() || ui_.isHeld();
+  if (!coming_ && (state_.journal != wanted_ || (wantedLive_ && !live))) {
+    wanted_ = state_.journal;
+    wantedLive_ = live;
+    reshaper_.want({document_, wanted_, live});
+  }
+  if (steady()) reshaper_.wait();
+  if (coming_) return;
+  auto outcome = reshaper_.take();
+  if (!outcome) return;
+  if (outcome->made) {
+    editor_.refusal.clear();
+    coming_ = std::move(*outcome->made);
+    editedAt_ = outcome->wish.since;
+    return;
+  }
+  editor_.refusal = outcome->made.error().message;
+  panelFrames_ = kRestingFrames;
+  if (!live && outcome->wish.journal == state_.journal) state_.journal = wanted_ = document_->journal;
+}
+
+void Session::changeTo(std::shared_ptr<const Document> edited) {
+  const Network& before = document_->scene.network;
+  const Network& after = edited->scene.network;
+  for (auto* place : {&state_.selected, &state_.from, &state_.to})
+    *place = carriedOver(*place, before, after);
+  if (!state_.selected) state_.isolate = false;
+  document_ = std::move(edited);
+  profiler_.reset();
+  profiling_ = false;
+  panelFrames_ = kRestingFrames;
+}
+
+void Session::noteEdit() {
+  if (coming_ || !editedAt_) return;
+  timings_.addEdit(std::chrono::duration<double, std::milli>(Clock::now() - *editedAt_).count());
+  editedAt_.reset();
+}
+
+void Session::entitle() {
+  if (!document_) return;
+  std::string title = (history_.unsaved(state_) ? "* " : "") + document_->title + " - vasa";
+  if (title != title_) window_.setTitle(title_ = std::move(title));
+}
+
+void Session::saveScene() {
+  if (!document_) return;
+  if (state_.journal != document_->journal) return say("An edit is still being made; save again in a moment");
+  const auto written = keeper_.save(*document_, state_, freeName(options_.out, "json"));
+  if (!written) {
+    if (options_.script) failure_ = written.error();
+    return say(written.error().message, 8);
+  }
+  history_.markSaved(state_);
+  entitle();
+  report_.files.push_back(*written);
+  say("wrote " + written->string());
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "scene/scene_file.h"
+
+// Scene files as text. Keys stand in the order of vasa help scenes; what is as by default is left out, so
+// that a scene says what was chosen.
+namespace vasa {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The shortest number that reads back as this one.
+Json number(float value) { return std::stod(fmt::format("{}", value)); }
+
+template <class Vector>
+Json list(const Vector& vector) {
+  Json numbers = Json::array();
+  for (int i = 0; i < vector.length(); ++i) numbers.push_back(number(vector[i]));
+  return numbers;
+}
+
+std::string named(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto base = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
+  return std::filesystem::absolute(file).lexically_normal().lexically_proximate(base).generic_string();
+}
+
+Json camera(const CameraChoice& choice) {
+  const CameraChoice usual;
+  Json json = Json::object();
+  if (choice.view != usual.view) json["view"] = choice.view;
+  if (choice.position) json["position"] = list(*choice.position);
+  if (choice.target) json["target"] = list(*choice.target);
+  if (choice.angleDegrees != usual.angleDegrees) json["angle"] = number(choice.angleDegrees);
+  if (choice.distanceFactor != usual.distanceFactor) json["distance"] = number(choice.distanceFactor);
+  if (!choice.focus.empty()) json["focus"] = choice.focus;
+  return json;
+}
+
+Json look(const LookChoice& choice) {
+  Json json = Json::object();
+  if (!choice.preset.empty()) json["preset"] = choice.preset;
+  if (choice.background) json["background"] = list(*choice.background);
+  const std::pair<const char*, bool> parts[] = {{"skin", choice.skin},
+                                                {"bones", choice.bones},
+                                                {"organs", choice.organs},
+                                                {"arteries", choice.arteries},
+                                                {"veins", choice.veins}};
+  for (const auto& [name, shown] : parts)
+    if (!shown) json[name] = false;
+  if (choice.skinOpacity) json["skin_opacity"] = number(*choice.skinOpacity);
+  return json;
+}
+
+Json capillaries(const CapillaryChoice& choice, const std::filesystem::path& folder) {
+  const CapillaryChoice usual;
+  Json json = Json::object();
+  if (choice.levels != usual.levels) json["levels"] = choice.levels;
+  if (choice.edges != usual.edges) json["edges"] = choice.edges;
+  if (choice.budget != usual.budget) json["budget"] = choice.budget;
+  if (choice.smallest != usual.smallest) json["smallest"] = number(choice.smallest);
+  if (!choice.rules.empty()) json["rules"] = named(choice.rules, folder);
+  return json;
+}
+
+}  // namespace
+
+std::string sceneText(const SceneFile& scene, const std::filesystem::path& folder) {
+  Json json = Json::object();
+  const auto add = [&](const char* key, Json value) {
+    if (!value.empty()) json[key] = std::move(value);
+  };
+  const auto names = [&](const std::vector<std::filesystem::path>& files) {
+    Json all = Json::array();
+    for (const auto& file : files) all.push_back(named(file, folder));
+    return all;
+  };
+  if (!scene.body.empty()) json["body"] = named(scene.body, folder);
+  add("networks", names(scene.networks));
+  add("edits", names(scene.edits));
+  if (!scene.clip.empty()) json["clip"] = isMotionFile(scene.clip) ? named(scene.clip, folder) : scene.clip;
+  if (!scene.jointMap.empty()) json["joint_map"] = named(scene.jointMap, folder);
+  add("camera", camera(scene.camera));
+  add("look", look(scene.look));
+  add("capillaries", capillaries(scene.capillaries, folder));
+  if (scene.time != 0) json["time"] = number(scene.time);
+  std::map<std::string, Json> pose;  // by name, as readers hand them out
+  for (const TurnChoice& turn : scene.pose) pose[turn.joint] = list(turn.degrees);
+  add("pose", pose);
+  if (!scene.chosen.empty()) json["chosen"] = scene.chosen;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace vasa

@@ -1,0 +1,94 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "edit/replay.h"
+#include "scene/scene_file.h"
+#include "support/shared_data.h"
+#include "view/virtual_display.h"
+#include "viewer/app.h"
+
+// Editing, undoing and saving as a person does it: sessions on a display without a screen.
+
+using namespace vasa;
+using namespace vasa::viewer;
+using namespace vasa::test;
+
+namespace {
+
+const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
+
+std::string contentOf(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// A scene of the human's bare vessels with one of them before the eye.
+std::filesystem::path sceneIn(const std::filesystem::path& folder) {
+  const auto path = folder / "scene.json";
+  std::ofstream(path) << R"({"body": ")" << (kData / "human.glb").string() << R"(", "networks": [")"
+                      << (kData / "human.vasa").string() << R"("], "camera": {"focus": "abdominal aorta"},
+      "look": {"preset": "clinical", "skin": false, "bones": false, "organs": false}})";
+  return path;
+}
+
+ViewReport session(const std::filesystem::path& scene, const std::string& script) {
+  auto file = readSceneFile(scene);
+  REQUIRE(file);
+  auto steps = parseScript(script, "script");
+  REQUIRE_MESSAGE(steps, (steps ? "" : steps.error().message));
+  ViewOptions options;
+  options.file = std::move(*file);
+  options.width = 960;
+  options.height = 640;
+  options.script = std::move(*steps);
+  options.out = scene.parent_path();
+  options.stopped = [] { return false; };
+  const auto report = view(options);
+  REQUIRE_MESSAGE(report, (report ? "" : report.error().message));
+  return *report;
+}
+
+std::string control(const char* key) {
+  return std::string("hold control\nkey ") + key + "\nlet control\nsettle\n";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a vessel is dragged, undone, redone and saved; opened and saved again it is the same to the byte") {
+  const VirtualDisplay display;
+  REQUIRE(setenv("DISPLAY", display.variable().substr(8).c_str(), 1) == 0);
+  const TemporaryFolder folder;
+  const auto scene = sceneIn(folder.path()), journal = folder.path() / "scene.vedit";
+  const std::string out = std::getenv("VASA_LOOK") ? std::getenv("VASA_LOOK") : folder.path().string();
+  const std::string pick = "settle\nkey e\nmove 320 300\npress left\nrelease left\nsettle\n";
+  const std::string drag =
+      "press left\nmove 332 300\nframes 1\nmove 350 304\nframes 2\nrelease left\nsettle\n";
+  const ViewReport first =
+      session(scene, pick + "window " + out + "/picked.png\n" + drag + "window " + out + "/dragged.png\n" +
+                         control("z") + "window " + out + "/undone.png\n" + control("y") + control("s"));
+  CHECK(first.selected == "abdominal aorta");
+  MESSAGE("from an edit to its picture: " << first.editMs << " ms");
+  CHECK(first.editMs > 0);
+  const auto edits = readJournal(journal);
+  REQUIRE(edits);
+  REQUIRE(edits->size() == 1);  // a drag is one line
+  const auto* move = std::get_if<MoveEdit>(&edits->front().operation);
+  REQUIRE(move);
+  CHECK(move->vessel == "abdominal aorta");
+  CHECK(move->byMm.x > 3);  // to the right in a picture from the front: to the body's left
+  CHECK(std::abs(move->byMm.y) < 0.3 * move->byMm.x);
+  const std::string saved = contentOf(scene), lines = contentOf(journal);
+  const ViewReport again = session(scene, "settle\n" + control("s") + "window " + out + "/again.png\n");
+  CHECK(again.selected == "abdominal aorta");
+  CHECK(contentOf(scene) == saved);
+  CHECK(contentOf(journal) == lines);
+  CHECK(parseScene(saved, folder.path(), "saved")->edits == std::vector{journal});
+  if (std::getenv("VASA_LOOK")) MESSAGE(saved << lines);
+  unsetenv("DISPLAY");
+}
