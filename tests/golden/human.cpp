@@ -42,6 +42,8 @@ struct Shot {
   const char* parts = "abhsv";  // arteries, bones, heart, skin, veins
   std::uint32_t growLevels = 0;
   bool transparent = false, occlusion = true, beating = false;
+  float boneOpacity = 1, skinOpacity = -1;  // below 0: the preset's
+  bool avoid = false;                       // vessels are moved apart
 };
 
 Look lookOf(const Shot& shot) {
@@ -54,6 +56,8 @@ Look lookOf(const Shot& shot) {
   look.drawVeins = parts.find('v') != std::string_view::npos;
   look.transparent = shot.transparent;
   if (!shot.occlusion) look.occlusion = 0;
+  look.boneOpacity = shot.boneOpacity;
+  if (shot.skinOpacity >= 0) look.skinOpacity = shot.skinOpacity;
   return look;
 }
 
@@ -78,7 +82,7 @@ Aabb boxOf(const Shot& shot, const FrameMaker& maker) {
 
 Image draw(gpu::Device& device, const Shot& shot) {
   const Human& all = human();
-  FrameMaker maker(all.scene, {.beat = shot.beating});
+  FrameMaker maker(all.scene, {.avoid = shot.avoid, .beat = shot.beating});
   const Clip* clip = *shot.clip ? taken(findClip(all.scene.body, shot.clip)) : nullptr;
   maker.make(clip, clip ? clip->timeOfFrame(shot.frame) : 0.14f);
   // A body stands upright.
@@ -126,6 +130,17 @@ std::vector<Picture> humanPictures() {
       picture("poses/walk", {.clip = "walk", .frame = 9}),
       picture("poses/squat", {.clip = "squat", .frame = 30, .view = View::left}),
       picture("poses/fist", {.clip = "fist", .frame = 20, .view = View::left, .subject = "LeftHandFinger2"}),
+      picture("poses/top", {.view = View::top, .parts = "abhv"}),
+      picture("poses/run", {.clip = "run", .frame = 5, .view = View::right}),
+      picture("poses/arms_overhead", {.clip = "arms_overhead", .frame = 60, .view = View::back}),
+      picture("poses/moved_apart", {.clip = "stand",
+                                    .frame = 0,
+                                    .subject = "LeftForeArm",
+                                    .around = 0.06f,
+                                    .parts = "av",
+                                    .avoid = true}),
+      picture("opacity/bones", {.subject = "Spine1", .parts = "abv", .boneOpacity = 0.4f}),
+      picture("opacity/skin", {.view = View::left, .subject = "Head", .skinOpacity = 0.9f}),
       picture("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 2}),
       picture("regions/foot", {.subject = "LeftToeBase", .parts = "ab", .growLevels = 2}),
       picture("regions/head", {.subject = "Head", .parts = "ab", .growLevels = 3}),

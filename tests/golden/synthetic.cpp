@@ -19,10 +19,27 @@ struct Shot {
   LookStyle style = LookStyle::atlas;
   std::uint32_t growLevels = 0;
   unsigned system = 2;  // of the capillaries: 0, 1, or 2 for both
+  float arteryOpacity = 1, capillaryOpacity = 1;
+  bool others = true;                                              // vessels that are neither artery nor vein
+  std::vector<std::uint32_t> (*colours)(std::uint32_t) = nullptr;  // of so many sweeps; none: by kind
 };
 
 RenderOptions fixed(std::uint32_t around, std::uint32_t along) {
   return {.samples = 4, .shape = {around, along}, .timed = false};
+}
+
+RenderOptions one(RenderOptions options) {
+  options.samples = 1;
+  return options;
+}
+RenderOptions shrunk(RenderOptions options) {
+  options.samples = 1;
+  options.supersample = 3;
+  return options;
+}
+RenderOptions unjoined(RenderOptions options) {
+  options.forks = false;
+  return options;
 }
 
 RenderOptions automatic() { return {.samples = 4, .pixelError = kAutoPixelError, .timed = false}; }
@@ -49,7 +66,12 @@ Image draw(gpu::Device& device, Shot shot) {
   RenderInput input{.points = grown.points, .knotFrames = grown.frames};
   input.camera = cameraOf(shot, measure(grown.network, grown.points).bounds);
   input.look.style = shot.style;
-  input.look.background = {1, 1, 1, 1};
+  // Light that shines through adds up: on white there is nothing to see.
+  input.look.background = shot.style == LookStyle::xray ? vec4(0, 0, 0, 1) : vec4(1);
+  input.look.arteryOpacity = shot.arteryOpacity;
+  input.look.capillaryOpacity = shot.capillaryOpacity;
+  input.look.drawOtherVessels = shot.others;
+  if (shot.colours) renderer.setSweepColours(shot.colours(renderer.sweepCount()));
   renderer.draw(input);
   return renderer.readBack();
 }
@@ -118,6 +140,42 @@ Network tee(float angle, float ratio) {
   return built(builder);
 }
 
+// A vessel of every kind, one above the other.
+Network allKinds() {
+  NetworkBuilder builder;
+  for (int kind = 0; kind <= int(VesselKind::other); ++kind) {
+    const float y = 0.1f * float(kind);
+    builder.addVessel({std::string(kindName(VesselKind(kind))), "", VesselKind(kind)},
+                      line({-0.3f, y, 0}, {0.3f, y, 0}, 0.04f, 0.02f, {0, 0.05f, 0}));
+  }
+  return built(builder);
+}
+
+// An artery before a vein, so that one may be seen through the other.
+Network crossed() {
+  NetworkBuilder builder;
+  builder.addVessel({"behind", "", VesselKind::vein},
+                    line({-0.3f, 0, -0.1f}, {0.3f, 0, -0.1f}, 0.05f, 0.05f));
+  builder.addVessel({"before", "", VesselKind::artery},
+                    line({0, -0.2f, 0.1f}, {0, 0.2f, 0.1f}, 0.06f, 0.06f));
+  return built(builder);
+}
+
+// From yellow to blue, sweep after sweep; of the others every third is hidden.
+std::vector<std::uint32_t> fading(std::uint32_t sweeps) {
+  std::vector<std::uint32_t> colours;
+  for (std::uint32_t i = 0; i < sweeps; ++i) {
+    const float t = float(i) / float(sweeps);
+    colours.push_back(packColour({1 - t, 1 - t, t, 1}));
+  }
+  return colours;
+}
+std::vector<std::uint32_t> gaps(std::uint32_t sweeps) {
+  auto colours = fading(sweeps);
+  for (std::uint32_t i = 2; i < sweeps; i += 3) colours[i] = 0;
+  return colours;
+}
+
 Network yFork() { return star({-90, 55, 125}, 0.04f); }
 Network sharpFork() { return star({-90, 75, 105}, 0.03f); }
 Network crossing() { return star({0, 90, 180, 270}, 0.035f); }
@@ -138,6 +196,15 @@ std::vector<Picture> syntheticPictures() {
       picture("tubes/automatic_near", {.network = snake, .nearer = 0.4f, .options = automatic()}),
       picture("tubes/automatic_far", {.network = thinWinding, .options = automatic()}),
       picture("tubes/bow", {.network = bow, .options = automatic()}),
+      picture("tubes/one_sample", {.network = snake, .options = one(automatic())}),
+      picture("tubes/supersampled", {.network = thinWinding, .options = shrunk(automatic())}),
+      picture("forks/coloured", {.network = crossing, .options = automatic(), .colours = fading}),
+      picture("kinds/atlas", {.network = allKinds, .options = automatic()}),
+      picture("kinds/clinical", {.network = allKinds, .options = automatic(), .style = LookStyle::clinical}),
+      picture("kinds/xray", {.network = allKinds, .options = automatic(), .style = LookStyle::xray}),
+      picture("colours/fading", {.network = snake, .options = automatic(), .colours = fading}),
+      picture("colours/gaps", {.network = snake, .options = automatic(), .colours = gaps}),
+      picture("opacity/half", {.network = crossed, .options = automatic(), .arteryOpacity = 0.5f}),
       picture("caps/thick_end", {.network = tapered, .from = {0.4f, 0.3f, -1}, .options = fixed(16, 4)}),
       picture("caps/thin_end", {.network = tapered, .from = {0.6f, 0.3f, 1}, .options = fixed(8, 2)}),
       picture("forks/y", {.network = yFork, .from = {0.2f, 0.1f, 1}, .options = automatic()}),
@@ -146,6 +213,9 @@ std::vector<Picture> syntheticPictures() {
       picture("forks/five", {.network = fiveWay, .from = {0.1f, 0.3f, 1}, .options = automatic()}),
       picture("forks/small_tee", {.network = smallTee, .from = {0.5f, 0.1f, 1}, .options = automatic()}),
       picture("forks/large_tee", {.network = largeTee, .from = {0.4f, 0.1f, 1}, .options = automatic()}),
+      picture("forks/coarse", {.network = largeTee, .from = {0.4f, 0.1f, 1}, .options = fixed(4, 2)}),
+      picture("forks/unjoined",
+              {.network = largeTee, .from = {0.4f, 0.1f, 1}, .options = unjoined(automatic())}),
       picture("forks/clinical", {.network = largeTee,
                                  .from = {-0.4f, 0.1f, 1},
                                  .options = automatic(),
@@ -156,6 +226,9 @@ std::vector<Picture> syntheticPictures() {
       picture("capillaries/reed_2", {.network = bow, .options = automatic(), .growLevels = 2, .system = 1}),
       picture("capillaries/reed_4",
               {.network = bow, .nearer = 0.6f, .options = automatic(), .growLevels = 4, .system = 1}),
+      picture(
+          "capillaries/faint",
+          {.network = bow, .options = automatic(), .growLevels = 3, .system = 0, .capillaryOpacity = 0.3f}),
   };
 }
 
@@ -164,7 +237,13 @@ std::vector<Picture> syntheticMutations() {
       picture("tubes/paper_8x10", {.network = snake, .options = fixed(4, 5)}),
       picture("caps/thick_end", {.network = tapered, .from = {0.4f, 0.3f, -1}, .options = fixed(4, 4)}),
       picture("forks/large_tee", {.network = otherTee, .from = {0.4f, 0.1f, 1}, .options = automatic()}),
+      picture("forks/unjoined", {.network = largeTee, .from = {0.4f, 0.1f, 1}, .options = automatic()}),
+      picture("forks/coloured", {.network = crossing, .options = automatic(), .colours = gaps}),
       picture("capillaries/oak_2", {.network = bow, .options = automatic(), .growLevels = 2, .system = 1}),
+      picture("capillaries/faint", {.network = bow, .options = automatic(), .growLevels = 3, .system = 0}),
+      picture("kinds/atlas", {.network = allKinds, .options = automatic(), .others = false}),
+      picture("colours/gaps", {.network = snake, .options = automatic(), .colours = fading}),
+      picture("opacity/half", {.network = crossed, .options = automatic(), .arteryOpacity = 0.7f}),
   };
 }
 
