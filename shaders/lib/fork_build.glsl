@@ -33,11 +33,6 @@ void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Tr
   windows[i] = window;
 }
 
-void trunkRow(uint start, uint around, float s, Trunk trunk, Section middle) {
-  Section section = wallAt(trunk, middle, s);
-  for (uint k = 0; k < around; ++k) put(start + k, surfacePoint(section, directions[k]));
-}
-
 void build(ForkRecord fork, ForkShape shape, Ring a, Ring b) {
   precise float thirdA = fork.scaleA / 3.0, thirdB = -(fork.scaleB / 3.0);
   precise vec3 chord = b.section.centre - a.section.centre;
@@ -56,9 +51,11 @@ void build(ForkRecord fork, ForkShape shape, Ring a, Ring b) {
     columns[k] = directions[k];
     put(k, surfacePoint(a.section, seamDirection(a, 0, k, shape.a)));
   }
-  trunkRow(rowStart(shape, 1), shape.a, fork.row1, trunk, middle);
-  trunkRow(rowStart(shape, 2), shape.a, fork.row2, trunk, middle);
-  trunkRow(rowStart(shape, 3), shape.a, fork.row3, trunk, middle);
+  for (uint row = 1; row + 1 < kTrunkRows; ++row) {
+    Section section = wallAt(trunk, middle, row == 1 ? fork.row1 : row == 2 ? fork.row2 : fork.row3);
+    uint start = rowStart(shape, row);
+    for (uint k = 0; k < shape.a; ++k) put(start + k, surfacePoint(section, directions[k]));
+  }
   for (uint i = 0; i < fork.branchCount; ++i)
     placeWindow(i, fork, branchAt(fork.firstBranch + i), shape, trunk, middle);
   uint seams[kMostBranches];
@@ -67,18 +64,19 @@ void build(ForkRecord fork, ForkShape shape, Ring a, Ring b) {
     seams[i] = collar(branch, ringAt(branch.ring), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
   }
   addForkTriangles(shape);
-  if (cut) {
-    addStump(shape, a, 0, tangentA, b.section.centre, 0, 1, 2);
-    addStump(shape, b, first, -tangentB, a.section.centre, kTrunkRows - 1, kTrunkRows - 2, kTrunkRows - 2);
-  }
-  for (uint i = 0; i < fork.branchCount; ++i) {
-    stumps[i] = stumps[i] || cut;
-    if (!stumps[i]) continue;
+  // The trunk's two ends, then branches.
+  for (uint part = 0; part < fork.branchCount + 2; ++part) {
+    bool atA = part == 0, ofTrunk = part < 2;
+    uint i = ofTrunk ? 0 : part - 2;
+    if (!cut && (ofTrunk || !stumps[i])) continue;
     ForkBranch branch = branchAt(fork.firstBranch + i);
-    Ring ring = ringAt(branch.ring);
-    precise vec3 inward = -ring.turn * ring.section.tangent;
-    addStump(shape, ring, seams[i], inward, wallAt(trunk, middle, branch.centre).centre, branchRow(i), branchRow(i) - 1,
-             branchRow(i) - 2);
+    Ring ring = ringAt(atA ? fork.a : ofTrunk ? fork.b : branch.ring);
+    precise vec3 outward = ring.turn * ring.section.tangent, inward = -outward;
+    vec3 towards = atA ? b.section.centre : ofTrunk ? a.section.centre : wallAt(trunk, middle, branch.centre).centre;
+    uint ringRow = atA ? 0 : ofTrunk ? kTrunkRows - 1 : branchRow(i);
+    uint tipRow = atA ? 2 : ofTrunk ? ringRow - 1 : ringRow - 2;
+    addStump(shape, ring, atA ? 0 : ofTrunk ? first : seams[i], atA ? outward : inward, towards, ringRow,
+             atA ? 1 : ringRow - 1, tipRow);
   }
 }
 

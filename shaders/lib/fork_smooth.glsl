@@ -41,9 +41,7 @@ void smoothRows(ForkShape shape, uint first, uint last) {
   }
 }
 
-void smoothTrunk(ForkShape shape) { smoothRows(shape, 0, kTrunkRows - 1); }
-
-void smoothCollar(ForkShape shape, uint branch) {
+void smoothHole(ForkShape shape, uint branch) {
   ForkWindow window = windows[branch];
   uint m = shape.branch[branch], hole = rowStart(shape, holeRow(branch)), outline = 2 * window.count + 4;
   for (uint k = 0; k < m; ++k) {
@@ -51,7 +49,6 @@ void smoothCollar(ForkShape shape, uint branch) {
     moveTo(hole + k, kHoleStep, hole + (k + 1 == m ? 0 : k + 1), hole + (k == 0 ? m : k) - 1,
            outlineVertex(shape, window, outer == outline ? 0 : outer), hole + m + k);
   }
-  smoothRows(shape, holeRow(branch), branchRow(branch));
 }
 
 #endif

@@ -28,25 +28,21 @@ void addQuads(ForkShape shape, uint row, bool aroundWindows) {
   } while (++k < m);
 }
 
-void addStrip(ForkShape shape, uint row) {
+// Between rows that differ in their vertices.
+void addUneven(ForkShape shape, uint row) {
   uint p = rowSize(shape, row), q = rowSize(shape, row + 1);
-  if (p == q) {
-    addQuads(shape, row, false);
-    return;
-  }
   uint low = rowStart(shape, row), high = rowStart(shape, row + 1), i = 0, k = 0;
   Corner a = cornerAt(low), b = cornerAt(high);
   do {
     bool lower = k == q || (i < p && (2 * i + 1) * q <= (2 * k + 1) * p);
     uint next = lower ? i + 1 : k + 1;
     Corner third = cornerAt(lower ? low + (next == p ? 0 : next) : high + (next == q ? 0 : next));
+    addTriangle(a, third, b);
     if (lower) {
       ++i;
-      addTriangle(a, third, b);
       a = third;
     } else {
       ++k;
-      addTriangle(a, third, b);
       b = third;
     }
   } while (i < p || k < q);
@@ -72,19 +68,6 @@ void addStumpQuads(ForkShape shape, uint row) {
   }
 }
 
-void addTrunk(ForkShape shape) {
-  addQuads(shape, 0, false);
-  addQuads(shape, 1, true);
-  addQuads(shape, 2, true);
-  addStrip(shape, 3);
-}
-
-void addBranch(ForkShape shape, uint branch) {
-  setDirections(stepOf(shape.branch[branch]), shape.branch[branch]);
-  addWall(shape, branch);
-  for (uint row = holeRow(branch); row < branchRow(branch); ++row) addQuads(shape, row, false);
-}
-
 // A stump's vertices are not there yet: all of its triangles are drawn.
 void addTrunkStumps(ForkShape shape) {
   addStumpQuads(shape, 0);
@@ -99,25 +82,37 @@ void addBranchStump(ForkShape shape, uint branch) {
 }
 
 // All triangles, and which parts fold: a bit a branch, then one for the trunk, whose wall has holes for branches that are
-// no stumps.
+// no stumps. One loop for all parts: a device compiles what it calls once for each place that calls it.
 uint addParts(ForkShape shape) {
   uint wrong = 0;
   triangles = 0;
-  for (uint i = 0; i < shape.branchCount; ++i) {
+  for (uint part = 0; part <= shape.branchCount; ++part) {
+    bool trunk = part == shape.branchCount;
     folded = false;
-    if (stumps[i]) addBranchStump(shape, i);
-    else addBranch(shape, i);
-    if (folded) wrong |= 1u << i;
+    if (!trunk && stumps[min(part, kMostBranches - 1)]) {
+      addBranchStump(shape, part);
+    } else {
+      uint first = trunk ? 0 : holeRow(part), last = trunk ? kTrunkRows - 1 : branchRow(part);
+      if (!trunk) {
+        setDirections(stepOf(shape.branch[part]), shape.branch[part]);
+        addWall(shape, part);
+      }
+      bool uneven = trunk && shape.a != shape.b;  // the last strip
+      for (uint row = first; row + uint(uneven) < last; ++row) addQuads(shape, row, trunk && (row == 1 || row == 2));
+      if (uneven) addUneven(shape, last - 1);
+    }
+    if (folded) wrong |= 1u << (trunk ? kMostBranches : part);
   }
-  folded = false;
-  addTrunk(shape);
-  return folded ? wrong | 1u << kMostBranches : wrong;
+  return wrong;
 }
 
 void smoothParts(ForkShape shape, uint wrong) {
-  if ((wrong >> kMostBranches & 1u) != 0u) smoothTrunk(shape);
-  for (uint i = 0; i < shape.branchCount; ++i)
-    if ((wrong >> i & 1u) != 0u) smoothCollar(shape, i);
+  for (uint part = 0; part <= shape.branchCount; ++part) {
+    bool trunk = part == 0;
+    if ((wrong >> (trunk ? kMostBranches : part - 1) & 1u) == 0u) continue;
+    if (!trunk) smoothHole(shape, part - 1);
+    smoothRows(shape, trunk ? 0 : holeRow(part - 1), trunk ? kTrunkRows - 1 : branchRow(part - 1));
+  }
 }
 
 // Parts that fold are smoothed; branches that fold yet become stumps, and then everything, where the trunk does.
