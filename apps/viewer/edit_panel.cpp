@@ -55,7 +55,9 @@ void showEdit(const PanelInput& in) {
   if (!in.state.editing || !in.document || !in.editor) return;
   const float edge = 6 * in.scale;
   const Rect& picture = in.layout.picture;
-  ImGui::SetNextWindowPos({picture.left + edge, picture.top + picture.height - edge}, 0, {0, 1});
+  const float below =
+      84 * in.scale;  // the head: sliders must not move away under the pointer as lines are added
+  ImGui::SetNextWindowPos({picture.left + edge, picture.top + below});
   ImGui::SetNextWindowSizeConstraints({260 * in.scale, 0}, {picture.width - 2 * edge, picture.height});
   if (ImGui::Begin("##edit", nullptr, kFixed)) {
     if (in.state.selected) {
