@@ -45,8 +45,10 @@ void showTools(const PanelInput& in) {
 void showJournal(const PanelInput& in) {
   constexpr std::size_t kShown = 5;
   const auto& journal = in.state.journal;
+  ImGui::PushTextWrapPos(300 * in.scale);
   for (std::size_t i = journal.size() > kShown ? journal.size() - kShown : 0; i < journal.size(); ++i)
     ImGui::TextDisabled("%zu  %s", i + 1, journal[i].c_str());
+  ImGui::PopTextWrapPos();
 }
 
 }  // namespace
@@ -55,8 +57,8 @@ void showEdit(const PanelInput& in) {
   if (!in.state.editing || !in.document || !in.editor) return;
   const float edge = 6 * in.scale;
   const Rect& picture = in.layout.picture;
-  const float below =
-      84 * in.scale;  // the head: sliders must not move away under the pointer as lines are added
+  // The head: sliders must not move away under the pointer as lines are added.
+  const float below = 84 * in.scale;
   ImGui::SetNextWindowPos({picture.left + edge, picture.top + below});
   ImGui::SetNextWindowSizeConstraints({260 * in.scale, 0}, {picture.width - 2 * edge, picture.height});
   if (ImGui::Begin("##edit", nullptr, kFixed)) {
@@ -69,7 +71,7 @@ void showEdit(const PanelInput& in) {
     }
     showJournal(in);
     if (!in.editor->refusal.empty()) {
-      ImGui::PushTextWrapPos(std::min(picture.width - 4 * edge, 420 * in.scale));
+      ImGui::PushTextWrapPos(std::min(picture.width - 4 * edge, 300 * in.scale));
       ImGui::TextColored({0.98f, 0.62f, 0.35f, 1}, "%s", in.editor->refusal.c_str());
       ImGui::PopTextWrapPos();
     }

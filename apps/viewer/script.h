@@ -16,9 +16,11 @@
 //   resize W H          the window, in pixels
 //   drop FILE           a file on the window
 //   frames N            so many pictures pass, each a thirtieth of a second after the one before
-//   live SECONDS        so long by the clock, as a person has it: shapes are not waited for, pictures may
-//   differ settle              until loading, shapes and the still picture are done window FILE.png writes
-//   the window's picture, panels and all picture FILE.png    writes the scene's picture alone close
+//   live SECONDS        so long by the clock, as a person has it: shapes are not waited for
+//   settle              until loading, shapes and the still picture are done
+//   window FILE.png     writes the window's picture, panels and all
+//   picture FILE.png    writes the scene's picture alone
+//   close
 // A FILE may stand in double quotes (viewer/quoted.h). What a script writes lies below the folder of
 // ViewOptions::out.
 // `#` begins a comment. The session ends with its last line.
