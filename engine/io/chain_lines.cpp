@@ -126,7 +126,7 @@ class Graph {
       own.clear();
       for (; first < at.size() && at[first].first == node; ++first) own.push_back(at[first].second);
       if (own.size() < 2 || own.size() > kMostLookedAt) continue;
-      // Samples next to nothing apart, or too far apart for numbers, have no direction: they pair with none.
+      // Radii of nothing leave no fit that is a number: none pair.
       float best = -4;
       std::pair<std::uint32_t, std::uint32_t> pair{kNone, kNone};
       for (std::size_t i = 0; i < own.size(); ++i)

@@ -15,14 +15,11 @@ TEST_CASE("edges that meet two by two are one line; at a fork the straightest tw
   CHECK(std::min(lines[0].size(), lines[1].size()) == 2);
 }
 
-// Found by libFuzzer: no direction can be told from differences whose squares are not numbers or nothing.
-TEST_CASE("where no direction can be told edges end, and nothing is lost") {
-  for (const float step : {1e-38f, 3e38f}) {
-    CAPTURE(step);
-    const vec4 at(0, 0, 0, 0);
-    const auto lines = chainLines({{at, {step, 0, 0, 0}}, {at, {0, step, 0, 0}}, {at, {0, 0, step, 0}}});
-    CHECK(lines.size() == 3);
-  }
+// Found by libFuzzer: radii of nothing do not say which edge goes on.
+TEST_CASE("where nothing tells which edge goes on all end, and none is lost") {
+  const auto lines =
+      chainLines({{{0, 0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0, 0}, {0, 1, 0, 0}}, {{0, 0, 0, 0}, {0, 0, 1, 0}}});
+  CHECK(lines.size() == 3);
 }
 
 }  // namespace
