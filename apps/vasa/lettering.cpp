@@ -5,10 +5,11 @@
 #include <cmath>
 #include FT_FREETYPE_H
 
+#include "viewer/font.h"
+
 namespace vasa::cli {
 namespace {
 
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr int kSubpixels = 64;  // FreeType counts in these
 
 // The code points of valid UTF-8; a broken byte is a question mark.
@@ -49,9 +50,9 @@ Lettering::~Lettering() = default;
 
 Result<Lettering> Lettering::load(float size) {
   auto face = std::make_unique<Face>();
-  if (FT_Init_FreeType(&face->library) != 0 || FT_New_Face(face->library, kFont, 0, &face->face) != 0 ||
+  if (FT_Init_FreeType(&face->library) != 0 || FT_New_Face(face->library, kFontFile, 0, &face->face) != 0 ||
       FT_Set_Char_Size(face->face, 0, FT_F26Dot6(std::lround(size * kSubpixels)), 72, 72) != 0)
-    return ioError(std::string(kFont) + ": cannot be read; install Debian's fonts-dejavu-core");
+    return ioError(std::string(kFontFile) + ": cannot be read; install Debian's fonts-dejavu-core");
   return Lettering(std::move(face));
 }
 

@@ -1,14 +1,16 @@
 #include "viewer/ui_context.h"
+#include "viewer/font.h"
 
 #include <imgui.h>
 
 #include <filesystem>
 
+#include "viewer/font.h"
+
 namespace vasa::viewer {
 namespace {
 
 constexpr float kFontPixels = 15;
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 static_assert(int(Key::last) < 512, "ImGui has room for 512 keys");
 
 void mapKeys(ImGuiIO& io) {
@@ -85,8 +87,8 @@ void addFonts(ImGuiIO& io, float scale) {
   static const ImWchar letters[] = {0x20,   0x17f,  0x2010, 0x2027, 0x2030, 0x203a, 0x2080,
                                     0x209c, 0x2190, 0x2193, 0x2248, 0x2265, 0};
   std::error_code ignored;
-  if (std::filesystem::exists(kFont, ignored)) {
-    io.Fonts->AddFontFromFileTTF(kFont, kFontPixels * scale, nullptr, letters);
+  if (std::filesystem::exists(kFontFile, ignored)) {
+    io.Fonts->AddFontFromFileTTF(kFontFile, kFontPixels * scale, nullptr, letters);
   } else {
     ImFontConfig config;
     config.SizePixels = 13 * scale;
