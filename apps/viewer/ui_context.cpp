@@ -1,5 +1,4 @@
 #include "viewer/ui_context.h"
-#include "viewer/font.h"
 
 #include <imgui.h>
 
