@@ -16,6 +16,11 @@ constexpr std::array kKinds{LoadKind::kink, LoadKind::squeeze, LoadKind::stretch
 
 std::string degrees(float angle) { return std::to_string(int(std::lround(glm::degrees(angle)))); }
 
+FrameOptions keptApart(FrameOptions options) {
+  options.avoid = true;
+  return options;
+}
+
 // From rest to an end, both included, in even steps no longer than asked for.
 std::vector<float> anglesTo(float end, float step) {
   const int count = std::max(1, int(std::ceil(std::abs(end) / step - 1e-3f)));
@@ -58,7 +63,7 @@ PoseMap::PoseMap(const Scene& scene, FrameOptions options, LoadLimits limits, fl
     : scene_(&scene),
       limits_(limits),
       step_(step),
-      maker_(scene, [&] { return options.avoid = true, options; }()),
+      maker_(scene, keptApart(options)),
       meter_(scene.network) {}
 
 Result<RayReport> PoseMap::walk(const PoseRay& ray) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "curve/arc_length.h"
 #include "network/kinks.h"
 
 namespace vasa {
@@ -20,22 +21,6 @@ constexpr std::array kWords{
 
 constexpr float kAdded = 0.05f;      // of r κ: a bend that a pose makes less sharper is that of the rest
 constexpr float kShortest = 0.005f;  // [m] strain of a stub between two forks is their walls' matter
-
-// Chords of a sixteenth of a span: of a quarter circle they miss less than a thousandth.
-float lengthOf(std::span<const vec4> points, std::uint32_t spans) {
-  constexpr int kChords = 16;
-  float length = 0;
-  for (std::uint32_t span = 0; span < spans; ++span) {
-    const Bezier tube = bezierOfSpan(points, span);
-    vec3 last(tube.b[0]);
-    for (int k = 1; k <= kChords; ++k) {
-      const vec3 next(tube.at(float(k) / kChords));
-      length += glm::distance(last, next);
-      last = next;
-    }
-  }
-  return length;
-}
 
 }  // namespace
 
@@ -83,7 +68,7 @@ float VesselLoad::severity(LoadKind kind, const LoadLimits& limits) const {
 LoadMeter::LoadMeter(const Network& network) : network_(&network) {
   for (const Vessel& vessel : network.vessels()) {
     const auto own = network.pointsOf(vessel);
-    lengths_.push_back(lengthOf(own, vessel.spanCount()));
+    lengths_.push_back(ArcLength(own).length());
     for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
       bends_.push_back(sharpestBend(bezierOfSpan(own, span)));
   }
@@ -107,7 +92,7 @@ std::vector<VesselLoad> LoadMeter::run(std::span<const vec4> points, const Avoid
       const float share = posed.b[0].w / before.b[0].w;
       if (share * share < load.lumen) load.lumen = share * share, load.lumenPlace = float(span) / spans;
     }
-    if (lengths_[v] > kShortest) load.strain = lengthOf(own, vessel.spanCount()) / lengths_[v] - 1;
+    if (lengths_[v] > kShortest) load.strain = ArcLength(own).length() / lengths_[v] - 1;
   });
   for (const BoneContact& contact : avoider.inBones()) {
     if (!contact.enters()) continue;
