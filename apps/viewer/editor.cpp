@@ -17,7 +17,6 @@ namespace {
 constexpr float kReach = 9;          // [pixels of an ordinary screen] of the handle, as a joint's
 constexpr double kSamePlace = 2e-3;  // of a vessel
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
 // A number of so many decimals that is written with no more of them.
 double decimals(double value, int count) { return std::stod(fmt::format("{:.{}f}", value, count)) + 0.0; }
 
@@ -190,7 +189,7 @@ void Editor::setStenosis(double percent, const Document& document, ViewState& st
   const auto before = stenosisThere(document, state);
   StenosisEdit line = before.value_or(StenosisEdit{chosen->vessel, chosen->share});
   line.lengthMm = decimals(lengthMm, 1);
-  line.percent = rounded(percent, 1);
+  line.percent = std::round(percent);
   write(state, line, before.has_value());
 }
 
