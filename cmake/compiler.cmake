@@ -21,6 +21,11 @@ if(VASA_WERROR)
 endif()
 # Files come from anywhere: what a missed check would overwrite is guarded. Tables of functions are read-only once loaded.
 target_link_options(vasa_compiler INTERFACE -Wl,-z,relro -Wl,-z,now)
+# So are return addresses, and copies whose room the compiler knows; it knows rooms with optimisation alone. Sanitizers watch more.
+target_compile_options(vasa_compiler INTERFACE -fstack-protector-strong)
+if(NOT VASA_SANITIZE)
+  target_compile_options(vasa_compiler INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
+endif()
 if(VASA_SANITIZE)
   target_compile_options(vasa_compiler INTERFACE -fsanitize=${VASA_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(vasa_compiler INTERFACE -fsanitize=${VASA_SANITIZE})

@@ -9,3 +9,5 @@ has("${PROGRAM}" "a table of functions that is read-only once loaded (RELRO)" "G
 has("${PROGRAM}" "a stack without code" "GNU_STACK[^\n]* RW " --program-headers)
 has("${PROGRAM}" "binding at the start (BIND_NOW)" "BIND_NOW" --dynamic)
 has("${PROGRAM}" "an address that changes (PIE)" "Flags:[^\n]*PIE" --dynamic)
+has("${PROGRAM}" "a guard of return addresses (stack protector)" "__stack_chk_fail" --dyn-syms)
+has("${PROGRAM}" "copies that know their room (FORTIFY)" "__(memcpy|memmove|memset|snprintf|vsnprintf|read|fread|strncpy)_chk" --dyn-syms)
