@@ -126,6 +126,7 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
     network.points_.insert(network.points_.end(), points_[i].begin(), points_[i].end());
     network.vessels_.push_back(std::move(vessel));
   }
+  std::map<std::uint64_t, std::size_t> atHost;  // ends by place
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const PendingNode& pending = nodes_[n];
     const std::string where = "node " + std::to_string(n);
@@ -154,6 +155,14 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
                         " already");
       slot = {n};
     }
+    // Nodes of one place count together: their vessels are neighbours all the same.
+    const std::size_t meeting =
+        pending.host ? atHost[keyOf(*pending.host)] += pending.ends.size() : pending.ends.size();
+    if (meeting > kMostEndsAtNode)
+      return badInput(where + ": more than " + std::to_string(kMostEndsAtNode) +
+                      " vessels would meet in one place, among them " +
+                      place(network.vessel(pending.ends.back().vessel), pending.ends.back().vessel.value) +
+                      "; let them leave another vessel one after the other");
     network.nodes_.push_back(
         {pending.host, std::uint32_t(network.ends_.size()), std::uint32_t(pending.ends.size())});
     network.ends_.insert(network.ends_.end(), pending.ends.begin(), pending.ends.end());

@@ -123,5 +123,25 @@ TEST_CASE("what cannot be a network is refused by name and cause") {
     builder.joinToSide({b, false}, {a, 0.0f});
     CHECK(messageOf(builder).find("hang on one another in a circle") != std::string::npos);
   }
+  SUBCASE("too many in one place") {
+    const auto star = [](std::size_t rays, bool oneNode) {
+      NetworkBuilder made;
+      const VesselId host = made.addVessel({"host"}, straightVessel({0, -1, 0}, {0, 1, 0}, 0.01f, 2));
+      std::vector<VesselEnd> ends;
+      for (std::size_t i = 0; i < rays; ++i) {
+        ends.push_back({made.addVessel({"ray"}, straightVessel({0, 0, 0}, {1, 1, 0}, 0.01f, 1)), false});
+        if (!oneNode) made.addNode(Host{host, 1.0f}, {ends.back()});
+      }
+      if (oneNode) made.addNode(std::nullopt, ends);
+      return made;
+    };
+    for (const bool oneNode : {true, false}) {
+      builder = star(kMostEndsAtNode + 1, oneNode);
+      CHECK(messageOf(builder).find(
+                "more than 256 vessels would meet in one place, among them vessel 257 'ray'") !=
+            std::string::npos);
+      CHECK(star(kMostEndsAtNode, oneNode).build(1.75f).ok());
+    }
+  }
   SUBCASE("body height") { CHECK(!builder.build(0).ok()); }
 }
