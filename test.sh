@@ -12,6 +12,9 @@
 #   ./test.sh faults [N] every N-th (1) Vulkan call at which a run may fail, some 1,500 in all, a second or two each
 #   ./test.sh interrupted [N]  N signals and N memory limits (40) in the middle of each command
 #   ./test.sh soak [..] memory and descriptors over 20,000 frames of the app (tests/soak/drift.py)
+#   ./test.sh validation  10,000 frames of everything and 300 GPU-assisted ones, 1,000 of the app with 50 resizes: not a message
+#   ./test.sh same      the same bytes from 1 to 16 threads, by gcc and clang, release and debug
+#   ./test.sh kills [N] N (200) kills in the middle of writing; each resumed to the same bytes, nothing left behind
 #   ./test.sh slurm     a film on a Slurm cluster of this machine, with a task that is killed; installs Slurm
 #   ./test.sh fuzz [N]  libFuzzer on each reader for N seconds (30); installs clang; finds go to build/fuzz/found
 # Further arguments go to ctest, e.g. ./test.sh release -R network
@@ -81,6 +84,32 @@ if [ "$preset" = interrupted ]; then
   for what in signals memory; do
     tests/soak/interrupted.py $what build/release/bin/vasa build/release/data/human.glb build/release/data/human.vasa "${1:-40}"
   done
+  exit 0
+fi
+if [ "$preset" = kills ]; then
+  cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
+  cmake --build --preset release --target vasa human
+  tests/soak/kills.sh build/release/bin/vasa "${1:-200}"
+  exit 0
+fi
+if [ "$preset" = validation ]; then
+  cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
+  cmake --build --preset release --target vasa human test_render
+  VASA_FRAMES_TIMES=34 build/release/tests/render/test_render --test-case='three hundred frames*'
+  VASA_FRAMES_TIMES=10 build/release/tests/render/test_render --test-case='thirty frames*'
+  tests/soak/drift.py build/release/bin/vasa build/release/data/human.glb build/release/data/human.vasa --validate --frames 1000 --resizes 50 --openings 0
+  exit 0
+fi
+if [ "$preset" = same ]; then
+  scripts/install-dependencies.sh clang
+  programs=()
+  for each in gcc-release clang-release gcc-debug; do
+    preset=${each#*-}
+    cmake --preset "$preset" -B "build/compilers/$each" -DCMAKE_C_COMPILER="${each%-*}" -DCMAKE_CXX_COMPILER="$([ "${each%-*}" = gcc ] && echo g++ || echo clang++)" > /dev/null
+    cmake --build "build/compilers/$each" --target vasa human
+    programs+=("build/compilers/$each/bin/vasa")
+  done
+  tests/soak/same.sh build/compilers/gcc-release/data/human.glb build/compilers/gcc-release/data/human.vasa "${programs[@]}"
   exit 0
 fi
 if [[ "$preset" = faults || "$preset" = soak ]]; then

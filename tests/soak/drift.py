@@ -3,7 +3,7 @@
 --pictures, a long film. Samples what the process holds beyond files ("Private_Dirty" of /proc/PID/smaps_rollup) and its descriptors; the
 median of the last quarter may be 2 MiB above that of the second quarter (an opening holds two scenes for a while), and
 descriptors none.
-  tests/soak/drift.py PROGRAM BODY.glb NETWORK.vasa [--frames 20000] [--resizes 500] [--openings 20] [--pictures 0 --clip NAME|FILE.bvh]"""
+  tests/soak/drift.py PROGRAM BODY.glb NETWORK.vasa [--frames 20000] [--resizes 500] [--openings 20] [--validate] [--pictures 0 --clip NAME|FILE.bvh]"""
 import argparse, os, statistics, subprocess, sys, tempfile, time
 
 ALLOWED_KIB = 2048
@@ -48,6 +48,7 @@ def main():
     parse.add_argument("--openings", type=int, default=20)
     parse.add_argument("--pictures", type=int, default=0, help="of render; the clip must have as many frames")
     parse.add_argument("--clip", default="")
+    parse.add_argument("--validate", action="store_true", help="the app under Vulkan's validation layer: a message fails it")
     wish = parse.parse_args()
     program, scene = os.path.abspath(wish.program), ["--body", os.path.abspath(wish.body), "--network", os.path.abspath(wish.network)]
     clip = ["--clip", wish.clip] if wish.clip else []
@@ -70,7 +71,7 @@ def main():
                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
             try:
                 environment["DISPLAY"] = ":" + server.stdout.readline().strip()
-                good &= watch("view", [program, "view", *scene, *clip, "--script", script, "--size", "480x400"],
+                good &= watch("view", [program, "view", *scene, *clip, *["--validate"] * wish.validate, "--script", script, "--size", "480x400"],
                               f"{wish.frames} frames, {wish.resizes} resizes, {wish.openings} openings", env=environment, cwd=folder)
             finally:
                 server.terminate()
