@@ -88,7 +88,7 @@ Comes with a human of its own. Works with or without a graphics card.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libvasa-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libfmt-dev, libglm-dev, libhwy-dev, libmeshoptimizer-dev, libpng-dev, libstdc++-12-dev, libtbb-dev, libtinyxml2-dev, zlib1g-dev")
+    "libdraco-dev, libfmt-dev, libglm-dev, libhwy-dev, libmeshoptimizer-dev, libpng-dev, libstdc++-12-dev, libtbb-dev, libtinyxml2-dev, zlib1g-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libvulkan-dev, vasa (= ${PROJECT_VERSION}-1)")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
 "C++20 headers, static libraries and CMake files of vasa, which moves blood

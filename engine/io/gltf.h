@@ -10,8 +10,9 @@
 // every index, range and alignment, the forest of nodes, key times, finite values. A broken rule is
 // Fault::badInput with "file: JSON place: rule; remedy"; a file that cannot be read is Fault::io. Pictures
 // are never opened, and other files only where they lie in the asset's folder or below it. Morph targets,
-// cameras and lights are ignored. Extensions: KHR_mesh_quantization is understood; a file that requires any
-// other that changes geometry is refused.
+// cameras and lights are ignored. Extensions: KHR_mesh_quantization is understood, meshes packed by
+// EXT_meshopt_compression and KHR_draco_mesh_compression are unpacked; a file that requires any other that
+// changes geometry is refused.
 namespace vasa {
 
 /// A body: skeleton, skinned meshes (one for each node and material), clips. The file must have a skin.

@@ -6,6 +6,7 @@
 #include "io/gltf_container.h"
 #include "io/gltf_json.h"
 #include "io/gltf_rule.h"
+#include "io/gltf_unpack.h"
 
 namespace vasa::gltf {
 namespace {
@@ -39,6 +40,10 @@ Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path)
       root.at("buffers").first().fail("has no uri, and the GLB has no BIN chunk that could be meant");
     asset.buffers = loadBuffers(root, container.binary, path.parent_path());
     asset.bytes = asset.file.size() + asset.buffers.bytesBeside;
+    if (const std::size_t unpacked = unpack(document, asset.buffers)) {
+      checkStructure(root);  // as it is now
+      asset.bytes += unpacked;
+    }
     checkAmounts(root, asset.bytes);
     asset.model = modelOf(std::move(document));
   }

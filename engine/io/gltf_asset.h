@@ -15,7 +15,7 @@ struct Asset {
   Model model;
   std::vector<std::byte> file;  ///< the bytes that the GLB's own buffer is a view of
   Buffers buffers;
-  std::size_t bytes = 0;  ///< of the file and of those beside it that were read
+  std::size_t bytes = 0;  ///< of the file, of those beside it that were read, and unpacked ones
 };
 
 /// Checks the bytes of a .gltf or .glb: container, JSON nesting and amount, structure, then the data in the

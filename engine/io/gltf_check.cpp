@@ -9,7 +9,9 @@ namespace {
 
 // Required extensions that change nothing but looks, which this program chooses itself, or are understood.
 bool isHarmless(const std::string& extension) {
-  if (extension == "KHR_mesh_quantization") return true;  // understood: see checkMeshes
+  // Understood: see checkMeshes and io/gltf_unpack.h.
+  for (const char* known : {"KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_draco_mesh_compression"})
+    if (extension == known) return true;
   for (const char* prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"})
     if (extension.starts_with(prefix)) return true;
   return false;

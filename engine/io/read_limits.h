@@ -4,7 +4,8 @@
 
 // What reading a file may take, so that a small file cannot ask for much: at its peak kMemoryTimes its bytes
 // and kMemoryFree more, and time in proportion (5 s for 10 MB on one slow core). What would take more is
-// refused as bad input, with the limit named; a file beside a .gltf counts with it. Readers hold to it by
+// refused as bad input, with the limit named; a file beside a .gltf counts with it, a packed mesh
+// with what it unpacks to (io/gltf_unpack.h). Readers hold to it by
 // having no step that costs more than n log n, and by checking amounts before memory is asked for;
 // tests/io/growth_test.cpp measures both.
 namespace vasa {
