@@ -1,6 +1,10 @@
 #include "camera_choice.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
+
+#include "core/log.h"
 
 namespace vasa::cli {
 namespace {
@@ -17,6 +21,11 @@ std::optional<vec3> parseVector(std::string_view text) {
     }
   }
   return text.empty() ? std::optional(value) : std::nullopt;
+}
+
+const std::string& nameOf(const Scene& scene, const Subject& subject) {
+  return subject.vessel.valid() ? scene.network.vessel(subject.vessel).name
+                                : scene.body.skeleton.joints[subject.joint.value].name;
 }
 
 // "x,y,z", "x,y,z/x,y,z" or "x,y,z/x,y,z/angle"
@@ -89,6 +98,10 @@ Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& sce
   if (choice.focus.empty()) return man;
   const auto subject = findSubject(scene, choice.focus);
   if (!subject) return subject.error();
+  if (!subject->others.empty())
+    logWarning(fmt::format("--focus {} is part of {} names; \"{}\" is looked at, not \"{}\"{}", choice.focus,
+                           subject->others.size() + 1, nameOf(scene, *subject), subject->others.front(),
+                           subject->others.size() > 1 ? " nor the others" : ""));
   man.subject_ = *subject;
   const Aabb box = subjectBounds(scene, *subject, restPose(scene.body.skeleton), scene.network.points());
   Camera close = man.still_;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "avoid/sides.h"
+#include "check_text.h"
 #include "commands.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -292,36 +293,6 @@ Report certificateReport(const Avoider& avoider) {
           {"capillaries", false}, {"skin", false}};
 }
 
-std::string asText(const Report& report) {
-  const bool byPaper = report["frames"].front().contains("paper_pairs_before");
-  std::vector<const char*> columns{"frame",         "contacts_before", "contacts_after",
-                                   "depth_after_m", "moved_max_m",     "volume_error",
-                                   "kinks",         "narrow_spans",    "solve_ms"};
-  if (byPaper)
-    columns = {"frame",
-               "exact_pairs_before",
-               "paper_pairs_before",
-               "paper_false_pairs_before",
-               "exact_pairs_after",
-               "paper_pairs_after",
-               "exact_detect_ms",
-               "paper_detect_ms"};
-  const int width = byPaper ? 26 : 17;
-  std::string text;
-  for (const char* name : columns) text += fmt::format("{:>{}}", name, width);
-  text += "\n";
-  for (const Report& frame : report["frames"]) {
-    for (const char* name : columns)
-      text += frame[name].is_number_float() ? fmt::format("{:>{}.6f}", frame[name].get<double>(), width)
-                                            : fmt::format("{:>{}}", frame[name].dump(), width);
-    text += "\n";
-  }
-  text += "\n";
-  for (const auto& [name, value] : report["summary"].items())
-    text += fmt::format("{:<32}{}\n", name, plainText(value));
-  return text;
-}
-
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
@@ -350,7 +321,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   report["summary"]["obstacle_rest_contacts"] = maker.avoider()->restBoneContactCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
   report["summary"]["certificate"] = certificateReport(*maker.avoider());
-  return globals.json ? printJson(report) : printText(asText(report));
+  return globals.json ? printJson(report) : printText(checkText(report));
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 
 #include "completion.h"
 #include "core/atomic_file.h"
+#include "core/nearest_names.h"
 #include "man_page.h"
+#include "output_folder.h"
 #include "report.h"
 
 // vasa help: the commands' own help, topics beside them, and both as manual pages.
@@ -36,8 +38,14 @@ Result<std::string> about(const CLI::App& app, const std::vector<std::string>& s
   for (const std::string& name : subject) {
     const auto below =
         command->get_subcommands([&](const CLI::App* candidate) { return candidate->get_name() == name; });
-    if (below.empty())
-      return Error{Fault::usage, "there is no help on " + name + "; vasa help lists commands and topics"};
+    if (below.empty()) {
+      std::vector<std::string> names;
+      for (const Topic& topic : topics()) names.push_back(topic.name);
+      for (const CLI::App* each : command->get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(each->get_name());
+      return Error{Fault::usage, "there is no help on " + name + "; " +
+                                     didYouMean(name, names, "vasa help lists commands and topics")};
+    }
     above += (above.empty() ? "" : " ") + command->get_name();
     command = below.front();
   }
@@ -55,9 +63,7 @@ Result<void> writeManuals(const CommandText& command, const CommandText& program
 }
 
 Result<void> writeAll(const CommandText& program, const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) return ioError(folder.string() + ": " + failed.message());
+  if (auto made = makeOutputFolder(folder); !made) return made;
   if (auto written = writeManuals(program, program, folder); !written) return written;
   for (const Topic& topic : topics())
     if (auto written = writeFileAtomically(folder / (manName(topic) + ".7"), manPage(topic)); !written)

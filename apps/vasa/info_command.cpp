@@ -136,6 +136,12 @@ Report bodyReport(const Body& body, std::uintmax_t fileBytes, bool joints = fals
   return report;
 }
 
+// Keys end in their unit: of volumes people read millilitres.
+std::string fact(const std::string& key, const Report& value, std::size_t width = 0) {
+  if (key == "volume_m3") return fmt::format("{:<{}} {:.6g}", "volume_ml", width, 1e6 * value.get<double>());
+  return fmt::format("{:<{}} {}", key, width, plainText(value));
+}
+
 // The same facts for a person: a line a fact, a table for lists.
 std::string asText(const Report& report, const std::string& indent = "") {
   std::string text;
@@ -145,14 +151,13 @@ std::string asText(const Report& report, const std::string& indent = "") {
       for (const Report& item : value) {
         std::string line;
         for (const auto& [name, field] : item.items())
-          line += name == "name" ? fmt::format("{:<28}", plainText(field))
-                                 : fmt::format("  {} {}", name, plainText(field));
+          line += name == "name" ? fmt::format("{:<28}", plainText(field)) : "  " + fact(name, field);
         text += indent + "  " + line + "\n";
       }
     } else if (value.is_object()) {
       text += fmt::format("{}{}:\n", indent, key) + asText(value, indent + "  ");
     } else {
-      text += fmt::format("{}{:<18} {}\n", indent, key, plainText(value));
+      text += indent + fact(key, value, 18) + "\n";
     }
   }
   return text;

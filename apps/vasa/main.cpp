@@ -11,7 +11,9 @@
 #include "endings.h"
 #include "help_command.h"
 #include "kept_folders.h"
+#include "report.h"
 #include "scene_options.h"
+#include "usage_error.h"
 
 namespace vasa::cli {
 namespace {
@@ -20,6 +22,9 @@ void addGlobals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print a machine-readable report on standard output, nothing else");
   app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
   app.add_flag("--verbose", globals.verbose, "Say more");
+  app.add_flag_callback(
+      "--no-color", [] { setenv("NO_COLOR", "1", 1); },
+      "Print messages without colours, as with NO_COLOR set");
   app.add_flag("--no-cache", globals.noCache, "Compute everything anew and keep nothing (see vasa prepare)");
   app.add_option("--threads", globals.threads, "Threads to use (default: one a core)")
       ->check(CLI::Range(1u, 1024u));
@@ -46,7 +51,14 @@ int runCommand(Command& command) {
                                         : LogLevel::normal);
   setThreadCount(command.globals.threads);
   if (!command.globals.noCache) setKeptFolders(keptFolders(cacheFolder()));
-  const Result<void> result = runStoppable(command);
+  const Result<void> result = [&] {
+    try {
+      return runStoppable(command);
+    } catch (const ReaderGone&) {
+      // Who read has seen enough, as head does: no fault of anyone's.
+      std::_Exit(128 + SIGPIPE);
+    }
+  }();
   if (result.ok() && std::fflush(stdout) != 0) {
     logError("cannot write to standard output");
     return int(Fault::io);
@@ -64,7 +76,7 @@ int run(int argc, char** argv) {
       "  vasa convert arteries.glb veins.glb -o body.vasa\n"
       "  vasa render --body body.glb --network body.vasa --clip walk -o 'out/{frame:04}.png'\n",
       "vasa"};
-  app.set_version_flag("--version", "vasa " VASA_VERSION);
+  app.set_version_flag("-V,--version", "vasa " VASA_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
   Command command;
@@ -91,8 +103,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : int(Fault::usage);
+    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    logError(usageMessage(app, error));
+    return int(Fault::usage);
   }
   return runCommand(command);
 }

@@ -11,6 +11,7 @@
 #include "core/log.h"
 #include "core/parallel.h"
 #include "gpu/error.h"
+#include "output_folder.h"
 #include "paper_page.h"
 #include "scene/vessel_files.h"
 #include "scene_options.h"
@@ -150,11 +151,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   PaperStudy study;
   if (auto prepared = prepare(globals, options, study); !prepared) return prepared;
-  std::error_code error;
-  std::filesystem::create_directories(options.output, error);
-  if (error)
-    return ioError(options.output + ": cannot make the folder: " + error.message() +
-                   "; choose one that you may write to");
+  if (auto folder = makeOutputFolder(options.output); !folder) return folder;
   auto made = gpu::attempt([&]() -> Result<Made> {
     gpu::Device device({.choice = globals.device});
     return make(study, device);

@@ -9,6 +9,7 @@
 #include "body/retarget.h"
 #include "commands.h"
 #include "core/log.h"
+#include "core/nearest_names.h"
 #include "edit/replay.h"
 #include "io/gltf.h"
 #include "math/similarity.h"
@@ -82,7 +83,12 @@ Result<vec3> placeInBody(const std::optional<Body>& body, const std::string& tex
   for (const std::string& name :
        {text.substr(0, slash), slash == text.npos ? text : text.substr(slash + 1)}) {
     const auto joint = jointNamed(*body, parts, name);
-    if (!joint) return badInput(body->name + " has no joint '" + name + "'; vasa info --joints lists them");
+    if (!joint) {
+      std::vector<std::string> names;
+      for (const Skeleton::Joint& each : body->skeleton.joints) names.push_back(each.name);
+      return badInput(body->name + " has no joint '" + name + "'; " +
+                      didYouMean(name, names, "vasa info --joints lists them"));
+    }
     sum += 0.5f * vec3(body->skeleton.joints[joint->value].restWorld[3]);
   }
   return sum;

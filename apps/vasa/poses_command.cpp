@@ -15,6 +15,7 @@
 #include "gpu/error.h"
 #include "io/png.h"
 #include "loading_line.h"
+#include "output_folder.h"
 #include "pose_pictures.h"
 #include "realism/pose_map.h"
 #include "report.h"
@@ -308,9 +309,7 @@ Result<void> run(const Globals& globals, const Options& options) {
                           hashOf(scene->network.points()));
   const fs::path folder = options.output;
   if (!options.output.empty()) {
-    std::error_code failed;
-    fs::create_directories(folder / "rays", failed);
-    if (failed) return ioError(folder.string() + ": " + failed.message());
+    if (auto made = makeOutputFolder(folder / "rays"); !made) return made;
   }
   PoseWork work(*scene, options, std::move(*rays),
                 fmt::format("{:016x}", hashOf(std::span(std::as_const(settings)))), *shard);

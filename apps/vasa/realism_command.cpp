@@ -7,6 +7,7 @@
 #include "core/log.h"
 #include "core/visible.h"
 #include "loading_line.h"
+#include "output_folder.h"
 #include "realism_page.h"
 #include "report.h"
 #include "scene_options.h"
@@ -125,9 +126,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const Report report = reportOf(*scene, *file, *protocol, study);
   if (!options.output.empty()) {
     const std::filesystem::path out = options.output;
-    std::error_code failed;
-    std::filesystem::create_directories(out, failed);
-    if (failed) return ioError(out.string() + ": " + failed.message());
+    if (auto made = makeOutputFolder(out); !made) return made;
     if (auto written = writeFileAtomically(out / "report.json", report.dump(2) + "\n"); !written)
       return written;
     if (auto written = writeFileAtomically(out / "index.html", realismPage(*protocol, study, report));

@@ -22,6 +22,7 @@
 #include "io/png.h"
 #include "io/video.h"
 #include "loading_line.h"
+#include "output_folder.h"
 #include "render/renderer.h"
 #include "report.h"
 #include "scene_options.h"
@@ -353,11 +354,7 @@ Result<void> makeFolders(const Options& options) {
   for (const std::string& name : {options.output, options.video, options.track}) {
     const auto folder = std::filesystem::path(name).parent_path();
     if (name == "-" || folder.empty() || folder.string().find('{') != std::string::npos) continue;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      return ioError(folder.string() + ": cannot make the folder: " + error.message() +
-                     "; choose one that you may write to");
+    if (auto made = makeOutputFolder(folder); !made) return made;
   }
   return {};
 }
@@ -383,11 +380,38 @@ Result<void> makeTrack(const Globals& globals, const Options& options, const Job
   return {};
 }
 
+// "a.png", "f/000.png to f/033.png and film.mp4"
+std::string filesOf(const Job& job, const Options& options) {
+  std::string files = options.output == "-" ? "standard output" : "";
+  if (job.pattern) {
+    files = job.pattern->of(job.range.first).string();
+    if (job.range.first != job.range.last) files += " to " + job.pattern->of(job.range.last).string();
+  }
+  if (!options.video.empty()) files += (files.empty() ? "" : " and ") + options.video;
+  return files;
+}
+
+std::string summaryOf(const Report& report, const std::string& files) {
+  const auto frames = report["frames"].get<std::uint32_t>(),
+             kept = report["frames_kept"].get<std::uint32_t>();
+  std::string text = fmt::format("{}: {} {} in {:.1f} s", files, frames, frames == 1 ? "picture" : "pictures",
+                                 report["seconds"].get<double>());
+  if (kept > 0) text += fmt::format(", {} kept", kept);
+  if (frames > 1)
+    text += fmt::format("; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint",
+                        1e3 * report["largest_step_m"].get<double>(),
+                        1e3 * report["largest_joint_step_m"].get<double>());
+  return text;
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
   if (options.output.empty() && options.video.empty() && options.track.empty())
     return Error{Fault::usage, "nothing to write; give -o 'frame_{frame:04}.png', --video film.mp4, or both"};
   if (options.output == "-" && globals.json)
     return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
+  if (const auto ending = std::filesystem::path(options.output).extension();
+      !options.output.empty() && options.output != "-" && ending != ".png")
+    return Error{Fault::usage, "-o " + options.output + ": pictures are PNG files; end the name in .png"};
   auto job = prepare(globals, options);
   if (!job) return job.error();
   if (options.output == "-" && job->range.first != job->range.last)
@@ -430,10 +454,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!*film) return film->error();
   const Report& report = **film;
   if (globals.json) return printJson(report);
-  logInfo(fmt::format(
-      "{} frames in {:.1f} s; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint",
-      report["frames"].get<int>(), report["seconds"].get<double>(),
-      1000 * report["largest_step_m"].get<double>(), 1000 * report["largest_joint_step_m"].get<double>()));
+  logInfo(summaryOf(report, filesOf(*job, options)));
   return {};
 }
 

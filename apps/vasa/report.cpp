@@ -11,8 +11,10 @@
 namespace vasa::cli {
 
 Result<void> printBytes(std::span<const std::byte> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) throw ReaderGone{};
     return ioError(std::string("standard output: cannot write: ") + std::strerror(errno));
+  }
   return {};
 }
 

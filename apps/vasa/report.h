@@ -9,6 +9,9 @@ namespace vasa::cli {
 
 using Report = nlohmann::ordered_json;
 
+/// Thrown where the reader of a pipe on standard output has gone: what is left to print nobody wants.
+struct ReaderGone {};
+
 /// Prints a report on standard output, indented, with a line end; fails with io when it cannot be written.
 Result<void> printJson(const Report& report);
 

@@ -7,6 +7,7 @@
 
 #include "body/humanoid_shape.h"
 #include "body/motion_rest.h"
+#include "core/nearest_names.h"
 
 // Rotations are kept relative to a pose in which the motion's skeleton stands (its zero pose, as a rule), in
 // world axes: Q = world · standing⁻¹. A joint that follows has Q_body = Q_motion · A, with A the constant
@@ -110,6 +111,11 @@ Rig rigOf(const Skeleton& skeleton) {
   return rig;
 }
 
+std::string perhaps(const std::string& name, std::span<const std::string> names) {
+  const std::string near = didYouMean(name, names);
+  return near.empty() ? near : "; " + near;
+}
+
 Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& body, const JointMap& map,
                                                const std::string& motionName, const std::string& bodyName) {
   std::vector<std::uint32_t> source(body.names.size(), kNone);
@@ -117,11 +123,13 @@ Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& bod
   for (const auto& [from, to] : map) {
     const auto a = std::ranges::find(motion.names, from), b = std::ranges::find(body.names, to);
     if (a == motion.names.end())
-      return badInput(motionName + " has no joint '" + from + "' that the joint map names");
+      return badInput(motionName + " has no joint '" + from + "' that the joint map names" +
+                      perhaps(from, motion.names));
     told[std::size_t(a - motion.names.begin())] = true;
     if (to.empty()) continue;
     if (b == body.names.end())
-      return badInput(bodyName + " has no joint '" + to + "' that the joint map names");
+      return badInput(bodyName + " has no joint '" + to + "' that the joint map names" +
+                      perhaps(to, body.names));
     source[std::size_t(b - body.names.begin())] = std::uint32_t(a - motion.names.begin());
     taken[std::size_t(b - body.names.begin())] = true;
   }

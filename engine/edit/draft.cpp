@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/nearest_names.h"
 #include "curve/arc_length.h"
 #include "curve/fit.h"
 #include "edit/bump.h"
-#include "edit/names.h"
 
 namespace vasa {
 namespace {
@@ -100,11 +100,7 @@ Result<VesselId> Draft::find(const std::string& name) const {
   std::vector<std::string> names;
   for (const Line& line : lines)
     if (!line.gone) names.push_back(line.label.name);
-  std::string near;
-  for (const std::string& each : nearestNames(name, names, 3))
-    near += (near.empty() ? "" : ", ") + ("\"" + each + "\"");
-  return badInput("no vessel has this name; " + (near.empty() ? std::string("vasa info --vessels lists all")
-                                                              : "is one of these meant: " + near + "?"));
+  return badInput("no vessel has this name; " + didYouMean(name, names, "vasa info --vessels lists all"));
 }
 
 const Draft::Joint* Draft::jointOf(VesselEnd end) const {

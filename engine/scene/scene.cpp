@@ -6,6 +6,7 @@
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "core/log.h"
+#include "core/nearest_names.h"
 #include "core/stage_log.h"
 #include "edit/replay.h"
 #include "io/bvh.h"
@@ -24,16 +25,21 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Index of the first item whose name is `wanted`, or else contains it; -1 if none.
+// Items whose name is `wanted`, or else those that contain it, in their order.
 template <class Items>
-std::ptrdiff_t findByName(const Items& items, const std::string& wanted) {
-  std::ptrdiff_t partial = -1;
-  for (std::size_t i = 0; i < items.size(); ++i) {
+std::vector<std::uint32_t> named(const Items& items, const std::string& wanted) {
+  std::vector<std::uint32_t> partial;
+  for (std::uint32_t i = 0; i < items.size(); ++i) {
     const std::string name = lower(items[i].name);
-    if (name == wanted) return std::ptrdiff_t(i);
-    if (partial < 0 && name.find(wanted) != std::string::npos) partial = std::ptrdiff_t(i);
+    if (name == wanted) return {i};
+    if (name.find(wanted) != std::string::npos) partial.push_back(i);
   }
   return partial;
+}
+
+template <class Items>
+void addNames(const Items& items, std::vector<std::string>& names) {
+  for (const auto& item : items) names.push_back(item.name);
 }
 
 // The first joint with more than one child, as a rule the hips: some rigs have joints above it that stay
@@ -127,8 +133,10 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
   const Clip* found = nullptr;
   bool several = false;
   std::string list;
+  std::vector<std::string> names;
   for (const Clip& clip : body.clips) {
     list += (list.empty() ? "" : ", ") + clip.name;
+    names.push_back(clip.name);
     if (clip.name == name) return &clip;
     if (!clip.name.starts_with(name)) continue;
     several = found != nullptr;
@@ -138,20 +146,31 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
   if (several)
     return badInput(body.name + ": " + quoted +
                     " is the beginning of several names; write more of it: " + list);
-  if (!found)
-    return badInput(body.name + " has no " + quoted +
-                    (list.empty() ? "; it has no clips at all" : "; it has " + list));
+  if (!found) {
+    const std::string near = didYouMean(std::string(name), names);
+    return badInput(body.name + " has no " + quoted + "; " + near + (near.empty() ? "" : " ") +
+                    (list.empty() ? "it has no clips at all" : "It has " + list));
+  }
   return found;
 }
 
 Result<Subject> findSubject(const Scene& scene, std::string_view name) {
   const std::string wanted = lower(name);
-  if (const auto vessel = findByName(scene.network.vessels(), wanted); vessel >= 0)
-    return Subject{{std::uint32_t(vessel)}, {}};
-  if (const auto joint = findByName(scene.body.skeleton.joints, wanted); joint >= 0)
-    return Subject{{}, {std::uint32_t(joint)}};
-  return badInput("no vessel and no joint is named '" + std::string(name) +
-                  "'; vasa info --vessels lists the vessels");
+  const auto& vessels = scene.network.vessels();
+  const auto& joints = scene.body.skeleton.joints;
+  const auto subject = [](const auto& items, const std::vector<std::uint32_t>& found, Subject first) {
+    for (std::size_t i = 1; i < found.size(); ++i) first.others.push_back(items[found[i]].name);
+    return first;
+  };
+  if (const auto found = named(vessels, wanted); !found.empty())
+    return subject(vessels, found, {.vessel = {found.front()}, .joint = {}, .others = {}});
+  if (const auto found = named(joints, wanted); !found.empty())
+    return subject(joints, found, {.vessel = {}, .joint = {found.front()}, .others = {}});
+  std::vector<std::string> names;
+  addNames(vessels, names);
+  addNames(joints, names);
+  return badInput("no vessel and no joint is named '" + std::string(name) + "'; " +
+                  didYouMean(std::string(name), names, "vasa info --vessels lists the vessels"));
 }
 
 Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose,

@@ -32,6 +32,7 @@ Result<const Clip*> findClip(const Body& body, std::string_view name);
 struct Subject {
   VesselId vessel;
   JointId joint;
+  std::vector<std::string> others;  ///< that a part of a name means as well: of several the first is taken
 };
 Result<Subject> findSubject(const Scene& scene, std::string_view name);
 

@@ -71,3 +71,12 @@ TEST_CASE("check refuses a clip and frames that do not exist") {
   CHECK(runProgram({"check", "--clip", "walk", "--fps", "1", "--frames", "30"}).exit == 2);
   CHECK(runProgram({"check", "--clip", "walk", "--fps", "0"}).exit == 2);
 }
+
+TEST_CASE("check ends with a verdict in a sentence, lengths for people in millimetres") {
+  const auto outcome = runProgram({"check", "--clip", "fist", "--frames", "0:2"});
+  CHECK(outcome.exit == 0);
+  CHECK(outcome.out.find("No vessel runs through another in any of 3 frames: certified.") !=
+        std::string::npos);
+  CHECK(outcome.out.find("depth_after_mm") != std::string::npos);
+  CHECK(outcome.out.find("depth_after_m ") == std::string::npos);
+}

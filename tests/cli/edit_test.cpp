@@ -94,10 +94,9 @@ TEST_CASE("refused edits are told with line, vessel, place and rule, and nothing
   const auto refused = runProgram({"edit", bad, "-o", out});
   CHECK(refused.exit == 3);
   CHECK_MESSAGE(
-      refused.err.find(
-          bad +
-          ":2: occlude of \"left femorla artery\" at 0.5: no vessel has this name; is one of these meant: "
-          "\"left femoral artery\"") != std::string::npos,
+      refused.err.find(bad +
+                       ":2: occlude of \"left femorla artery\" at 0.5: no vessel has this name; did you mean "
+                       "\"left femoral artery\"") != std::string::npos,
       refused.err);
   CHECK(!std::filesystem::exists(out));
   const auto going = runProgram({"edit", bad, "-o", out, "--keep-going", "--json"});

@@ -1,5 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
 #include "cli/program.h"
 
 using namespace vasa::test;
@@ -63,6 +67,8 @@ TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
         {"info", "--threads", "-1"},
         {"info", "--threads", "two"},
         {"info", "--seed", "4294967296"},
+        {"render", "-o", "x.jpg"},
+        {"render", "-o", "pictures"},
         {"paper"},
         {"paper", "-o", "never", "--size", "fine"}}) {
     const auto outcome = runProgram(arguments);
@@ -70,4 +76,47 @@ TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
     CHECK(!outcome.err.empty());
     CHECK(outcome.out.empty());
   }
+}
+
+TEST_CASE("words that are not known are answered with those that were likely meant") {
+  const auto refusal = [](const std::vector<std::string>& arguments, int exit = 2) {
+    const auto outcome = runProgram(arguments);
+    CHECK(outcome.exit == exit);
+    return outcome.err;
+  };
+  CHECK(refusal({"rendr"}) == "error: 'rendr' is no command of vasa; did you mean render?\n");
+  CHECK(refusal({"bench", "colide"}) ==
+        "error: 'colide' is no command of vasa bench; did you mean collide?\n");
+  CHECK(refusal({"render", "--clpi", "walk"}) ==
+        "error: vasa render has no option --clpi; did you mean --clip?\n");
+  CHECK(refusal({"check", "--thread=3"}) ==
+        "error: vasa check has no option --thread; did you mean --threads?\n");
+  CHECK(refusal({"help", "bdoies"}).find("did you mean bodies?") != std::string::npos);
+  CHECK(refusal({"check", "--clip", "wlak"}, 3).find("did you mean walk?") != std::string::npos);
+  CHECK(refusal({"render", "--focus", "left femral artery", "-o", "never.png"}, 3)
+            .find("did you mean \"left femoral artery\"") != std::string::npos);
+  CHECK(refusal({"xyzzy"}) == "error: 'xyzzy' is no command of vasa; vasa help lists them\n");
+  CHECK(refusal({}) == "error: give a command; vasa help lists commands and topics\n");
+}
+
+TEST_CASE("no folder is begun at the root of the file system") {
+  const auto outcome = runProgram({"help", "--write", "/no-such-folder-of-vasa/out"});
+  CHECK(outcome.exit == 6);
+  CHECK(outcome.err.find("there is no /no-such-folder-of-vasa; choose one inside a folder that exists") !=
+        std::string::npos);
+  CHECK(!std::filesystem::exists("/no-such-folder-of-vasa"));
+}
+
+TEST_CASE("a reader who has seen enough is told nothing") {
+  CHECK(std::system("(" VASA_PROGRAM
+                    " info --vessels 2> closed_pipe.txt; echo $? >> closed_pipe.txt) | true") == 0);
+  std::ifstream file("closed_pipe.txt");
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  CHECK(all == "141\n");
+  std::filesystem::remove("closed_pipe.txt");
+}
+
+TEST_CASE("colours can be left out, and the version has a short way") {
+  CHECK(runProgram({"-V"}).out == runProgram({"--version"}).out);
+  CHECK(runProgram({"--no-color", "help"}).exit == 0);
 }

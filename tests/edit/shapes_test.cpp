@@ -95,7 +95,7 @@ TEST_CASE("a branch stays where its host is drawn anew without being moved") {
 TEST_CASE("shapes that can not be are refused with line, vessel, place and rule") {
   const Network tree = smallTree();
   CHECK(refusalOf(tree, "\nstenosis trnk 0.1 12 70") ==
-        "t.vedit:2: stenosis of \"trnk\" at 0.1: no vessel has this name; is one of these meant: \"trunk\"?");
+        "t.vedit:2: stenosis of \"trnk\" at 0.1: no vessel has this name; did you mean trunk?");
   CHECK(
       refusalOf(tree, "occlude spleen 0.1").find("no vessel has this name; vasa info --vessels lists all") !=
       std::string::npos);

@@ -73,7 +73,7 @@ TEST_CASE("operations on vessels that can not be are refused with the rule") {
   refuses("branch trunk 0.5 bud 1 20 0.1 0 1", "dx dy dz runs along the vessel, 6 degrees off its course");
   refuses("branch trunk 0.5 bud 1 4 1 0 0",
           "length_mm 4.0 ends within the vessel, whose wall it meets after 4.5 mm");
-  refuses("graft trunk 0.2 fra 0.5 2", "\"fra\": no vessel has this name; is one of these meant: \"far\"?");
+  refuses("graft trunk 0.2 fra 0.5 2", "\"fra\": no vessel has this name; did you mean far?");
   refuses("graft trunk 0.2 TRUNK 0.5 2", "A and B must be two vessels");
   refuses("graft trunk 0.2 far 0.5 2 side", "another vessel is named \"side\" already");
   refuses("cut trunk 0.3 0.5", "\"side\" hangs on what would be cut out; delete it first");

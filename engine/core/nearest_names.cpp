@@ -1,4 +1,4 @@
-#include "edit/names.h"
+#include "core/nearest_names.h"
 
 #include <algorithm>
 #include <cctype>
@@ -64,6 +64,18 @@ std::vector<std::string> nearestNames(const std::string& written, std::span<cons
     if (result.size() < most && std::ranges::find(result, *candidate.name) == result.end())
       result.push_back(*candidate.name);
   return result;
+}
+
+std::string didYouMean(const std::string& written, std::span<const std::string> names,
+                       const std::string& otherwise) {
+  const auto near = nearestNames(written, names, 3);
+  std::string text;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const bool words = near[i].find(' ') != std::string::npos;  // which would run into the sentence
+    text += i == 0 ? "did you mean " : i + 1 == near.size() ? " or " : ", ";
+    text += words ? '"' + near[i] + '"' : near[i];
+  }
+  return near.empty() ? otherwise : text + "?";
 }
 
 }  // namespace vasa

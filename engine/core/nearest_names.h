@@ -11,4 +11,9 @@ namespace vasa {
 std::vector<std::string> nearestNames(const std::string& written, std::span<const std::string> names,
                                       std::size_t most);
 
+/// A question for a message: "did you mean walk?", "did you mean walk, run or "fast run"?"; where nothing is
+/// like it, `otherwise`.
+std::string didYouMean(const std::string& written, std::span<const std::string> names,
+                       const std::string& otherwise = {});
+
 }  // namespace vasa

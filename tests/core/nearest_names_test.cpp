@@ -1,4 +1,4 @@
-#include "edit/names.h"
+#include "core/nearest_names.h"
 
 #include <doctest/doctest.h>
 
@@ -15,4 +15,14 @@ TEST_CASE("the names that were likely meant come nearest first") {
   CHECK(nearestNames("xyz", names, 9).empty());
   CHECK(nearestNames("", names, 9).empty());
   CHECK(nearestNames(std::string(100000, 'a'), names, 9).empty());
+}
+
+TEST_CASE("a message asks for what was likely meant") {
+  const std::vector<std::string> names{"walk", "wave", "run", "squat"};
+  CHECK(didYouMean("wakl", names) == "did you mean walk?");
+  CHECK(didYouMean("wal", names) == "did you mean walk?");
+  CHECK(didYouMean("wav", std::vector<std::string>{"wave", "way", "wavy"}) ==
+        "did you mean wave, way or wavy?");
+  CHECK(didYouMean("xyz", names, "there is walk") == "there is walk");
+  CHECK(didYouMean("xyz", names).empty());
 }

@@ -1,0 +1,62 @@
+#include "usage_error.h"
+
+#include <fmt/format.h>
+
+#include "core/nearest_names.h"
+
+namespace vasa::cli {
+namespace {
+
+std::vector<std::string> commandsOf(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+void addOptionsOf(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+}
+
+/// The innermost command that was understood, and its name with those above it.
+std::pair<const CLI::App*, std::string> understood(const CLI::App& app) {
+  const CLI::App* command = &app;
+  std::string name = app.get_name();
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += " " + command->get_name();
+  }
+  return {command, name};
+}
+
+}  // namespace
+
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = app.remaining(true);
+  const auto [command, name] = understood(app);
+  if (unknown.empty()) {
+    const auto commands = commandsOf(*command);
+    if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
+      return command == &app ? "give a command; vasa help lists commands and topics"
+                             : fmt::format("{} needs a command: {}", name, fmt::join(commands, ", "));
+    return std::string(error.what()) + "; " + name + " --help lists what there is";
+  }
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  std::vector<std::string> names;
+  if (word.starts_with("-")) {
+    addOptionsOf(*command, names);
+    if (command != &app) addOptionsOf(app, names);
+    return fmt::format("{} has no option {}; {}", name, word,
+                       didYouMean(word, names, name + " --help lists them"));
+  }
+  names = commandsOf(*command);
+  if (!names.empty())
+    return fmt::format(
+        "'{}' is no command of {}; {}", word, name,
+        didYouMean(word, names, name == "vasa" ? "vasa help lists them" : name + " --help lists them"));
+  return fmt::format("{} does not know what to do with '{}'; {} --help lists what it takes", name, word,
+                     name);
+}
+
+}  // namespace vasa::cli

@@ -1,0 +1,12 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace vasa::cli {
+
+/// What a command line that cannot be parsed says: a word that is no command, or no option of its command,
+/// with what was likely meant; anything else in the parser's own words.
+/// @param app  after parse() has thrown
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace vasa::cli
