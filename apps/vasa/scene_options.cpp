@@ -90,15 +90,14 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
   if (!options.jointMap.empty()) scene.jointMap = options.jointMap;
   if (!scene.jointMap.empty() && !isMotionFile(scene.clip))
     return Error{Fault::usage, "a joint map belongs to a .bvh file; give one with --clip FILE.bvh"};
-  if (scene.body.empty() != scene.networks.empty())
-    return Error{Fault::usage, scene.body.empty()
-                                   ? "vessels are given but no body; add --body FILE.glb"
-                                   : "a body is given but no vessels; add --network FILE.vasa"};
+  if (!scene.body.empty() && scene.networks.empty())
+    return Error{Fault::usage, "a body is given but no vessels; add --network FILE.vasa"};
+  // What is not given is the built-in human's.
   if (scene.body.empty()) {
     const auto folder = dataFolder();
     if (!folder) return folder.error();
     scene.body = *folder / "human.glb";
-    scene.networks = {*folder / "human.vasa"};
+    if (scene.networks.empty()) scene.networks = {*folder / "human.vasa"};
   }
   return scene;
 }

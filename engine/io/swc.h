@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "core/result.h"
@@ -32,14 +33,21 @@ Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string
 /// The text of a file, read back as the same samples.
 std::string encodeSwc(std::span<const SwcSample> samples, const ImportFrame& frame = {});
 
+/// The kind of vessel that a sample's type tells: 10 artery, 11 vein, 12 portal vein, 13 lymphatic. SWC has
+/// none for vessels, and leaves types from 6 on to its users; those below tell of nerve cells.
+std::optional<VesselKind> kindOfSwcType(std::int64_t type);
+std::int64_t swcTypeOf(VesselKind kind);  ///< 0 (undefined) for other
+
 /// The tree as vessels: at a fork the child that continues best (straightness, then likeness of radius) goes
 /// on in the same line, the others leave its side there, with their own radius. Lines are named "`name` 1",
 /// "`name` 2" ... in the order of the samples that start them. Samples at the place of the one before are
-/// left out, roots without children too.
-Centrelines centrelinesOfSwc(std::span<const SwcSample> samples, const std::string& name, VesselKind kind);
+/// left out, roots without children too. A line is of the kind that its first sample of its own tells, else
+/// of `otherwise`.
+Centrelines centrelinesOfSwc(std::span<const SwcSample> samples, const std::string& name,
+                             VesselKind otherwise);
 
 /// Samples of a network's lines as a forest. Where lines form a loop, an SWC file cannot join its last end:
-/// that stays a tip. The type is 0 (undefined), as SWC has none for vessels.
+/// that stays a tip. Each sample has its line's kind for a type.
 std::vector<SwcSample> swcOfCentrelines(const Centrelines& centrelines);
 
 }  // namespace vasa

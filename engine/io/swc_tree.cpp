@@ -69,7 +69,7 @@ class Tree {
   };
 
   void follow(const Start& start) {
-    Centrelines::Line line{{}, {}, kind_, {}};
+    Centrelines::Line line{{}, {}, kindOfSwcType(samples_[start.first].type).value_or(kind_), {}};
     const auto number = std::uint32_t(out_.lines.size());
     std::vector<Start> branches;
     if (start.fork != kNone)
@@ -152,13 +152,17 @@ class Forest {
     neighbours_[a].push_back(b);
     neighbours_[b].push_back(a);
   }
+  std::uint32_t lineOf(std::uint32_t s) const {
+    return std::uint32_t(std::upper_bound(first_.begin(), first_.end(), s) - first_.begin() - 1);
+  }
   vec4 section(std::uint32_t s) const {
-    const auto line = std::uint32_t(std::upper_bound(first_.begin(), first_.end(), s) - first_.begin() - 1);
+    const std::uint32_t line = lineOf(s);
     return lines_.lines[line].samples[s - first_[line]];
   }
   void put(std::uint32_t s, std::uint32_t parent) {
     const vec4 at = section(s);
-    out_.push_back({std::int64_t(out_.size()) + 1, 0, vec3(at), at.w, parent});
+    out_.push_back(
+        {std::int64_t(out_.size()) + 1, swcTypeOf(lines_.lines[lineOf(s)].kind), vec3(at), at.w, parent});
   }
   // Depth first, so that a line's samples follow one another. A sample that is reached twice closes a loop:
   // its double becomes a tip.
@@ -196,8 +200,23 @@ class Forest {
 
 }  // namespace
 
-Centrelines centrelinesOfSwc(std::span<const SwcSample> samples, const std::string& name, VesselKind kind) {
-  return Tree(samples, name, kind).run();
+// SWC's own types are 0 to 5 (undefined, soma, axon, dendrites, branch), users' begin at 6; in tens they are
+// ours.
+constexpr std::int64_t kFirstType = 10;
+
+std::optional<VesselKind> kindOfSwcType(std::int64_t type) {
+  const std::int64_t kind = type - kFirstType;
+  if (kind < 0 || kind >= std::int64_t(VesselKind::other)) return std::nullopt;
+  return VesselKind(kind);
+}
+
+std::int64_t swcTypeOf(VesselKind kind) {
+  return kind == VesselKind::other ? 0 : kFirstType + std::int64_t(kind);
+}
+
+Centrelines centrelinesOfSwc(std::span<const SwcSample> samples, const std::string& name,
+                             VesselKind otherwise) {
+  return Tree(samples, name, otherwise).run();
 }
 
 std::vector<SwcSample> swcOfCentrelines(const Centrelines& centrelines) { return Forest(centrelines).run(); }

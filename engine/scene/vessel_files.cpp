@@ -150,6 +150,8 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
     const auto samples = readSwc(path, import.frame);
     if (!samples) return samples.error();
     Centrelines traces = centrelinesOfSwc(*samples, name, kind);
+    if (import.kind)
+      for (Centrelines::Line& line : traces.lines) line.kind = kind;
     joinTouchingLines(traces);
     return traces;
   }

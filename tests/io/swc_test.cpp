@@ -94,6 +94,22 @@ TEST_CASE("a network of lines with a loop becomes a forest of all its samples") 
   CHECK(read->size() == 7);
 }
 
+TEST_CASE("kinds of vessels go through SWC's types; others' types tell nothing") {
+  Centrelines lines;
+  for (const VesselKind kind : {VesselKind::artery, VesselKind::vein, VesselKind::portalVein,
+                                VesselKind::lymphatic, VesselKind::other}) {
+    const float x = 10 * float(kind);
+    lines.lines.push_back({"a", {}, kind, {{x, 0, 0, 1}, {x, 5, 0, 1}, {x, 9, 0, 1}}});
+  }
+  const std::string text = encodeSwc(swcOfCentrelines(lines));
+  CHECK(text.find("\n4 11 10 0 0 1 -1\n") != std::string::npos);
+  const Centrelines read = centrelinesOfSwc(*parseSwc(text, "f"), "f", VesselKind::vein);
+  REQUIRE(read.lines.size() == 5);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(read.lines[i].kind == VesselKind(i));
+  CHECK(read.lines[4].kind == VesselKind::vein);
+  for (const int type : {-1, 0, 1, 2, 3, 4, 5, 6, 9, 14, 100}) CHECK(!kindOfSwcType(type));
+}
+
 TEST_CASE("traced brain arteries: every sample is met within 1 % of its radius") {
   VASA_REQUIRE_SHARED_DATA(data);
   for (const auto& entry : std::filesystem::directory_iterator(data / "centerlines/brava")) {
