@@ -16,6 +16,7 @@ function(vasa_install_manuals)
     COMMAND ${CMAKE_COMMAND} -E touch "${out}/done"
     DEPENDS vasa "${PROJECT_SOURCE_DIR}/cmake/compress.cmake" VERBATIM COMMENT "Writing manual pages and completions")
   add_custom_target(manuals ALL DEPENDS "${out}/done")
+  add_dependencies(manuals human)  # whose clips are completed
   install(DIRECTORY "${out}/man1" "${out}/man7" DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
   set(data ${CMAKE_INSTALL_DATADIR})
   install(FILES "${out}/vasa.bash" DESTINATION ${data}/bash-completion/completions RENAME vasa COMPONENT program)

@@ -13,6 +13,7 @@ struct OptionText {
   std::vector<std::string> names;    ///< "-o", "--output"; of a positional its one name, "MESH"
   std::string value;                 ///< what it takes: "TEXT", "UINT"; empty: nothing
   std::vector<std::string> choices;  ///< the values it takes, where they are few
+  bool files = false;                ///< beside these it takes files
   std::string standard;              ///< the default; empty: none
   std::string description;
   bool positional = false, required = false, repeated = false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 // The three shells want the same facts in three shapes. A command is known by its path: "/convert",
@@ -33,9 +34,17 @@ std::vector<std::string> wordsOf(const CommandText& command, const CommandText& 
     for (const auto& option : from.options)
       if (!option.positional) words.insert(words.end(), option.names.begin(), option.names.end());
   };
+  for (const auto& option : command.options)
+    if (option.positional) words.insert(words.end(), option.choices.begin(), option.choices.end());
   add(command);
   if (&command != &program) add(program);
   return words;
+}
+
+// Whether the next word may be one of few, not only an option or a file.
+bool takesWords(const CommandText& command) {
+  const auto few = [](const OptionText& option) { return option.positional && !option.choices.empty(); };
+  return !command.commands.empty() || std::ranges::any_of(command.options, few);
 }
 
 // Within '...' of any of the three shells.
@@ -72,9 +81,10 @@ std::vector<std::string> zshArguments(const CommandText& command) {
 }  // namespace
 
 std::string bashCompletion(const CommandText& program) {
-  std::string paths, values, words;
+  std::string paths, values, words, worded = "''";
   visit(program, [&](const CommandText& command) {
     const std::string path = pathOf(command);
+    if (!path.empty() && takesWords(command)) worded += " | " + path;
     if (!path.empty()) paths += (paths.empty() ? "" : " | ") + path;
     words += fmt::format("    {}) words={} ;;\n", path.empty() ? "''" : path,
                          quoted(joined(wordsOf(command, program))));
@@ -84,10 +94,11 @@ std::string bashCompletion(const CommandText& program) {
       // An option of the program itself is one of every command.
       for (const auto& name : option.names)
         names += (names.empty() ? "" : " | ") + (path.empty() ? "*" : path) + ":" + name;
-      values += option.choices.empty()
-                    ? fmt::format("    {}) return ;;\n", names)
-                    : fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$cur\")); return ;;\n", names,
-                                  quoted(joined(option.choices)));
+      values +=
+          option.choices.empty()
+              ? fmt::format("    {}) return ;;\n", names)
+              : fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$cur\"){}); return ;;\n", names,
+                            quoted(joined(option.choices)), option.files ? " $(compgen -f -- \"$cur\")" : "");
     }
   });
   return "# bash completion of vasa; written by the program itself (vasa help --write)\n"
@@ -105,7 +116,10 @@ std::string bashCompletion(const CommandText& program) {
          "  case $command in\n" +
          words +
          "  esac\n"
-         "  if [[ $cur == -* || -z $command || $command == /bench ]]; then COMPREPLY=($(compgen -W \"$words\" -- \"$cur\")); fi\n"
+         "  case $command in\n    " +
+         worded +
+         ") ;;\n    *) [[ $cur == -* ]] || return ;;\n  esac\n"
+         "  COMPREPLY=($(compgen -W \"$words\" -- \"$cur\"))\n"
          "}\n"
          "complete -o default -F _vasa vasa\n";
 }
@@ -128,6 +142,8 @@ std::string zshCompletion(const CommandText& program) {
       names.push_back(below.path.back());
       for (auto& argument : zshArguments(below)) own.push_back(argument);
     }
+    for (const auto& option : command.options)
+      if (option.positional) names.insert(names.end(), option.choices.begin(), option.choices.end());
     own.push_back(names.empty() ? "'*: :_files'" : quoted(fmt::format("1: :({})", joined(names))));
     out += "    " + command.path.back() + ") _arguments $everywhere \\\n      " + joined(own, " \\\n      ") +
            " ;;\n";
@@ -145,13 +161,18 @@ std::string fishCompletion(const CommandText& program) {
       out += fmt::format("complete -c vasa -n {} -f -a {} -d {}\n", quoted(here), below.path.back(),
                          quoted(below.description));
     for (const auto& option : command.options) {
-      if (option.positional) continue;
+      if (option.positional) {
+        if (!option.choices.empty())
+          out +=
+              fmt::format("complete -c vasa -n {} -f -a {}\n", quoted(here), quoted(joined(option.choices)));
+        continue;
+      }
       out += root ? std::string("complete -c vasa") : fmt::format("complete -c vasa -n {}", quoted(here));
       for (const auto& name : option.names)
         out += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2))
                                       : fmt::format(" -s {}", name.substr(1));
       if (!option.choices.empty())
-        out += fmt::format(" -x -a {}", quoted(joined(option.choices)));
+        out += fmt::format(" {} -a {}", option.files ? "-r" : "-x", quoted(joined(option.choices)));
       else if (!option.value.empty())
         out += " -r";
       out += " -d " + quoted(option.description) + "\n";

@@ -7,9 +7,11 @@
 #include "completion.h"
 #include "core/atomic_file.h"
 #include "core/nearest_names.h"
+#include "io/gltf.h"
 #include "man_page.h"
 #include "output_folder.h"
 #include "report.h"
+#include "scene_options.h"
 
 // vasa help: the commands' own help, topics beside them, and both as manual pages.
 namespace vasa::cli {
@@ -62,6 +64,27 @@ Result<void> writeManuals(const CommandText& command, const CommandText& program
   return {};
 }
 
+// Values that no declaration lists: topics of help, the built-in human's clips where it is there.
+void addKnownValues(CommandText& command, const std::vector<std::string>& words,
+                    const std::vector<std::string>& clips) {
+  for (OptionText& option : command.options) {
+    if (option.names.front() == "TOPIC") option.choices = words;
+    if (option.names.front() == "--clip") option.choices = clips, option.files = true;
+  }
+  for (CommandText& below : command.commands) addKnownValues(below, words, clips);
+}
+
+CommandText withKnownValues(CommandText program) {
+  std::vector<std::string> words, clips;
+  for (const Topic& topic : topics()) words.push_back(topic.name);
+  for (const CommandText& command : program.commands) words.push_back(command.path.back());
+  if (const auto folder = dataFolder())
+    if (const auto human = readBody(*folder / "human.glb"))
+      for (const Clip& clip : human->clips) clips.push_back(clip.name);
+  addKnownValues(program, words, clips);
+  return program;
+}
+
 Result<void> writeAll(const CommandText& program, const std::filesystem::path& folder) {
   if (auto made = makeOutputFolder(folder); !made) return made;
   if (auto written = writeManuals(program, program, folder); !written) return written;
@@ -92,7 +115,7 @@ void addHelp(CLI::App& app, Command& command) {
                   "Write all manual pages and shell completions into this folder");
   sub->callback([options, &app, &command] {
     command.run = [options, &app]() -> Result<void> {
-      if (!options->folder.empty()) return writeAll(describe(app), options->folder);
+      if (!options->folder.empty()) return writeAll(withKnownValues(describe(app)), options->folder);
       const auto text = about(app, options->subject);
       if (!text) return text.error();
       return printText(*text);

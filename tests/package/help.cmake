@@ -14,6 +14,8 @@ expect("^--scale\n$" bash -c "COMP_WORDS=(vasa convert --sc)\nCOMP_CWORD=2\n${co
 expect("^exact paper\n$" bash -c "COMP_WORDS=(vasa bench collide --method '')\nCOMP_CWORD=4\n${complete}")
 expect("^--json\n$" bash -c "COMP_WORDS=(vasa info --js)\nCOMP_CWORD=2\n${complete}")
 expect("^\n$" bash -c "COMP_WORDS=(vasa info --device '')\nCOMP_CWORD=3\n${complete}")
+expect("^walk\n$" bash -c "COMP_WORDS=(vasa render --clip wal)\nCOMP_CWORD=3\n${complete}")
+expect("^formats\n$" bash -c "COMP_WORDS=(vasa help form)\nCOMP_CWORD=2\n${complete}")
 find_program(zsh zsh)
 if(zsh)
   expect("" zsh -n "${MANUALS}/_vasa")
