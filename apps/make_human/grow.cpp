@@ -5,6 +5,7 @@
 
 #include "core/hash.h"
 #include "make_human/growing_tree.h"
+#include "make_human/taper.h"
 
 namespace vasa::human {
 namespace {
@@ -25,6 +26,7 @@ constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, fo
 constexpr float kMuch = 0.9f, kLengthOfStemRadius = 55;
 constexpr float kShareOfHost = 0.62f;
 constexpr float kLongest = 1.6f;        // of a branch, over its ends' distance
+constexpr float kStraightest = 1.025f;  // likewise; straighter ones look like hairs
 constexpr float kFarthestMoved = 1.7f;  // of a branch's point from its middle, over what it was
 
 /// Numbers in [0, 1) that depend on a seed and a counter only.
@@ -244,7 +246,7 @@ struct Grower::State {
     std::vector<vec3> points;
     for (int k = 0; k <= steps; ++k) {
       const float t = float(k) / float(steps), s = 1 - t;
-      const float swing = 0.10f * length * t * t * s * std::sin(2 * kPi * waves * t + phase);
+      const float swing = 0.45f * length * t * t * s * std::sin(2 * kPi * waves * t + phase);
       points.push_back(s * s * s * root + 3 * s * s * t * b1 + 3 * s * t * t * b2 + t * t * t * target +
                        swing * (std::cos(phase) * across + std::sin(phase) * up));
     }
@@ -314,7 +316,8 @@ struct Grower::State {
         return false;  // folded up against something
     }
     const float straight = glm::distance(points.front(), points.back());
-    if (length > kLongest * straight || straight < 8 * branch.tip) return false;
+    if (length > kLongest * straight || length < kStraightest * straight || straight < 8 * branch.tip)
+      return false;
     for (std::size_t k = 1; k < points.size(); ++k) {
       for (const auto& [solid, need] :
            {std::pair(&around_.bones, limits.fromBone), std::pair(&around_.heart, limits.fromHeart)})
@@ -396,7 +399,13 @@ struct Grower::State {
     if (vessel.removed) return;
     std::vector<vec4>& points = vessels_[number].points;
     sweeps_ -= spanCount(points);
-    points = fitted(vessel.branch.points, tree_.murrayRadii(int(number)));
+    std::vector<float> radii = tree_.murrayRadii(int(number));
+    float lastFork = 0;
+    for (std::size_t i = 0; i < vessel.forks.size(); ++i)
+      if (!tree_.vessels()[std::size_t(vessel.children[i])].removed)
+        lastFork = std::max(lastFork, vessel.forks[i]);
+    thinOut(radii, vessel.length(), vessel.length() - lastFork);
+    points = fitted(vessel.branch.points, radii);
     sweeps_ += spanCount(points);
   }
 

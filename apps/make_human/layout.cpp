@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "make_human/taper.h"
 #include "make_human/through.h"
 
 // A row's curve passes through its waypoints and the points of the vessels it leaves and joins.
@@ -35,6 +36,7 @@ class LayoutMaker {
     layout_.around_ = &around;
     stretches_.resize(rows_.size());
     for (const VesselRow& row : rows_) layout_.tolerances_.push_back(toleranceOf(row));
+    findSharedEnds();
   }
 
   Result<VesselLayout> run() {
@@ -45,6 +47,17 @@ class LayoutMaker {
   }
 
  private:
+  /// Ends that hang on a vessel or that a vessel hangs on.
+  void findSharedEnds() {
+    isShared_.assign(rows_.size(), false);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (rows_[i].target.kind != Attachment::Kind::none) isShared_[i] = true;
+      for (const Attachment* at : {&rows_[i].source, &rows_[i].target})
+        if (at->kind == Attachment::Kind::end || at->kind == Attachment::Kind::continues)
+          isShared_[std::size_t(at->vessel)] = true;
+    }
+  }
+
   Course::Anchor anchorOf(const Attachment& attachment) const {
     const Stretch& host = stretches_[std::size_t(attachment.vessel)];
     const float first = float(host.first), last = float(host.last);
@@ -101,12 +114,15 @@ class LayoutMaker {
       Stretch& stretch = stretches_[std::size_t(row)];
       const float length = curve.lengthAt(end) - start;
       const int steps = std::max(4, int(std::ceil(length / kSampleStep)));
+      std::vector<float> radii;
+      for (int k = 0; k <= steps; ++k)
+        radii.push_back(glm::mix(r.startRadius, r.endRadius, float(k) / float(steps)));
+      if (!isShared_[std::size_t(row)]) thinOut(radii, length, length);
       stretch.course = int(courses_.size());
       stretch.first = std::uint32_t(course.points.empty() ? 0 : course.points.size() - 1);
       for (int k = course.points.empty() ? 0 : 1; k <= steps; ++k) {
-        const float t = float(k) / float(steps);
-        course.points.push_back(curve.position(start + t * length));
-        course.radii.push_back(glm::mix(r.startRadius, r.endRadius, t));
+        course.points.push_back(curve.position(start + float(k) / float(steps) * length));
+        course.radii.push_back(radii[std::size_t(k)]);
         course.belowSkin.push_back(r.belowSkin);
       }
       stretch.last = std::uint32_t(course.points.size() - 1);
@@ -131,6 +147,7 @@ class LayoutMaker {
   VesselLayout layout_;
   std::vector<Stretch>& stretches_;
   std::vector<Course>& courses_;
+  std::vector<bool> isShared_;  // a row's end
   Result<void> state_;
 };
 
@@ -165,16 +182,15 @@ std::vector<LaidVessel> VesselLayout::fitted() const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const VesselRow& row = rows_[i];
     const Stretch& stretch = stretches_[i];
-    const std::vector<vec3>& all = courses_[std::size_t(stretch.course)].points;
+    const Course& course = courses_[std::size_t(stretch.course)];
+    const std::vector<vec3>& all = course.points;
     const auto tangent = [&](std::size_t k) {
       return glm::normalize(all[std::min(k + 1, all.size() - 1)] - all[k > 0 ? k - 1 : 0]);
     };
     const std::size_t count = stretch.last - stretch.first + 1;
-    std::vector<float> radii;
-    for (std::size_t k = 0; k < count; ++k)
-      radii.push_back(glm::mix(row.startRadius, row.endRadius, float(k) / float(count - 1)));
     result.push_back({row.label,
-                      fitCourse(std::span(all).subspan(stretch.first, count), radii, tangent(stretch.first),
+                      fitCourse(std::span(all).subspan(stretch.first, count),
+                                std::span(course.radii).subspan(stretch.first, count), tangent(stretch.first),
                                 tangent(stretch.last), tolerances_[i]),
                       row.source, row.target});
   }
@@ -194,8 +210,9 @@ std::vector<vec4> fitCourse(std::span<const vec3> points, std::span<const float>
     const std::vector<vec3> fitted = interpolateAtKnots(knots, startTangent, endTangent);
     result.clear();
     for (std::size_t k = 0; k < fitted.size(); ++k) {
-      // The parameter at which this point has the most weight (Greville).
-      const float u = std::clamp((float(k) - 1) / float(spans), 0.0f, 1.0f);
+      // Where this point belongs to along the curve (Greville): the mean of its three inner knots.
+      const auto knot = [&](float at) { return std::clamp(at / float(spans), 0.0f, 1.0f); };
+      const float u = (knot(float(k) - 2) + knot(float(k) - 1) + knot(float(k))) / 3;
       const float at = u * float(count - 1);
       const std::size_t i = std::min(std::size_t(at), count - 2);
       result.emplace_back(fitted[k], glm::mix(radii[i], radii[i + 1], at - float(i)));
