@@ -188,9 +188,10 @@ std::vector<LaidVessel> VesselLayout::fitted() const {
       return glm::normalize(all[std::min(k + 1, all.size() - 1)] - all[k > 0 ? k - 1 : 0]);
     };
     const std::size_t count = stretch.last - stretch.first + 1;
+    std::vector<float> radii(course.radii.begin() + stretch.first, course.radii.begin() + stretch.last + 1);
+    radii.front() = row.startRadius;  // where it continues another, the course has that one's
     result.push_back({row.label,
-                      fitCourse(std::span(all).subspan(stretch.first, count),
-                                std::span(course.radii).subspan(stretch.first, count), tangent(stretch.first),
+                      fitCourse(std::span(all).subspan(stretch.first, count), radii, tangent(stretch.first),
                                 tangent(stretch.last), tolerances_[i]),
                       row.source, row.target});
   }

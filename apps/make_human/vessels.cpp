@@ -1,5 +1,6 @@
 #include "make_human/vessels.h"
 
+#include "core/log.h"
 #include "make_human/layout.h"
 #include "make_human/rest_faults.h"
 
@@ -64,6 +65,13 @@ Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const
   return {};
 }
 
+/// What the table's vessels could not be freed of.
+void warnOfFaults(const Network& network) {
+  for (const VesselId vessel : restFaults(network))
+    logWarning("vessels.csv: '" + network.vessel(vessel).name +
+               "' kinks or touches another vessel at rest; move its waypoints");
+}
+
 }  // namespace
 
 Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig, const Surroundings& around,
@@ -81,7 +89,9 @@ Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig,
   Grower grower(vessels, *regions, around, options);
   if (const Result<void> pruned = prune(grower, vessels, probe, bodyHeight); !pruned.ok())
     return pruned.error();
-  return joinVessels(grower.finish(), bodyHeight);
+  Result<Network> network = joinVessels(grower.finish(), bodyHeight);
+  if (network.ok()) warnOfFaults(*network);
+  return network;
 }
 
 }  // namespace vasa::human
