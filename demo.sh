@@ -19,8 +19,9 @@ done
 "$vasa" render --clip fist --focus RightHand --camera front --distance 1.2 --size 1280x720 --video "$out/fist.mp4"
 "$vasa" render --size 900x1400 -o "$out/front.png"
 "$vasa" render --size 900x1400 --camera back -o "$out/back.png"
+"$vasa" plate front -o "$out/plate.pdf"
 echo
 "$vasa" profile --clip walk --frames 10
 echo
 echo "pictures and videos:"
-ls -1 "$out"/*.png "$out"/*.mp4
+ls -1 "$out"/*.png "$out"/*.pdf "$out"/*.mp4

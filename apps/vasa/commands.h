@@ -39,6 +39,7 @@ void addInfo(CLI::App& app, Command& command);
 void addMap(CLI::App& app, Command& command);
 void addPaper(CLI::App& app, Command& command);
 void addPlace(CLI::App& app, Command& command);
+void addPlate(CLI::App& app, Command& command);
 void addPoses(CLI::App& app, Command& command);
 void addPrepare(CLI::App& app, Command& command);
 void addProfile(CLI::App& app, Command& command);

@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
   addView(app, command);
   addRealism(app, command);
   addRender(app, command);
+  addPlate(app, command);
   addConvert(app, command);
   addFit(app, command);
   addPlace(app, command);

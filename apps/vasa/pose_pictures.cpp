@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "lettering.h"
+#include "plate/lettering.h"
 #include "render/camera.h"
 #include "render/renderer.h"
 #include "scene/frame.h"
@@ -17,6 +17,7 @@ namespace {
 constexpr float kLetters = 15;  // [pixels]
 constexpr int kRowHeight = 24, kMargin = 20, kPerDegree = 3, kTick = 30;
 
+using plate::Lettering;
 using Align = Lettering::Align;
 
 Image blank(int width, int height) {

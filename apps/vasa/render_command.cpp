@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <iostream>
 #include <set>
@@ -22,7 +23,9 @@
 #include "io/png.h"
 #include "io/video.h"
 #include "loading_line.h"
+#include "look_options.h"
 #include "output_folder.h"
+#include "plate/plate.h"
 #include "render/renderer.h"
 #include "report.h"
 #include "scene_options.h"
@@ -39,6 +42,7 @@ struct Options {
   CapillaryOptions capillaries;
   unsigned samples = 4;
   std::string look;  // empty: as the scene says
+  std::string labels, title, colour = "kind";
   std::string forks = "on";
   std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
@@ -61,38 +65,36 @@ struct Job {
   Shard shard;
   std::optional<FramePattern> pattern;  // none: raw PNG to standard output
   std::uint64_t runHash = 0;            // tells this run's pictures from another's
+  PictureSize size;                     // of what is written
+  std::optional<plate::PlateStyle>
+      page;  // labels beside the picture, which is smaller then than what is written
+  plate::VesselColours colours;
 };
 
-Result<void> hide(const std::string& list, LookChoice& look) {
-  std::stringstream words(list);
-  for (std::string word; std::getline(words, word, ',');) {
-    if (word == "skin")
-      look.skin = false;
-    else if (word == "bones")
-      look.bones = false;
-    else if (word == "organs")
-      look.organs = false;
-    else if (word == "arteries")
-      look.arteries = false;
-    else if (word == "veins")
-      look.veins = false;
-    else
-      return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
-  }
-  return {};
+constexpr float kScreenDpi = 96;  // of a picture of 1280 by 720 with labels: letters of 11 pixels
+
+// A picture with labels is a page that is held as far away as a screen.
+plate::PlateStyle pageOf(const Options& options, PictureSize size, const Look& look) {
+  const float dpi = kScreenDpi * std::sqrt(float(size.width) * float(size.height) / (1280.0f * 720.0f));
+  plate::PlateStyle page;
+  page.page = vec2(size.width, size.height) * 25.4f / dpi;
+  page.margin = 5;
+  page.labels = options.labels;
+  page.title = options.title;
+  page.paper = vec3(look.background);
+  page.wideColumns = true;
+  return page;
 }
 
-Look lookOf(const LookChoice& choice, bool transparent) {
-  Look look = lookNamed(choice.preset).value_or(Look{});
-  if (choice.background) look.background = *choice.background;
-  look.transparent = transparent;
-  look.drawSkin = choice.skin;
-  look.drawBones = choice.bones;
-  look.drawHeart = look.drawOther = choice.organs;
-  look.drawArteries = choice.arteries;
-  look.drawVeins = choice.veins;
-  if (choice.skinOpacity) look.skinOpacity = *choice.skinOpacity;
-  return look;
+Result<void> checkLabels(const Options& options) {
+  if (!options.title.empty() && options.labels.empty())
+    return Error{Fault::usage, "--title belongs to a picture with --labels"};
+  if (options.labels.empty()) return {};
+  if (!options.video.empty() || options.transparent || options.highlightContacts)
+    return Error{
+        Fault::usage,
+        "--labels makes stills on a page: leave out --video, --transparent and --highlight-contacts"};
+  return {};
 }
 
 FrameOptions frameOptions(const Options& options) {
@@ -140,6 +142,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   if (!quads) return quads.error();
   const auto shard = parseShard(options.shard);
   if (!shard) return shard.error();
+  if (auto fine = checkLabels(options); !fine) return fine.error();
   const FilesRead files;
   auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
@@ -147,10 +150,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   job.choice.capillaries = chooseCapillaries(job.choice.capillaries, options.capillaries);
   const auto cameraChoice = chooseCamera(job.choice.camera, options.camera);
   if (!cameraChoice) return cameraChoice.error();
-  if (!options.look.empty()) job.choice.look.preset = options.look;
-  if (!lookNamed(job.choice.look.preset))
-    return Error{Fault::usage, "--look " + job.choice.look.preset + ": choose atlas, clinical or xray"};
-  if (auto hidden = hide(options.hide, job.choice.look); !hidden) return hidden.error();
+  if (auto chosen = chooseLook(job.choice.look, options.look, options.hide); !chosen) return chosen.error();
   LoadingLine line;
   auto scene = loadScene(job.choice, line.told());
   if (!scene) return scene.error();
@@ -175,13 +175,29 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
     if (!pattern) return pattern.error();
     job.pattern = std::move(*pattern);
   }
-  const float aspect = float(size->width) / float(size->height);
+  job.look = lookOf(job.choice.look);
+  job.look.transparent = options.transparent;
+  job.size = *size;
+  float aspect = float(size->width) / float(size->height);
+  vec2 pixels(size->width, size->height);
+  if (!options.labels.empty()) {
+    if (range->first != range->last)
+      return Error{Fault::usage,
+                   "--labels draws stills: labels would jump in a film; choose one with --frames N"};
+    job.page = pageOf(options, *size, job.look);
+    const vec2 room = plate::widestPicture(*job.page);
+    aspect = room.x / room.y;
+    pixels = glm::max(glm::round(room * float(size->width) / job.page->page.x), vec2(1));
+  }
+  const std::vector<char> all(job.scene.network.vessels().size(), 1);
+  auto colours = plate::colourVessels(job.scene, *plate::colouringNamed(options.colour), all);
+  if (!colours) return colours.error();
+  job.colours = std::move(*colours);
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
   if (!camera) return camera.error();
   job.camera = std::move(*camera);
-  job.look = lookOf(job.choice.look, options.transparent);
-  job.render = {.width = size->width,
-                .height = size->height,
+  job.render = {.width = std::uint32_t(pixels.x),
+                .height = std::uint32_t(pixels.y),
                 .samples = options.samples,
                 .shape = {quads->around, quads->along},
                 .pixelError = quads->pixelError,
@@ -248,18 +264,44 @@ class Film {
     }
     maker_->make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
     noteStep(frame);
-    if (options_.highlightContacts) highlightContacts();
+    if (options_.highlightContacts)
+      highlightContacts();
+    else if (options_.colour != "kind")
+      renderer_.setSweepColours(job_.colours.spans);
+    const Camera camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points());
     renderer_.draw({.points = maker_->points(),
                     .knotFrames = maker_->knotFrames(),
                     .jointMatrices = maker_->jointMatrices(),
-                    .camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points()),
+                    .camera = camera,
                     .look = job_.look,
                     .heartScale = maker_->heartScale()});
     ++drawn;
     if (auto written = finishWriting(); !written) return written;
+    Image picture = renderer_.readBack();
+    if (job_.page) {
+      auto labelled = withLabels(std::move(picture), camera);
+      if (!labelled) return labelled.error();
+      picture = std::move(*labelled);
+    }
     writing_ = std::async(std::launch::async,
-                          [this, frame, picture = renderer_.readBack()] { return write(frame, picture); });
+                          [this, frame, done = std::move(picture)] { return write(frame, done); });
     return {};
+  }
+
+  Result<Image> withLabels(Image picture, const Camera& camera) const {
+    const auto type = plate::Typesetter::load();
+    if (!type) return type.error();
+    const std::vector<char> all(job_.scene.network.vessels().size(), 1);
+    const plate::PlateStyle& page = *job_.page;
+    const auto plan =
+        plate::planPlate({job_.scene, *maker_, job_.table, job_.scene.body.meshes, all, job_.look}, page,
+                         *type, camera, float(picture.width) / float(picture.height));
+    if (!plan) return plan.error();
+    for (const std::string& name : plan->unseen)
+      logWarning("'" + name + "' is not seen in this picture and gets no label");
+    const plate::Sheet sheet = plate::plateSheet(
+        *plan, page, *type, std::make_shared<const Image>(std::move(picture)), job_.colours);
+    return plate::sheetImage(sheet, uvec2(job_.size.width, job_.size.height));
   }
 
   // Grey vessels; yellow where they ran through one another, red where they still do.
@@ -438,8 +480,8 @@ Result<void> run(const Globals& globals, const Options& options) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return Report{{"frames", work.drawn},
                   {"frames_kept", work.kept},
-                  {"width", job->render.width},
-                  {"height", job->render.height},
+                  {"width", job->size.width},
+                  {"height", job->size.height},
                   {"sweeps", job->scene.network.sweepCount()},
                   {"seconds", seconds},
                   {"largest_step_m", work.largestStep},
@@ -493,11 +535,17 @@ void addRender(CLI::App& app, Command& command) {
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
   sub->add_flag("--beat", options->beat, "The heart beats as the clip goes on");
+  sub->add_option("--look", options->look, kLookHelp);
+  sub->add_option("--hide", options->hide, kHideHelp);
   sub->add_option(
-      "--look", options->look,
-      "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas");
-  sub->add_option("--hide", options->hide,
-                  "Leave out skin, bones, organs, arteries, veins (a list with commas)");
+      "--labels", options->labels,
+      "Names beside the figure: main (large vessels), all-visible, or names with commas between them; for "
+      "stills (vasa help plate)");
+  sub->add_option("--title", options->title, "Title of a picture with labels");
+  sub->add_option("--colour", options->colour,
+                  "What colours of vessels stand for: kind, blood, region or radius")
+      ->check(CLI::IsMember({"kind", "blood", "region", "radius"}))
+      ->capture_default_str();
   sub->add_option("--shard", options->shard,
                   "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume,

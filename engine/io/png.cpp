@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 #include "core/atomic_file.h"
@@ -36,6 +37,10 @@ bool encodeRows(png_structp png, png_infop info, const Image& image, const PngOp
                options.alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (options.dotsPerInch > 0) {
+    const auto perMetre = png_uint_32(std::lround(options.dotsPerInch / 0.0254f));
+    png_set_pHYs(png, info, perMetre, perMetre, PNG_RESOLUTION_METER);
+  }
   if (!options.comment.empty()) {
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;

@@ -11,9 +11,10 @@
 namespace vasa {
 
 struct PngOptions {
-  bool alpha = false;   ///< keep the alpha channel; otherwise it is dropped
-  int compression = 1;  ///< zlib level 0..9; 1 is fast
-  std::string comment;  ///< kept in the file (a tEXt chunk "Comment"); empty: none
+  bool alpha = false;     ///< keep the alpha channel; otherwise it is dropped
+  int compression = 1;    ///< zlib level 0..9; 1 is fast
+  std::string comment;    ///< kept in the file (a tEXt chunk "Comment"); empty: none
+  float dotsPerInch = 0;  ///< at which it is meant to be printed; 0: not said
 };
 
 /// A PNG file's bytes. The same image gives the same bytes.

@@ -1,4 +1,4 @@
-#include "lettering.h"
+#include "plate/lettering.h"
 
 #include <ft2build.h>
 
@@ -7,12 +7,22 @@
 
 #include "viewer/font.h"
 
-namespace vasa::cli {
+namespace vasa::plate {
 namespace {
 
 constexpr int kSubpixels = 64;  // FreeType counts in these
 
-// The code points of valid UTF-8; a broken byte is a question mark.
+int loadFlags(Lettering::Style style) { return style.hinted ? FT_LOAD_DEFAULT : FT_LOAD_NO_HINTING; }
+
+// Beside the plain face, as Debian has them.
+std::string fileOf(Lettering::Style style) {
+  std::string file = kFontFile;
+  if (style.bold) file.insert(file.rfind('.'), "-Bold");
+  return file;
+}
+
+}  // namespace
+
 std::u32string codePoints(std::string_view text) {
   std::u32string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -30,8 +40,6 @@ std::u32string codePoints(std::string_view text) {
   return out;
 }
 
-}  // namespace
-
 struct Lettering::Face {
   FT_Library library = nullptr;
   FT_Face face = nullptr;
@@ -44,22 +52,31 @@ struct Lettering::Face {
   }
 };
 
-Lettering::Lettering(std::unique_ptr<Face> face) : face_(std::move(face)) {}
+Lettering::Lettering(std::unique_ptr<Face> face, std::string file, Style style)
+    : face_(std::move(face)), file_(std::move(file)), style_(style) {}
 Lettering::Lettering(Lettering&&) noexcept = default;
 Lettering::~Lettering() = default;
 
-Result<Lettering> Lettering::load(float size) {
+Result<Lettering> Lettering::load(float size, Style style) {
   auto face = std::make_unique<Face>();
-  if (FT_Init_FreeType(&face->library) != 0 || FT_New_Face(face->library, kFontFile, 0, &face->face) != 0 ||
+  std::string file = fileOf(style);
+  if (FT_Init_FreeType(&face->library) != 0 ||
+      FT_New_Face(face->library, file.c_str(), 0, &face->face) != 0 ||
       FT_Set_Char_Size(face->face, 0, FT_F26Dot6(std::lround(size * kSubpixels)), 72, 72) != 0)
-    return ioError(std::string(kFontFile) + ": cannot be read; install Debian's fonts-dejavu-core");
-  return Lettering(std::move(face));
+    return ioError(file + ": cannot be read; install Debian's fonts-dejavu-core");
+  return Lettering(std::move(face), std::move(file), style);
+}
+
+Lettering::Glyph Lettering::glyphOf(char32_t code) const {
+  const FT_UInt number = FT_Get_Char_Index(face_->face, code);
+  if (FT_Load_Glyph(face_->face, number, loadFlags(style_)) != 0) return {};
+  return {number, float(face_->face->glyph->advance.x) / kSubpixels};
 }
 
 int Lettering::widthOf(std::string_view utf8) const {
   FT_Pos width = 0;
   for (const char32_t code : codePoints(utf8))
-    if (FT_Load_Char(face_->face, code, FT_LOAD_DEFAULT) == 0) width += face_->face->glyph->advance.x;
+    if (FT_Load_Char(face_->face, code, loadFlags(style_)) == 0) width += face_->face->glyph->advance.x;
   return int(width / kSubpixels);
 }
 
@@ -67,7 +84,7 @@ void Lettering::write(Image& picture, int x, int y, std::string_view utf8, Align
   FT_Pos pen = FT_Pos(x) * kSubpixels;
   if (align != Align::left) pen -= FT_Pos(widthOf(utf8)) * kSubpixels / (align == Align::centre ? 2 : 1);
   for (const char32_t code : codePoints(utf8)) {
-    if (FT_Load_Char(face_->face, code, FT_LOAD_RENDER) != 0) continue;
+    if (FT_Load_Char(face_->face, code, FT_LOAD_RENDER | loadFlags(style_)) != 0) continue;
     const FT_GlyphSlot glyph = face_->face->glyph;
     const int left = int(pen / kSubpixels) + glyph->bitmap_left, top = y - glyph->bitmap_top;
     for (int row = 0; row < int(glyph->bitmap.rows); ++row)
@@ -83,4 +100,4 @@ void Lettering::write(Image& picture, int x, int y, std::string_view utf8, Align
   }
 }
 
-}  // namespace vasa::cli
+}  // namespace vasa::plate

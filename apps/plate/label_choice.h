@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "network/network.h"
+#include "plate/seen_map.h"
+
+namespace vasa::plate {
+
+/// A text for a picture and the places that it may point at.
+struct VesselLabel {
+  std::string text;               ///< "Femoral artery"; without its side where the other side has the same
+  std::vector<VesselId> vessels;  ///< that it names: one, a pair, or the pieces of one
+  std::vector<vec2> anchors;      ///< [cells of the map] on the vessel where it is seen, the best first
+  float area = 0;                 ///< [cells] that its vessels show
+  float length = 0;               ///< [cells] of their centre lines that are seen
+};
+
+struct LabelChoice {
+  std::vector<VesselLabel> labels;  ///< the largest in the picture first
+  std::vector<std::string> unseen;  ///< asked for by name, but not seen in the picture
+};
+
+/// Which vessels get a label. "main": the large ones, by the area that they show; "all-visible": all that are
+/// seen; else names with commas between them, as findSubject() of scene/scene.h reads vessels' names
+/// ("femoral artery" also means a pair of them).
+struct LabelWishes {
+  std::string which = "main";
+  std::size_t most = 40;    ///< of "main" and "all-visible"
+  float leastLength = 6;    ///< [cells] of a main vessel, seen
+  float leastWidth = 1.5f;  ///< [cells] of a main vessel, on average
+  float margin = 0;         ///< [cells] along the picture's edges where no anchor lies
+};
+
+/// @param points  of the pose that the map shows, as Network::points()
+/// @param seen    vessels by their index
+/// Fails with badInput where a name is no vessel's.
+Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> points, const SeenMap& seen,
+                                 const LabelWishes& wishes);
+
+/// What a label calls a vessel: its name with a capital; "left" and "right" are left out where a vessel of
+/// the same name lies mirrored on the other side (kidneys' arteries, not the heart's).
+std::string labelText(const Network& network, VesselId vessel);
+
+}  // namespace vasa::plate

@@ -1,0 +1,376 @@
+#include "plate/plate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "body/mesh_role.h"
+#include "body/skinning.h"
+#include "surface/surface_mesh.h"
+
+namespace vasa::plate {
+namespace {
+
+constexpr float kPictureMargin = 1.03f;  // of what the camera was fitted to
+constexpr float kCell = 0.3f;            // [mm] of paper that a cell of the map takes
+constexpr float kFade = 0.06f;           // of the picture's longer side
+constexpr float kFadedShare = 0.75f;     // of the fade: where no label points
+constexpr float kOpaque = 0.5f;          // what is drawn with less lets labels point through
+constexpr float kFirstColumn = 0.24f;    // of the page's width, before it is known how wide labels are
+constexpr float kWidestColumn = 0.27f;
+constexpr float kWidestText = 21;    // ems of a label
+constexpr float kLine = 1.22f;       // from one line of a text to the next, in its ems
+constexpr float kTextGap = 1.2f;     // [mm] between a text and its line
+constexpr float kStub = 2.2f;        // [mm] level part of a line, beside its text
+constexpr float kColumnGap = 3.0f;   // [mm] between the lines' level parts and the picture
+constexpr float kLabelGap = 1.0f;    // [mm] between texts
+constexpr float kScaleMost = 0.28f;  // of the picture's width
+constexpr SweepShape kMapShape{8, 4};
+
+bool isDrawn(const Look& look, MeshRole role) {
+  switch (role) {
+    case MeshRole::bones:
+      return look.drawBones && look.boneOpacity > kOpaque;
+    case MeshRole::heart:
+      return look.drawHeart && look.heartOpacity > kOpaque;
+    case MeshRole::skin:
+      return look.drawSkin && look.skinOpacity > kOpaque;
+    case MeshRole::organs:
+    case MeshRole::other:
+      return look.drawOther && look.otherOpacity > kOpaque;
+  }
+  return true;
+}
+
+bool isDrawn(const Look& look, VesselKind kind) {
+  switch (kind) {
+    case VesselKind::artery:
+      return look.drawArteries;
+    case VesselKind::vein:
+    case VesselKind::portalVein:
+      return look.drawVeins;
+    case VesselKind::lymphatic:
+    case VesselKind::other:
+      break;
+  }
+  return look.drawOtherVessels;
+}
+
+// Vessels by their index, what hides them by the number behind the last.
+SeenMap mapOf(const PlateScene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height) {
+  SeenMap map(camera, width, height);
+  const auto solid = std::uint32_t(scene.scene.network.vessels().size());
+  const std::vector<mat4> matrices(scene.frame.jointMatrices().begin(), scene.frame.jointMatrices().end());
+  std::vector<vec3> positions;
+  for (const SkinnedMesh& mesh : scene.meshes) {
+    if (!isDrawn(scene.look, roleNamed(mesh.name))) continue;
+    skinPositions(mesh, matrices, positions);
+    map.draw(positions, mesh.mesh.triangles, [&](std::uint32_t) { return solid; });
+  }
+  const SurfaceMesh surface =
+      surfaceMesh({scene.table, scene.frame.points(), scene.frame.knotFrames()}, kMapShape);
+  map.draw(surface.positions, surface.triangles, [&](std::uint32_t t) {
+    const std::uint32_t vessel = surface.vesselOfVertex[surface.triangles[t].x];
+    const bool drawn =
+        scene.vessels[vessel] && isDrawn(scene.look, scene.scene.network.vessels()[vessel].kind);
+    return drawn ? vessel : SeenMap::kNothing;
+  });
+  return map;
+}
+
+// Along which edges of the picture there is something of the body, its skin included.
+void findCutEdges(const PlateScene& scene, const SeenMap& seen, bool (&cut)[4]) {
+  const std::vector<mat4> matrices(scene.frame.jointMatrices().begin(), scene.frame.jointMatrices().end());
+  const vec2 size(seen.width(), seen.height());
+  std::vector<vec3> positions;
+  for (const SkinnedMesh& mesh : scene.meshes) {
+    skinPositions(mesh, matrices, positions);
+    for (const uvec3& t : mesh.mesh.triangles) {
+      vec2 low(1e9f), high(-1e9f), cell;
+      for (int k = 0; k < 3; ++k)
+        if (seen.project(positions[t[k]], cell)) low = glm::min(low, cell), high = glm::max(high, cell);
+      if (high.x < 0 || high.y < 0 || low.x > size.x || low.y > size.y) continue;
+      cut[0] |= low.x<0, cut[1] |= high.x> size.x, cut[2] |= low.y<0, cut[3] |= high.y> size.y;
+    }
+  }
+}
+
+struct PageLayout {
+  float top, bottom;  // of picture and labels
+};
+
+PageLayout layoutOf(const PlateStyle& style) {
+  PageLayout page{style.margin, style.page.y - style.margin};
+  if (!style.title.empty()) page.top += 9;
+  if (!style.subtitle.empty()) page.top += 6;
+  if (!style.title.empty() || !style.subtitle.empty()) page.top += 3;
+  if (style.legend || style.scale || !style.note.empty()) page.bottom -= 13;
+  return page;
+}
+
+float widestColumn(const PlateStyle& style) {
+  return std::min(kWidestColumn * style.page.x, kWidestText * style.letters);
+}
+
+// Between the columns and the picture.
+float besidePicture(const PlateStyle& style) {
+  return style.labels.empty() ? 0 : kTextGap + kStub + kColumnGap;
+}
+
+// The largest picture of an aspect between two columns.
+void placePicture(PlatePlan& plan, const PlateStyle& style, const PageLayout& page, float aspect,
+                  float columns[2]) {
+  const float beside = besidePicture(style);
+  const float room = style.page.x - 2 * style.margin - columns[0] - columns[1] - 2 * beside;
+  const float width = std::min(room, aspect * (page.bottom - page.top));
+  plan.pictureSize = vec2(width, width / aspect);
+  // Picture and columns stand in the middle of the page together.
+  plan.pictureAt.x = style.margin + columns[0] + beside + 0.5f * (room - width);
+  plan.pictureAt.y = page.top + 0.5f * (page.bottom - page.top - plan.pictureSize.y);
+  plan.columns = {.left = plan.pictureAt.x - kColumnGap,
+                  .right = plan.pictureAt.x + width + kColumnGap,
+                  .top = page.top,
+                  .bottom = page.bottom,
+                  .gap = kLabelGap,
+                  .clearance = 1.0f};
+}
+
+vec3 inkOn(vec3 paper) {
+  return glm::dot(paper, vec3(0.3f, 0.6f, 0.1f)) > 0.5f ? vec3(0.11f, 0.13f, 0.16f)
+                                                        : vec3(0.90f, 0.92f, 0.94f);
+}
+
+}  // namespace
+
+FittedCamera cameraOnto(std::span<const vec3> places, vec3 towards, vec3 up, std::span<const vec3> drawn) {
+  Camera camera{.position = glm::normalize(towards), .target = vec3(0), .up = up};
+  const mat3 axes = cameraAxes(camera);
+  Aabb box, all;
+  for (const vec3& place : places) box.add(place * axes);
+  for (const vec3& place : drawn) all.add(place * axes);
+  all.add(box);
+  const vec3 middle = axes * box.centre();
+  const vec2 extent = glm::max(kPictureMargin * vec2(box.extent()), vec2(0.01f));
+  const float depth = all.high.z - box.centre().z;
+  camera.nearDistance = 0.02f;
+  camera.target = middle;
+  camera.position = middle + (depth + 0.1f) * axes[2];
+  camera.orthographicHeight = extent.y;
+  camera.farDistance = all.extent().z + 0.5f;
+  return {camera, extent.x / extent.y};
+}
+
+vec2 widestPicture(const PlateStyle& style) {
+  const PageLayout page = layoutOf(style);
+  const float column = style.labels.empty() ? 0 : widestColumn(style) + besidePicture(style);
+  return glm::max(vec2(style.page.x - 2 * (style.margin + column), page.bottom - page.top), vec2(1));
+}
+
+Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, const Typesetter& type,
+                            const Camera& camera, float aspect) {
+  PlatePlan plan;
+  plan.camera = camera;
+  const PageLayout page = layoutOf(style);
+  float columns[2] = {0, 0};
+  if (!style.labels.empty())
+    columns[0] = columns[1] = style.wideColumns ? widestColumn(style) : kFirstColumn * style.page.x;
+  placePicture(plan, style, page, aspect, columns);
+  if (plan.pictureSize.x < 10 || plan.pictureSize.y < 10)
+    return Error{Fault::usage,
+                 fmt::format("a page of {:g} x {:g} mm has no room for a picture between its labels; "
+                             "choose a larger one",
+                             style.page.x, style.page.y)};
+  const auto width = std::uint32_t(std::ceil(plan.pictureSize.x / kCell));
+  const auto height = std::uint32_t(std::ceil(plan.pictureSize.y / kCell));
+  const SeenMap seen = mapOf(scene, camera, width, height);
+  findCutEdges(scene, seen, plan.cutAt);
+  plan.millimetresAMetre = seen.cellsAMetre(camera.target) * plan.pictureSize.y / float(height);
+  if (style.labels.empty()) return plan;
+
+  const float lineHeight = kLine * style.letters;
+  LabelWishes wishes{.which = style.labels};
+  wishes.leastLength = 5 / kCell;
+  wishes.leastWidth = 0.6f / kCell;
+  wishes.margin = std::ranges::find(plan.cutAt, true) != std::end(plan.cutAt)
+                      ? kFade * kFadedShare * float(std::max(width, height))
+                      : 0;
+  wishes.most = std::size_t(2 * (page.bottom - page.top) / (lineHeight + kLabelGap));
+  if (style.labels == "main") wishes.most = wishes.most * 2 / 5;
+  auto choice = chooseLabels(scene.scene.network, scene.frame.points(), seen, wishes);
+  if (!choice) return choice.error();
+  plan.labels = std::move(choice->labels);
+  plan.unseen = std::move(choice->unseen);
+
+  float widest = 0;
+  for (const VesselLabel& label : plan.labels) {
+    plan.lines.push_back(type.wrap(label.text, style.letters, widestColumn(style)));
+    for (const std::string& line : plan.lines.back())
+      widest = std::max(widest, type.widthOf(line, style.letters));
+  }
+  if (!style.wideColumns) columns[0] = columns[1] = widest;
+  placePicture(plan, style, page, aspect, columns);
+  plan.millimetresAMetre = seen.cellsAMetre(camera.target) * plan.pictureSize.y / float(height);
+  std::vector<LabelWish> texts;
+  for (std::size_t i = 0; i < plan.labels.size(); ++i) {
+    LabelWish wish{vec2(widest, lineHeight * float(plan.lines[i].size())), {}};
+    for (const vec2& cell : plan.labels[i].anchors)
+      wish.anchors.push_back(plan.pictureAt + cell / vec2(width, height) * plan.pictureSize);
+    texts.push_back(std::move(wish));
+  }
+  plan.layout = layOutLabels(texts, plan.columns);
+  return plan;
+}
+
+float scaleLength(float millimetresAMetre, float mostMillimetres) {
+  const float most = mostMillimetres / millimetresAMetre;
+  const float ten = std::pow(10.0f, std::floor(std::log10(most)));
+  for (const float times : {5.0f, 2.0f})
+    if (times * ten <= most) return times * ten;
+  return ten;
+}
+
+void fadeEdges(Image& picture, const bool (&cut)[4], vec3 paper) {
+  const float reach = kFade * float(std::max(picture.width, picture.height));
+  for (std::uint32_t y = 0; y < picture.height; ++y)
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      const float from[4] = {float(x) + 0.5f, float(picture.width - x) - 0.5f, float(y) + 0.5f,
+                             float(picture.height - y) - 0.5f};
+      float share = 1;
+      for (int edge = 0; edge < 4; ++edge)
+        if (cut[edge]) share *= glm::smoothstep(0.0f, reach, from[edge]);
+      if (share >= 1) continue;
+      std::uint8_t* pixel = &picture.rgba[4 * (std::size_t(y) * picture.width + x)];
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = std::uint8_t(std::lround(glm::mix(255 * paper[c], float(pixel[c]), share)));
+    }
+}
+
+namespace {
+
+std::string lengthText(float metres) {
+  if (metres >= 1) return fmt::format("{:g} m", metres);
+  if (metres >= 0.01f) return fmt::format("{:g} cm", std::round(metres * 1e4f) / 100);
+  return fmt::format("{:g} mm", std::round(metres * 1e5f) / 100);
+}
+
+void drawLabels(Sheet& sheet, const PlatePlan& plan, const PlateStyle& style) {
+  const vec3 ink = inkOn(style.paper);
+  const float lineHeight = kLine * style.letters;
+  std::vector<SheetItem> halos, leaders, dots, texts;
+  for (const PlacedLabel& placed : plan.layout.placed) {
+    const VesselLabel& label = plan.labels[placed.label];
+    const float out = placed.right ? 1.0f : -1.0f;
+    const std::vector<vec2> line{placed.port + vec2(out * kStub, 0), placed.port, placed.anchor};
+    // A rim of paper keeps a line visible over what it crosses.
+    halos.push_back(SheetLine{{placed.port, placed.anchor}, 0.55f, style.paper, "halo", {}});
+    leaders.push_back(SheetLine{line, 0.18f, ink, "leader", label.text});
+    dots.push_back(SheetDisc{placed.anchor, 0.62f, style.paper});
+    dots.push_back(SheetDisc{placed.anchor, 0.42f, ink});
+    const auto& lines = plan.lines[placed.label];
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const float middle = placed.port.y + (float(k) - 0.5f * float(lines.size() - 1)) * lineHeight;
+      texts.push_back(
+          SheetText{.at = {placed.port.x + out * (kStub + kTextGap), middle + 0.36f * style.letters},
+                    .align = placed.right ? Lettering::Align::left : Lettering::Align::right,
+                    .size = style.letters,
+                    .colour = ink,
+                    .text = lines[k],
+                    .kind = "label",
+                    .subject = label.text});
+    }
+  }
+  for (auto* layer : {&halos, &leaders, &dots, &texts})
+    sheet.items.insert(sheet.items.end(), layer->begin(), layer->end());
+}
+
+// Keys from the left, each a swatch and a text; of a scale a bar with marks. @return where it ends
+float drawKeys(Sheet& sheet, const VesselColours& keys, const PlateStyle& style, const Typesetter& type,
+               float left, float base) {
+  const vec3 ink = inkOn(style.paper);
+  const float size = style.letters;
+  const auto write = [&](float x, float y, const std::string& text, Lettering::Align align) {
+    sheet.items.push_back(
+        SheetText{.at = {x, y}, .align = align, .size = size, .colour = ink, .text = text, .kind = "key"});
+  };
+  if (!keys.scale) {
+    for (const ColourKey& key : keys.keys) {
+      sheet.items.push_back(
+          SheetBox{{left, base - 0.72f * size}, {left + 2 * size, base + 0.02f * size}, key.colour});
+      write(left + 2.6f * size, base, key.text, Lettering::Align::left);
+      left += 2.6f * size + type.widthOf(key.text, size) + 2 * size;
+    }
+    return left;
+  }
+  constexpr float kBar = 44, kPieces = 64;
+  write(left, base, "Radius", Lettering::Align::left);
+  left += type.widthOf("Radius", size) + size;
+  for (float piece = 0; piece < kPieces; ++piece) {
+    const float share = (piece + 0.5f) / kPieces;
+    // Marks are a factor of four apart.
+    sheet.items.push_back(SheetBox{{left + kBar * piece / kPieces, base - 0.72f * size},
+                                   {left + kBar * (piece + 1) / kPieces + 0.02f, base + 0.02f * size},
+                                   radiusColour(0.25e-3f * std::pow(64.0f, share))});
+  }
+  for (std::size_t k = 0; k < keys.keys.size(); ++k)
+    write(left + kBar * float(k) / float(keys.keys.size() - 1), base + 1.15f * size, keys.keys[k].text,
+          Lettering::Align::centre);
+  return left + kBar + 2 * size;
+}
+
+void drawScale(Sheet& sheet, const PlatePlan& plan, const PlateStyle& style, float right, float base) {
+  const vec3 ink = inkOn(style.paper);
+  const float length = scaleLength(plan.millimetresAMetre, std::max(12.0f, kScaleMost * plan.pictureSize.x));
+  const float width = length * plan.millimetresAMetre, left = right - width, y = base - 0.1f * style.letters;
+  for (const std::vector<vec2>& points : {std::vector<vec2>{{left, y}, {right, y}},
+                                          {{left, y - 1}, {left, y + 1}},
+                                          {{right, y - 1}, {right, y + 1}}})
+    sheet.items.push_back(SheetLine{points, 0.3f, ink, "scale", {}});
+  std::string text = lengthText(length);
+  if (plan.camera.orthographicHeight <= 0) text += " at the depth of the middle";
+  sheet.items.push_back(SheetText{.at = {right, y - 2},
+                                  .align = Lettering::Align::right,
+                                  .size = style.letters,
+                                  .colour = ink,
+                                  .text = text,
+                                  .kind = "scale"});
+}
+
+}  // namespace
+
+Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesetter& type,
+                 std::shared_ptr<const Image> picture, const VesselColours& keys) {
+  Sheet sheet{.size = style.page, .paper = style.paper, .title = style.title, .items = {}};
+  const vec3 ink = inkOn(style.paper), grey = glm::mix(ink, style.paper, 0.35f);
+  sheet.items.push_back(SheetPicture{plan.pictureAt, plan.pictureSize, std::move(picture), style.title});
+  drawLabels(sheet, plan, style);
+  float y = style.margin;
+  if (!style.title.empty()) {
+    y += 6;
+    sheet.items.push_back(SheetText{.at = {style.margin, y},
+                                    .size = 6.3f,
+                                    .bold = true,
+                                    .colour = ink,
+                                    .text = style.title,
+                                    .kind = "title"});
+  }
+  if (!style.subtitle.empty())
+    sheet.items.push_back(SheetText{.at = {style.margin, y + 6},
+                                    .size = 3.5f,
+                                    .colour = grey,
+                                    .text = style.subtitle,
+                                    .kind = "subtitle"});
+  const float base = style.page.y - style.margin - 4;
+  if (style.legend) drawKeys(sheet, keys, style, type, style.margin, base);
+  if (style.scale) drawScale(sheet, plan, style, style.page.x - style.margin, base);
+  if (!style.note.empty())
+    sheet.items.push_back(SheetText{.at = {style.margin, style.page.y - style.margin + 1},
+                                    .size = 2.2f,
+                                    .colour = grey,
+                                    .text = style.note,
+                                    .kind = "note"});
+  return sheet;
+}
+
+}  // namespace vasa::plate

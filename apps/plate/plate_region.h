@@ -1,0 +1,31 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "plate/body_part.h"
+#include "scene/frame.h"
+
+namespace vasa::plate {
+
+/// What a page shows of a scene, and how one looks at it.
+struct PlateSubject {
+  std::string title, subtitle;
+  std::vector<SkinnedMesh> meshes;  ///< the body's, without what belongs to other parts of it
+  std::vector<char> vessels;        ///< one a vessel: whether it is drawn
+  std::vector<vec3> framed;         ///< places of the pose that the picture has to hold
+  vec3 towards{0, 0, 1};            ///< to the viewer
+  vec3 up{0, 1, 0};
+};
+
+/// Fails with usage that lists the pages for a name that is none of theirs: front, back, head, thorax,
+/// abdomen, arm, hand, leg, foot.
+Result<void> checkPlateName(std::string_view name);
+
+/// A page's subject. Of a limb the one on `side` (-1 right, 1 left) is shown, its axis upright, without the
+/// rest of the body; a vessel is drawn whole where a part of it lies in what the picture holds.
+/// Fails as checkPlateName() does, with badInput where the body's parts are not known (partsOfJoints) or
+/// there are none of those.
+Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, std::string_view name,
+                                  int side);
+
+}  // namespace vasa::plate

@@ -1,0 +1,45 @@
+#include "look_options.h"
+
+#include <sstream>
+
+namespace vasa::cli {
+
+const char* const kLookHelp =
+    "atlas (white page), clinical (dark) or xray (translucent); default: the scene's, else atlas";
+const char* const kHideHelp = "Leave out skin, bones, organs, arteries, veins (a list with commas)";
+
+Result<void> chooseLook(LookChoice& choice, const std::string& preset, const std::string& hidden) {
+  if (!preset.empty()) choice.preset = preset;
+  if (!lookNamed(choice.preset))
+    return Error{Fault::usage, "--look " + choice.preset + ": choose atlas, clinical or xray"};
+  std::stringstream words(hidden);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (word == "skin")
+      choice.skin = false;
+    else if (word == "bones")
+      choice.bones = false;
+    else if (word == "organs")
+      choice.organs = false;
+    else if (word == "arteries")
+      choice.arteries = false;
+    else if (word == "veins")
+      choice.veins = false;
+    else
+      return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
+  }
+  return {};
+}
+
+Look lookOf(const LookChoice& choice) {
+  Look look = lookNamed(choice.preset).value_or(Look{});
+  if (choice.background) look.background = *choice.background;
+  look.drawSkin = choice.skin;
+  look.drawBones = choice.bones;
+  look.drawHeart = look.drawOther = choice.organs;
+  look.drawArteries = choice.arteries;
+  look.drawVeins = choice.veins;
+  if (choice.skinOpacity) look.skinOpacity = *choice.skinOpacity;
+  return look;
+}
+
+}  // namespace vasa::cli

@@ -1,0 +1,157 @@
+#include "plate/label_choice.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "network/builder.h"
+#include "plate/plate.h"
+#include "surface/surface_mesh.h"
+
+using namespace vasa;
+using namespace vasa::plate;
+
+namespace {
+
+// A straight vessel.
+std::vector<vec4> line(vec3 from, vec3 to, float radius) {
+  std::vector<vec4> points;
+  for (int k = 0; k < 6; ++k) points.emplace_back(glm::mix(from, to, float(k) / 5), radius);
+  return points;
+}
+
+// A body's aorta, a pair of arteries beside it, two that are called left and right and are no pair, and one
+// behind the aorta.
+Network figure() {
+  NetworkBuilder builder;
+  const auto add = [&](const char* name, vec3 from, vec3 to, float radius) {
+    builder.addVessel({name, "", VesselKind::artery}, line(from, to, radius));
+  };
+  add("aorta", {0, 0.2f, 0}, {0, 1.4f, 0}, 0.02f);
+  add("left femoral artery", {0.2f, 0.1f, 0}, {0.2f, 0.8f, 0}, 0.008f);
+  add("right femoral artery", {-0.2f, 0.1f, 0}, {-0.2f, 0.8f, 0}, 0.008f);
+  add("left gastric artery", {0.05f, 1, 0}, {0.15f, 1.1f, 0}, 0.005f);
+  add("right gastric artery", {0.06f, 0.9f, 0}, {0.16f, 1.0f, 0}, 0.005f);
+  add("hidden vein", {0, 0.5f, -0.1f}, {0, 0.9f, -0.1f}, 0.01f);
+  add("thin artery", {0.3f, 0.5f, 0}, {0.3f, 0.9f, 0}, 0.0005f);
+  auto network = builder.build(1.7f);
+  REQUIRE_MESSAGE(network.ok(), network.error().message);
+  return std::move(*network);
+}
+
+// From in front: 2 m high, 400 cells.
+SeenMap mapOf(const Network& network) {
+  SeenMap map({.position = {0, 0.8f, 5}, .target = {0, 0.8f, 0}, .orthographicHeight = 2, .farDistance = 20},
+              200, 400);
+  const SweepTable table = makeSweepTable(network);
+  std::vector<quat> frames(table.knotCount);
+  networkFrames(network, network.points(), restReferences(network), frames);
+  const SurfaceMesh surface = surfaceMesh({table, network.points(), frames}, {8, 4});
+  map.draw(surface.positions, surface.triangles,
+           [&](std::uint32_t t) { return surface.vesselOfVertex[surface.triangles[t].x]; });
+  return map;
+}
+
+std::vector<std::string> textsOf(const LabelChoice& choice) {
+  std::vector<std::string> texts;
+  for (const VesselLabel& label : choice.labels) texts.push_back(label.text);
+  return texts;
+}
+
+using Texts = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a label leaves out the side of a mirrored pair, and of no other") {
+  const Network network = figure();
+  const auto text = [&](std::uint32_t v) { return labelText(network, {v}); };
+  CHECK(text(0) == "Aorta");
+  CHECK(text(1) == "Femoral artery");
+  CHECK(text(2) == "Femoral artery");
+  CHECK(text(3) == "Left gastric artery");
+  CHECK(text(4) == "Right gastric artery");
+}
+
+TEST_CASE("main vessels are the large ones that are seen, each pair once") {
+  const Network network = figure();
+  const SeenMap map = mapOf(network);
+  const auto choice = chooseLabels(network, network.points(), map, {});
+  REQUIRE(choice.ok());
+  CHECK(textsOf(*choice) == Texts{"Aorta", "Femoral artery", "Left gastric artery", "Right gastric artery"});
+  // On both of the pair, and every anchor on a cell of the vessel.
+  const VesselLabel& femoral = choice->labels[1];
+  CHECK(femoral.vessels.size() == 2);
+  bool left = false, right = false;
+  for (const vec2& anchor : femoral.anchors) {
+    const std::uint32_t what = map.at(std::uint32_t(anchor.x), std::uint32_t(anchor.y));
+    CHECK((what == 1 || what == 2));
+    (anchor.x > 100 ? left : right) = true;
+  }
+  CHECK(left);
+  CHECK(right);
+  // The best anchor is in the middle of what is seen.
+  CHECK(choice->labels[0].anchors[0].y == doctest::Approx(200).epsilon(0.03));
+}
+
+TEST_CASE("all-visible adds the thin ones, but nothing that is hidden") {
+  const Network network = figure();
+  const auto choice = chooseLabels(network, network.points(), mapOf(network), {.which = "all-visible"});
+  REQUIRE(choice.ok());
+  CHECK(choice->labels.size() == 4 + std::size_t(std::ranges::count(textsOf(*choice), "Thin artery")));
+  CHECK(std::ranges::count(textsOf(*choice), "Hidden vein") == 0);
+  const auto two =
+      chooseLabels(network, network.points(), mapOf(network), {.which = "all-visible", .most = 2});
+  REQUIRE(two.ok());
+  CHECK(textsOf(*two) == Texts{"Aorta", "Femoral artery"});
+}
+
+TEST_CASE("names: with or without a side, a part of one, hidden ones told, unknown ones refused") {
+  const Network network = figure();
+  const SeenMap map = mapOf(network);
+  const auto choose = [&](const char* names) {
+    return chooseLabels(network, network.points(), map, {.which = names});
+  };
+  const auto some = choose("femoral artery, AORTA,right gastric");
+  REQUIRE(some.ok());
+  CHECK(textsOf(*some) == Texts{"Femoral artery", "Aorta", "Right gastric artery"});
+  const auto hidden = choose("hidden vein");
+  REQUIRE(hidden.ok());
+  CHECK(hidden->labels.empty());
+  CHECK(hidden->unseen == Texts{"hidden vein"});
+  const auto unknown = choose("aorta,tibial artery");
+  REQUIRE_FALSE(unknown.ok());
+  CHECK(unknown.error().fault == Fault::badInput);
+  CHECK(unknown.error().message ==
+        "--labels: no vessel is named 'tibial artery'; vasa info --vessels lists them");
+  const auto several = choose("gastric");
+  REQUIRE_FALSE(several.ok());
+  CHECK(several.error().message ==
+        "--labels: 'gastric' is a part of several names, 'Left gastric artery' and 'Right gastric artery'; "
+        "give the whole name");
+}
+
+TEST_CASE("no line points into the margin") {
+  const Network network = figure();
+  const auto choice = chooseLabels(network, network.points(), mapOf(network), {.margin = 60});
+  REQUIRE(choice.ok());
+  for (const VesselLabel& label : choice->labels)
+    for (const vec2& anchor : label.anchors) CHECK((anchor.x >= 60 && anchor.x < 140));
+}
+
+TEST_CASE("a camera holds all places, and is no wider than they need") {
+  const std::vector<vec3> places{{-1, 0, 0.5f}, {1, 2, -0.5f}, {0, 1, 0}};
+  const auto fitted = cameraOnto(places, vec3(0, 0, 1), vec3(0, 1, 0), places);
+  CHECK(fitted.aspect == doctest::Approx(1));
+  const SeenMap map(fitted.camera, 100, 100);
+  vec2 cell;
+  for (const vec3& place : places) {
+    REQUIRE(map.project(place, cell));
+    CHECK(cell.x > 0);
+    CHECK(cell.x < 100);
+    CHECK(cell.y > 0);
+    CHECK(cell.y < 100);
+  }
+  REQUIRE(map.project(places[0], cell));
+  CHECK(cell.x < 3);
+  CHECK(cell.y > 97);
+}
