@@ -12,7 +12,7 @@
 namespace vasa::plate {
 namespace {
 
-constexpr int kSamples = 6;            // of a span, at which it is looked for in the picture
+constexpr int kSamples = 12;           // of a span, at which it is looked for in the picture
 constexpr std::size_t kAnchors = 9;    // of a vessel
 constexpr float kEnds = 0.08f;         // share of a seen stretch's ends that no line points at
 constexpr float kOwnSide = 0.9f;       // share of a paired vessel's points on its own side of the body
@@ -29,22 +29,33 @@ std::string withoutSide(std::string_view name) {
   for (std::size_t at = 0; at <= name.size();) {
     const std::size_t end = std::min(name.find(' ', at), name.size());
     const std::string_view word = name.substr(at, end - at);
-    if (!word.empty() && word != "left" && word != "right")
-      out += (out.empty() ? "" : " ") + std::string(word);
+    if (!word.empty() && word != "left" && word != "right") {
+      if (!out.empty()) out += ' ';
+      out += word;
+    }
     at = end + 1;
   }
   return out;
 }
 
-float midline(const Network& network) {
-  float low = 1e9f, high = -1e9f;
-  for (const vec4& point : network.points()) low = std::min(low, point.x), high = std::max(high, point.x);
-  return 0.5f * (low + high);
+// Whether two vessels lie on either side of the body as mirror images do.
+// The vessel on whose side an end hangs; empty where it hangs on none.
+std::string hostName(const Network& network, const Vessel& vessel, bool last) {
+  const NodeId id = last ? vessel.end : vessel.start;
+  if (!id.valid() || !network.node(id).host) return {};
+  return lower(network.vessel(network.node(id).host->vessel).name);
 }
 
-// Whether two vessels lie on either side of the body as mirror images do.
-bool mirrorOneAnother(const Network& network, const Vessel& a, const Vessel& b) {
-  const float middle = midline(network);
+// Whether two vessels hang on the same one or on a pair, as far as they hang on any.
+bool hangAlike(const Network& network, const Vessel& a, const Vessel& b) {
+  for (const bool last : {false, true}) {
+    const std::string on = hostName(network, a, last), other = hostName(network, b, last);
+    if (!on.empty() && !other.empty() && on != other && mirrored(on) != other) return false;
+  }
+  return true;
+}
+
+bool mirrorOneAnother(const Network& network, float middle, const Vessel& a, const Vessel& b) {
   const auto side = [&](const Vessel& vessel) {
     std::size_t left = 0;
     const auto points = network.pointsOf(vessel);
@@ -52,7 +63,7 @@ bool mirrorOneAnother(const Network& network, const Vessel& a, const Vessel& b) 
     const float share = float(left) / float(points.size());
     return share >= kOwnSide ? 1 : share <= 1 - kOwnSide ? -1 : 0;
   };
-  if (side(a) * side(b) != -1) return false;
+  if (side(a) * side(b) != -1 || !hangAlike(network, a, b)) return false;
   const auto flipped = [&](vec4 p) { return vec3(2 * middle - p.x, p.y, p.z); };
   const auto pa = network.pointsOf(a), pb = network.pointsOf(b);
   const float reach = kMirrorReach * network.bodyHeight();
@@ -65,32 +76,54 @@ class Namer {
   explicit Namer(const Network& network) : network_(network) {
     for (std::uint32_t v = 0; v < network.vessels().size(); ++v)
       byName_.try_emplace(lower(network.vessels()[v].name), v);
+    // The body's middle is that of most pairs.
+    std::vector<float> middles;
+    for (const auto& [name, v] : byName_)
+      if (const auto other = otherSideOf(name)) middles.push_back(0.5f * (middleOf(v) + middleOf(*other)));
+    if (middles.empty()) return;
+    const auto half = middles.begin() + std::ptrdiff_t(middles.size() / 2);
+    std::ranges::nth_element(middles, half);
+    middle_ = *half;
   }
 
   std::string text(VesselId id) const {
     const Vessel& vessel = network_.vessel(id);
     const std::string name = lower(vessel.name);
     std::string shown = vessel.name;
-    if (hasSide(name))
-      if (const auto other = byName_.find(mirrored(name)); other != byName_.end() && other->first != name)
-        if (mirrorOneAnother(network_, vessel, network_.vessels()[other->second])) shown = withoutSide(shown);
+    if (const auto other = otherSideOf(name))
+      if (mirrorOneAnother(network_, middle_, vessel, network_.vessels()[*other])) shown = withoutSide(shown);
     if (!shown.empty()) shown[0] = char(std::toupper(static_cast<unsigned char>(shown[0])));
     return shown;
   }
 
  private:
+  std::optional<std::uint32_t> otherSideOf(const std::string& name) const {
+    if (!hasSide(name)) return std::nullopt;
+    const auto other = byName_.find(mirrored(name));
+    return other == byName_.end() ? std::nullopt : std::optional(other->second);
+  }
+
+  float middleOf(std::uint32_t vessel) const {
+    const auto points = network_.pointsOf(network_.vessels()[vessel]);
+    float sum = 0;
+    for (const vec4& point : points) sum += point.x;
+    return sum / float(points.size());
+  }
+
   const Network& network_;
   std::map<std::string, std::uint32_t> byName_;
+  float middle_ = 0;
 };
 
 struct Stretch {
   std::vector<vec2> places;
   float length = 0;
+  float width = 0;  // sum over the places
 };
 
 // The runs of a vessel's centre line over cells that show this vessel.
 std::vector<Stretch> seenStretches(const Network& network, std::uint32_t v, std::span<const vec4> points,
-                                   const SeenMap& seen, float margin) {
+                                   const SeenMap& seen, const LabelWishes& wishes) {
   std::vector<Stretch> stretches;
   const Vessel& vessel = network.vessels()[v];
   bool open = false;
@@ -98,19 +131,27 @@ std::vector<Stretch> seenStretches(const Network& network, std::uint32_t v, std:
     const Bezier tube = bezierOfSpan(network.pointsOf(vessel, points), span);
     for (int k = 0; k < kSamples; ++k) {
       vec2 cell;
-      const bool there = seen.project(vec3(tube.at((float(k) + 0.5f) / kSamples)), cell) &&
-                         cell.x >= margin && cell.y >= margin && cell.x < float(seen.width()) - margin &&
-                         cell.y < float(seen.height()) - margin &&
-                         seen.at(std::uint32_t(cell.x), std::uint32_t(cell.y)) == v;
+      const vec4 place = tube.at((float(k) + 0.5f) / kSamples);
+      const bool there = seen.project(vec3(place), cell) && cell.x >= 0 && cell.y >= 0 &&
+                         cell.x < float(seen.width()) && cell.y < float(seen.height()) &&
+                         seen.at(std::uint32_t(cell.x), std::uint32_t(cell.y)) == v &&
+                         (!wishes.allowed || wishes.allowed(cell));
       if (there && !open) stretches.emplace_back();
       open = there;
       if (!there) continue;
       Stretch& stretch = stretches.back();
       if (!stretch.places.empty()) stretch.length += glm::distance(stretch.places.back(), cell);
       stretch.places.push_back(cell);
+      stretch.width += 2 * place.w * seen.cellsAMetre(vec3(place));
     }
   }
   return stretches;
+}
+
+// "right leg artery 2": one of many that nobody named.
+bool isNumbered(std::string_view name) {
+  const auto digits = name.size() - std::min(name.size(), name.find_last_not_of("0123456789") + 1);
+  return digits > 0 && digits < name.size() && name[name.size() - digits - 1] == ' ';
 }
 
 // Places spread over the stretches, the middle of the longest one first.
@@ -135,7 +176,7 @@ std::vector<vec2> anchorsOf(std::vector<Stretch>& stretches) {
 
 // All labels that the picture can have, the largest first.
 std::vector<VesselLabel> allLabels(const Network& network, std::span<const vec4> points, const SeenMap& seen,
-                                   float margin) {
+                                   const LabelWishes& wishes) {
   std::vector<float> areas(network.vessels().size());
   for (const std::uint32_t what : seen.cells())
     if (what < areas.size()) ++areas[what];
@@ -152,12 +193,16 @@ std::vector<VesselLabel> allLabels(const Network& network, std::span<const vec4>
     VesselLabel& label = labels[place->second];
     label.vessels.push_back({v});
     label.area += areas[v];
-    for (Stretch& stretch : seenStretches(network, v, points, seen, margin)) {
-      label.length += stretch.length;
+    for (Stretch& stretch : seenStretches(network, v, points, seen, wishes))
       stretches[place->second].push_back(std::move(stretch));
-    }
   }
-  for (std::size_t i = 0; i < labels.size(); ++i) labels[i].anchors = anchorsOf(stretches[i]);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    std::size_t count = 0;
+    for (const Stretch& stretch : stretches[i])
+      labels[i].width += stretch.width, count += stretch.places.size();
+    if (count > 0) labels[i].width /= float(count);
+    labels[i].anchors = anchorsOf(stretches[i]);
+  }
   std::erase_if(labels, [](const VesselLabel& label) { return label.anchors.empty(); });
   std::ranges::stable_sort(labels, std::greater{}, &VesselLabel::area);
   return labels;
@@ -222,12 +267,16 @@ std::string labelText(const Network& network, VesselId vessel) { return Namer(ne
 
 Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> points, const SeenMap& seen,
                                  const LabelWishes& wishes) {
-  std::vector<VesselLabel> all = allLabels(network, points, seen, wishes.margin);
+  std::vector<VesselLabel> all = allLabels(network, points, seen, wishes);
   if (wishes.which != "main" && wishes.which != "all-visible")
     return chooseByName(network, std::move(all), wishes.which);
+  std::erase_if(all, [&](const VesselLabel& label) {
+    const auto meant = [&](VesselId id) { return wishes.of.empty() || wishes.of[id.value]; };
+    return isNumbered(label.text) || std::ranges::none_of(label.vessels, meant);
+  });
   if (wishes.which == "main")
     std::erase_if(all, [&](const VesselLabel& label) {
-      return label.length < wishes.leastLength || label.area < wishes.leastWidth * label.length;
+      return label.area < wishes.leastArea || label.width < wishes.leastWidth;
     });
   if (all.size() > wishes.most) all.resize(wishes.most);
   return LabelChoice{std::move(all), {}};

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct VesselLabel {
   std::vector<VesselId> vessels;  ///< that it names: one, a pair, or the pieces of one
   std::vector<vec2> anchors;      ///< [cells of the map] on the vessel where it is seen, the best first
   float area = 0;                 ///< [cells] that its vessels show
-  float length = 0;               ///< [cells] of their centre lines that are seen
+  float width = 0;                ///< [cells] of them, on average where they are seen
 };
 
 struct LabelChoice {
@@ -22,15 +23,17 @@ struct LabelChoice {
   std::vector<std::string> unseen;  ///< asked for by name, but not seen in the picture
 };
 
-/// Which vessels get a label. "main": the large ones, by the area that they show; "all-visible": all that are
+/// Which vessels get a label; those that are only numbered ("right leg artery 2") are for who asks by name.
+/// "main": the large ones, by the area that they show; "all-visible": all that are
 /// seen; else names with commas between them, as findSubject() of scene/scene.h reads vessels' names
 /// ("femoral artery" also means a pair of them).
 struct LabelWishes {
   std::string which = "main";
-  std::size_t most = 40;    ///< of "main" and "all-visible"
-  float leastLength = 6;    ///< [cells] of a main vessel, seen
-  float leastWidth = 1.5f;  ///< [cells] of a main vessel, on average
-  float margin = 0;         ///< [cells] along the picture's edges where no anchor lies
+  std::size_t most = 40;                   ///< of "main" and "all-visible"
+  float leastArea = 20;                    ///< [cells] that a main vessel shows
+  float leastWidth = 1;                    ///< [cells] of a main vessel, on average, hidden or not
+  std::span<const char> of;                ///< vessels that "main" and "all-visible" choose from; empty: all
+  std::function<bool(vec2 cell)> allowed;  ///< where anchors may lie; none: everywhere
 };
 
 /// @param points  of the pose that the map shows, as Network::points()
@@ -40,7 +43,8 @@ Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> p
                                  const LabelWishes& wishes);
 
 /// What a label calls a vessel: its name with a capital; "left" and "right" are left out where a vessel of
-/// the same name lies mirrored on the other side (kidneys' arteries, not the heart's).
+/// the same name lies mirrored on the other side and leaves a like vessel (kidneys' arteries, not the heart's
+/// or the bowel's).
 std::string labelText(const Network& network, VesselId vessel);
 
 }  // namespace vasa::plate

@@ -16,15 +16,17 @@ namespace {
 constexpr float kPictureMargin = 1.03f;  // of what the camera was fitted to
 constexpr float kCell = 0.3f;            // [mm] of paper that a cell of the map takes
 constexpr float kFade = 0.06f;           // of the picture's longer side
-constexpr float kFadedShare = 0.75f;     // of the fade: where no label points
+constexpr float kLegible = 0.5f;         // of the picture: no label points at what remains less of
 constexpr float kOpaque = 0.5f;          // what is drawn with less lets labels point through
-constexpr float kFirstColumn = 0.24f;    // of the page's width, before it is known how wide labels are
-constexpr float kWidestColumn = 0.27f;
-constexpr float kWidestText = 21;    // ems of a label
+constexpr float kFirstColumn = 0.18f;    // of the page's width, before it is known how wide labels are
+constexpr float kWidestColumn = 0.2f;
+constexpr float kWidestText = 20;    // ems of a label
+constexpr float kMainArea = 2;       // [mm²] that a main vessel shows on paper
+constexpr float kMainWidth = 0.3f;   // [mm] of it on paper
 constexpr float kLine = 1.22f;       // from one line of a text to the next, in its ems
 constexpr float kTextGap = 1.2f;     // [mm] between a text and its line
-constexpr float kStub = 2.2f;        // [mm] level part of a line, beside its text
-constexpr float kColumnGap = 3.0f;   // [mm] between the lines' level parts and the picture
+constexpr float kStub = 2.0f;        // [mm] level part of a line, beside its text
+constexpr float kColumnGap = 2.0f;   // [mm] between the lines' level parts and the picture
 constexpr float kLabelGap = 1.0f;    // [mm] between texts
 constexpr float kScaleMost = 0.28f;  // of the picture's width
 constexpr SweepShape kMapShape{8, 4};
@@ -58,43 +60,82 @@ bool isDrawn(const Look& look, VesselKind kind) {
   return look.drawOtherVessels;
 }
 
+// What is drawn, as triangles of the pose.
+struct DrawnPart {
+  std::vector<vec3> positions;
+  const std::vector<uvec3>* triangles;
+  bool hides;  // what lies behind it
+};
+
+struct DrawnParts {
+  std::vector<DrawnPart> meshes;
+  SurfaceMesh vessels;
+};
+
+DrawnParts drawnParts(const PlateScene& scene) {
+  DrawnParts parts;
+  const std::vector<mat4> matrices(scene.frame.jointMatrices().begin(), scene.frame.jointMatrices().end());
+  for (const SkinnedMesh& mesh : scene.meshes) {
+    parts.meshes.push_back({{}, &mesh.mesh.triangles, isDrawn(scene.look, roleNamed(mesh.name))});
+    skinPositions(mesh, matrices, parts.meshes.back().positions);
+  }
+  parts.vessels = surfaceMesh({scene.table, scene.frame.points(), scene.frame.knotFrames()}, kMapShape);
+  return parts;
+}
+
+bool isDrawn(const PlateScene& scene, std::uint32_t vessel) {
+  return scene.vessels[vessel] && isDrawn(scene.look, scene.scene.network.vessels()[vessel].kind);
+}
+
 // Vessels by their index, what hides them by the number behind the last.
-SeenMap mapOf(const PlateScene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height) {
+SeenMap mapOf(const PlateScene& scene, const DrawnParts& parts, const Camera& camera, std::uint32_t width,
+              std::uint32_t height) {
   SeenMap map(camera, width, height);
   const auto solid = std::uint32_t(scene.scene.network.vessels().size());
-  const std::vector<mat4> matrices(scene.frame.jointMatrices().begin(), scene.frame.jointMatrices().end());
-  std::vector<vec3> positions;
-  for (const SkinnedMesh& mesh : scene.meshes) {
-    if (!isDrawn(scene.look, roleNamed(mesh.name))) continue;
-    skinPositions(mesh, matrices, positions);
-    map.draw(positions, mesh.mesh.triangles, [&](std::uint32_t) { return solid; });
-  }
-  const SurfaceMesh surface =
-      surfaceMesh({scene.table, scene.frame.points(), scene.frame.knotFrames()}, kMapShape);
-  map.draw(surface.positions, surface.triangles, [&](std::uint32_t t) {
-    const std::uint32_t vessel = surface.vesselOfVertex[surface.triangles[t].x];
-    const bool drawn =
-        scene.vessels[vessel] && isDrawn(scene.look, scene.scene.network.vessels()[vessel].kind);
-    return drawn ? vessel : SeenMap::kNothing;
+  for (const DrawnPart& part : parts.meshes)
+    if (part.hides) map.draw(part.positions, *part.triangles, [&](std::uint32_t) { return solid; });
+  map.draw(parts.vessels.positions, parts.vessels.triangles, [&](std::uint32_t t) {
+    const std::uint32_t vessel = parts.vessels.vesselOfVertex[parts.vessels.triangles[t].x];
+    return isDrawn(scene, vessel) ? vessel : SeenMap::kNothing;
   });
   return map;
 }
 
-// Along which edges of the picture there is something of the body, its skin included.
-void findCutEdges(const PlateScene& scene, const SeenMap& seen, bool (&cut)[4]) {
-  const std::vector<mat4> matrices(scene.frame.jointMatrices().begin(), scene.frame.jointMatrices().end());
+// Marks the cells along each edge where a triangle reaches over it.
+void markCuts(CutEdges& cut, const SeenMap& seen, std::span<const vec3> positions, const uvec3& triangle) {
   const vec2 size(seen.width(), seen.height());
-  std::vector<vec3> positions;
-  for (const SkinnedMesh& mesh : scene.meshes) {
-    skinPositions(mesh, matrices, positions);
-    for (const uvec3& t : mesh.mesh.triangles) {
-      vec2 low(1e9f), high(-1e9f), cell;
-      for (int k = 0; k < 3; ++k)
-        if (seen.project(positions[t[k]], cell)) low = glm::min(low, cell), high = glm::max(high, cell);
-      if (high.x < 0 || high.y < 0 || low.x > size.x || low.y > size.y) continue;
-      cut[0] |= low.x<0, cut[1] |= high.x> size.x, cut[2] |= low.y<0, cut[3] |= high.y> size.y;
-    }
+  vec2 low(1e9f), high(-1e9f), cell;
+  for (int k = 0; k < 3; ++k)
+    if (seen.project(positions[triangle[k]], cell)) low = glm::min(low, cell), high = glm::max(high, cell);
+  for (int edge = 0; edge < 4; ++edge) {
+    const int across = edge < 2 ? 0 : 1, along = 1 - across;
+    const float at = edge % 2 ? size[across] : 0;
+    if (low[across] > at || high[across] < at || high[along] < 0 || low[along] >= size[along]) continue;
+    const auto last = std::min(high[along], size[along] - 1);
+    for (auto i = std::size_t(std::max(low[along], 0.0f)); float(i) <= last; ++i)
+      cut.along[std::size_t(edge)][i] = 1;
   }
+}
+
+CutEdges cutEdges(const PlateScene& scene, const DrawnParts& parts, const SeenMap& seen) {
+  CutEdges cut;
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    cut.along[edge].resize(edge < 2 ? seen.height() : seen.width());
+  for (const DrawnPart& part : parts.meshes)
+    for (const uvec3& triangle : *part.triangles) markCuts(cut, seen, part.positions, triangle);
+  for (const uvec3& triangle : parts.vessels.triangles)
+    if (isDrawn(scene, parts.vessels.vesselOfVertex[triangle.x]))
+      markCuts(cut, seen, parts.vessels.positions, triangle);
+  // A fade begins and ends softly along the edge, too.
+  const float reach = kFade * float(std::max(seen.width(), seen.height()));
+  for (auto& edge : cut.along) {
+    std::vector<float> soft(edge.size());
+    for (std::size_t i = 0; i < edge.size(); ++i)
+      for (std::size_t j = 0; j < edge.size() && edge[i] > 0; ++j)
+        soft[j] = std::max(soft[j], 1 - glm::smoothstep(0.3f, 1.0f, std::abs(float(i) - float(j)) / reach));
+    edge = std::move(soft);
+  }
+  return cut;
 }
 
 struct PageLayout {
@@ -184,18 +225,22 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
                              style.page.x, style.page.y)};
   const auto width = std::uint32_t(std::ceil(plan.pictureSize.x / kCell));
   const auto height = std::uint32_t(std::ceil(plan.pictureSize.y / kCell));
-  const SeenMap seen = mapOf(scene, camera, width, height);
-  findCutEdges(scene, seen, plan.cutAt);
+  const DrawnParts parts = drawnParts(scene);
+  const SeenMap seen = mapOf(scene, parts, camera, width, height);
+  plan.cut = cutEdges(scene, parts, seen);
+  plan.seen.resize(scene.vessels.size());
+  for (const std::uint32_t what : seen.cells())
+    if (what < plan.seen.size()) plan.seen[what] = 1;
   plan.millimetresAMetre = seen.cellsAMetre(camera.target) * plan.pictureSize.y / float(height);
   if (style.labels.empty()) return plan;
 
   const float lineHeight = kLine * style.letters;
   LabelWishes wishes{.which = style.labels};
-  wishes.leastLength = 5 / kCell;
-  wishes.leastWidth = 0.6f / kCell;
-  wishes.margin = std::ranges::find(plan.cutAt, true) != std::end(plan.cutAt)
-                      ? kFade * kFadedShare * float(std::max(width, height))
-                      : 0;
+  wishes.leastArea = kMainArea / (kCell * kCell);
+  wishes.leastWidth = kMainWidth / kCell;
+  wishes.of = scene.own;
+  const vec2 size(width, height);
+  wishes.allowed = [&plan, size](vec2 cell) { return plan.cut.remains(cell, size) >= kLegible; };
   wishes.most = std::size_t(2 * (page.bottom - page.top) / (lineHeight + kLabelGap));
   if (style.labels == "main") wishes.most = wishes.most * 2 / 5;
   auto choice = chooseLabels(scene.scene.network, scene.frame.points(), seen, wishes);
@@ -231,15 +276,25 @@ float scaleLength(float millimetresAMetre, float mostMillimetres) {
   return ten;
 }
 
-void fadeEdges(Image& picture, const bool (&cut)[4], vec3 paper) {
-  const float reach = kFade * float(std::max(picture.width, picture.height));
+float CutEdges::remains(vec2 place, vec2 size) const {
+  const float reach = kFade * std::max(size.x, size.y);
+  float share = 1;
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    const int across = edge < 2 ? 0 : 1;
+    const float from = edge % 2 ? size[across] - place[across] : place[across];
+    if (from >= reach || along[edge].empty()) continue;
+    const float at = place[1 - across] / size[1 - across] * float(along[edge].size());
+    const auto cell = std::min(std::size_t(std::max(at, 0.0f)), along[edge].size() - 1);
+    share *= glm::mix(1.0f, glm::smoothstep(0.0f, reach, from), along[edge][cell]);
+  }
+  return share;
+}
+
+void fadeEdges(Image& picture, const CutEdges& cut, vec3 paper) {
+  const vec2 size(picture.width, picture.height);
   for (std::uint32_t y = 0; y < picture.height; ++y)
     for (std::uint32_t x = 0; x < picture.width; ++x) {
-      const float from[4] = {float(x) + 0.5f, float(picture.width - x) - 0.5f, float(y) + 0.5f,
-                             float(picture.height - y) - 0.5f};
-      float share = 1;
-      for (int edge = 0; edge < 4; ++edge)
-        if (cut[edge]) share *= glm::smoothstep(0.0f, reach, from[edge]);
+      const float share = cut.remains(vec2(float(x) + 0.5f, float(y) + 0.5f), size);
       if (share >= 1) continue;
       std::uint8_t* pixel = &picture.rgba[4 * (std::size_t(y) * picture.width + x)];
       for (int c = 0; c < 3; ++c)
@@ -321,7 +376,8 @@ float drawKeys(Sheet& sheet, const VesselColours& keys, const PlateStyle& style,
 
 void drawScale(Sheet& sheet, const PlatePlan& plan, const PlateStyle& style, float right, float base) {
   const vec3 ink = inkOn(style.paper);
-  const float length = scaleLength(plan.millimetresAMetre, std::max(12.0f, kScaleMost * plan.pictureSize.x));
+  const float length =
+      scaleLength(plan.millimetresAMetre, std::clamp(kScaleMost * style.page.x, 10.0f, 60.0f));
   const float width = length * plan.millimetresAMetre, left = right - width, y = base - 0.1f * style.letters;
   for (const std::vector<vec2>& points : {std::vector<vec2>{{left, y}, {right, y}},
                                           {{left, y - 1}, {left, y + 1}},

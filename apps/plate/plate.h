@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +18,8 @@ namespace vasa::plate {
 /// What a page is to have. Lengths in millimetres of paper.
 struct PlateStyle {
   vec2 page{210, 297};
-  float margin = 12;
-  float letters = 2.9f;         ///< em of a label: a little over 8 points
+  float margin = 10;
+  float letters = 2.75f;        ///< em of a label: a little under 8 points
   std::string labels = "main";  ///< LabelWishes::which; empty: none
   bool legend = true, scale = true;
   std::string title, subtitle, note;  ///< empty: none
@@ -36,7 +37,16 @@ struct PlateScene {
   const SweepTable& table;
   std::span<const SkinnedMesh> meshes;  ///< those that are drawn
   std::span<const char> vessels;        ///< one a vessel: drawn or not
+  std::span<const char> own;            ///< one a vessel: labelled without being asked for, or not
   const Look& look;
+};
+
+/// Where a picture's edges cut the body off: from 0 to 1, along the left, right, top and bottom edge.
+struct CutEdges {
+  std::array<std::vector<float>, 4> along;
+  /// What remains of the picture at a place, as shares of its size: less than 1 near a cut.
+  /// @param size  of the picture, in any unit
+  float remains(vec2 place, vec2 size) const;
 };
 
 /// A page before its picture is drawn: where everything goes. Needs no device.
@@ -49,7 +59,8 @@ struct PlatePlan {
   LabelColumns columns;
   std::vector<std::string> unseen;  ///< asked for and not seen
   float millimetresAMetre = 0;      ///< of paper, at the depth of what is looked at
-  bool cutAt[4] = {};               ///< left, right, top, bottom: the body goes on beyond the picture's edge
+  std::vector<char> seen;           ///< one a vessel: something of it is seen
+  CutEdges cut;
 };
 
 /// An orthographic camera that looks along `towards` at these places and holds them all, `aspect` being what
@@ -72,7 +83,7 @@ Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesette
 /// A length of 1, 2 or 5 times a power of ten that takes no more than this of paper, in metres.
 float scaleLength(float millimetresAMetre, float mostMillimetres);
 
-/// Lets a picture fade into the paper along the edges at which the body is cut off.
-void fadeEdges(Image& picture, const bool (&cut)[4], vec3 paper);
+/// Lets a picture fade into the paper where its edges cut the body off.
+void fadeEdges(Image& picture, const CutEdges& cut, vec3 paper);
 
 }  // namespace vasa::plate

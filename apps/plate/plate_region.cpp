@@ -76,6 +76,8 @@ const std::vector<Region>& regions() {
   return all;
 }
 
+constexpr float kOwnShare = 0.25f;  // of a vessel's points in a region that has it on its page
+
 bool among(const std::vector<BodyPart>& parts, BodyPart part) {
   return std::ranges::find(parts, part) != parts.end();
 }
@@ -142,20 +144,22 @@ void takeMeshes(PlateSubject& subject, const Scene& scene, const FrameMaker& fra
 void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& frame, const Choice* choice) {
   const auto vessels = scene.network.vessels();
   subject.vessels.assign(vessels.size(), 1);
+  subject.own = subject.vessels;
   if (!choice) {
     for (const vec4& point : frame.points()) subject.framed.emplace_back(point);
     return;
   }
   const auto stations = mainStations(scene.binding);
   for (std::size_t v = 0; v < vessels.size(); ++v) {
-    bool some = false, all = true;
+    std::uint32_t drawn = 0, framed = 0;
     for (std::uint32_t k = 0; k < vessels[v].pointCount; ++k) {
       const std::uint32_t joint = stations[vessels[v].firstPoint + k].joint.value;
-      some = some || choice->framed(joint);
-      all = all && choice->drawn(joint);
+      drawn += choice->drawn(joint);
+      framed += choice->framed(joint);
       if (choice->framed(joint)) subject.framed.emplace_back(frame.points()[vessels[v].firstPoint + k]);
     }
-    subject.vessels[v] = some || all;
+    subject.vessels[v] = drawn > 0;
+    subject.own[v] = float(framed) >= kOwnShare * float(vessels[v].pointCount);
   }
 }
 
@@ -165,7 +169,8 @@ Result<void> checkPlateName(std::string_view name) {
   std::string names;
   for (const Region& region : regions()) {
     if (region.name == name) return {};
-    names += (names.empty() ? "" : ", ") + std::string(region.name);
+    if (!names.empty()) names += ", ";
+    names += region.name;
   }
   return Error{Fault::usage, "there is no plate '" + std::string(name) + "'; choose " + names};
 }

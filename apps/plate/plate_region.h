@@ -12,6 +12,7 @@ struct PlateSubject {
   std::string title, subtitle;
   std::vector<SkinnedMesh> meshes;  ///< the body's, without what belongs to other parts of it
   std::vector<char> vessels;        ///< one a vessel: whether it is drawn
+  std::vector<char> own;            ///< one a vessel: whether a good part of it lies in what the page is of
   std::vector<vec3> framed;         ///< places of the pose that the picture has to hold
   vec3 towards{0, 0, 1};            ///< to the viewer
   vec3 up{0, 1, 0};
@@ -22,7 +23,7 @@ struct PlateSubject {
 Result<void> checkPlateName(std::string_view name);
 
 /// A page's subject. Of a limb the one on `side` (-1 right, 1 left) is shown, its axis upright, without the
-/// rest of the body; a vessel is drawn whole where a part of it lies in what the picture holds.
+/// rest of the body; a vessel is drawn whole where some of it lies in what is drawn.
 /// Fails as checkPlateName() does, with badInput where the body's parts are not known (partsOfJoints) or
 /// there are none of those.
 Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, std::string_view name,

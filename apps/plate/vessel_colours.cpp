@@ -17,13 +17,10 @@ bool hasWord(std::string_view name, std::string_view word) {
   return std::search(name.begin(), name.end(), word.begin(), word.end(), same) != name.end();
 }
 
-// Vessels of the lungs' own circulation by their names, and what hangs on them and is of their kind and named
-// after no other vessel: what was grown from them.
+// Vessels of the lungs' own circulation, by their names.
 std::vector<char> ofLungs(const Network& network) {
-  std::vector<char> marked(network.vessels().size());
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t v = 0; v < marked.size(); ++v)
-    if (hasWord(network.vessels()[v].name, "pulmonary")) marked[v] = 1, open.push_back(v);
+  std::vector<char> marked;
+  for (const Vessel& vessel : network.vessels()) marked.push_back(hasWord(vessel.name, "pulmonary"));
   return marked;
 }
 
@@ -98,10 +95,10 @@ class Palette {
  public:
   explicit Palette(VesselColours& into) : into_(into) {}
 
-  void add(vec3 colour, const char* text, bool shown) {
+  void add(vec3 colour, const char* text, bool shown, bool keyed) {
     into_.spans.push_back(packColour(vec4(colour, shown ? 1 : 0)));
     const auto same = [&](const ColourKey& key) { return key.text == text; };
-    if (shown && text && std::ranges::none_of(into_.keys, same)) into_.keys.push_back({colour, text});
+    if (keyed && text && std::ranges::none_of(into_.keys, same)) into_.keys.push_back({colour, text});
   }
 
  private:
@@ -127,7 +124,7 @@ vec3 radiusColour(float radius) {
 }
 
 Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colouring,
-                                    std::span<const char> shown) {
+                                    std::span<const char> shown, std::span<const char> keyed) {
   const Network& network = scene.network;
   VesselColours colours;
   Palette palette(colours);
@@ -145,21 +142,22 @@ Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colourin
     const auto points = network.pointsOf(vessel);
     const VesselKind blood = kindByBlood(vessel.kind, lungs[v]);
     for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
-      const bool visible = shown[v] != 0;
+      const bool visible = shown[v] != 0, inKeys = keyed[v] != 0;
       switch (colouring) {
         case VesselColouring::kind:
-          palette.add(vec3(colourOf(vessel.kind)), kindText(vessel.kind), visible);
+          palette.add(vec3(colourOf(vessel.kind)), kindText(vessel.kind), visible, inKeys);
           break;
         case VesselColouring::blood:
-          palette.add(vec3(colourOf(blood)), bloodText(blood), visible);
+          palette.add(vec3(colourOf(blood)), bloodText(blood), visible, inKeys);
           break;
         case VesselColouring::region: {
           const PartColour part = partColour(parts[stations[vessel.firstPoint + span + 1].joint.value].part);
-          palette.add(part.colour, part.text, visible);
+          palette.add(part.colour, part.text, visible, inKeys);
           break;
         }
         case VesselColouring::radius:
-          palette.add(radiusColour(0.5f * (points[span + 1].w + points[span + 2].w)), nullptr, visible);
+          palette.add(radiusColour(0.5f * (points[span + 1].w + points[span + 2].w)), nullptr, visible,
+                      inKeys);
           break;
       }
     }

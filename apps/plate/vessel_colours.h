@@ -24,10 +24,11 @@ struct VesselColours {
   bool scale = false;                ///< the keys are marks on a scale that runs from the first to the last
 };
 
-/// @param shown  one a vessel; those with 0 are hidden, and no key tells of them
+/// @param shown  one a vessel; those with 0 are hidden
+/// @param keyed  one a vessel; keys tell of the colours of these
 /// Fails with badInput for `region` where the body's joints are not known (partsOfJoints).
 Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colouring,
-                                    std::span<const char> shown);
+                                    std::span<const char> shown, std::span<const char> keyed);
 
 /// Between the colours of a scale of radii; @param radius  [m]
 vec3 radiusColour(float radius);

@@ -38,11 +38,16 @@ struct Options {
   bool noLegend = false, noScale = false;
 };
 
-Result<vec2> parsePage(const std::string& text) {
+struct PageChoice {
+  vec2 size;
+  bool mayTurn;  // a sheet of a named size lies on its side where that makes the picture larger
+};
+
+Result<PageChoice> parsePage(const std::string& text) {
   constexpr std::pair<const char*, vec2> kPages[] = {
       {"A5", {148, 210}}, {"A4", {210, 297}}, {"A3", {297, 420}}, {"letter", {215.9f, 279.4f}}};
   for (const auto& [name, size] : kPages)
-    if (text == name) return size;
+    if (text == name) return PageChoice{size, true};
   vec2 size(0);
   const char* end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), end, size.x);
@@ -50,7 +55,7 @@ Result<vec2> parsePage(const std::string& text) {
     const auto second = std::from_chars(first.ptr + 1, end, size.y);
     if (second.ec == std::errc() && second.ptr == end && size.x >= 60 && size.y >= 60 && size.x <= 1200 &&
         size.y <= 1200)
-      return size;
+      return PageChoice{size, false};
   }
   return Error{Fault::usage, "--page " + text +
                                  ": give A5, A4, A3, letter or WIDTHxHEIGHT in millimetres, 60 to 1200 each"};
@@ -98,31 +103,43 @@ struct Job {
   SweepTable table;
   std::unique_ptr<FrameMaker> frame;
   plate::PlateSubject subject;
-  plate::VesselColours colours;
+  plate::FittedCamera fitted;
   Look look;
   PlateStyle style;
 };
 
-Result<PlateStyle> styleOf(const Options& options) {
+PlateStyle styleOf(const Options& options, vec2 page) {
   PlateStyle style;
-  const auto page = parsePage(options.page);
-  if (!page) return page.error();
-  style.page = *page;
+  style.page = page;
   // Letters are of one size on all pages that are held in a hand; small pages have narrower margins.
-  style.margin = std::min(12.0f, 0.06f * page->x);
-  style.letters = std::clamp(0.0138f * page->x, 2.1f, 2.9f);
+  const float width = std::min(page.x, page.y);
+  style.margin = std::min(10.0f, 0.06f * width);
+  style.letters = std::clamp(0.0131f * width, 2.1f, 2.75f);
   style.labels = options.labels == "none" ? "" : options.labels;
   style.legend = !options.noLegend;
   style.scale = !options.noScale;
   return style;
 }
 
+// A page that is turned has to be worth it.
+constexpr float kTurnGain = 1.12f;
+
+vec2 turned(vec2 page, const PlateStyle& upright, float aspect) {
+  const auto widthOn = [&](vec2 size) {
+    PlateStyle style = upright;
+    style.page = size;
+    const vec2 room = plate::widestPicture(style);
+    return std::min(room.x, aspect * room.y);
+  };
+  const vec2 side(page.y, page.x);
+  return widthOn(side) > kTurnGain * widthOn(page) ? side : page;
+}
+
 Result<std::unique_ptr<Job>> prepare(const Options& options) {
   auto job = std::make_unique<Job>();
-  auto style = styleOf(options);
-  if (!style) return style.error();
-  job->style = std::move(*style);
-  const auto colouring = plate::colouringNamed(options.colour);
+  const auto page = parsePage(options.page);
+  if (!page) return page.error();
+  job->style = styleOf(options, page->size);
   auto file = chooseScene(options.scene);
   if (!file) return file.error();
   if (auto chosen = chooseLook(file->look, options.look, options.hide); !chosen) return chosen.error();
@@ -158,21 +175,20 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   job->style.paper = vec3(job->look.background);
   job->style.title = options.title.value_or(job->subject.title);
   job->style.subtitle = job->subject.subtitle;
-  std::vector<char> drawn = job->subject.vessels;
-  for (std::size_t v = 0; v < drawn.size(); ++v) {
-    const VesselKind kind = job->scene.network.vessels()[v].kind;
-    if (kind == VesselKind::artery
-            ? !job->look.drawArteries
-            : (kind == VesselKind::vein || kind == VesselKind::portalVein) && !job->look.drawVeins)
-      drawn[v] = 0;
-  }
-  auto colours = plate::colourVessels(job->scene, *colouring, drawn);
-  if (!colours) return colours.error();
-  job->colours = std::move(*colours);
+  std::vector<vec3> drawn;
+  for (const vec4& point : job->frame->points()) drawn.emplace_back(point);
+  job->fitted = plate::cameraOnto(job->subject.framed, job->subject.towards, job->subject.up, drawn);
+  if (page->mayTurn) job->style.page = turned(page->size, job->style, job->fitted.aspect);
   return job;
 }
 
-Image draw(const Job& job, const PlatePlan& plan, double dpi, gpu::Device& device) {
+// Colours of what is drawn, and keys to those that are seen.
+Result<plate::VesselColours> coloursOf(const Job& job, const PlatePlan& plan, const std::string& colouring) {
+  return plate::colourVessels(job.scene, *plate::colouringNamed(colouring), job.subject.vessels, plan.seen);
+}
+
+Image draw(const Job& job, const PlatePlan& plan, const plate::VesselColours& colours, double dpi,
+           gpu::Device& device) {
   const auto pixels = [&](float millimetres) {
     return std::uint32_t(std::max(1l, std::lround(millimetres * dpi / kInch)));
   };
@@ -184,7 +200,7 @@ Image draw(const Job& job, const PlatePlan& plan, double dpi, gpu::Device& devic
                         .timed = false};
   if (std::uint64_t(options.width) * options.height <= kSmallPicture) options.supersample = 2;
   Renderer renderer(device, job.scene.network, job.subject.meshes, options);
-  renderer.setSweepColours(job.colours.spans);
+  renderer.setSweepColours(colours.spans);
   renderer.draw({.points = job.frame->points(),
                  .knotFrames = job.frame->knotFrames(),
                  .jointMatrices = job.frame->jointMatrices(),
@@ -192,7 +208,7 @@ Image draw(const Job& job, const PlatePlan& plan, double dpi, gpu::Device& devic
                  .look = job.look,
                  .heartScale = job.frame->heartScale()});
   Image picture = renderer.readBack();
-  plate::fadeEdges(picture, plan.cutAt, job.style.paper);
+  plate::fadeEdges(picture, plan.cut, job.style.paper);
   return picture;
 }
 
@@ -227,20 +243,19 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto prepared = prepare(options);
   if (!prepared) return prepared.error();
   const Job& job = **prepared;
-  std::vector<vec3> drawn;
-  for (const vec4& point : job.frame->points()) drawn.emplace_back(point);
-  const auto fitted = plate::cameraOnto(job.subject.framed, job.subject.towards, job.subject.up, drawn);
-  const auto plan =
-      plate::planPlate({job.scene, *job.frame, job.table, job.subject.meshes, job.subject.vessels, job.look},
-                       job.style, *type, fitted.camera, fitted.aspect);
+  const auto plan = plate::planPlate(
+      {job.scene, *job.frame, job.table, job.subject.meshes, job.subject.vessels, job.subject.own, job.look},
+      job.style, *type, job.fitted.camera, job.fitted.aspect);
   if (!plan) return plan.error();
   for (const std::string& name : plan->unseen)
     logWarning("'" + name + "' is not seen in this picture and gets no label");
+  const auto colours = coloursOf(job, *plan, options.colour);
+  if (!colours) return colours.error();
   const auto made = gpu::attempt([&]() -> Result<Report> {
     const StageLog stage("drawing");
     gpu::Device device({.choice = globals.device});
-    auto picture = std::make_shared<const Image>(draw(job, *plan, options.dpi, device));
-    const plate::Sheet sheet = plate::plateSheet(*plan, job.style, *type, std::move(picture), job.colours);
+    auto picture = std::make_shared<const Image>(draw(job, *plan, *colours, options.dpi, device));
+    const plate::Sheet sheet = plate::plateSheet(*plan, job.style, *type, std::move(picture), *colours);
     if (auto written = write(sheet, options, *form, *type); !written) return written.error();
     return reportOf(*plan, options, job.style, device);
   });

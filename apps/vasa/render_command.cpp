@@ -190,7 +190,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
     pixels = glm::max(glm::round(room * float(size->width) / job.page->page.x), vec2(1));
   }
   const std::vector<char> all(job.scene.network.vessels().size(), 1);
-  auto colours = plate::colourVessels(job.scene, *plate::colouringNamed(options.colour), all);
+  auto colours = plate::colourVessels(job.scene, *plate::colouringNamed(options.colour), all, all);
   if (!colours) return colours.error();
   job.colours = std::move(*colours);
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
@@ -294,13 +294,16 @@ class Film {
     const std::vector<char> all(job_.scene.network.vessels().size(), 1);
     const plate::PlateStyle& page = *job_.page;
     const auto plan =
-        plate::planPlate({job_.scene, *maker_, job_.table, job_.scene.body.meshes, all, job_.look}, page,
+        plate::planPlate({job_.scene, *maker_, job_.table, job_.scene.body.meshes, all, all, job_.look}, page,
                          *type, camera, float(picture.width) / float(picture.height));
     if (!plan) return plan.error();
     for (const std::string& name : plan->unseen)
       logWarning("'" + name + "' is not seen in this picture and gets no label");
-    const plate::Sheet sheet = plate::plateSheet(
-        *plan, page, *type, std::make_shared<const Image>(std::move(picture)), job_.colours);
+    const auto colours =
+        plate::colourVessels(job_.scene, *plate::colouringNamed(options_.colour), all, plan->seen);
+    if (!colours) return colours.error();
+    const plate::Sheet sheet =
+        plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), *colours);
     return plate::sheetImage(sheet, uvec2(job_.size.width, job_.size.height));
   }
 

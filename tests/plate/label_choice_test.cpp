@@ -30,6 +30,8 @@ Network figure() {
   add("aorta", {0, 0.2f, 0}, {0, 1.4f, 0}, 0.02f);
   add("left femoral artery", {0.2f, 0.1f, 0}, {0.2f, 0.8f, 0}, 0.008f);
   add("right femoral artery", {-0.2f, 0.1f, 0}, {-0.2f, 0.8f, 0}, 0.008f);
+  add("left tibial artery", {0.2f, -0.1f, 0}, {0.2f, -0.05f, 0}, 0.003f);
+  add("right tibial artery", {-0.2f, -0.1f, 0}, {-0.2f, -0.05f, 0}, 0.003f);
   add("left gastric artery", {0.05f, 1, 0}, {0.15f, 1.1f, 0}, 0.005f);
   add("right gastric artery", {0.06f, 0.9f, 0}, {0.16f, 1.0f, 0}, 0.005f);
   add("hidden vein", {0, 0.5f, -0.1f}, {0, 0.9f, -0.1f}, 0.01f);
@@ -68,8 +70,8 @@ TEST_CASE("a label leaves out the side of a mirrored pair, and of no other") {
   CHECK(text(0) == "Aorta");
   CHECK(text(1) == "Femoral artery");
   CHECK(text(2) == "Femoral artery");
-  CHECK(text(3) == "Left gastric artery");
-  CHECK(text(4) == "Right gastric artery");
+  CHECK(text(5) == "Left gastric artery");
+  CHECK(text(6) == "Right gastric artery");
 }
 
 TEST_CASE("main vessels are the large ones that are seen, each pair once") {
@@ -77,7 +79,8 @@ TEST_CASE("main vessels are the large ones that are seen, each pair once") {
   const SeenMap map = mapOf(network);
   const auto choice = chooseLabels(network, network.points(), map, {});
   REQUIRE(choice.ok());
-  CHECK(textsOf(*choice) == Texts{"Aorta", "Femoral artery", "Left gastric artery", "Right gastric artery"});
+  CHECK(textsOf(*choice) ==
+        Texts{"Aorta", "Femoral artery", "Left gastric artery", "Right gastric artery", "Tibial artery"});
   // On both of the pair, and every anchor on a cell of the vessel.
   const VesselLabel& femoral = choice->labels[1];
   CHECK(femoral.vessels.size() == 2);
@@ -97,7 +100,7 @@ TEST_CASE("all-visible adds the thin ones, but nothing that is hidden") {
   const Network network = figure();
   const auto choice = chooseLabels(network, network.points(), mapOf(network), {.which = "all-visible"});
   REQUIRE(choice.ok());
-  CHECK(choice->labels.size() == 4 + std::size_t(std::ranges::count(textsOf(*choice), "Thin artery")));
+  CHECK(choice->labels.size() == 5 + std::size_t(std::ranges::count(textsOf(*choice), "Thin artery")));
   CHECK(std::ranges::count(textsOf(*choice), "Hidden vein") == 0);
   const auto two =
       chooseLabels(network, network.points(), mapOf(network), {.which = "all-visible", .most = 2});
@@ -118,11 +121,11 @@ TEST_CASE("names: with or without a side, a part of one, hidden ones told, unkno
   REQUIRE(hidden.ok());
   CHECK(hidden->labels.empty());
   CHECK(hidden->unseen == Texts{"hidden vein"});
-  const auto unknown = choose("aorta,tibial artery");
+  const auto unknown = choose("aorta,facial artery");
   REQUIRE_FALSE(unknown.ok());
   CHECK(unknown.error().fault == Fault::badInput);
   CHECK(unknown.error().message ==
-        "--labels: no vessel is named 'tibial artery'; vasa info --vessels lists them");
+        "--labels: no vessel is named 'facial artery'; vasa info --vessels lists them");
   const auto several = choose("gastric");
   REQUIRE_FALSE(several.ok());
   CHECK(several.error().message ==
@@ -130,12 +133,50 @@ TEST_CASE("names: with or without a side, a part of one, hidden ones told, unkno
         "give the whole name");
 }
 
-TEST_CASE("no line points into the margin") {
+TEST_CASE("no line points where none may, and only vessels of the page are chosen") {
   const Network network = figure();
-  const auto choice = chooseLabels(network, network.points(), mapOf(network), {.margin = 60});
+  const auto choice = chooseLabels(network, network.points(), mapOf(network),
+                                   {.allowed = [](vec2 cell) { return cell.x >= 60 && cell.x < 140; }});
   REQUIRE(choice.ok());
+  CHECK(choice->labels.size() >= 3);
   for (const VesselLabel& label : choice->labels)
     for (const vec2& anchor : label.anchors) CHECK((anchor.x >= 60 && anchor.x < 140));
+  const std::vector<char> aorta{1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const auto one = chooseLabels(network, network.points(), mapOf(network), {.of = aorta});
+  REQUIRE(one.ok());
+  CHECK(textsOf(*one) == Texts{"Aorta"});
+}
+
+TEST_CASE("vessels that are only numbered are for who asks for them") {
+  NetworkBuilder builder;
+  builder.addVessel({"leg artery 2", "", VesselKind::artery}, line({0, 0.2f, 0}, {0, 1.4f, 0}, 0.02f));
+  const auto network = builder.build(1.7f);
+  REQUIRE(network.ok());
+  const SeenMap map = mapOf(*network);
+  CHECK(chooseLabels(*network, network->points(), map, {})->labels.empty());
+  CHECK(chooseLabels(*network, network->points(), map, {.which = "leg artery 2"})->labels.size() == 1);
+}
+
+TEST_CASE("mirror images that leave different vessels keep their sides") {
+  NetworkBuilder builder;
+  const auto add = [&](const char* name, vec3 from, vec3 to, float radius) {
+    return builder.addVessel({name, "", VesselKind::artery}, line(from, to, radius));
+  };
+  const VesselId upper = add("superior artery", {0, 0.5f, 0}, {0, 1, 0}, 0.01f);
+  const VesselId lower = add("inferior artery", {0, 0.52f, 0.05f}, {0, 1.02f, 0.05f}, 0.01f);
+  const VesselId left = add("left colic artery", {0, 0.77f, 0.05f}, {0.2f, 0.8f, 0}, 0.005f);
+  const VesselId right = add("right colic artery", {0, 0.75f, 0}, {-0.2f, 0.8f, 0}, 0.005f);
+  const VesselId leftKidney = add("left renal artery", {0, 0.9f, 0}, {0.2f, 0.95f, 0}, 0.005f);
+  const VesselId rightKidney = add("right renal artery", {0, 0.9f, 0}, {-0.2f, 0.95f, 0}, 0.005f);
+  builder.joinToSide({right, false}, {upper, 1.5f});
+  builder.joinToSide({left, false}, {lower, 1.5f});
+  builder.joinToSide({leftKidney, false}, {upper, 2.4f});
+  builder.joinToSide({rightKidney, false}, {upper, 2.4f});
+  const auto network = builder.build(1.7f);
+  REQUIRE_MESSAGE(network.ok(), network.error().message);
+  CHECK(labelText(*network, left) == "Left colic artery");
+  CHECK(labelText(*network, right) == "Right colic artery");
+  CHECK(labelText(*network, leftKidney) == "Renal artery");
 }
 
 TEST_CASE("a camera holds all places, and is no wider than they need") {

@@ -114,9 +114,12 @@ TEST_CASE("a scale bar is 1, 2 or 5 times a power of ten, as long as there is ro
 
 TEST_CASE("a picture fades along the edges that are cut, and only there") {
   Image picture{100, 200, std::vector<std::uint8_t>(100 * 200 * 4, 0)};
-  fadeEdges(picture, {false, false, true, false}, vec3(1));
-  CHECK(pixel(picture, 50, 0).x > 250);
-  CHECK(pixel(picture, 50, 20).x == 0);
+  CutEdges cut;
+  cut.along[2] = {1, 0};  // the left half of the upper edge
+  fadeEdges(picture, cut, vec3(1));
+  CHECK(pixel(picture, 25, 0).x > 250);
+  CHECK(pixel(picture, 75, 0).x == 0);
+  CHECK(pixel(picture, 25, 20).x == 0);
   CHECK(pixel(picture, 0, 100).x == 0);
   CHECK(pixel(picture, 50, 199).x == 0);
 }
