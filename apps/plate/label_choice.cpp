@@ -15,7 +15,7 @@ namespace {
 constexpr int kSamples = 12;           // of a span, at which it is looked for in the picture
 constexpr std::size_t kAnchors = 9;    // of a vessel
 constexpr float kEnds = 0.08f;         // share of a seen stretch's ends that no line points at
-constexpr float kOwnSide = 0.9f;       // share of a paired vessel's points on its own side of the body
+constexpr float kOwnSide = 0.75f;      // share of a paired vessel's points on its own side of the body
 constexpr float kMirrorReach = 0.04f;  // [body heights] by which the ends of a pair may differ
 
 std::string lower(std::string_view text) {

@@ -384,7 +384,7 @@ void drawScale(Sheet& sheet, const PlatePlan& plan, const PlateStyle& style, flo
                                           {{right, y - 1}, {right, y + 1}}})
     sheet.items.push_back(SheetLine{points, 0.3f, ink, "scale", {}});
   std::string text = lengthText(length);
-  if (plan.camera.orthographicHeight <= 0) text += " at the depth of the middle";
+  if (plan.camera.orthographicHeight <= 0) text += " at the focus";
   sheet.items.push_back(SheetText{.at = {right, y - 2},
                                   .align = Lettering::Align::right,
                                   .size = style.letters,
