@@ -20,15 +20,15 @@ constexpr float kLegible = 0.5f;         // of the picture: no label points at w
 constexpr float kOpaque = 0.5f;          // what is drawn with less lets labels point through
 constexpr float kFirstColumn = 0.18f;    // of the page's width, before it is known how wide labels are
 constexpr float kWidestColumn = 0.2f;
-constexpr float kWidestText = 20;    // ems of a label
-constexpr float kMainArea = 2;       // [mm²] that a main vessel shows on paper
-constexpr float kMainWidth = 0.3f;   // [mm] of it on paper
-constexpr float kLine = 1.22f;       // from one line of a text to the next, in its ems
-constexpr float kTextGap = 1.2f;     // [mm] between a text and its line
-constexpr float kStub = 2.0f;        // [mm] level part of a line, beside its text
-constexpr float kColumnGap = 2.0f;   // [mm] between the lines' level parts and the picture
-constexpr float kLabelGap = 1.0f;    // [mm] between texts
-constexpr float kScaleMost = 0.28f;  // of the picture's width
+constexpr float kWidestText = 20;   // ems of a label
+constexpr float kMainArea = 2;      // [mm²] that a main vessel shows on paper
+constexpr float kMainWidth = 0.3f;  // [mm] of it on paper
+constexpr float kLine = 1.22f;      // from one line of a text to the next, in its ems
+constexpr float kTextGap = 1.2f;    // [mm] between a text and its line
+constexpr float kStub = 2.0f;       // [mm] level part of a line, beside its text
+constexpr float kColumnGap = 2.0f;  // [mm] between the lines' level parts and the picture
+constexpr float kLabelGap = 1.0f;   // [mm] between texts
+constexpr float kScaleMost = 0.2f;  // of the page's width
 constexpr SweepShape kMapShape{8, 4};
 
 bool isDrawn(const Look& look, MeshRole role) {
@@ -138,6 +138,22 @@ CutEdges cutEdges(const PlateScene& scene, const DrawnParts& parts, const SeenMa
   return cut;
 }
 
+// From where to where something is drawn, as shares of the picture's width.
+vec2 drawnWidth(const PlateScene& scene, const DrawnParts& parts, const SeenMap& seen) {
+  float low = float(seen.width()), high = 0;
+  const auto add = [&](vec3 place) {
+    vec2 cell;
+    if (!seen.project(place, cell) || cell.y < 0 || cell.y > float(seen.height())) return;
+    low = std::min(low, cell.x), high = std::max(high, cell.x);
+  };
+  for (const DrawnPart& part : parts.meshes)
+    for (const uvec3& triangle : *part.triangles) add(part.positions[triangle.x]);
+  for (std::size_t i = 0; i < parts.vessels.positions.size(); ++i)
+    if (isDrawn(scene, parts.vessels.vesselOfVertex[i])) add(parts.vessels.positions[i]);
+  if (low > high) return {0, 1};
+  return glm::clamp(vec2(low, high) / float(seen.width()), 0.0f, 1.0f);
+}
+
 struct PageLayout {
   float top, bottom;  // of picture and labels
 };
@@ -242,7 +258,7 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
   const vec2 size(width, height);
   wishes.allowed = [&plan, size](vec2 cell) { return plan.cut.remains(cell, size) >= kLegible; };
   wishes.most = std::size_t(2 * (page.bottom - page.top) / (lineHeight + kLabelGap));
-  if (style.labels == "main") wishes.most = wishes.most * 2 / 5;
+  if (style.labels == "main") wishes.most /= 3;
   auto choice = chooseLabels(scene.scene.network, scene.frame.points(), seen, wishes);
   if (!choice) return choice.error();
   plan.labels = std::move(choice->labels);
@@ -257,6 +273,9 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
   if (!style.wideColumns) columns[0] = columns[1] = widest;
   placePicture(plan, style, page, aspect, columns);
   plan.millimetresAMetre = seen.cellsAMetre(camera.target) * plan.pictureSize.y / float(height);
+  // Where the picture is empty beside the figure, labels come nearer.
+  const vec2 drawn = plan.pictureAt.x + plan.pictureSize.x * drawnWidth(scene, parts, seen);
+  plan.columns.left = drawn.x - kColumnGap, plan.columns.right = drawn.y + kColumnGap;
   std::vector<LabelWish> texts;
   for (std::size_t i = 0; i < plan.labels.size(); ++i) {
     LabelWish wish{vec2(widest, lineHeight * float(plan.lines[i].size())), {}};
@@ -358,16 +377,19 @@ float drawKeys(Sheet& sheet, const VesselColours& keys, const PlateStyle& style,
     }
     return left;
   }
-  constexpr float kBar = 44, kPieces = 64;
+  constexpr float kBar = 44;
+  constexpr std::uint32_t kPieces = 256;
   write(left, base, "Radius", Lettering::Align::left);
   left += type.widthOf("Radius", size) + size;
-  for (float piece = 0; piece < kPieces; ++piece) {
-    const float share = (piece + 0.5f) / kPieces;
+  auto bar = std::make_shared<Image>(Image{kPieces, 1, std::vector<std::uint8_t>(4 * kPieces, 255)});
+  for (std::uint32_t piece = 0; piece < kPieces; ++piece) {
     // Marks are a factor of four apart.
-    sheet.items.push_back(SheetBox{{left + kBar * piece / kPieces, base - 0.72f * size},
-                                   {left + kBar * (piece + 1) / kPieces + 0.02f, base + 0.02f * size},
-                                   radiusColour(0.25e-3f * std::pow(64.0f, share))});
+    const vec3 colour = radiusColour(0.25e-3f * std::pow(64.0f, (float(piece) + 0.5f) / kPieces));
+    for (int c = 0; c < 3; ++c)
+      bar->rgba[4 * piece + std::uint32_t(c)] = std::uint8_t(std::lround(255 * colour[c]));
   }
+  sheet.items.push_back(
+      SheetPicture{{left, base - 0.72f * size}, {kBar, 0.74f * size}, bar, "Scale of radii"});
   for (std::size_t k = 0; k < keys.keys.size(); ++k)
     write(left + kBar * float(k) / float(keys.keys.size() - 1), base + 1.15f * size, keys.keys[k].text,
           Lettering::Align::centre);

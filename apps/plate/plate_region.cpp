@@ -1,7 +1,7 @@
 #include "plate/plate_region.h"
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 #include "body/mesh_role.h"
 #include "body/skinning.h"
@@ -17,62 +17,33 @@ struct Region {
   std::vector<BodyPart> framed;  ///< what the picture holds; none: everything
   std::vector<BodyPart> beside;  ///< drawn, too, as far as the picture reaches
   vec3 towards;
-  bool sided;         ///< one of a pair of limbs
-  BodyPart from, to;  ///< ends of the axis that stands upright, where it is sided
+  bool byBones = false;  ///< the picture holds the part's bones, not all of its skin
+  /// Of one of a pair of limbs: the joints whose line stands upright; the same one twice: the world's up.
+  std::optional<std::pair<BodyPart, BodyPart>> axis;
 };
 
 const std::vector<Region>& regions() {
+  // clang-format off
   static const std::vector<Region> all{
-      {"front", "Vessels of the body", "Anterior view", {}, {}, {0, 0, 1}, false, other, other},
-      {"back", "Vessels of the body", "Posterior view", {}, {}, {0, 0, -1}, false, other, other},
-      {"head",
-       "Vessels of the head and neck",
-       "Right lateral view",
-       {head, neck},
-       {shoulder, thorax, upperArm},
-       {-1, 0, 0.45f},
-       false,
-       other,
-       other},
-      {"thorax",
-       "Vessels of the thorax",
-       "Anterior view",
-       {thorax, shoulder},
-       {neck, head, abdomen, upperArm},
-       {0, 0, 1},
-       false,
-       other,
-       other},
-      {"abdomen",
-       "Vessels of the abdomen and pelvis",
-       "Anterior view",
-       {abdomen},
-       {thorax, upperLeg},
-       {0, 0, 1},
-       false,
-       other,
-       other},
-      {"arm",
-       "Vessels of the arm",
-       "anterior view",
-       {upperArm, lowerArm, hand},
-       {shoulder},
-       {0, 0, 1},
-       true,
-       upperArm,
-       hand},
-      {"hand", "Vessels of the hand", "palmar view", {hand}, {lowerArm}, {0, 0, 1}, true, lowerArm, hand},
-      {"leg",
-       "Vessels of the leg",
-       "anterior view",
-       {upperLeg, lowerLeg, foot},
-       {},
-       {0, 0, 1},
-       true,
-       upperLeg,
-       foot},
-      {"foot", "Vessels of the foot", "dorsal view", {foot}, {lowerLeg}, {0, 0.8f, 0.6f}, true, other, other},
+      {.name = "front", .title = "Vessels of the body", .view = "Anterior view", .towards = {0, 0, 1}},
+      {.name = "back", .title = "Vessels of the body", .view = "Posterior view", .towards = {0, 0, -1}},
+      {.name = "head", .title = "Vessels of the head and neck", .view = "Right anterolateral view",
+       .framed = {head, neck}, .beside = {shoulder, thorax, upperArm}, .towards = {-1, 0, 0.45f}},
+      {.name = "thorax", .title = "Vessels of the thorax", .view = "Anterior view", .framed = {thorax, shoulder},
+       .beside = {neck, head, abdomen, upperArm}, .towards = {0, 0, 1}, .byBones = true},
+      {.name = "abdomen", .title = "Vessels of the abdomen and pelvis", .view = "Anterior view",
+       .framed = {abdomen}, .beside = {thorax, upperLeg}, .towards = {0, 0, 1}},
+      {.name = "arm", .title = "Vessels of the arm", .view = "anterior view",
+       .framed = {upperArm, lowerArm, hand}, .beside = {shoulder, thorax}, .towards = {0, 0, 1},
+       .axis = {{upperArm, hand}}},
+      {.name = "hand", .title = "Vessels of the hand", .view = "palmar view", .framed = {hand},
+       .beside = {lowerArm}, .towards = {0, 0, 1}, .axis = {{lowerArm, hand}}},
+      {.name = "leg", .title = "Vessels of the leg", .view = "anterior view",
+       .framed = {upperLeg, lowerLeg, foot}, .beside = {abdomen}, .towards = {0, 0, 1}, .axis = {{upperLeg, foot}}},
+      {.name = "foot", .title = "Vessels of the foot", .view = "dorsal view", .framed = {foot},
+       .beside = {lowerLeg}, .towards = {0, 0.8f, 0.6f}, .axis = {{foot, foot}}},
   };
+  // clang-format on
   return all;
 }
 
@@ -93,6 +64,7 @@ class Choice {
   bool drawn(std::uint32_t joint) const {
     return framed(joint) || (ofSide(joint) && among(region_.beside, parts_[joint].part));
   }
+  bool byBones() const { return region_.byBones; }
   /// The first joint of a part.
   std::optional<std::uint32_t> first(BodyPart part) const {
     for (std::uint32_t j = 0; j < parts_.size(); ++j)
@@ -102,7 +74,7 @@ class Choice {
 
  private:
   bool ofSide(std::uint32_t joint) const {
-    return !region_.sided || parts_[joint].side == side_ || parts_[joint].side == 0;
+    return !region_.axis || parts_[joint].side == side_ || parts_[joint].side == 0;
   }
   const Region& region_;
   int side_;
@@ -118,20 +90,24 @@ SkinnedMesh drawnPart(const SkinnedMesh& mesh, std::span<const std::uint16_t> jo
   return part;
 }
 
-// Skin tells how far a part reaches; a body without one is framed by its bones.
-bool frames(const SkinnedMesh& mesh, bool hasSkin) {
-  return !hasSkin || roleNamed(mesh.name) == MeshRole::skin;
+// What tells how far a part reaches: its skin, or its bones; other meshes where there is no such.
+std::vector<const SkinnedMesh*> framingMeshes(const Body& body, bool byBones) {
+  std::vector<const SkinnedMesh*> meant, all;
+  for (const SkinnedMesh& mesh : body.meshes) {
+    all.push_back(&mesh);
+    if (roleNamed(mesh.name) == (byBones ? MeshRole::bones : MeshRole::skin)) meant.push_back(&mesh);
+  }
+  return meant.empty() ? all : meant;
 }
 
 void takeMeshes(PlateSubject& subject, const Scene& scene, const FrameMaker& frame, const Choice* choice) {
-  const bool hasSkin = std::ranges::any_of(
-      scene.body.meshes, [](const SkinnedMesh& mesh) { return roleNamed(mesh.name) == MeshRole::skin; });
+  const auto framing = framingMeshes(scene.body, choice && choice->byBones());
   const std::vector<mat4> matrices(frame.jointMatrices().begin(), frame.jointMatrices().end());
   for (const SkinnedMesh& mesh : scene.body.meshes) {
     const auto joints = mainJoints(mesh);
     SkinnedMesh part = choice ? drawnPart(mesh, joints, *choice) : mesh;
     if (part.mesh.triangles.empty()) continue;
-    if (frames(mesh, hasSkin)) {
+    if (std::ranges::find(framing, &mesh) != framing.end()) {
       std::vector<vec3> positions;
       skinPositions(mesh, matrices, positions);
       for (std::size_t i = 0; i < positions.size(); ++i)
@@ -156,7 +132,8 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
       const std::uint32_t joint = stations[vessels[v].firstPoint + k].joint.value;
       drawn += choice->drawn(joint);
       framed += choice->framed(joint);
-      if (choice->framed(joint)) subject.framed.emplace_back(frame.points()[vessels[v].firstPoint + k]);
+      if (choice->framed(joint) && !choice->byBones())
+        subject.framed.emplace_back(frame.points()[vessels[v].firstPoint + k]);
     }
     subject.vessels[v] = drawn > 0;
     subject.own[v] = float(framed) >= kOwnShare * float(vessels[v].pointCount);
@@ -180,7 +157,7 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
   if (auto known = checkPlateName(name); !known) return known.error();
   const auto region = std::ranges::find(regions(), name, &Region::name);
   PlateSubject subject{.title = region->title, .subtitle = region->view, .towards = region->towards};
-  if (region->sided) subject.subtitle = std::string(side < 0 ? "Right, " : "Left, ") + region->view;
+  if (region->axis) subject.subtitle = std::string(side < 0 ? "Right, " : "Left, ") + region->view;
   std::optional<Choice> choice;
   if (!region->framed.empty()) {
     auto parts = partsOfJoints(scene.body);
@@ -191,8 +168,9 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
   takeVessels(subject, scene, frame, choice ? &*choice : nullptr);
   if (subject.framed.empty())
     return badInput(scene.body.name + ": nothing of it belongs to the plate '" + std::string(name) + "'");
-  if (choice && region->from != other)
-    if (const auto from = choice->first(region->from), to = choice->first(region->to); from && to)
+  if (region->axis && region->axis->first != region->axis->second)
+    if (const auto from = choice->first(region->axis->first), to = choice->first(region->axis->second);
+        from && to)
       subject.up = vec3(frame.pose().world[*from][3]) - vec3(frame.pose().world[*to][3]);
   return subject;
 }

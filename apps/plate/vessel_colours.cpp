@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include "render/look.h"
 
@@ -97,8 +98,12 @@ class Palette {
 
   void add(vec3 colour, const char* text, bool shown, bool keyed) {
     into_.spans.push_back(packColour(vec4(colour, shown ? 1 : 0)));
-    const auto same = [&](const ColourKey& key) { return key.text == text; };
-    if (keyed && text && std::ranges::none_of(into_.keys, same)) into_.keys.push_back({colour, text});
+    if (keyed && text) key(colour, text);
+  }
+
+  void key(vec3 colour, const char* text) {
+    const auto same = [&](const ColourKey& other) { return other.text == text; };
+    if (std::ranges::none_of(into_.keys, same)) into_.keys.push_back({colour, text});
   }
 
  private:
@@ -136,6 +141,7 @@ Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colourin
     parts = std::move(*known);
     stations = mainStations(scene.binding);
   }
+  std::set<BodyPart> used;  // from head to foot, as BodyPart has them
   const std::vector<char> lungs = ofLungs(network);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];
@@ -151,8 +157,10 @@ Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colourin
           palette.add(vec3(colourOf(blood)), bloodText(blood), visible, inKeys);
           break;
         case VesselColouring::region: {
-          const PartColour part = partColour(parts[stations[vessel.firstPoint + span + 1].joint.value].part);
-          palette.add(part.colour, part.text, visible, inKeys);
+          const BodyPart where = parts[stations[vessel.firstPoint + span + 1].joint.value].part;
+          const PartColour part = partColour(where);
+          palette.add(part.colour, nullptr, visible, inKeys);
+          if (inKeys) used.insert(where);
           break;
         }
         case VesselColouring::radius:
@@ -162,6 +170,7 @@ Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colourin
       }
     }
   }
+  for (const BodyPart part : used) palette.key(partColour(part).colour, partColour(part).text);
   if (colouring == VesselColouring::radius) {
     colours.scale = true;
     for (const float millimetres : {0.25f, 1.0f, 4.0f, 16.0f})
