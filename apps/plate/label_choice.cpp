@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -212,8 +214,8 @@ bool contains(std::span<const VesselId> vessels, VesselId id) {
   return std::ranges::any_of(vessels, [&](VesselId v) { return v.value == id.value; });
 }
 
-// The vessels of a name: those that are called so, with or without their side; else those it is a part of,
-// if these have one text.
+// The vessels of a name: those that are called so, with or without their side; else all whose names it is a
+// part of.
 Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::string& name) {
   const std::string wanted = lower(name);
   const Namer namer(network);
@@ -228,11 +230,6 @@ Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::s
   if (!bare.empty()) return bare;
   if (partly.empty())
     return badInput("--labels: no vessel is named '" + name + "'; vasa info --vessels lists them");
-  const std::string first = namer.text(partly.front());
-  for (const VesselId id : partly)
-    if (namer.text(id) != first)
-      return badInput("--labels: '" + name + "' is a part of several names, '" + first + "' and '" +
-                      namer.text(id) + "'; give the whole name");
   return partly;
 }
 
@@ -248,15 +245,13 @@ Result<LabelChoice> chooseByName(const Network& network, std::vector<VesselLabel
     if (name.empty()) continue;
     const auto vessels = vesselsCalled(network, name);
     if (!vessels) return vessels.error();
-    const auto label = std::ranges::find_if(all, [&](const VesselLabel& candidate) {
-      return std::ranges::any_of(*vessels, [&](VesselId id) { return contains(candidate.vessels, id); });
-    });
-    if (label == all.end()) {
-      choice.unseen.push_back(name);
-      continue;
-    }
-    choice.labels.push_back(std::move(*label));
-    all.erase(label);
+    const auto isMeant = [&](const VesselLabel& label) {
+      return std::ranges::any_of(*vessels, [&](VesselId id) { return contains(label.vessels, id); });
+    };
+    const auto meant = std::stable_partition(all.begin(), all.end(), std::not_fn(isMeant));
+    std::move(meant, all.end(), std::back_inserter(choice.labels));
+    all.erase(meant, all.end());
+    if (std::ranges::none_of(choice.labels, isMeant)) choice.unseen.push_back(name);
   }
   return choice;
 }

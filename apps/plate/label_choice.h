@@ -25,8 +25,8 @@ struct LabelChoice {
 
 /// Which vessels get a label; those that are only numbered ("right leg artery 2") are for who asks by name.
 /// "main": the large ones, by the area that they show; "all-visible": all that are
-/// seen; else names with commas between them, as findSubject() of scene/scene.h reads vessels' names
-/// ("femoral artery" also means a pair of them).
+/// seen; else names with commas between them: whole ones, with or without "left" and "right", or else what
+/// several names have in them ("aorta": all its parts). Upper and lower case are alike.
 struct LabelWishes {
   std::string which = "main";
   std::size_t most = 40;                   ///< of "main" and "all-visible"
