@@ -14,11 +14,13 @@
 namespace vasa::plate {
 namespace {
 
-constexpr int kSamples = 12;           // of a span, at which it is looked for in the picture
-constexpr std::size_t kAnchors = 9;    // of a vessel
-constexpr float kEnds = 0.08f;         // share of a seen stretch's ends that no line points at
-constexpr float kOwnSide = 0.75f;      // share of a paired vessel's points on its own side of the body
-constexpr float kMirrorReach = 0.04f;  // [body heights] by which the ends of a pair may differ
+constexpr int kSamples = 12;         // of a span, at which it is looked for in the picture
+constexpr std::size_t kAnchors = 9;  // of a vessel
+constexpr float kEnds = 0.08f;       // share of a seen stretch's ends that no line points at
+constexpr float kOwnSide = 0.75f;    // share of a paired vessel's points on its own side of the body
+// By what a pair's courses may differ: a share of their distance from the middle, and [body heights].
+constexpr float kMirrorShare = 0.35f, kMirrorReach = 0.005f;
+constexpr int kMirrorSamples = 6;  // along them
 
 std::string lower(std::string_view text) {
   std::string out(text);
@@ -49,28 +51,63 @@ std::string hostName(const Network& network, const Vessel& vessel, bool last) {
 }
 
 // Whether two vessels hang on the same one or on a pair, as far as they hang on any.
-bool hangAlike(const Network& network, const Vessel& a, const Vessel& b) {
+// @param against  the second one runs the other way
+bool hangAlike(const Network& network, const Vessel& a, const Vessel& b, bool against) {
   for (const bool last : {false, true}) {
-    const std::string on = hostName(network, a, last), other = hostName(network, b, last);
+    const std::string on = hostName(network, a, last), other = hostName(network, b, last != against);
     if (!on.empty() && !other.empty() && on != other && mirrored(on) != other) return false;
   }
   return true;
 }
 
+vec3 placeOn(std::span<const vec4> points, float share) {
+  const float u = share * float(points.size() - 1);
+  const auto first = std::min(std::size_t(u), points.size() - 2);
+  return vec3(glm::mix(points[first], points[first + 1], u - float(first)));
+}
+
+// Whether two courses are mirror images by what they lie beside the middle: a heart's two arteries are not.
+bool runAlike(const Network& network, float middle, const Vessel& a, const Vessel& b, bool against) {
+  float beside = 0, apart = 0;
+  for (int k = 0; k <= kMirrorSamples; ++k) {
+    const float share = float(k) / kMirrorSamples;
+    const vec3 here = placeOn(network.pointsOf(a), share),
+               there = placeOn(network.pointsOf(b), against ? 1 - share : share);
+    beside += (std::abs(here.x - middle) + std::abs(there.x - middle)) / (2 * (kMirrorSamples + 1));
+    apart = std::max(apart, glm::distance(vec3(2 * middle - here.x, here.y, here.z), there));
+  }
+  return apart < kMirrorShare * beside + kMirrorReach * network.bodyHeight();
+}
+
+// Which side of the middle a vessel is on: -1, 0, 1.
+int sideOf(const Network& network, float middle, const Vessel& vessel) {
+  std::size_t left = 0;
+  const auto points = network.pointsOf(vessel);
+  for (const vec4& point : points) left += point.x > middle;
+  const float share = float(left) / float(points.size());
+  return share >= kOwnSide ? 1 : share <= 1 - kOwnSide ? -1 : 0;
+}
+
+// Whether two vessels lie on either side of the body as mirror images do; scans' run either way.
 bool mirrorOneAnother(const Network& network, float middle, const Vessel& a, const Vessel& b) {
-  const auto side = [&](const Vessel& vessel) {
-    std::size_t left = 0;
-    const auto points = network.pointsOf(vessel);
-    for (const vec4& point : points) left += point.x > middle;
-    const float share = float(left) / float(points.size());
-    return share >= kOwnSide ? 1 : share <= 1 - kOwnSide ? -1 : 0;
-  };
-  if (side(a) * side(b) != -1 || !hangAlike(network, a, b)) return false;
-  const auto flipped = [&](vec4 p) { return vec3(2 * middle - p.x, p.y, p.z); };
-  const auto pa = network.pointsOf(a), pb = network.pointsOf(b);
-  const float reach = kMirrorReach * network.bodyHeight();
-  return glm::distance(flipped(pa.front()), vec3(pb.front())) < reach &&
-         glm::distance(flipped(pa.back()), vec3(pb.back())) < reach;
+  if (sideOf(network, middle, a) * sideOf(network, middle, b) != -1) return false;
+  for (const bool against : {false, true})
+    if (hangAlike(network, a, b, against) && runAlike(network, middle, a, b, against)) return true;
+  return false;
+}
+
+// "right branch of ..." is the branch to the right, not one of a pair.
+bool sideOfBranch(const std::string& name) {
+  return name.find("left branch") != name.npos || name.find("right branch") != name.npos;
+}
+
+// "digital vein (3)" is a piece of what has this name.
+std::string withoutPiece(std::string name) {
+  const auto open = name.rfind(" (");
+  if (open == name.npos || open == 0 || name.back() != ')') return name;
+  if (name.find_first_not_of("0123456789", open + 2) == name.size() - 1 && name.size() > open + 3)
+    name.resize(open);
+  return name;
 }
 
 class Namer {
@@ -91,7 +128,7 @@ class Namer {
   std::string text(VesselId id) const {
     const Vessel& vessel = network_.vessel(id);
     const std::string name = lower(vessel.name);
-    std::string shown = vessel.name;
+    std::string shown = withoutPiece(vessel.name);
     if (const auto other = otherSideOf(name))
       if (mirrorOneAnother(network_, middle_, vessel, network_.vessels()[*other])) shown = withoutSide(shown);
     if (!shown.empty()) shown[0] = char(std::toupper(static_cast<unsigned char>(shown[0])));
@@ -100,7 +137,7 @@ class Namer {
 
  private:
   std::optional<std::uint32_t> otherSideOf(const std::string& name) const {
-    if (!hasSide(name)) return std::nullopt;
+    if (!hasSide(name) || sideOfBranch(name)) return std::nullopt;
     const auto other = byName_.find(mirrored(name));
     return other == byName_.end() ? std::nullopt : std::optional(other->second);
   }

@@ -44,7 +44,7 @@ Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> p
 
 /// What a label calls a vessel: its name with a capital; "left" and "right" are left out where a vessel of
 /// the same name lies mirrored on the other side and leaves a like vessel (kidneys' arteries, not the heart's
-/// or the bowel's).
+/// or the bowel's), and the number of a piece, "(2)".
 std::string labelText(const Network& network, VesselId vessel);
 
 }  // namespace vasa::plate

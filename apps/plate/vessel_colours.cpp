@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "render/look.h"
 
@@ -92,22 +92,23 @@ const char* kindText(VesselKind kind) {
   return "Other vessels";
 }
 
+// Colours of spans, and keys in the order of their ranks.
 class Palette {
  public:
-  explicit Palette(VesselColours& into) : into_(into) {}
+  void add(vec3 colour, bool shown) { spans_.push_back(packColour(vec4(colour, shown ? 1 : 0))); }
+  void key(int rank, vec3 colour, const char* text) { keys_.try_emplace(rank, ColourKey{colour, text}); }
 
-  void add(vec3 colour, const char* text, bool shown, bool keyed) {
-    into_.spans.push_back(packColour(vec4(colour, shown ? 1 : 0)));
-    if (keyed && text) key(colour, text);
-  }
-
-  void key(vec3 colour, const char* text) {
-    const auto same = [&](const ColourKey& other) { return other.text == text; };
-    if (std::ranges::none_of(into_.keys, same)) into_.keys.push_back({colour, text});
+  VesselColours take() {
+    VesselColours colours{std::move(spans_), {}, false};
+    for (auto& [rank, key] : keys_)
+      if (std::ranges::find(colours.keys, key.text, &ColourKey::text) == colours.keys.end())
+        colours.keys.push_back(std::move(key));
+    return colours;
   }
 
  private:
-  VesselColours& into_;
+  std::vector<std::uint32_t> spans_;
+  std::map<int, ColourKey> keys_;
 };
 
 }  // namespace
@@ -131,8 +132,7 @@ vec3 radiusColour(float radius) {
 Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colouring,
                                     std::span<const char> shown, std::span<const char> keyed) {
   const Network& network = scene.network;
-  VesselColours colours;
-  Palette palette(colours);
+  Palette palette;
   std::vector<SidedPart> parts;
   std::vector<Station> stations;
   if (colouring == VesselColouring::region) {
@@ -141,7 +141,6 @@ Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colourin
     parts = std::move(*known);
     stations = mainStations(scene.binding);
   }
-  std::set<BodyPart> used;  // from head to foot, as BodyPart has them
   const std::vector<char> lungs = ofLungs(network);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];
@@ -151,26 +150,26 @@ Result<VesselColours> colourVessels(const Scene& scene, VesselColouring colourin
       const bool visible = shown[v] != 0, inKeys = keyed[v] != 0;
       switch (colouring) {
         case VesselColouring::kind:
-          palette.add(vec3(colourOf(vessel.kind)), kindText(vessel.kind), visible, inKeys);
+          palette.add(vec3(colourOf(vessel.kind)), visible);
+          if (inKeys) palette.key(int(vessel.kind), vec3(colourOf(vessel.kind)), kindText(vessel.kind));
           break;
         case VesselColouring::blood:
-          palette.add(vec3(colourOf(blood)), bloodText(blood), visible, inKeys);
+          palette.add(vec3(colourOf(blood)), visible);
+          if (inKeys) palette.key(int(blood), vec3(colourOf(blood)), bloodText(blood));
           break;
         case VesselColouring::region: {
-          const BodyPart where = parts[stations[vessel.firstPoint + span + 1].joint.value].part;
-          const PartColour part = partColour(where);
-          palette.add(part.colour, nullptr, visible, inKeys);
-          if (inKeys) used.insert(where);
+          const BodyPart part = parts[stations[vessel.firstPoint + span + 1].joint.value].part;
+          palette.add(partColour(part).colour, visible);
+          if (inKeys) palette.key(int(part), partColour(part).colour, partColour(part).text);
           break;
         }
         case VesselColouring::radius:
-          palette.add(radiusColour(0.5f * (points[span + 1].w + points[span + 2].w)), nullptr, visible,
-                      inKeys);
+          palette.add(radiusColour(0.5f * (points[span + 1].w + points[span + 2].w)), visible);
           break;
       }
     }
   }
-  for (const BodyPart part : used) palette.key(partColour(part).colour, partColour(part).text);
+  VesselColours colours = palette.take();
   if (colouring == VesselColouring::radius) {
     colours.scale = true;
     for (const float millimetres : {0.25f, 1.0f, 4.0f, 16.0f})

@@ -178,6 +178,26 @@ TEST_CASE("mirror images that leave different vessels keep their sides") {
   CHECK(labelText(*network, leftKidney) == "Renal artery");
 }
 
+TEST_CASE("a pair of scanned vessels may run either way, and pieces have one name") {
+  NetworkBuilder builder;
+  const auto add = [&](const char* name, vec3 from, vec3 to) {
+    return builder.addVessel({name, "", VesselKind::vein}, line(from, to, 0.005f));
+  };
+  const VesselId left = add("left femoral vein", {0.1f, 0.5f, 0}, {0.12f, 0.9f, 0});
+  add("right femoral vein", {-0.12f, 0.89f, 0}, {-0.1f, 0.51f, 0});
+  const VesselId upper = add("left coronary vein", {0.02f, 1.2f, 0}, {0.08f, 1.1f, 0});
+  add("right coronary vein", {-0.01f, 1.2f, 0}, {-0.02f, 1.1f, 0.06f});
+  const VesselId piece = add("digital vein (3)", {0.3f, 0.5f, 0}, {0.3f, 0.4f, 0});
+  const VesselId branch = add("left branch of vein", {0.1f, 1, 0}, {0.2f, 1, 0});
+  add("right branch of vein", {-0.1f, 1, 0}, {-0.2f, 1, 0});
+  const auto network = builder.build(1.7f);
+  REQUIRE_MESSAGE(network.ok(), network.error().message);
+  CHECK(labelText(*network, left) == "Femoral vein");
+  CHECK(labelText(*network, upper) == "Left coronary vein");
+  CHECK(labelText(*network, piece) == "Digital vein");
+  CHECK(labelText(*network, branch) == "Left branch of vein");
+}
+
 TEST_CASE("a camera holds all places, and is no wider than they need") {
   const std::vector<vec3> places{{-1, 0, 0.5f}, {1, 2, -0.5f}, {0, 1, 0}};
   const auto fitted = cameraOnto(places, vec3(0, 0, 1), vec3(0, 1, 0), places);
