@@ -18,11 +18,10 @@ constexpr float kCell = 0.3f;            // [mm] of paper that a cell of the map
 constexpr float kFade = 0.06f;           // of the picture's longer side
 constexpr float kLegible = 0.5f;         // of the picture: no label points at what remains less of
 constexpr float kOpaque = 0.5f;          // what is drawn with less lets labels point through
-constexpr float kFirstColumn = 0.18f;    // of the page's width, before it is known how wide labels are
-constexpr float kWidestColumn = 0.2f;
-constexpr float kWidestText = 20;   // ems of a label
-constexpr float kMainArea = 2;      // [mm²] that a main vessel shows on paper
-constexpr float kMainWidth = 0.3f;  // [mm] of it on paper
+constexpr float kNarrowestColumn = 0.145f, kWidestColumn = 0.2f;  // of the page's width
+constexpr float kWidestText = 20;                                 // ems of a label
+constexpr float kMainArea = 2;                                    // [mm²] that a main vessel shows on paper
+constexpr float kMainWidth = 0.3f;                                // [mm] of it on paper
 constexpr float kLine = 1.22f;      // from one line of a text to the next, in its ems
 constexpr float kTextGap = 1.2f;    // [mm] between a text and its line
 constexpr float kStub = 2.0f;       // [mm] level part of a line, beside its text
@@ -167,13 +166,25 @@ PageLayout layoutOf(const PlateStyle& style) {
   return page;
 }
 
-float widestColumn(const PlateStyle& style) {
-  return std::min(kWidestColumn * style.page.x, kWidestText * style.letters);
-}
-
 // Between the columns and the picture.
 float besidePicture(const PlateStyle& style) {
   return style.labels.empty() ? 0 : kTextGap + kStub + kColumnGap;
+}
+
+float widestColumn(const PlateStyle& style) {
+  return std::min(kWidestColumn * style.page.x, kWidestText * style.letters);
+}
+float narrowestColumn(const PlateStyle& style) {
+  return std::min(kNarrowestColumn * style.page.x, widestColumn(style));
+}
+
+// As wide as leaves the picture its whole height.
+float columnBeside(const PlateStyle& style, const PageLayout& page, float aspect) {
+  if (style.labels.empty()) return 0;
+  if (style.wideColumns) return widestColumn(style);
+  const float room = style.page.x - 2 * (style.margin + besidePicture(style));
+  return std::clamp(0.5f * (room - aspect * (page.bottom - page.top)), narrowestColumn(style),
+                    widestColumn(style));
 }
 
 // The largest picture of an aspect between two columns.
@@ -221,8 +232,12 @@ FittedCamera cameraOnto(std::span<const vec3> places, vec3 towards, vec3 up, std
 
 vec2 widestPicture(const PlateStyle& style) {
   const PageLayout page = layoutOf(style);
-  const float column = style.labels.empty() ? 0 : widestColumn(style) + besidePicture(style);
-  return glm::max(vec2(style.page.x - 2 * (style.margin + column), page.bottom - page.top), vec2(1));
+  const float column = style.labels.empty() ? 0
+                       : style.wideColumns  ? widestColumn(style)
+                                            : narrowestColumn(style);
+  return glm::max(
+      vec2(style.page.x - 2 * (style.margin + column + besidePicture(style)), page.bottom - page.top),
+      vec2(1));
 }
 
 Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, const Typesetter& type,
@@ -230,9 +245,8 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
   PlatePlan plan;
   plan.camera = camera;
   const PageLayout page = layoutOf(style);
-  float columns[2] = {0, 0};
-  if (!style.labels.empty())
-    columns[0] = columns[1] = style.wideColumns ? widestColumn(style) : kFirstColumn * style.page.x;
+  const float column = columnBeside(style, page, aspect);
+  float columns[2] = {column, column};
   placePicture(plan, style, page, aspect, columns);
   if (plan.pictureSize.x < 10 || plan.pictureSize.y < 10)
     return Error{Fault::usage,
@@ -266,7 +280,7 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
 
   float widest = 0;
   for (const VesselLabel& label : plan.labels) {
-    plan.lines.push_back(type.wrap(label.text, style.letters, widestColumn(style)));
+    plan.lines.push_back(type.wrap(label.text, style.letters, column));
     for (const std::string& line : plan.lines.back())
       widest = std::max(widest, type.widthOf(line, style.letters));
   }

@@ -24,10 +24,11 @@ struct PlateStyle {
   bool legend = true, scale = true;
   std::string title, subtitle, note;  ///< empty: none
   vec3 paper{1};
-  bool wideColumns = false;  ///< as wide as they may become, whatever the labels: see widestPicture()
+  /// As wide as they may become; otherwise they narrow where that makes the picture larger.
+  bool wideColumns = false;
 };
 
-/// [mm] What a picture can take of a page between columns that are as wide as they may become.
+/// [mm] The most that a picture can take of a page between its columns.
 vec2 widestPicture(const PlateStyle& style);
 
 /// A scene in a pose, as a picture draws it.

@@ -46,6 +46,20 @@ TEST_CASE("a comment is kept and read back; none is none") {
   CHECK(!readPngComment(folder.path() / "none.png").ok());
 }
 
+TEST_CASE("the resolution for print is in the file where one is given") {
+  const Image image{1, 1, {1, 2, 3, 255}};
+  const auto chunk = [](const std::vector<std::byte>& bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto at = text.find("pHYs");
+    return at == text.npos ? std::string() : std::string(text.substr(at + 4, 9));
+  };
+  const auto with = encodePng(image, {.dotsPerInch = 300}), without = encodePng(image);
+  REQUIRE(with.ok());
+  REQUIRE(without.ok());
+  CHECK(chunk(*with) == std::string("\x00\x00\x2e\x23\x00\x00\x2e\x23\x01", 9));  // 11,811 a metre
+  CHECK(chunk(*without).empty());
+}
+
 TEST_CASE("no picture, no crash") {
   const auto garbage = decodePng(std::as_bytes(std::span("not a png at all")), "x.png");
   REQUIRE(!garbage.ok());
