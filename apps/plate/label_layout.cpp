@@ -11,8 +11,11 @@ namespace {
 
 constexpr int kSplits = 9;            // upright lines that are tried
 constexpr float kSplitReach = 0.35f;  // of the figure's half width, to either side of its middle
+constexpr float kSteepCost = 1.5f;    // a line's way up or down, by its way across
 constexpr int kAnchorRounds = 3;      // texts move, then lines look for better anchors, so many times
 constexpr float kDropCost = 3;        // widths between the columns that leaving out a label is worth
+constexpr float kCrowdCost = 0.5f;    // widths that a place in a full stretch of a column is dearer
+constexpr float kCrowdReach = 0.08f;  // of the column's height, to either side: such a stretch
 constexpr float kFullCost = 0.6f;     // widths that the last place of a column is dearer than the first
 
 struct Entry {
@@ -48,34 +51,45 @@ const vec2* anchorBeside(const LabelWish& wish, bool right, float cut, const Lab
 
 struct Division {
   std::vector<std::uint32_t> sides[2];
+  std::vector<vec2> heights[2];  // of the anchors, and what their texts take
   std::vector<std::uint32_t> dropped;
-  float cost = std::numeric_limits<float>::infinity();
 };
+
+// How full of texts a column is around a height.
+float crowding(std::span<const vec2> taken, float height, float reach) {
+  float sum = 0;
+  for (const vec2& other : taken)
+    if (std::abs(other.x - height) < reach) sum += other.y;
+  return sum / (2 * reach);
+}
 
 Division divide(std::span<const LabelWish> wishes, const LabelColumns& columns, float cut) {
   Division division;
-  division.cost = 0;
   const float height = columns.bottom - columns.top;
   float room[2] = {height + columns.gap, height + columns.gap};
   const float whole = room[0];
   for (std::uint32_t i = 0; i < wishes.size(); ++i) {
     float cost[2];
     bool may[2];
+    const vec2* anchors[2];
     const float need = wishes[i].size.y + columns.gap;
     for (int side = 0; side < 2; ++side) {
-      may[side] = anchorBeside(wishes[i], side == 1, cut, columns, &cost[side]) && room[side] >= need;
+      anchors[side] = anchorBeside(wishes[i], side == 1, cut, columns, &cost[side]);
+      may[side] = anchors[side] && room[side] >= need;
+      if (may[side])
+        cost[side] += kCrowdCost * (columns.right - columns.left) *
+                      crowding(division.heights[side], anchors[side]->y, kCrowdReach * height);
       // A column that fills up is the dearer one, so that both fill alike.
       cost[side] += kFullCost * (columns.right - columns.left) * (1 - room[side] / whole);
     }
     if (!may[0] && !may[1]) {
       division.dropped.push_back(i);
-      division.cost += kDropCost * (columns.right - columns.left);
       continue;
     }
     const int side = !may[0] || (may[1] && cost[1] < cost[0]);
     division.sides[side].push_back(i);
+    division.heights[side].push_back({anchors[side]->y, need});
     room[side] -= need;
-    division.cost += cost[side];
   }
   return division;
 }
@@ -112,6 +126,13 @@ class Column {
       dropped.push_back(entries_[gone].label);
       entries_.erase(entries_.begin() + std::ptrdiff_t(gone));
     }
+  }
+
+  float cost() const {
+    float sum = 0;
+    for (const Entry& e : entries_)
+      sum += std::abs(e.port.x - e.anchor.x) + kSteepCost * std::abs(e.port.y - e.anchor.y);
+    return sum;
   }
 
   void append(std::vector<PlacedLabel>& placed) const {
@@ -237,28 +258,41 @@ std::vector<float> spreadOut(std::span<const float> wished, std::span<const floa
   return centres;
 }
 
+namespace {
+
+struct Attempt {
+  LabelLayout layout;
+  float cost = 0;
+};
+
+Attempt layOut(std::span<const LabelWish> wishes, const LabelColumns& columns, float cut) {
+  const Division division = divide(wishes, columns, cut);
+  Attempt attempt{{{}, division.dropped}, 0};
+  for (const bool right : {false, true}) {
+    Column column(wishes, columns, right, cut, division.sides[right]);
+    column.arrange();
+    column.dropCrossing(attempt.layout.dropped);
+    column.append(attempt.layout.placed);
+    attempt.cost += column.cost();
+  }
+  attempt.cost += kDropCost * (columns.right - columns.left) * float(attempt.layout.dropped.size());
+  std::ranges::sort(attempt.layout.dropped);
+  return attempt;
+}
+
+}  // namespace
+
 LabelLayout layOutLabels(std::span<const LabelWish> wishes, const LabelColumns& columns) {
   assert(columns.left < columns.right);
   const float middle = 0.5f * (columns.left + columns.right), half = 0.5f * (columns.right - columns.left);
-  Division best;
-  float cut = middle;
+  Attempt best;
   for (int k = 0; k < kSplits; ++k) {
     // From the middle outwards, so that of equal ones the middle is taken.
     const float step = float((k + 1) / 2) / float(kSplits / 2) * (k % 2 ? 1.0f : -1.0f);
-    const float at = middle + kSplitReach * half * step;
-    Division division = divide(wishes, columns, at);
-    if (division.cost < best.cost) best = std::move(division), cut = at;
+    Attempt attempt = layOut(wishes, columns, middle + kSplitReach * half * step);
+    if (k == 0 || attempt.cost < best.cost) best = std::move(attempt);
   }
-  LabelLayout layout;
-  layout.dropped = best.dropped;
-  for (const bool right : {false, true}) {
-    Column column(wishes, columns, right, cut, best.sides[right]);
-    column.arrange();
-    column.dropCrossing(layout.dropped);
-    column.append(layout.placed);
-  }
-  std::ranges::sort(layout.dropped);
-  return layout;
+  return std::move(best.layout);
 }
 
 }  // namespace vasa::plate

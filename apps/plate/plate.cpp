@@ -22,6 +22,7 @@ constexpr float kNarrowestColumn = 0.145f, kWidestColumn = 0.2f;  // of the page
 constexpr float kWidestText = 20;                                 // ems of a label
 constexpr float kMainArea = 2;                                    // [mm²] that a main vessel shows on paper
 constexpr float kMainWidth = 0.3f;                                // [mm] of it on paper
+constexpr float kAbove = 0.42f;     // of the height that a picture leaves: it rests a little above the middle
 constexpr float kLine = 1.22f;      // from one line of a text to the next, in its ems
 constexpr float kTextGap = 1.2f;    // [mm] between a text and its line
 constexpr float kStub = 2.0f;       // [mm] level part of a line, beside its text
@@ -196,7 +197,7 @@ void placePicture(PlatePlan& plan, const PlateStyle& style, const PageLayout& pa
   plan.pictureSize = vec2(width, width / aspect);
   // Picture and columns stand in the middle of the page together.
   plan.pictureAt.x = style.margin + columns[0] + beside + 0.5f * (room - width);
-  plan.pictureAt.y = page.top + 0.5f * (page.bottom - page.top - plan.pictureSize.y);
+  plan.pictureAt.y = page.top + kAbove * (page.bottom - page.top - plan.pictureSize.y);
   plan.columns = {.left = plan.pictureAt.x - kColumnGap,
                   .right = plan.pictureAt.x + width + kColumnGap,
                   .top = page.top,
@@ -230,11 +231,11 @@ FittedCamera cameraOnto(std::span<const vec3> places, vec3 towards, vec3 up, std
   return {camera, extent.x / extent.y};
 }
 
-vec2 widestPicture(const PlateStyle& style) {
+vec2 pictureRoom(const PlateStyle& style) {
   const PageLayout page = layoutOf(style);
   const float column = style.labels.empty() ? 0
                        : style.wideColumns  ? widestColumn(style)
-                                            : narrowestColumn(style);
+                                            : 0.5f * (narrowestColumn(style) + widestColumn(style));
   return glm::max(
       vec2(style.page.x - 2 * (style.margin + column + besidePicture(style)), page.bottom - page.top),
       vec2(1));

@@ -28,8 +28,8 @@ struct PlateStyle {
   bool wideColumns = false;
 };
 
-/// [mm] The most that a picture can take of a page between its columns.
-vec2 widestPicture(const PlateStyle& style);
+/// [mm] What a picture can take of a page between columns of middling width.
+vec2 pictureRoom(const PlateStyle& style);
 
 /// A scene in a pose, as a picture draws it.
 struct PlateScene {

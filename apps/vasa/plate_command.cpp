@@ -122,13 +122,13 @@ PlateStyle styleOf(const Options& options, vec2 page) {
 }
 
 // A page that is turned has to be worth it.
-constexpr float kTurnGain = 1.12f;
+constexpr float kTurnGain = 1.03f;
 
 vec2 turned(vec2 page, const PlateStyle& upright, float aspect) {
   const auto widthOn = [&](vec2 size) {
     PlateStyle style = upright;
     style.page = size;
-    const vec2 room = plate::widestPicture(style);
+    const vec2 room = plate::pictureRoom(style);
     return std::min(room.x, aspect * room.y);
   };
   const vec2 side(page.y, page.x);

@@ -185,7 +185,7 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
       return Error{Fault::usage,
                    "--labels draws stills: labels would jump in a film; choose one with --frames N"};
     job.page = pageOf(options, *size, job.look);
-    const vec2 room = plate::widestPicture(*job.page);
+    const vec2 room = plate::pictureRoom(*job.page);
     aspect = room.x / room.y;
     pixels = glm::max(glm::round(room * float(size->width) / job.page->page.x), vec2(1));
   }
