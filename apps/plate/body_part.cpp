@@ -54,7 +54,7 @@ Result<std::vector<SidedPart>> partsOfJoints(const Body& body) {
     return badInput(
         body.name +
         ": its joints are not all recognised as a person's by their names, so its regions are not "
-        "known; choose front or back, or --focus a vessel or joint");
+        "known; choose front or back");
   return partsBy(body, known.of);
 }
 

@@ -163,7 +163,7 @@ PageLayout layoutOf(const PlateStyle& style) {
   if (!style.title.empty()) page.top += 9;
   if (!style.subtitle.empty()) page.top += 6;
   if (!style.title.empty() || !style.subtitle.empty()) page.top += 3;
-  if (style.legend || style.scale || !style.note.empty()) page.bottom -= 13;
+  if (style.legend || style.scale) page.bottom -= 13;
   return page;
 }
 
@@ -457,12 +457,6 @@ Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesette
   const float base = style.page.y - style.margin - 4;
   if (style.legend) drawKeys(sheet, keys, style, type, style.margin, base);
   if (style.scale) drawScale(sheet, plan, style, style.page.x - style.margin, base);
-  if (!style.note.empty())
-    sheet.items.push_back(SheetText{.at = {style.margin, style.page.y - style.margin + 1},
-                                    .size = 2.2f,
-                                    .colour = grey,
-                                    .text = style.note,
-                                    .kind = "note"});
   return sheet;
 }
 

@@ -22,7 +22,7 @@ struct PlateStyle {
   float letters = 2.75f;        ///< em of a label: a little under 8 points
   std::string labels = "main";  ///< LabelWishes::which; empty: none
   bool legend = true, scale = true;
-  std::string title, subtitle, note;  ///< empty: none
+  std::string title, subtitle;  ///< empty: none
   vec3 paper{1};
   /// As wide as they may become; otherwise they narrow where that makes the picture larger.
   bool wideColumns = false;

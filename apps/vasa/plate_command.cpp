@@ -61,6 +61,18 @@ Result<PageChoice> parsePage(const std::string& text) {
                                  ": give A5, A4, A3, letter or WIDTHxHEIGHT in millimetres, 60 to 1200 each"};
 }
 
+// What a page may be in pixels, as in `render`, and what its picture may take of memory.
+Result<void> checkPixels(vec2 page, double dpi) {
+  constexpr double kMostAcross = 16384, kMost = 1u << 27;
+  const double width = page.x * dpi / kInch, height = page.y * dpi / kInch;
+  if (width <= kMostAcross && height <= kMostAcross && width * height <= kMost) return {};
+  return Error{
+      Fault::usage,
+      fmt::format("--page and --dpi make a page of {:.0f} x {:.0f} pixels; at most {:g} either way and "
+                  "{:.0f} million in all are drawn: give fewer --dpi",
+                  width, height, kMostAcross, kMost / 1e6)};
+}
+
 enum class Form { png, svg, pdf };
 Result<Form> formOf(const std::string& file) {
   const std::string ending = fs::path(file).extension().string();
@@ -139,6 +151,7 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   auto job = std::make_unique<Job>();
   const auto page = parsePage(options.page);
   if (!page) return page.error();
+  if (auto fine = checkPixels(page->size, options.dpi); !fine) return fine.error();
   job->style = styleOf(options, page->size);
   auto file = chooseScene(options.scene);
   if (!file) return file.error();

@@ -79,7 +79,7 @@ plate::PlateStyle pageOf(const Options& options, PictureSize size, const Look& l
   plate::PlateStyle page;
   page.page = vec2(size.width, size.height) * 25.4f / dpi;
   page.margin = 5;
-  page.labels = options.labels;
+  page.labels = options.labels == "none" ? "" : options.labels;
   page.title = options.title;
   page.paper = vec3(look.background);
   page.wideColumns = true;
@@ -542,8 +542,8 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--hide", options->hide, kHideHelp);
   sub->add_option(
       "--labels", options->labels,
-      "Names beside the figure: main (large vessels), all-visible, or names with commas between them; for "
-      "stills (vasa help plate)");
+      "Names, a legend and a scale bar beside the figure: main (large vessels), all-visible, none, or "
+      "names with commas between them; for stills (vasa help plate)");
   sub->add_option("--title", options->title, "Title of a picture with labels");
   sub->add_option("--colour", options->colour,
                   "What colours of vessels stand for: kind, blood, region or radius")

@@ -142,14 +142,16 @@ TEST_CASE("a plate's colours and what they mean") {
 TEST_CASE("what a plate cannot be is told before anything is loaded") {
   TemporaryFolder folder;
   const std::string file = (folder.path() / "a.png").string();
-  const std::vector<std::vector<std::string>> wrong{{"plate"},
-                                                    {"plate", "front"},
-                                                    {"plate", "front", "-o", "a.jpg"},
-                                                    {"plate", "front", "-o", file, "--page", "A0"},
-                                                    {"plate", "front", "-o", file, "--page", "50x100"},
-                                                    {"plate", "front", "-o", file, "--side", "up"},
-                                                    {"plate", "front", "-o", file, "--colour", "mood"},
-                                                    {"plate", "tail", "-o", file}};
+  const std::vector<std::vector<std::string>> wrong{
+      {"plate"},
+      {"plate", "front"},
+      {"plate", "front", "-o", "a.jpg"},
+      {"plate", "front", "-o", file, "--page", "A0"},
+      {"plate", "front", "-o", file, "--page", "50x100"},
+      {"plate", "front", "-o", file, "--page", "1000x1000", "--dpi", "600"},
+      {"plate", "front", "-o", file, "--side", "up"},
+      {"plate", "front", "-o", file, "--colour", "mood"},
+      {"plate", "tail", "-o", file}};
   for (const auto& arguments : wrong) CHECK(runProgram(arguments).exit == 2);
   CHECK(listOf(folder.path()).empty());
 }
