@@ -91,7 +91,8 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     view.script = std::move(*script);
   }
   view.out = options.out;
-  if (const auto folder = dataFolder()) view.rules = *folder / "growth", view.builtIn = *folder;
+  if (const auto folder = dataFolder())
+    view.furnishing = {*folder / "growth", *folder / "realism" / "ranges.csv"}, view.builtIn = *folder;
   view.file = std::move(*choice);
   view.device = globals.device;
   view.uiScale = options.uiScale;

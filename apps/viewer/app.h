@@ -13,7 +13,7 @@ namespace vasa::viewer {
 
 struct ViewOptions {
   SceneFile file;                 ///< what is opened first; look.preset empty: as in the last session
-  std::filesystem::path rules;    ///< folder of the capillaries' rules; empty: there are none
+  Furnishing furnishing;          ///< what scenes take from the program's own data
   std::filesystem::path builtIn;  ///< folder of the human that ships with the program; empty: none
   std::vector<std::filesystem::path> dropped;  ///< files that are opened at once, as if they had been dropped
   std::string device;                          ///< as --device

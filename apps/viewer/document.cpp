@@ -69,8 +69,7 @@ std::string titleOf(const SceneFile& file) {
   return file.networks.empty() ? file.body.filename().string() : file.networks.front().filename().string();
 }
 
-Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
-                                                     const std::filesystem::path& rules,
+Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, const Furnishing& furnishing,
                                                      const ReadingProgress& told) {
   auto document = std::make_shared<Document>();
   document->file = file;
@@ -88,9 +87,14 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
   document->scene = std::move(*scene);
   if (!file.clip.empty())
     if (const auto clip = findClip(document->scene.body, file.clip); !clip) return clip.error();
-  const std::filesystem::path folder = file.capillaries.rules.empty() ? rules : file.capillaries.rules;
+  const std::filesystem::path folder =
+      file.capillaries.rules.empty() ? furnishing.rules : file.capillaries.rules;
   auto growth = folder.empty() ? Result<SceneGrowth>(SceneGrowth{}) : readGrowth(document->scene, folder);
   if (!growth) return growth.error();
+  const auto ranges = furnishing.ranges.empty() ? Result<std::vector<JointRange>>(std::vector<JointRange>{})
+                                                : readJointRanges(furnishing.ranges);
+  if (!ranges) return ranges.error();
+  document->mannequin = std::make_shared<const Mannequin>(document->scene.body.skeleton, *ranges);
   checkpoint();
   const char* what = "planning where vessels join, preparing the body's meshes";
   const StageLog stage(what);
@@ -102,6 +106,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
       document->levels = std::make_shared<const BodyLevels>(bodyLevels(document->scene.body.meshes));
   });
   document->bounds = boundsOf(document->scene);
+  document->groups = std::make_shared<const VesselGroups>(groupsOf(document->scene, *document->mannequin));
   document->base = std::make_shared<const Network>(document->scene.network);
   document->rebinder = std::make_shared<const Rebinder>(document->scene.body, document->scene.binding.spines);
   document->baseBinding = std::make_shared<const Binding>(document->scene.binding);
@@ -128,6 +133,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   auto made = std::make_shared<Document>();
   made->file = document.file;
   made->levels = document.levels;
+  made->mannequin = document.mannequin;
   made->title = document.title;
   made->base = document.base;
   made->baseBinding = document.baseBinding;
@@ -148,6 +154,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
     made->table.patches = std::move(patches);
   }
   made->bounds = boundsOf(made->scene);
+  made->groups = std::make_shared<const VesselGroups>(groupsOf(made->scene, *made->mannequin));
   if (!made->rules.empty()) {
     auto growth = readGrowth(made->scene, made->rules);
     if (!growth) return growth.error();

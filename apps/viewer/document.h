@@ -9,6 +9,8 @@
 #include "scene/growth.h"
 #include "scene/scene.h"
 #include "surface/sweep_table.h"
+#include "viewer/mannequin.h"
+#include "viewer/vessel_groups.h"
 
 namespace vasa::viewer {
 
@@ -37,8 +39,10 @@ class GrowthBehind {
 struct Document {
   SceneFile file;
   Scene scene;
-  SweepTable table;                          ///< of the network, with the forks planned
-  std::shared_ptr<const BodyLevels> levels;  ///< of the body's meshes
+  SweepTable table;                            ///< of the network, with the forks planned
+  std::shared_ptr<const BodyLevels> levels;    ///< of the body's meshes
+  std::shared_ptr<const Mannequin> mannequin;  ///< the body's skeleton as something to pose
+  std::shared_ptr<const VesselGroups> groups;  ///< what its vessels belong to
   std::string title;
   Aabb bounds;  ///< at rest [m]
   /// What its own journal is replayed onto; its own: the last that the scene names, if that lies beside the
@@ -54,10 +58,14 @@ struct Document {
 /// What a scene is called in the window.
 std::string titleOf(const SceneFile& file);
 
-/// Reads a document; can be cancelled. @param rules  folder of the capillaries' rules where the scene names
-/// none; empty: no capillaries
-Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file,
-                                                     const std::filesystem::path& rules,
+/// What a document takes from the program's own data.
+struct Furnishing {
+  std::filesystem::path rules;  ///< folder of the capillaries' rules, where the scene names none; empty: none
+  std::filesystem::path ranges;  ///< table of how far joints go (io/joint_range.h); empty: none
+};
+
+/// Reads a document; can be cancelled.
+Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, const Furnishing& furnishing,
                                                      const ReadingProgress& told);
 
 /// The journal that belongs to a scene file: beside it, with its name.

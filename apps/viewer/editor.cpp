@@ -20,18 +20,6 @@ constexpr double kSamePlace = 2e-3;  // of a vessel
 // A number of so many decimals that is written with no more of them.
 double decimals(double value, int count) { return std::stod(fmt::format("{:.{}f}", value, count)) + 0.0; }
 
-// [m] of a pixel in the plane through a place that lies parallel to the picture.
-float metresPerPixel(const Camera& camera, vec3 place, float height) {
-  if (camera.orthographicHeight > 0) return camera.orthographicHeight / height;
-  const float depth = glm::dot(place - camera.position, -cameraAxes(camera)[2]);
-  return 2 * depth * std::tan(camera.verticalAngle / 2) / height;
-}
-
-vec3 wayInPlane(const Camera& camera, vec3 place, vec2 pixels, float height) {
-  const mat3 axes = cameraAxes(camera);
-  return metresPerPixel(camera, place, height) * (pixels.x * axes[0] - pixels.y * axes[1]);
-}
-
 template <class Line>
 std::optional<Line> lastLine(const ViewState& state) {
   if (state.journal.empty()) return std::nullopt;

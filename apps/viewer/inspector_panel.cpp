@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curve/bspline.h"
+#include "viewer/fuzzy.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
 
@@ -14,14 +15,10 @@
 namespace vasa::viewer {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
-}
-
 void choose(const PanelInput& in, VesselId vessel, bool go) {
   in.state.selected = VesselPlace{vessel, 0};
+  in.state.alsoChosen.clear();
+  revealChoice(in.state, *in.document->groups);
   if (go) in.state.wishFocus = true;
 }
 
@@ -33,12 +30,11 @@ void showSearch(const PanelInput& in) {
   bool first = ImGui::InputTextWithHint("##search", "Search vessels (Ctrl F)", &state.search,
                                         ImGuiInputTextFlags_EnterReturnsTrue);
   if (state.search.empty()) return;
-  const std::string wanted = lower(state.search);
   const auto& vessels = in.document->scene.network.vessels();
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t v = 0; v < vessels.size(); ++v)
-    if (lower(vessels[v].name).find(wanted) != std::string::npos) found.push_back(v);
-  if (found.empty()) return ImGui::TextDisabled("No vessel has that in its name.");
+  std::vector<std::string_view> names;
+  for (const Vessel& vessel : vessels) names.push_back(vessel.name);
+  const std::vector<std::uint32_t> found = fuzzySearch(state.search, names);
+  if (found.empty()) return ImGui::TextDisabled("No vessel answers to that.");
   constexpr std::size_t kMostRows = 6;
   const float rows = float(std::min(found.size(), kMostRows)) * ImGui::GetTextLineHeightWithSpacing();
   if (ImGui::BeginChild("##found", {0, rows + 2 * ImGui::GetStyle().WindowPadding.y}, true)) {

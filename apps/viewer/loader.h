@@ -20,7 +20,7 @@ class Loader {
   struct Wanted {
     std::string title;
     SceneChoice scene;
-    std::filesystem::path rules;  ///< as loadDocument()
+    Furnishing furnishing;
   };
   /// Starts; cancels what is being loaded. @param changed  called from the loading thread at every step and
   /// at the end

@@ -36,38 +36,40 @@ std::vector<char> shownVessels(const Document& document, const ViewState& state)
   if (single)
     for (const VesselId vessel : treeBelow(network, state.selected->vessel)) shown[vessel.value] = 1;
   for (std::size_t v = 0; v < shown.size(); ++v)
-    shown[v] = shown[v] && kindShown(network.vessels()[v].kind, state.look);
+    shown[v] = shown[v] && kindShown(network.vessels()[v].kind, state.look) &&
+               !state.hidden.has(network.vessels()[v].name);
   return shown;
 }
 
-std::vector<std::uint32_t> coloursOf(const Document& document, const PosedBody& body,
-                                     const ViewState& state) {
+std::vector<std::uint32_t> coloursOf(const Document& document, std::shared_ptr<const PosedBody> body,
+                                     const ViewState& state, SpanColours& plain) {
   const Network& network = document.scene.network;
-  if (!state.selected && !state.contacts && !(state.from && state.to)) return {};
+  const bool single = state.isolate && state.selected;
+  if (!state.selected && !state.contacts && !(state.from && state.to) && !state.hidden.any() &&
+      state.colouring == Colouring::kind)
+    return {};
   const std::vector<std::uint32_t> first = firstSpans(network);
-  std::vector<std::uint32_t> colours(first.back());
+  std::vector<std::uint32_t> colours = state.contacts ? std::vector(first.back(), packColour(kQuiet))
+                                                      : plain.of(document, body, state.colouring);
   const auto paint = [&](VesselId vessel, std::uint32_t from, std::uint32_t to, vec4 colour) {
     std::fill(colours.begin() + first[vessel.value] + from, colours.begin() + first[vessel.value] + to,
               packColour(colour));
   };
-  for (std::uint32_t v = 0; v < network.vessels().size(); ++v)
-    paint({v}, 0, network.vessels()[v].spanCount(),
-          state.contacts ? kQuiet : colourOf(network.vessels()[v].kind));
   if (state.contacts) {
-    for (const std::uint32_t span : body.touched) colours[span] = packColour(kTouched);
-    for (const std::uint32_t span : body.touching) colours[span] = packColour(kTouching);
+    for (const std::uint32_t span : body->touched) colours[span] = packColour(kTouched);
+    for (const std::uint32_t span : body->touching) colours[span] = packColour(kTouching);
   }
   if (state.from && state.to)
-    if (const auto route = RouteFinder(network, body.points).find(*state.from, *state.to))
+    if (const auto route = RouteFinder(network, body->points).find(*state.from, *state.to))
       for (const Route::Leg& leg : route->legs) {
         const std::uint32_t spans = network.vessel(leg.vessel).spanCount();
         const auto [low, high] = std::minmax(leg.from, leg.to);
         paint(leg.vessel, std::min(std::uint32_t(low), spans - 1), std::min(std::uint32_t(high) + 1, spans),
               kRoute);
       }
-  if (state.selected)
-    paint(state.selected->vessel, 0, network.vessel(state.selected->vessel).spanCount(), kChosen);
-  if (state.isolate && state.selected) {
+  for (const VesselId vessel : chosenVessels(state))
+    paint(vessel, 0, network.vessel(vessel).spanCount(), kChosen);
+  if (single || state.hidden.any()) {
     const std::vector<char> shown = shownVessels(document, state);
     for (std::uint32_t v = 0; v < shown.size(); ++v)
       if (!shown[v]) paint({v}, 0, network.vessels()[v].spanCount(), vec4(0));

@@ -10,8 +10,11 @@ namespace vasa::viewer {
 /// Which vessels can be seen, one a vessel: their kind is shown, and nothing else is singled out.
 std::vector<char> shownVessels(const Document& document, const ViewState& state);
 
-/// Colours of the network's spans for Renderer::setSweepColours(): the chosen vessel, the route that is
-/// measured, contacts; empty where all are as their kinds are.
-std::vector<std::uint32_t> coloursOf(const Document& document, const PosedBody& body, const ViewState& state);
+/// Colours of the network's spans for Renderer::setSweepColours(): what the colouring says, contacts, the
+/// route that is measured and the chosen vessels over it, what is not shown not at all; empty where all are
+/// as their kinds are.
+/// @param plain  keeps what the colouring says
+std::vector<std::uint32_t> coloursOf(const Document& document, std::shared_ptr<const PosedBody> body,
+                                     const ViewState& state, SpanColours& plain);
 
 }  // namespace vasa::viewer

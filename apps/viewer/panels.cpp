@@ -74,7 +74,7 @@ void showHeads(const PanelInput& in) {
     ImGui::Text("%s", in.document->title.c_str());
     ImGui::TextDisabled("%zu vessels, %u sweeps", network.vessels().size(), network.sweepCount());
     if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording (R ends it)");
-    if (in.state.posing) ImGui::TextUnformatted("drag a joint (P ends it)");
+    if (in.state.posing) ImGui::TextUnformatted("drag a joint; Ctrl: it alone (P ends it)");
     if (in.state.measuring) ImGui::TextUnformatted("click two vessels (M ends it)");
     ImGui::PushTextWrapPos(in.layout.picture.width - ImGui::GetStyle().WindowPadding.x);
     if (!in.message.empty()) ImGui::TextUnformatted(in.message.c_str());
@@ -122,10 +122,13 @@ void showHelp(const PanelInput& in) {
 void showPanels(const PanelInput& in) {
   showCutOutline(in);
   showChosen(in);
+  showNames(in);
+  showLegend(in);
   showHandles(in);
   showEditHandle(in);
   showHeads(in);
   showEdit(in);
+  showOutliner(in);
   if (in.state.panels) {
     showSide(in);
     place(in.layout.transport);

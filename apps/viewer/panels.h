@@ -21,14 +21,14 @@ struct PanelInput {
   const PosedBody* body = nullptr;     ///< null: no shape yet
   const Timings& timings;
   Layout layout;
-  float scale = 1;                     ///< pixels for one of an ordinary screen
-  Camera camera;                       ///< of the picture
-  Aabb bodyBox;                        ///< where the body is [m]
-  Editor* editor = nullptr;            ///< null: nothing can be edited
-  JointId heldJoint;                   ///< that is being dragged
-  const Profiler* profiler = nullptr;  ///< running or done; null: never run
-  bool fine = false;                   ///< the picture is a still
-  std::string message;                 ///< the latest news, e.g. of a picture that was written
+  float scale = 1;                      ///< pixels for one of an ordinary screen
+  Camera camera;                        ///< of the picture
+  Aabb bodyBox;                         ///< where the body is [m]
+  Editor* editor = nullptr;             ///< null: nothing can be edited
+  std::optional<std::size_t> heldGrip;  ///< of the mannequin, that is being dragged
+  const Profiler* profiler = nullptr;   ///< running or done; null: never run
+  bool fine = false;                    ///< the picture is a still
+  std::string message;                  ///< the latest news, e.g. of a picture that was written
   std::optional<Loader::Stage> loading;
   std::string loadingTitle;
 };
@@ -46,6 +46,9 @@ void showVesselSection(const PanelInput& in);
 void showInspectorSection(const PanelInput& in);
 void showChosen(
     const PanelInput& in);  ///< the chosen vessel's line over the picture, also where something hides it
+void showOutliner(const PanelInput& in);  ///< the list of all vessels
+void showNames(const PanelInput& in);     ///< of what is pointed at and chosen, over the picture
+void showLegend(const PanelInput& in);    ///< what the colours mean, over the picture
 void showPoseSection(const PanelInput& in);
 void showHandles(const PanelInput& in);     ///< joints to drag, over the picture
 void showEdit(const PanelInput& in);        ///< what edits the chosen vessel, over the picture

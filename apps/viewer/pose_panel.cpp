@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <cmath>
 #include <utility>
 
+#include "viewer/joint_names.h"
+#include "viewer/label.h"
 #include "viewer/panels.h"
 #include "viewer/pose_tool.h"
 
@@ -10,87 +13,138 @@
 namespace vasa::viewer {
 namespace {
 
-std::vector<std::string> namesOf(const Skeleton& skeleton) {
-  std::vector<std::string> names;
-  for (const Skeleton::Joint& joint : skeleton.joints) names.push_back(joint.name);
-  return names;
+// A joint's motions that go nowhere are shown only where something is turned that way all the same.
+bool moves(const JointMotion& motion, const JointTurn& turn, int axis) {
+  constexpr float kHardly = 0.21f, kTurned = 0.02f;  // [rad]
+  return motion.most[axis] - motion.least[axis] > kHardly || std::abs(turn.angles[axis]) > kTurned;
 }
 
-void showJoint(const PanelInput& in, JointId joint, const JointMotion& motion) {
+void showJoint(const PanelInput& in, JointId joint) {
+  const Mannequin& mannequin = *in.document->mannequin;
+  const JointMotion& motion = mannequin.motion(joint);
+  const std::string_view part = mannequin.partOf(joint);
+  const vec3 senses = sensesOf(part);
   JointTurn& turn = turnOfJoint(in.state, joint, motion);
-  constexpr const char* axes[] = {"bend", "spread", "twist"};
+  bool changed = false;
   for (int axis = 0; axis < 3; ++axis) {
-    float angle = glm::degrees(turn.angles[axis]);
-    ImGui::SetNextItemWidth(-60 * in.scale);
-    const float least = glm::degrees(motion.least[axis]), most = glm::degrees(motion.most[axis]);
-    if (ImGui::SliderFloat(axes[axis], &angle, least, most, "%.0f°", ImGuiSliderFlags_AlwaysClamp))
-      turn.angles[axis] = glm::radians(angle);
+    if (!moves(motion, turn, axis)) continue;
+    float angle = glm::degrees(senses[axis] * turn.angles[axis]);
+    if (std::abs(angle) < 0.5f) angle = 0;  // not "-0"
+    float least = glm::degrees(senses[axis] * motion.least[axis]),
+          most = glm::degrees(senses[axis] * motion.most[axis]);
+    if (least > most) std::swap(least, most);
+    ImGui::SetNextItemWidth(-80 * in.scale);
+    if (!ImGui::SliderFloat(wordForAxis(part, axis), &angle, least, most, "%.0f°",
+                            ImGuiSliderFlags_AlwaysClamp))
+      continue;
+    turn.angles[axis] = senses[axis] * glm::radians(angle);
+    changed = true;
   }
+  if (changed) followOnOtherSide(mannequin, in.state, joint);
+}
+
+// "left elbow: flexion 45°"; more of them in one line.
+std::string described(const Mannequin& mannequin, const JointTurn& turn) {
+  const std::string_view part = mannequin.partOf(turn.joint);
+  const vec3 senses = sensesOf(part);
+  std::string text = mannequin.nameOf(turn.joint);
+  const char* mark = ": ";
+  for (int axis = 0; axis < 3; ++axis) {
+    const float degrees = std::round(glm::degrees(senses[axis] * turn.angles[axis]));
+    if (degrees == 0) continue;
+    text += fmt::format("{}{} {:.0f}°", mark, wordForAxis(part, axis), degrees);
+    mark = ", ";
+  }
+  return text;
 }
 
 // The joints that are turned beside what the clip does; a click takes one to the sliders.
-void showTurned(ViewState& state, const std::vector<std::string>& names) {
+void showTurned(const PanelInput& in) {
   bool first = true;
-  for (const JointTurn& turn : state.turns) {
-    if (turn.angles == vec3(0) || turn.joint.value >= names.size()) continue;
+  for (const JointTurn& turn : in.state.turns) {
+    if (turn.angles == vec3(0)) continue;
     if (std::exchange(first, false)) ImGui::TextDisabled("turned beside the clip");
     ImGui::PushID(int(turn.joint.value));
-    if (ImGui::Selectable(names[turn.joint.value].c_str(), state.joint == turn.joint))
-      state.joint = turn.joint;
+    const std::string text = described(*in.document->mannequin, turn);
+    if (ImGui::Selectable(text.c_str(), in.state.joint == turn.joint)) in.state.joint = turn.joint;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
     ImGui::PopID();
   }
 }
 
-// What a handle turns, beside it.
-void showName(const PanelInput& in, const std::string& name, ImVec2 at) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec2 size = ImGui::CalcTextSize(name.c_str());
-  const float gap = 4 * in.scale;
-  const ImVec2 low{at.x + 10 * in.scale, at.y - size.y / 2};
-  list.AddRectFilled({low.x - gap, low.y - gap / 2}, {low.x + size.x + gap, low.y + size.y + gap / 2},
-                     IM_COL32(30, 30, 34, 220), gap);
-  list.AddText(low, IM_COL32(235, 236, 238, 255), name.c_str());
+// What concerns the pose as a whole.
+void showPoseButtons(const PanelInput& in) {
+  ViewState& state = in.state;
+  const auto explained = [](bool pressed, const char* text) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+    return pressed;
+  };
+  ImGui::Checkbox("Drag joints (P)", &state.posing);
+  ImGui::SameLine();
+  explained(ImGui::Checkbox("Both sides", &state.bothSides),
+            "The body's other side does what is done to one");
+  if (explained(ImGui::Button("Reset"), "The clip's pose")) state.turns.clear();
+  ImGui::SameLine();
+  if (explained(ImGui::Button("Mirror"), "Left and right change places"))
+    state.turns = mirroredTurns(*in.document->mannequin, state.turns);
+  ImGui::SameLine();
+  if (explained(ImGui::Button("Copy"), "Ctrl C while posing: the pose as text, as scenes have it"))
+    state.wishCopyPose = true;
+  ImGui::SameLine();
+  if (explained(ImGui::Button("Paste"), "Ctrl V while posing")) state.wishPastePose = true;
+}
+
+void showJointChoice(const PanelInput& in) {
+  ViewState& state = in.state;
+  const Mannequin& mannequin = *in.document->mannequin;
+  const float reset = state.joint.valid() ? 60 * in.scale : 0;
+  ImGui::SetNextItemWidth(reset > 0 ? -reset : -1);
+  if (ImGui::BeginCombo("##joint",
+                        state.joint.valid() ? mannequin.nameOf(state.joint).c_str() : "choose a joint",
+                        ImGuiComboFlags_HeightLarge)) {
+    for (const std::uint32_t j : mannequin.listed()) {
+      ImGui::PushID(int(j));
+      if (ImGui::Selectable(mannequin.nameOf({j}).c_str(), state.joint.value == j)) state.joint = {j};
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  if (!state.joint.valid()) return;
+  ImGui::SameLine();
+  if (ImGui::Button("Reset##joint")) {
+    turnOfJoint(state, state.joint, mannequin.motion(state.joint)).angles = vec3(0);
+    followOnOtherSide(mannequin, state, state.joint);
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("This joint as the clip has it");
+  showJoint(in, state.joint);
 }
 
 }  // namespace
 
 void showPoseSection(const PanelInput& in) {
   if (!in.document || !ImGui::CollapsingHeader("Pose")) return;
-  ViewState& state = in.state;
-  const Skeleton& skeleton = in.document->scene.body.skeleton;
-  ImGui::Checkbox("Drag joints (P)", &state.posing);
-  ImGui::SameLine();
-  if (ImGui::Button("Reset")) state.turns.clear();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("The clip's pose");
-  const auto names = namesOf(skeleton);
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##joint", state.joint.valid() ? names[state.joint.value].c_str() : "choose a joint",
-                        ImGuiComboFlags_HeightLarge)) {
-    for (std::uint32_t j = 0; j < names.size(); ++j)
-      if (ImGui::Selectable(names[j].c_str(), state.joint.value == j)) state.joint = {j};
-    ImGui::EndCombo();
-  }
-  if (state.joint.valid() && state.joint.value < names.size())
-    showJoint(in, state.joint, jointMotions(skeleton)[state.joint.value]);
-  showTurned(state, names);
+  showPoseButtons(in);
+  showJointChoice(in);
+  showTurned(in);
 }
 
 void showHandles(const PanelInput& in) {
   if (!in.state.posing || !in.document || !in.body) return;
-  const Skeleton& skeleton = in.document->scene.body.skeleton;
-  const auto handles = jointHandles(skeleton, in.body->pose, in.camera, in.layout.picture, in.scale);
+  const Mannequin& mannequin = *in.document->mannequin;
+  const auto handles = jointHandles(mannequin, in.body->pose, in.camera, in.layout.picture, in.scale);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const auto under =
       ImGui::GetIO().WantCaptureMouse ? std::nullopt : handleAt(handles, {mouse.x, mouse.y}, in.scale);
-  const JointId lit = in.heldJoint.valid() ? in.heldJoint : under ? under->joint : JointId{};
+  const std::size_t none = mannequin.grips().size();
+  const std::size_t lit = in.heldGrip.value_or(under ? under->grip : none);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const JointHandle& handle : handles) {
     const ImVec2 place{handle.place.x, handle.place.y};
-    const bool bright = handle.joint == lit;
-    const float radius = (bright ? 6.0f : 4.0f) * in.scale;
-    list.AddCircleFilled(place, radius, bright ? IM_COL32(255, 190, 25, 255) : IM_COL32(255, 255, 255, 210));
+    const bool bright = handle.grip == lit;
+    const float radius = (bright ? kHandleRadius + 2 : kHandleRadius) * in.scale;
+    list.AddCircleFilled(place, radius, bright ? IM_COL32(255, 190, 25, 255) : IM_COL32(255, 255, 255, 170));
     list.AddCircle(place, radius, IM_COL32(30, 30, 34, 255), 0, 1.5f * in.scale);
-    if (bright) showName(in, skeleton.joints[skeleton.joints[handle.joint.value].parent.value].name, place);
+    if (bright) drawLabel(handle.place, mannequin.grips()[handle.grip].name, 10 * in.scale, in.scale);
   }
 }
 

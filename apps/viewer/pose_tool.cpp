@@ -2,28 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "body/humanoid.h"
 #include "viewer/projection.h"
 
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReach = 9, kApart = 8;  // [pixels of an ordinary screen] of a handle, of two handles
+constexpr float kReach = 10,
+                kApart = 2 * kHandleRadius;  // [pixels of an ordinary screen] of a handle, of two
+
+vec3 placeOf(const Grip& grip, const Pose& pose) {
+  return vec3(pose.world[grip.limb.tip.value] * vec4(grip.limb.offset, 1));
+}
+
+// The transform that a joint's own comes on top of.
+const mat4& before(const Skeleton& skeleton, const Pose& pose, JointId joint) {
+  const JointId parent = skeleton.joints[joint.value].parent;
+  return parent.valid() ? pose.world[parent.value] : skeleton.rootTransform;
+}
+
+std::vector<vec3> anglesIn(const Skeleton& skeleton, const Mannequin& mannequin, const Limb& limb,
+                           const Pose& pose) {
+  std::vector<vec3> angles;
+  for (const ReachJoint& each : limb.joints)
+    angles.push_back(anglesSinceRest(skeleton.joints[each.joint.value], mannequin.motion(each.joint),
+                                     before(skeleton, pose, each.joint), pose.world[each.joint.value]));
+  return angles;
+}
+
+// What a clip, or a slider, has beyond a joint's limits is no reason to jump back; what is held stays as it
+// is.
+Limb widened(Limb limb, std::span<const vec3> angles) {
+  for (std::size_t k = 0; k < limb.joints.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      float &least = limb.joints[k].least[axis], &most = limb.joints[k].most[axis];
+      const bool held = least == most;
+      least = held ? angles[k][axis] : std::min(least, angles[k][axis]);
+      most = held ? angles[k][axis] : std::max(most, angles[k][axis]);
+    }
+  return limb;
+}
 
 }  // namespace
 
-std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera,
+std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& pose, const Camera& camera,
                                       const Rect& picture, float scale) {
   std::vector<JointHandle> handles;
-  for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) {
-    if (!skeleton.joints[j].parent.valid()) continue;
-    const auto place = seenAt(vec3(pose.world[j][3]), camera, picture);
+  for (std::size_t g = 0; g < mannequin.grips().size(); ++g) {
+    const auto place = seenAt(placeOf(mannequin.grips()[g], pose), camera, picture);
     if (!place || !picture.holds(*place)) continue;
     const auto covers = [&](const JointHandle& other) {
       return glm::distance(other.place, *place) < kApart * scale;
     };
-    if (std::ranges::none_of(handles, covers)) handles.push_back({{j}, *place});
+    if (std::ranges::none_of(handles, covers)) handles.push_back({g, *place});
   }
   return handles;
 }
@@ -35,54 +67,88 @@ std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 p
   return *nearest;
 }
 
-std::vector<JointMotion> jointMotions(const Skeleton& skeleton) {
-  std::vector<std::string> names;
-  for (const Skeleton::Joint& each : skeleton.joints) names.push_back(each.name);
-  const HumanoidNames roles = humanoidNames(names);
-  std::vector<JointMotion> motions;
-  for (std::uint32_t j = 0; j < names.size(); ++j) motions.push_back(jointMotion(skeleton, {j}, roles.of[j]));
-  return motions;
-}
-
 JointTurn& turnOfJoint(ViewState& state, JointId joint, const JointMotion& motion) {
   const auto found = std::ranges::find(state.turns, joint, &JointTurn::joint);
   return found != state.turns.end() ? *found
                                     : state.turns.emplace_back(JointTurn{joint, vec3(0), motion.axes});
 }
 
-bool PoseTool::feed(const InputEvent& event, const Document& document, const PosedBody& body,
+void followOnOtherSide(const Mannequin& mannequin, ViewState& state, JointId joint) {
+  const JointId twin = mannequin.twinOf(joint);
+  if (!state.bothSides || twin == joint) return;
+  const vec3 angles = turnOfJoint(state, joint, mannequin.motion(joint)).angles;
+  turnOfJoint(state, twin, mannequin.motion(twin)).angles = mirroredAngles(angles);
+}
+
+bool PoseTool::feed(const InputEvent& event, bool single, const Document& document, const PosedBody& body,
                     const Camera& camera, const Rect& picture, ViewState& state) {
-  const Skeleton& skeleton = document.scene.body.skeleton;
   if (const auto* moved = std::get_if<PointerMoved>(&event)) {
-    if (held_) drag(moved->place, document, body, camera, picture, state);
+    if (held_ && held_->single) turn(moved->place, document, body, camera, picture, state);
+    if (held_ && !held_->single) pull(moved->place, document, body, camera, picture, state);
     place_ = moved->place;
     return held_.has_value();
   }
   const auto* button = std::get_if<ButtonChanged>(&event);
   if (!button || button->button != Button::left) return false;
   if (!button->down) return std::exchange(held_, std::nullopt).has_value();
-  const auto handle = handleAt(jointHandles(skeleton, body.pose, camera, picture, scale_), place_, scale_);
+  const auto handle =
+      handleAt(jointHandles(*document.mannequin, body.pose, camera, picture, scale_), place_, scale_);
   if (!handle) return false;
-  held_ = handle->joint;
-  state.joint = skeleton.joints[held_->value].parent;  // whose sliders go along
-  state.playback.playing = false;
+  take(*handle, single, document, body, state);
   return true;
 }
 
-void PoseTool::drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
+void PoseTool::take(const JointHandle& handle, bool single, const Document& document, const PosedBody& body,
+                    ViewState& state) {
+  const Grip& grip = document.mannequin->grips()[handle.grip];
+  held_ = Held{handle.grip,
+               single,
+               handle.place - place_,
+               placeOf(grip, body.pose),
+               anglesIn(document.scene.body.skeleton, *document.mannequin, grip.limb, body.pose),
+               {}};
+  held_->latest = held_->pressed;
+  state.joint = grip.limb.joints.back().joint;  // whose sliders go along
+  state.playback.playing = false;
+}
+
+void PoseTool::pull(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
                     const Rect& picture, ViewState& state) {
   const Skeleton& skeleton = document.scene.body.skeleton;
-  const JointId turning = skeleton.joints[held_->value].parent;
-  const mat4& world = body.pose.world[turning.value];
+  const Mannequin& mannequin = *document.mannequin;
+  const auto was = seenAt(held_->from, camera, picture);
+  if (!was) return;
+  const vec3 target = held_->from + wayInPlane(camera, held_->from, to + held_->off - *was, picture.height);
+  const Pose clip = unturned(skeleton, body.pose, body.order.turns);
+  const Limb limb = widened(mannequin.grips()[held_->grip].limb, held_->pressed);
+  const Reached there =
+      reach(skeleton, turned(skeleton, clip, state.turns), limb, target, held_->pressed, held_->latest);
+  for (std::size_t k = 0; k < limb.joints.size(); ++k) {
+    if (there.angles[k] == held_->latest[k]) continue;
+    const JointId joint = limb.joints[k].joint;
+    const JointMotion& motion = mannequin.motion(joint);
+    turnOfJoint(state, joint, motion).angles =
+        anglesBeside(skeleton.joints[joint.value], motion, before(skeleton, clip, joint),
+                     clip.world[joint.value], there.angles[k]);
+    followOnOtherSide(mannequin, state, joint);
+  }
+  held_->latest = there.angles;
+}
+
+void PoseTool::turn(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
+                    const Rect& picture, ViewState& state) const {
+  const JointId joint = document.mannequin->grips()[held_->grip].limb.joints.back().joint;
+  const mat4& world = body.pose.world[joint.value];
   const auto centre = seenAt(vec3(world[3]), camera, picture);
   if (!centre) return;
-  const vec2 before = place_ - *centre, after = to - *centre;
-  if (glm::length(before) < 2 || glm::length(after) < 2) return;
+  const vec2 from = place_ - *centre, after = to - *centre;
+  if (glm::length(from) < 2 || glm::length(after) < 2) return;
   // Rows run down: what turns right there is a negative turn about the axis towards the eye.
-  const float angle = -std::atan2(before.x * after.y - before.y * after.x, glm::dot(before, after));
-  const JointMotion motion = jointMotions(skeleton)[turning.value];
-  JointTurn& turn = turnOfJoint(state, turning, motion);
+  const float angle = -std::atan2(from.x * after.y - from.y * after.x, glm::dot(from, after));
+  const JointMotion& motion = document.mannequin->motion(joint);
+  JointTurn& turn = turnOfJoint(state, joint, motion);
   turn.angles = turnedFurther(turn.angles, motion, world, cameraAxes(camera)[2], angle);
+  followOnOtherSide(*document.mannequin, state, joint);
 }
 
 }  // namespace vasa::viewer

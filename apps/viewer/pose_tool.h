@@ -12,20 +12,24 @@
 
 namespace vasa::viewer {
 
-/// A joint that can be dragged, where it is in the window [pixels]. Dragging it turns the joint it hangs on.
+constexpr float kHandleRadius = 7.5f;  ///< [pixels of an ordinary screen]
+
+/// A grip of the mannequin, where it is in the window.
 struct JointHandle {
-  JointId joint;
-  vec2 place;
+  std::size_t grip;  ///< of Mannequin::grips()
+  vec2 place;        ///< [pixels]
 };
-/// Of joints that would lie on one another only the one nearest to the root.
+/// Of grips that would lie on one another only the first.
 /// @param scale  pixels for one of an ordinary screen
-std::vector<JointHandle> jointHandles(const Skeleton& skeleton, const Pose& pose, const Camera& camera,
+std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& pose, const Camera& camera,
                                       const Rect& picture, float scale);
 
 /// The handle that a press at a place takes hold of.
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale);
 
-/// Poses the body by dragging its joints, in the plane of the picture.
+/// Poses the body by pulling it about, in the plane through what is pulled that lies parallel to the picture:
+/// a pulled wrist takes its whole arm along, within what joints can do (body/reach.h). With Ctrl only the
+/// joint next to the handle turns, about the line of sight.
 class PoseTool {
  public:
   /// @param scale  pixels for one of an ordinary screen
@@ -33,24 +37,38 @@ class PoseTool {
 
   /// Where the pointer is while it is somebody else's.
   void hover(vec2 place) { place_ = place; }
+  /// @param single  Ctrl is held: one joint alone
   /// @return whether the event was a drag's: then it is nobody else's
-  bool feed(const InputEvent& event, const Document& document, const PosedBody& body, const Camera& camera,
-            const Rect& picture, ViewState& state);
-  std::optional<JointId> held() const { return held_; }
+  bool feed(const InputEvent& event, bool single, const Document& document, const PosedBody& body,
+            const Camera& camera, const Rect& picture, ViewState& state);
+  /// The grip that is held.
+  std::optional<std::size_t> held() const { return held_ ? std::optional(held_->grip) : std::nullopt; }
 
  private:
-  void drag(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
+  struct Held {
+    std::size_t grip;
+    bool single;
+    vec2 off;                   // [pixels] from the pointer to the grip
+    vec3 from;                  // [m] the grip when it was taken
+    std::vector<vec3> pressed;  // angles since rest then
+    std::vector<vec3> latest;
+  };
+  void take(const JointHandle& handle, bool single, const Document& document, const PosedBody& body,
+            ViewState& state);
+  void pull(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
             const Rect& picture, ViewState& state);
+  void turn(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,
+            const Rect& picture, ViewState& state) const;
 
   float scale_;
   vec2 place_{0};
-  std::optional<JointId> held_;
+  std::optional<Held> held_;
 };
-
-/// What each joint of a skeleton may do.
-std::vector<JointMotion> jointMotions(const Skeleton& skeleton);
 
 /// The turn of a joint in the state, added where there is none yet.
 JointTurn& turnOfJoint(ViewState& state, JointId joint, const JointMotion& motion);
+
+/// While both sides are posed alike: the other side's joint follows.
+void followOnOtherSide(const Mannequin& mannequin, ViewState& state, JointId joint);
 
 }  // namespace vasa::viewer

@@ -5,12 +5,12 @@
 #include <thread>
 #include <vector>
 
+#include "body/joint_motion.h"
 #include "core/cancellation.h"
 #include "scene/frame.h"
 #include "scene/measurements.h"
 #include "viewer/document.h"
 #include "viewer/forces.h"
-#include "viewer/posing.h"
 
 namespace vasa::viewer {
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <optional>
 
 #include "render/camera.h"
@@ -13,6 +14,16 @@ inline std::optional<vec2> seenAt(vec3 place, const Camera& camera, const Rect& 
   // Rows run down, in the window as in what the projection gives.
   return vec2(picture.left, picture.top) +
          (vec2(clip) / clip.w * 0.5f + 0.5f) * vec2(picture.width, picture.height);
+}
+
+/// A way in the plane through a place that lies parallel to the picture [m].
+/// @param pixels  the same way in the picture  @param height  [pixels] of the picture
+inline vec3 wayInPlane(const Camera& camera, vec3 place, vec2 pixels, float height) {
+  const mat3 axes = cameraAxes(camera);
+  const float depth = glm::dot(place - camera.position, -axes[2]);
+  const float high = camera.orthographicHeight > 0 ? camera.orthographicHeight
+                                                   : 2 * depth * std::tan(camera.verticalAngle / 2);
+  return high / height * (pixels.x * axes[0] - pixels.y * axes[1]);
 }
 
 }  // namespace vasa::viewer

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
-#include "viewer/pose_tool.h"
 
 namespace vasa::viewer {
 namespace {
@@ -51,13 +50,11 @@ std::vector<TurnChoice> poseOf(const Skeleton& skeleton, std::span<const JointTu
 
 std::vector<JointTurn> turnsOf(const Skeleton& skeleton, std::span<const TurnChoice> pose) {
   std::vector<JointTurn> turns;
-  if (pose.empty()) return turns;
-  const std::vector<JointMotion> motions = jointMotions(skeleton);
   for (const TurnChoice& choice : pose) {
     const auto joint = std::ranges::find(skeleton.joints, choice.joint, &Skeleton::Joint::name);
     if (joint == skeleton.joints.end()) continue;
     const JointId id{std::uint32_t(joint - skeleton.joints.begin())};
-    turns.push_back({id, glm::radians(choice.degrees), motions[id.value].axes});
+    turns.push_back({id, glm::radians(choice.degrees), jointMotion(skeleton, id, {}).axes});
   }
   return turns;
 }

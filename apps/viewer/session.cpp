@@ -1,9 +1,12 @@
 #include "viewer/session.h"
 
+#include <fmt/format.h>
+
 #include "core/atomic_file.h"
 #include "core/log.h"
 #include "core/stage_log.h"
 #include "gpu/error.h"
+#include "viewer/pose_text.h"
 
 namespace vasa::viewer {
 
@@ -69,6 +72,7 @@ Result<ViewReport> Session::go() {
     const auto start = Clock::now();
     now_ += pass();
     gather();
+    lookUnderPointer();
     adopt();
     travel();
     reshape();
@@ -151,7 +155,20 @@ void Session::meetWishes() {
   if (state_.wishCancel && loader_.busy()) cancelLoading();
   if (state_.wishPicture && shown_) save({freeName(options_.out, "png"), false});
   state_.wishPicture = state_.wishCancel = false;
+  if (std::exchange(state_.wishCopyPose, false) && document_)
+    window_.setClipboard(poseText(poseOf(document_->scene.body.skeleton, state_.turns)));
+  if (std::exchange(state_.wishPastePose, false) && document_) pastePose();
   if (saving_) save(*std::exchange(saving_, std::nullopt));
+}
+
+void Session::pastePose() {
+  const auto pose = poseOfText(window_.clipboard());
+  if (!pose) return say(pose.error().message, 8);
+  state_.turns = turnsOf(document_->scene.body.skeleton, *pose);
+  if (state_.turns.size() < pose->size())
+    say(fmt::format("{} of the pose's {} joints are none of this body's", pose->size() - state_.turns.size(),
+                    pose->size()));
+  panelFrames_ = kRestingFrames;
 }
 
 void Session::say(std::string message, double seconds) {
@@ -181,7 +198,7 @@ void Session::rest(double drawn) {
     return;
   }
   const bool waiting = worker_.busy() || reshaper_.busy() || (shown_ && !shown_->fine && state_.fineStills) ||
-                       now_ < messageUntil_;
+                       now_ < messageUntil_ || movedAt_ >= 0;
   const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0)
                          : moving || due           ? std::max(kFrame - drawn, 0.0)
                          : waiting                 ? 0.05

@@ -66,6 +66,8 @@ class Session {
   void takeScript();
   void handle(const InputEvent& event);
   void click(const Click& click);
+  std::optional<VesselPlace> vesselAt(vec2 place) const;
+  void lookUnderPointer();
   bool isHidden(vec3 place) const;
 
   // time and shapes
@@ -91,10 +93,11 @@ class Session {
   void saveScene();
 
   // pictures
+  Layout layoutNow() const;
   Rect pictureRect() const;
   Camera cameraNow() const;
   Aabb bodyBox() const;
-  Shot shotNow() const;
+  Shot shotNow();
   void moveCamera();
   bool drawScene();
   bool makeStill(const Shot& fine);
@@ -102,6 +105,7 @@ class Session {
   void drawWindow();
   void noteFirst();
   void meetWishes();
+  void pastePose();
   void record();
   void profile();
   void save(const SavePicture& wish);
@@ -136,6 +140,7 @@ class Session {
   std::optional<Clock::time_point> editedAt_;  // what is coming, until it is seen
   std::string title_;
   std::shared_ptr<const PosedBody> body_;
+  SpanColours spanColours_;
   Timings timings_;
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;
@@ -149,6 +154,7 @@ class Session {
   Detail detail_;                                 // of both
   vec3 way_{0}, carried_{0};                      // of the body over the floor; of the camera along with it
   double now_ = 0, still_ = 0, scrolledAt_ = -1;  // [s]
+  double movedAt_ = -1;                           // [s] the pointer; < 0: what lies under it is known
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
   Clock::time_point loadStart_, lastWatched_;

@@ -72,6 +72,11 @@ void Session::changeTo(std::shared_ptr<const Document> edited) {
   const Network& after = edited->scene.network;
   for (auto* place : {&state_.selected, &state_.from, &state_.to})
     *place = carriedOver(*place, before, after);
+  std::vector<VesselId> also;
+  for (const VesselId vessel : state_.alsoChosen)
+    if (const auto there = carriedOver(VesselPlace{vessel, 0}, before, after)) also.push_back(there->vessel);
+  state_.alsoChosen = std::move(also);
+  state_.pointedAt.reset();
   if (!state_.selected) state_.isolate = false;
   document_ = std::move(edited);
   profiler_.reset();

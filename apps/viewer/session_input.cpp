@@ -11,6 +11,8 @@ bool changesState(const InputEvent& event) {
   return std::holds_alternative<ButtonChanged>(event) || std::holds_alternative<KeyChanged>(event);
 }
 
+bool isArrow(Key key) { return key == Key::up || key == Key::down; }
+
 }  // namespace
 
 void Session::gather() {
@@ -83,7 +85,7 @@ void Session::handle(const InputEvent& event) {
   } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
     if (key->down && key->key == Key::escape && loader_.busy())
       state_.wishCancel = true;
-    else if (key->down && !ui_.wantsKeys())
+    else if (key->down && !ui_.wantsKeys() && !(state_.outliner.focused && isArrow(key->key)))
       applyShortcut(key->key, pointer_.control(), pointer_.shift(), state_, document_.get());
   } else if (const auto* file = std::get_if<FileDropped>(&event)) {
     dropped_.emplace_back(file->path);
@@ -92,11 +94,13 @@ void Session::handle(const InputEvent& event) {
   } else if (std::holds_alternative<Scrolled>(event)) {
     scrolledAt_ = now_;
   }
+  if (std::holds_alternative<PointerMoved>(event)) movedAt_ = now_, state_.pointedAt.reset();
   const bool free = !ui_.wantsPointer();
   if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !poseTool_.held())
     poseTool_.hover(moved->place);
   const bool posing = state_.posing && document_ && body_ && (free || poseTool_.held());
-  const bool posed = posing && poseTool_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
+  const bool posed = posing && poseTool_.feed(event, pointer_.control(), *document_, *body_, cameraNow(),
+                                              pictureRect(), state_);
   if (posed && !std::holds_alternative<PointerMoved>(event)) return;
   if (const auto* moved = std::get_if<PointerMoved>(&event); moved && !editor_.held())
     editor_.hover(moved->place);

@@ -20,14 +20,14 @@ Loader::Wanted wantedOf(const ViewOptions& options, std::vector<std::filesystem:
     }
     return scene;
   };
-  return {std::move(title), choice, options.rules};
+  return {std::move(title), choice, options.furnishing};
 }
 
 }  // namespace
 
 Loader::Wanted firstWanted(const ViewOptions& options) {
   if (!options.dropped.empty()) return wantedOf(options, options.dropped, options.file);
-  return {titleOf(options.file), [file = options.file] { return file; }, options.rules};
+  return {titleOf(options.file), [file = options.file] { return file; }, options.furnishing};
 }
 
 void Session::openDropped() {
@@ -86,6 +86,10 @@ void Session::adopt() {
   way_ = carried_ = vec3(0);
   state_.journal = document_->journal;
   state_.selected.reset();
+  state_.pointedAt.reset();
+  state_.alsoChosen.clear();
+  state_.hidden.clear();
+  state_.outliner.unfolded.clear();
   state_.turns = turnsOf(document_->scene.body.skeleton, document_->file.pose);
   state_.from = state_.to = std::nullopt;
   state_.joint = {};

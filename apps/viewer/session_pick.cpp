@@ -92,11 +92,11 @@ bool Session::isHidden(vec3 place) const {
   return hiddenBehind(*document_, *body_, state_.look, ray) < glm::dot(place - ray.origin, ray.direction);
 }
 
-void Session::click(const Click& click) {
-  if (!document_ || !body_) return;
+// What can be seen at a place of the picture.
+std::optional<VesselPlace> Session::vesselAt(vec2 place) const {
   const Rect rect = pictureRect();
   const Camera camera = cameraNow();
-  Ray ray = rayThrough(camera, click.place, {rect.width, rect.height});
+  Ray ray = rayThrough(camera, place, {rect.width, rect.height});
   const float farthest = camera.cut ? keepTo(ray, *camera.cut) : std::numeric_limits<float>::infinity();
   const std::vector<char> shown = shownVessels(*document_, state_);
   const float slack = kReachPixels * ui_.scale() * 2 * std::tan(state_.orbit.angle() / 2) / rect.height;
@@ -104,7 +104,27 @@ void Session::click(const Click& click) {
       document_->scene.network, body_->points, ray, [&](VesselId v) { return shown[v.value] != 0; }, slack);
   if (hit && (hit->distance > farthest || hit->distance > hiddenBehind(*document_, *body_, state_.look, ray)))
     hit.reset();
-  const auto place = hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;
+  return hit ? std::optional(VesselPlace{hit->vessel, hit->parameter}) : std::nullopt;
+}
+
+// Names what a pointer rests on. Meshes before it make that cost a picture's time, so not while it moves.
+void Session::lookUnderPointer() {
+  constexpr double kRests = 0.15;  // [s]
+  if (movedAt_ < 0 || !document_ || !body_ || now_ - movedAt_ < kRests) return;
+  movedAt_ = -1;
+  const Rect rect = pictureRect();
+  const bool can = !ui_.wantsPointer() && !pointer_.dragging() && !poseTool_.held() && !editor_.held() &&
+                   !state_.playback.playing && rect.holds(pointer_.place());
+  const auto under = can ? vesselAt(pointer_.place() - vec2(rect.left, rect.top)) : std::nullopt;
+  if (under != state_.pointedAt) panelFrames_ = kRestingFrames;
+  state_.pointedAt = under;
+}
+
+void Session::click(const Click& click) {
+  if (!document_ || !body_) return;
+  const Rect rect = pictureRect();
+  const Camera camera = cameraNow();
+  const auto place = vesselAt(click.place);
   if (state_.editing && editor_.click(click.place, place, *document_, *body_, camera, rect, state_)) return;
   if (state_.measuring && place) {
     if (!state_.from || state_.to)
@@ -112,8 +132,11 @@ void Session::click(const Click& click) {
     else
       state_.to = place;
   } else if (!state_.measuring) {
+    const bool add = pointer_.control() && place && state_.selected;
+    state_.alsoChosen = add ? chosenVessels(state_) : std::vector<VesselId>{};
     state_.selected = place;
     if (!place) state_.isolate = false;
+    if (state_.outliner.on) revealChoice(state_, *document_->groups);
   }
   if (click.twice && state_.selected) state_.wishFocus = true;
 }

@@ -49,9 +49,11 @@ bool same(const Shot& a, const Shot& b) {
 
 }  // namespace
 
-Rect Session::pictureRect() const {
-  return layoutOf(float(width_), float(height_), ui_.scale(), state_.panels).picture;
+Layout Session::layoutNow() const {
+  return layoutOf(float(width_), float(height_), ui_.scale(), state_.panels, state_.outliner.on);
 }
+
+Rect Session::pictureRect() const { return layoutNow().picture; }
 
 Camera Session::cameraNow() const {
   Camera camera = state_.orbit.camera(state_.cut, 0.5f * glm::length(document_->bounds.extent()));
@@ -69,14 +71,14 @@ Aabb Session::bodyBox() const {
   return box;
 }
 
-Shot Session::shotNow() const {
+Shot Session::shotNow() {
   const Rect rect = pictureRect();
   Shot shot{.body = body_,
             .camera = cameraNow(),
             .look = state_.look,
             .width = std::uint32_t(rect.width),
             .height = std::uint32_t(rect.height),
-            .colours = coloursOf(*document_, *body_, state_)};
+            .colours = coloursOf(*document_, body_, state_, spanColours_)};
   shot.look.occlusion = 0;
   return shot;
 }
@@ -175,7 +177,7 @@ void Session::drawWindow() {
   const auto start = Clock::now();
   canvas_.resize({width_, height_});
   ui_.begin(width_, height_, options_.script ? kScriptFrame : kFrame);
-  const Layout layout = layoutOf(float(width_), float(height_), ui_.scale(), state_.panels);
+  const Layout layout = layoutNow();
   showPanels({.state = state_,
               .document = document_.get(),
               .body = body_.get(),
@@ -185,14 +187,15 @@ void Session::drawWindow() {
               .camera = shown_ ? shown_->camera : Camera{},
               .bodyBox = document_ ? bodyBox() : Aabb{},
               .editor = &editor_,
-              .heldJoint = poseTool_.held().value_or(JointId{}),
+              .heldGrip = poseTool_.held(),
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,
               .message = now_ < messageUntil_ ? message_ : "",
               .loading = loader_.busy() ? std::optional(loader_.stage()) : std::nullopt,
               .loadingTitle = loader_.title()});
   const auto declared = Clock::now();
-  canvas_.draw(shown_ ? painter_.picture() : nullptr, 0, 0, ui_.end());
+  canvas_.draw(shown_ ? painter_.picture() : nullptr, std::uint32_t(layout.picture.left),
+               std::uint32_t(layout.picture.top), ui_.end());
   window_.setPointer(ui_.pointer());
   const auto drawn = Clock::now();
   swapchain_.present(canvas_.canvas(), {window_.width(), window_.height()});

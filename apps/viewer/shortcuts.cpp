@@ -9,7 +9,7 @@ constexpr Shortcut kShortcuts[] = {
     {"drag", "turn"},
     {"shift or right drag", "move"},
     {"wheel", "nearer, farther"},
-    {"click", "choose a vessel"},
+    {"click", "choose a vessel; with Ctrl one more"},
     {"double click", "go to it"},
     {"Space", "play, pause"},
     {"Left, Right", "a frame back, on"},
@@ -19,8 +19,12 @@ constexpr Shortcut kShortcuts[] = {
     {"Home", "all of the body"},
     {"F or .", "to the chosen vessel"},
     {"I", "only the chosen vessel and its tree"},
+    {"O", "list of all vessels; Up, Down there: another one"},
+    {"H", "hide what is chosen; Shift: all else; Ctrl: show all"},
+    {"K, L", "colour by kind, region, radius, strain; legend"},
     {"M", "measure along the vessels"},
-    {"P", "pose: drag joints"},
+    {"P", "pose: drag wrists, knees, head; with Ctrl one joint alone"},
+    {"Ctrl C, Ctrl V", "copy and paste the pose, while posing"},
     {"E", "edit: drag, narrow, widen, branch, graft"},
     {"Del", "delete the chosen vessel, while editing"},
     {"Ctrl Z", "undo edits, pose, look, view"},
@@ -55,6 +59,16 @@ void choose(ViewState& state, bool measuring) {
   if (!measuring) state.from = state.to = std::nullopt;
 }
 
+void hide(bool control, bool shift, ViewState& state, const Network& network) {
+  const std::vector<VesselId> chosen = chosenVessels(state);
+  if (control)
+    state.hidden.clear();
+  else if (shift && !chosen.empty())
+    state.hidden.leaveOnly(network, chosen);
+  else
+    state.hidden.set(network, chosen, true);
+}
+
 }  // namespace
 
 std::span<const Shortcut> shortcuts() { return kShortcuts; }
@@ -85,6 +99,7 @@ void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Do
     case Key::escape:
       if (std::exchange(state.asking, false)) return;
       state.selected.reset();
+      state.alsoChosen.clear();
       state.isolate = state.help = false;
       choose(state, false);
       return;
@@ -108,6 +123,11 @@ void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Do
   if (key == keyOf('5')) state.orbit.setOrthographic(!state.orbit.orthographic());
   if (key == keyOf('F')) (control ? state.wishSearch : state.wishFocus) = true;
   if (key == keyOf('I')) state.isolate = !state.isolate && state.selected;
+  if (key == keyOf('O')) state.outliner.on = !state.outliner.on;
+  if (key == keyOf('H') && document) hide(control, shift, state, document->scene.network);
+  if (key == keyOf('K'))
+    state.colouring = Colouring((int(state.colouring) + 1) % int(kColourings.size())), state.legend = true;
+  if (key == keyOf('L')) state.legend = !state.legend;
   if (key == keyOf('M')) choose(state, !state.measuring);
   if (key == keyOf('P')) state.posing = !state.posing;
   if (key == keyOf('E') && !control) state.editing = !state.editing;
@@ -117,6 +137,8 @@ void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Do
   if (key == keyOf('X') && !control) state.cutPlane.on = !state.cutPlane.on;
   if (key == keyOf('R')) state.recording = !state.recording;
   if (key == keyOf('C') && !control) state.contacts = !state.contacts;
+  if (key == keyOf('C') && control) state.wishCopyPose = state.posing;
+  if (key == keyOf('V') && control) state.wishPastePose = state.posing;
   if (key == keyOf('Q') && control) state.wishQuit = true;
 }
 

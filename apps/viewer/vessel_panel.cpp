@@ -40,6 +40,12 @@ void showVesselSection(const PanelInput& in) {
     item("Heartbeat", forces.beat, "The heart beats, and the vessels beside it go along");
     ImGui::EndTable();
   }
+  ImGui::SetNextItemWidth(110 * in.scale);
+  int colouring = int(in.state.colouring);
+  if (ImGui::Combo("colour (K)", &colouring, kColourings.data(), int(kColourings.size())))
+    in.state.colouring = Colouring(colouring), in.state.legend = true;
+  ImGui::SameLine();
+  ImGui::Checkbox("Legend (L)", &in.state.legend);
   if (in.state.contacts && in.body) {
     const FrameReport& report = in.body->report;
     ImGui::TextDisabled("%u contacts, %u left", in.body->contactsBefore, report.avoid.after.contacts);

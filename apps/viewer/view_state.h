@@ -3,13 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "body/joint_motion.h"
 #include "network/route.h"
 #include "render/look.h"
+#include "viewer/colouring.h"
 #include "viewer/cut_plane.h"
 #include "viewer/forces.h"
+#include "viewer/hidden_vessels.h"
 #include "viewer/orbit.h"
+#include "viewer/outliner.h"
 #include "viewer/playback.h"
-#include "viewer/posing.h"
 
 namespace vasa::viewer {
 
@@ -33,6 +36,8 @@ struct Undoable {
   CutPlane cutPlane;
   bool follow = true;     ///< the camera goes along with a body that walks
   bool contacts = false;  ///< vessels grey, those that touch in colour
+  Colouring colouring = Colouring::kind;
+  HiddenVessels hidden;
   std::vector<JointTurn> turns;
   std::vector<std::string> journal;  ///< lines of edits (edit/journal.h), on top of those of other files
 
@@ -44,11 +49,16 @@ struct Undoable {
 struct ViewState : Undoable {
   Playback playback;
   bool panels = true, timing = false, help = false;
+  bool legend = false;     ///< what the colours mean, in the picture
   bool posing = false;     ///< joints can be dragged
+  bool bothSides = false;  ///< ... and the body's other side does what is done to one
   bool editing = false;    ///< the chosen vessel can be changed
   JointId joint;           ///< whose sliders are shown
   bool recording = false;  ///< pictures go to a video, a thirtieth of a second each
   std::optional<VesselPlace> selected;
+  std::vector<VesselId> alsoChosen;      ///< together with it (chosenVessels())
+  std::optional<VesselPlace> pointedAt;  ///< what lies under a pointer that rests
+  OutlinerState outliner;
   bool isolate = false;    ///< only the selected vessel and its relatives are shown
   bool measuring = false;  ///< clicks set `from` and `to`, by turns
   std::optional<VesselPlace> from, to;
@@ -57,7 +67,7 @@ struct ViewState : Undoable {
   // Wishes, taken back when they are met.
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
        wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
-       wishDelete = false, wishDiscard = false;
+       wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false;
   bool asking = false;  ///< whether to quit with something unsaved
 };
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "realism/joint_range.h"
+#include "io/joint_range.h"
 #include "realism/vessel_load.h"
 #include "scene/frame.h"
 #include "scene/scene.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/mirror.h"
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "io/csv.h"
 #include "realism/bone_gap.h"
-#include "realism/mirror.h"
 #include "realism/path_measures.h"
 #include "realism/vessel_path.h"
 

@@ -2,39 +2,140 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <memory>
+
+#include "io/gltf.h"
+#include "viewer/pose_text.h"
+#include "viewer/scene_keeper.h"
+
 using namespace vasa;
 using namespace vasa::viewer;
 
 namespace {
 
-// Joints in a row, the last two in one place.
-Skeleton row() {
-  Skeleton skeleton;
-  const float places[] = {-0.5f, 0, 0.5f, 0.501f};
-  for (std::uint32_t j = 0; j < 4; ++j) {
-    Skeleton::Joint joint;
-    if (j > 0) joint.parent = JointId{j - 1};
-    joint.restWorld[3] = vec4(places[j], 0, 0, 1);
-    joint.rest.translation = {places[j] - (j > 0 ? places[j - 1] : 0), 0, 0};
-    skeleton.joints.push_back(joint);
-  }
-  return skeleton;
-}
+const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
+const Camera kCamera{.position = {0, 1, 4}, .target = {0, 1, 0}};
+constexpr Rect kPicture{0, 0, 800, 800};
 
-const Camera kCamera{.position = {0, 0, 4}, .target = {0, 0, 0}};
-constexpr Rect kPicture{0, 0, 400, 300};
+// The human at rest, with nothing but what posing asks for.
+struct Posing {
+  Document document;
+  PosedBody body;
+  ViewState state;
+  PoseTool tool;
+
+  Posing() {
+    auto read = readBody(kData / "human.glb");
+    auto ranges = readJointRanges(kData / "realism" / "ranges.csv");
+    REQUIRE(read);
+    REQUIRE(ranges);
+    document.scene.body = std::move(*read);
+    document.mannequin = std::make_shared<const Mannequin>(document.scene.body.skeleton, *ranges);
+    body.pose = restPose(document.scene.body.skeleton);
+  }
+  const Skeleton& skeleton() const { return document.scene.body.skeleton; }
+  vec2 handle(std::string_view name) const {
+    for (const JointHandle& each : jointHandles(*document.mannequin, body.pose, kCamera, kPicture, 1))
+      if (document.mannequin->grips()[each.grip].name == name) return each.place;
+    FAIL("no such handle");
+    return {};
+  }
+  void feed(const InputEvent& event, bool single = false) {
+    tool.feed(event, single, document, body, kCamera, kPicture, state);
+  }
+  void move(vec2 to) {
+    feed(PointerMoved{to});
+    body.order.turns = state.turns;
+    body.pose = turned(skeleton(), restPose(skeleton()), state.turns);
+  }
+  void press(vec2 at, bool single = false) {
+    tool.hover(at);
+    feed(ButtonChanged{Button::left, true}, single);
+  }
+  void release() { feed(ButtonChanged{Button::left, false}); }
+  vec3 place(const char* joint) const { return vec3(body.pose.world[skeleton().find(joint).value][3]); }
+  float turnOf(const char* joint) const {
+    for (const JointTurn& turn : state.turns)
+      if (turn.joint == skeleton().find(joint)) return glm::length(turn.angles);
+    return 0;
+  }
+};
 
 }  // namespace
 
-TEST_CASE("of joints on one another one has a handle, and a press near it takes hold of it") {
-  const Skeleton skeleton = row();
-  const auto handles = jointHandles(skeleton, restPose(skeleton), kCamera, kPicture, 1);
-  REQUIRE(handles.size() == 2);  // the root has none
-  CHECK(handles[0].joint == JointId{1});
-  CHECK(handles[1].joint == JointId{2});
-  CHECK(glm::distance(handles[0].place, vec2(200, 150)) < 0.01f);
-  CHECK(handleAt(handles, {206, 150}, 1)->joint == JointId{1});
-  CHECK_FALSE(handleAt(handles, {212, 150}, 1));
-  CHECK(handleAt(handles, {212, 150}, 2)->joint == JointId{1});
+TEST_CASE("handles lie apart, at least 14 pixels wide, and a press near one takes hold of it") {
+  const Posing posing;
+  const auto handles = jointHandles(*posing.document.mannequin, posing.body.pose, kCamera, kPicture, 1);
+  CHECK(handles.size() > 15);
+  for (const JointHandle& a : handles)
+    for (const JointHandle& b : handles)
+      if (&a != &b) CHECK(glm::distance(a.place, b.place) >= 14);
+  const vec2 wrist = posing.handle("left wrist");
+  CHECK(handleAt(handles, wrist + vec2(0, 7), 1)->place == wrist);
   CHECK_FALSE(handleAt({}, {0, 0}, 1));
+}
+
+TEST_CASE("the wrist is pulled where the pointer goes and the arm goes along, straight forearm and all") {
+  Posing posing;
+  const vec2 wrist = posing.handle("left wrist");
+  posing.press(wrist);
+  for (int i = 1; i <= 20; ++i) {
+    const vec2 to = wrist + vec2(30, -150) * (float(i) / 20);
+    posing.move(to);
+    CHECK(glm::distance(posing.handle("left wrist"), to) < 0.5f);
+  }
+  posing.release();
+  CHECK_FALSE(posing.tool.held());
+  CHECK(posing.turnOf("LeftArm") > 0.3f);
+  CHECK(posing.turnOf("LeftForeArmRoll") == 0);
+  CHECK(posing.turnOf("RightArm") == 0);
+  const auto angles =
+      std::ranges::find(posing.state.turns, posing.skeleton().find("LeftForeArm"), &JointTurn::joint)->angles;
+  CHECK(angles.y == doctest::Approx(0).epsilon(1e-4));
+  CHECK(angles.x >= 0);
+  CHECK(angles.x <= glm::radians(145.01f));
+}
+
+TEST_CASE("what is pulled beyond its reach is stretched towards the pointer, and a pull back undoes it") {
+  Posing posing;
+  const vec2 ankle = posing.handle("right ankle");
+  const vec3 before = posing.place("RightFoot");
+  posing.press(ankle);
+  posing.move(ankle + vec2(-500, -100));
+  CHECK(posing.place("RightFoot").x < before.x - 0.3f);
+  posing.move(ankle);
+  CHECK(glm::distance(posing.place("RightFoot"), before) < 2e-3f);
+}
+
+TEST_CASE("with Ctrl one joint turns alone; with both sides the other limb does the same") {
+  Posing posing;
+  posing.press(posing.handle("left wrist"), true);
+  posing.move(posing.handle("left wrist") + vec2(-60, -60));
+  posing.release();
+  CHECK(posing.turnOf("LeftArm") == 0);
+  CHECK(posing.turnOf("LeftForeArm") > 0.01f);
+  Posing both;
+  both.state.bothSides = true;
+  const vec2 elbow = both.handle("left elbow");
+  both.press(elbow);
+  both.move(elbow + vec2(60, -40));
+  CHECK(both.turnOf("LeftArm") > 0.1f);
+  CHECK(glm::distance(both.place("LeftForeArm"), vec3(-1, 1, 1) * both.place("RightForeArm")) < 2e-3f);
+}
+
+TEST_CASE("a copied pose is pasted as it was, out of a scene, too; what is no pose is refused") {
+  Posing posing;
+  const vec2 wrist = posing.handle("left wrist");
+  posing.press(wrist);
+  posing.move(wrist + vec2(80, -200));
+  const std::string text = poseText(poseOf(posing.skeleton(), posing.state.turns));
+  const auto again = poseOfText(text);
+  REQUIRE_MESSAGE(again, (again ? "" : again.error().message));
+  CHECK(poseText(*again) == text);
+  CHECK(turnsOf(posing.skeleton(), *again).size() == poseOf(posing.skeleton(), posing.state.turns).size());
+  CHECK(poseOfText("{ \"body\": \"a.glb\", \"pose\": { \"Head\": [1, 2, 3] } }")->front().degrees ==
+        vec3(1, 2, 3));
+  CHECK_FALSE(poseOfText("femoral artery"));
+  CHECK(poseOfText("{}").error().message.find("holds no pose") != std::string::npos);
 }

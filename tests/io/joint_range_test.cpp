@@ -1,4 +1,4 @@
-#include "realism/joint_range.h"
+#include "io/joint_range.h"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,8 @@
-#include "viewer/posing.h"
+#include "body/joint_motion.h"
 
 #include <doctest/doctest.h>
 
 using namespace vasa;
-using namespace vasa::viewer;
 
 TEST_CASE("a turned joint takes along what hangs on it") {
   Skeleton skeleton;
@@ -80,4 +79,46 @@ TEST_CASE("a turn about an axis of the world is one about the joint's own axes, 
   CHECK(glm::distance(turnedFurther({0.3f, -0.2f, 0.5f}, hip, world, {0, 1, 0}, 0), vec3(0.3f, -0.2f, 0.5f)) <
         1e-5f);
   CHECK(turnedFurther({0, 0, 0}, hip, world, {-1, 0, 0}, -1).x == doctest::Approx(hip.least.x));
+}
+
+TEST_CASE("bend, spread and twist are found again in the turn that they make, also past a right angle") {
+  for (const vec3 angles :
+       {vec3(0), vec3(2.5f, 0, 0), vec3(0.4f, -1.9f, 1.2f), vec3(-1, 1, -3), vec3(0, 0, 2)})
+    CHECK(glm::distance(anglesOfTurn(turnByAngles(angles)), angles) < 1e-5f);
+}
+
+TEST_CASE("what is turned is turned back, and a joint's angles since rest count clip and hand together") {
+  const Skeleton skeleton = leg();
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"),
+                    knee = jointMotion(skeleton, {1}, "leftLowerLeg");
+  Skeleton local = skeleton;  // whose local transforms say what the world's do
+  for (std::size_t j = 0; j < local.joints.size(); ++j) {
+    const mat4 before = j ? local.joints[j - 1].restWorld : mat4(1);
+    local.joints[j].rest.rotation = glm::inverse(rotationOf(before)) * rotationOf(local.joints[j].restWorld);
+  }
+  const JointTurn clip[]{{{0}, {0.3f, -0.2f, 0.1f}, hip.axes}}, hand[]{{{1}, {-0.7f, 0, 0}, knee.axes}};
+  const Pose moved = turned(local, restPose(local), clip), posed = turned(local, moved, hand);
+  const Pose back = unturned(local, posed, hand);
+  for (std::size_t j = 0; j < local.joints.size(); ++j)
+    CHECK(glm::distance(vec3(back.world[j][3]), vec3(moved.world[j][3])) < 1e-6f);
+  CHECK(glm::distance(anglesSinceRest(local.joints[0], hip, mat4(1), posed.world[0]), clip[0].angles) <
+        1e-5f);
+  CHECK(glm::distance(anglesSinceRest(local.joints[1], knee, posed.world[0], posed.world[1]),
+                      hand[0].angles) < 1e-5f);
+}
+
+TEST_CASE("mirrored angles take the other side's joint to the mirrored place") {
+  Skeleton both;
+  for (const float side : {1.0f, -1.0f})
+    for (int j = 0; j < 2; ++j) {
+      Skeleton::Joint joint;
+      if (j) joint.parent = {std::uint32_t(both.joints.size() - 1)};
+      joint.restWorld[3] = vec4(side * (0.2f + 0.1f * float(j)), 1.4f - 0.3f * float(j), 0, 1);
+      both.joints.push_back(joint);
+    }
+  const vec3 angles(0.5f, -0.8f, 0.4f);
+  const JointTurn turns[]{{{0}, angles, jointMotion(both, {0}, "leftUpperArm").axes},
+                          {{2}, mirroredAngles(angles), jointMotion(both, {2}, "rightUpperArm").axes}};
+  const Pose pose = turned(both, restPose(both), turns);
+  CHECK(glm::distance(vec3(pose.world[1][3]), vec3(-1, 1, 1) * vec3(pose.world[3][3])) < 1e-5f);
 }

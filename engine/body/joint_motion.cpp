@@ -1,9 +1,9 @@
-#include "viewer/posing.h"
+#include "body/joint_motion.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace vasa::viewer {
+namespace vasa {
 namespace {
 
 struct Range {
@@ -39,15 +39,32 @@ mat3 axesAtRest(vec3 bone) {
   return {bend, glm::cross(bone, bend), bone};
 }
 
-quat turnOf(vec3 angles) {
-  return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) *
-         glm::angleAxis(angles.x, vec3(1, 0, 0));
+// What each turn adds in the joint's own space.
+std::vector<mat4> ownTurns(const Skeleton& skeleton, std::span<const JointTurn> turns) {
+  std::vector<mat4> own(skeleton.joints.size(), mat4(1));
+  for (const JointTurn& turn : turns)
+    if (turn.joint.value < own.size())
+      own[turn.joint.value] = glm::mat4_cast(turn.axes * turnByAngles(turn.angles) * glm::inverse(turn.axes));
+  return own;
 }
 
-vec3 anglesOf(quat turn) {
-  const mat3 m = glm::mat3_cast(turn);
-  return {std::atan2(m[1][2], m[2][2]), std::asin(std::clamp(-m[0][2], -1.0f, 1.0f)),
-          std::atan2(m[0][1], m[0][0])};
+}  // namespace
+
+quat turnByAngles(vec3 angles) {
+  const vec3 across(angles.x, angles.y, 0);
+  const float size = glm::length(across);
+  const quat swing = size > 0 ? glm::angleAxis(size, across / size) : quat(1, 0, 0, 0);
+  return swing * glm::angleAxis(angles.z, vec3(0, 0, 1));
+}
+
+vec3 anglesOfTurn(quat turn) {
+  if (turn.w < 0) turn = -turn;
+  const float half = std::atan2(turn.z, turn.w);
+  quat swing = turn * glm::angleAxis(-2 * half, vec3(0, 0, 1));
+  if (swing.w < 0) swing = -swing;
+  const float sine = glm::length(vec2(swing.x, swing.y));
+  const float share = sine > 0 ? 2 * std::atan2(sine, swing.w) / sine : 2;
+  return {share * swing.x, share * swing.y, 2 * half};
 }
 
 quat rotationOf(const mat4& world) {
@@ -55,20 +72,49 @@ quat rotationOf(const mat4& world) {
       mat3(glm::normalize(vec3(world[0])), glm::normalize(vec3(world[1])), glm::normalize(vec3(world[2]))));
 }
 
+namespace {
+
+quat turnSinceRest(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
+                   const mat4& world) {
+  const quat turn = glm::inverse(joint.rest.rotation) * glm::inverse(rotationOf(before)) * rotationOf(world);
+  return glm::normalize(glm::inverse(motion.axes) * turn * motion.axes);
+}
+
 }  // namespace
+
+vec3 anglesSinceRest(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
+                     const mat4& world) {
+  return anglesOfTurn(turnSinceRest(joint, motion, before, world));
+}
+
+vec3 anglesBeside(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
+                  const mat4& world, vec3 sinceRest) {
+  const quat there = turnSinceRest(joint, motion, before, world);
+  return anglesOfTurn(glm::normalize(glm::inverse(there) * turnByAngles(sinceRest)));
+}
 
 Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
   if (turns.empty()) return pose;
   Pose result = pose;
-  std::vector<mat4> own(skeleton.joints.size(), mat4(1));
-  for (const JointTurn& turn : turns)
-    if (turn.joint.value < own.size())
-      own[turn.joint.value] = glm::mat4_cast(turn.axes * turnOf(turn.angles) * glm::inverse(turn.axes));
+  const std::vector<mat4> own = ownTurns(skeleton, turns);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const JointId parent = skeleton.joints[j].parent;
     const mat4 before =
         parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
     result.world[j] = before * pose.world[j] * own[j];
+  }
+  return result;
+}
+
+Pose unturned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
+  if (turns.empty()) return pose;
+  Pose result = pose;
+  const std::vector<mat4> own = ownTurns(skeleton, turns);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const JointId parent = skeleton.joints[j].parent;
+    const mat4 before =
+        parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
+    result.world[j] = before * pose.world[j] * glm::inverse(own[j]);
   }
   return result;
 }
@@ -93,7 +139,7 @@ JointMotion jointMotion(const Skeleton& skeleton, JointId joint, std::string_vie
 vec3 turnedFurther(vec3 angles, const JointMotion& motion, const mat4& world, vec3 axis, float angle) {
   const quat rotation = rotationOf(world), back = glm::inverse(motion.axes);
   const quat further = glm::inverse(rotation) * glm::angleAxis(angle, axis) * rotation;
-  return motion.within(anglesOf(glm::normalize(turnOf(angles) * (back * further * motion.axes))));
+  return motion.within(anglesOfTurn(glm::normalize(turnByAngles(angles) * (back * further * motion.axes))));
 }
 
-}  // namespace vasa::viewer
+}  // namespace vasa

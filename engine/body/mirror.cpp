@@ -1,4 +1,4 @@
-#include "realism/mirror.h"
+#include "body/mirror.h"
 
 namespace vasa {
 

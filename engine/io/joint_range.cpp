@@ -1,11 +1,11 @@
-#include "realism/joint_range.h"
+#include "io/joint_range.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "body/mirror.h"
 #include "io/csv.h"
-#include "realism/mirror.h"
 
 namespace vasa {
 namespace {

@@ -1,0 +1,28 @@
+#include "viewer/pose_text.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace vasa::viewer {
+
+std::string poseText(std::span<const TurnChoice> pose) {
+  std::map<std::string, vec3> turns;  // by name, as a scene has them
+  for (const TurnChoice& turn : pose) turns[turn.joint] = turn.degrees;
+  std::string text;
+  for (const auto& [joint, degrees] : turns)
+    text += fmt::format("{}\n    {}: [{:g}, {:g}, {:g}]", text.empty() ? "" : ",",
+                        nlohmann::json(joint).dump(), degrees.x, degrees.y, degrees.z);
+  return "{ \"pose\": {" + text + " } }\n";
+}
+
+Result<std::vector<TurnChoice>> poseOfText(const std::string& text) {
+  auto scene = parseScene(text, {}, "what was copied");
+  if (!scene) return scene.error();
+  if (scene->pose.empty() && text.find("\"pose\"") == std::string::npos)
+    return badInput("what was copied holds no pose: copy one with Ctrl+C while posing");
+  return std::move(scene->pose);
+}
+
+}  // namespace vasa::viewer

@@ -1,0 +1,105 @@
+#!/bin/sh
+# A person's session with a real mouse and keyboard, on a display without a screen: tests/view/mouse_session.sh VASA DATA
+# Drags the wrist, undoes and redoes it, chooses a vessel in the list, saves, opens again and saves again: the scene has to be the same to
+# the byte. What the app has understood is read from its window's title, which begins with a star while something is unsaved, and from
+# the scene.
+set -eu
+command -v xdotool >/dev/null || exit 77
+if [ -z "${MOUSE_SESSION_INSIDE:-}" ]; then
+  export MOUSE_SESSION_INSIDE=1
+  exec xvfb-run -a -s '-screen 0 1280x1024x24' "$0" "$@"
+fi
+vasa=$1 data=$2
+folder=$(mktemp -d)
+app=
+trap 'if [ -n "$app" ]; then kill "$app" 2>/dev/null || true; fi; rm -rf "$folder"' EXIT
+export XDG_CONFIG_HOME="$folder/config"
+
+cat >"$folder/scene.json" <<END
+{ "body": "$data/human.glb", "networks": ["$data/human.vasa"], "camera": { "view": "front" } }
+END
+
+fail() {
+  echo "mouse_session: $1" >&2
+  cat "$folder/log" >&2
+  exit 1
+}
+
+# wait_for WHAT COMMAND...: until it succeeds, a minute at most
+wait_for() {
+  what=$1 tries=0
+  shift
+  until "$@" >/dev/null 2>&1; do
+    tries=$((tries + 1))
+    [ $tries -lt 600 ] || fail "$what did not happen"
+    sleep 0.1
+  done
+}
+
+titled() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
+saved='human.vasa - vasa'
+unsaved="* $saved"
+
+start() {
+  "$vasa" view "$folder/scene.json" --size 960x640 --out "$folder" >"$folder/log" 2>&1 &
+  app=$!
+  wait_for 'the opening of the window' xdotool search --name '^human.vasa - vasa$'
+  window=$(xdotool search --name '^human.vasa - vasa$' | head -1)
+  sleep 2 # its first picture
+}
+
+end() {
+  xdotool key ctrl+q
+  wait "$app" || fail 'the app ended with an error'
+  app=
+}
+
+point() {
+  xdotool mousemove --window "$window" "$1" "$2"
+  sleep 0.1
+}
+
+# drag X Y X Y: in steps, as hands do
+drag() {
+  point "$1" "$2"
+  xdotool mousedown 1
+  for step in 1 2 3 4 5 6; do
+    point $(($1 + ($3 - $1) * step / 6)) $(($2 + ($4 - $2) * step / 6))
+  done
+  xdotool mouseup 1
+  sleep 0.3
+}
+
+start
+point 480 600
+xdotool key p
+sleep 0.3
+drag WRIST_X WRIST_Y PULL_X PULL_Y
+wait_for 'a pose by the dragged wrist' titled "$unsaved"
+xdotool key ctrl+z
+wait_for 'undoing it' titled "$saved"
+xdotool key ctrl+y
+wait_for 'redoing it' titled "$unsaved"
+xdotool key p
+xdotool key o
+sleep 1
+point 100 20
+xdotool click 1
+sleep 0.3
+xdotool type --delay 60 'femrl art'
+sleep 0.5
+point 100 86
+xdotool click 1
+sleep 0.3
+xdotool key ctrl+s
+wait_for 'saving' titled "$saved"
+end
+cp "$folder/scene.json" "$folder/first.json"
+grep -q '"LeftArm"' "$folder/scene.json" || fail 'no arm is posed in the saved scene'
+grep -q '"chosen": ".* femoral artery"' "$folder/scene.json" || fail 'no femoral artery is chosen in the saved scene'
+
+start
+xdotool key ctrl+s
+sleep 1
+end
+cmp "$folder/first.json" "$folder/scene.json" || fail 'opened and saved again, the scene is another'

@@ -1,0 +1,166 @@
+#include "viewer/outliner.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "viewer/document.h"
+#include "viewer/paint.h"
+#include "viewer/undo_history.h"
+#include "viewer/view_state.h"
+
+using namespace vasa;
+using namespace vasa::viewer;
+
+namespace {
+
+const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
+
+const Document& human() {
+  static const std::shared_ptr<const Document> loaded = [] {
+    SceneFile file;
+    file.body = kData / "human.glb";
+    file.networks = {kData / "human.vasa"};
+    const auto document = loadDocument(file, {}, [](const char*, std::size_t, std::size_t) {});
+    REQUIRE_MESSAGE(document, (document ? "" : document.error().message));
+    return *document;
+  }();
+  return *loaded;
+}
+
+const Network& network() { return human().scene.network; }
+
+VesselId named(std::string_view name) {
+  const auto found = std::ranges::find(network().vessels(), name, &Vessel::name);
+  REQUIRE_MESSAGE(found != network().vessels().end(), std::string(name));
+  return {std::uint32_t(found - network().vessels().begin())};
+}
+
+std::vector<OutlinerRow> rowsOf(const ViewState& state) {
+  return outlinerRows(network(), *human().groups, state.outliner, state.search);
+}
+
+std::size_t rowNamed(std::span<const OutlinerRow> rows, std::string_view name) {
+  const auto found = std::ranges::find(rows, name, &OutlinerRow::name);
+  REQUIRE_MESSAGE(found != rows.end(), std::string(name));
+  return std::size_t(found - rows.begin());
+}
+
+}  // namespace
+
+TEST_CASE("every vessel is in one system and one region, where an anatomist looks for it") {
+  const VesselGroups& groups = *human().groups;
+  const auto is = [&](const char* name, VesselSystem system, BodyRegion region) {
+    const VesselId v = named(name);
+    CHECK_MESSAGE(groups.system[v.value] == system, name);
+    CAPTURE(std::string(name));
+    CAPTURE(std::string(kRegionNames[std::size_t(groups.region[v.value])]));
+    CHECK(groups.region[v.value] == region);
+  };
+  is("left femoral artery", VesselSystem::arteries, BodyRegion::leftThigh);
+  is("right great saphenous vein", VesselSystem::veins, BodyRegion::rightLeg);
+  is("left radial artery", VesselSystem::arteries, BodyRegion::leftForearm);
+  is("right brachial artery", VesselSystem::arteries, BodyRegion::rightArm);
+  is("abdominal aorta", VesselSystem::arteries, BodyRegion::abdomen);
+  is("portal vein", VesselSystem::portal, BodyRegion::abdomen);
+  is("pulmonary trunk", VesselSystem::pulmonary, BodyRegion::chest);
+  is("left posterior tibial artery", VesselSystem::arteries, BodyRegion::leftLeg);
+  is("celiac trunk", VesselSystem::arteries, BodyRegion::abdomen);
+  is("left renal vein", VesselSystem::veins, BodyRegion::abdomen);
+  is("thoracic aorta", VesselSystem::arteries, BodyRegion::chest);
+  is("left external iliac artery", VesselSystem::arteries, BodyRegion::pelvis);
+  is("left common carotid artery", VesselSystem::arteries, BodyRegion::neck);
+}
+
+TEST_CASE("the list is folded by system and region, and a search lists what answers, best first") {
+  ViewState state;
+  auto rows = rowsOf(state);
+  CHECK(rows.size() == 4);
+  std::size_t sum = 0;
+  for (const OutlinerRow& row : rows) sum += row.vessels.size();
+  CHECK(sum == network().vessels().size());
+  state.selected = VesselPlace{named("left femoral artery"), 0};
+  revealChoice(state, *human().groups);
+  rows = rowsOf(state);
+  const std::size_t at = rowNamed(rows, "left femoral artery");
+  CHECK(rows[at].depth == 2);
+  CHECK(rows[rowNamed(rows, "Left thigh")].unfolded);
+  state.search = "femrl art";
+  rows = rowsOf(state);
+  REQUIRE(rows.size() >= 2);
+  CHECK(rows[0].name.find("femoral artery") != std::string::npos);
+}
+
+TEST_CASE("rows are chosen alone, one more with Ctrl, up to one with Shift, and by arrows") {
+  ViewState state;
+  state.search = "femoral artery";
+  const auto rows = rowsOf(state);
+  REQUIRE(rows.size() >= 4);
+  chooseRow(state, rows, 1, false, false);
+  CHECK(chosenVessels(state) == rows[1].vessels);
+  chooseRow(state, rows, 3, true, false);
+  CHECK(chosenVessels(state).size() == 2);
+  CHECK(state.selected->vessel == rows[3].vessel);
+  chooseRow(state, rows, 3, true, false);  // no longer
+  CHECK(chosenVessels(state) == rows[1].vessels);
+  chooseRow(state, rows, 3, false, true);
+  CHECK(chosenVessels(state).size() == 3);
+  stepChoice(state, rows, 1, false);
+  CHECK(chosenVessels(state) == rows[2].vessels);
+  stepChoice(state, rows, -5, false);
+  CHECK(state.selected->vessel == rows[0].vessel);
+  stepChoice(state, rows, 1, true);
+  CHECK(chosenVessels(state).size() == 2);
+}
+
+TEST_CASE("what is hidden is not drawn nor clicked, a group is hidden as one, and undo shows it again") {
+  ViewState state;
+  UndoHistory history;
+  history.start(state);
+  const auto rows = rowsOf(state);
+  const OutlinerRow& veins = rows[rowNamed(rows, "Veins")];
+  state.hidden.set(network(), veins.vessels, true);
+  history.watch(state, false);
+  CHECK(sightOf(veins, network(), state.hidden) == RowSight::hidden);
+  CHECK(sightOf(rows[0], network(), state.hidden) == RowSight::shown);
+  auto shown = shownVessels(human(), state);
+  CHECK(std::size_t(std::ranges::count(shown, 1)) == network().vessels().size() - veins.vessels.size());
+  CHECK_FALSE(shown[veins.vessels.front().value]);
+  state.hidden.set(network(), {veins.vessels.data(), 1}, false);
+  history.watch(state, false);
+  CHECK(sightOf(veins, network(), state.hidden) == RowSight::partly);
+  state.hidden.leaveOnly(network(), {veins.vessels.data(), 1});
+  history.watch(state, false);
+  shown = shownVessels(human(), state);
+  CHECK(std::ranges::count(shown, 1) == 1);
+  CHECK_FALSE(history.unsaved(state));  // a view is quickly made again
+  for (int i = 0; i < 3; ++i) REQUIRE(history.undo(state));
+  CHECK_FALSE(state.hidden.any());
+}
+
+TEST_CASE("colours tell kind, region, radius and strain, and hidden vessels have none") {
+  ViewState state;
+  SpanColours plain;
+  auto body = std::make_shared<PosedBody>();
+  body->points.assign(network().points().begin(), network().points().end());
+  CHECK(coloursOf(human(), body, state, plain).empty());  // as their kinds are
+  state.colouring = Colouring::strain;
+  auto colours = coloursOf(human(), body, state, plain);
+  CHECK(std::ranges::all_of(colours,
+                            [&](std::uint32_t c) { return c == packColour(vec4(strainColour(0), 1)); }));
+  auto longer = std::make_shared<PosedBody>(*body);
+  for (vec4& point : longer->points) point = vec4(1.2f * vec3(point), point.w);
+  colours = coloursOf(human(), longer, state, plain);
+  const std::vector<float> strains = spanStrains(network(), longer->points);
+  for (const float strain : strains) REQUIRE(strain == doctest::Approx(0.2f).epsilon(0.01));
+  CHECK((colours.front() & 0xff) > (colours.front() >> 16 & 0xff));  // red, not blue
+  state.colouring = Colouring::radius;
+  colours = coloursOf(human(), body, state, plain);
+  CHECK(colours.front() != colours.back());
+  state.colouring = Colouring::region;
+  state.hidden.set(network(), std::vector{VesselId{0}}, true);
+  colours = coloursOf(human(), body, state, plain);
+  CHECK(colours.front() == 0);
+  CHECK(legendOf(human(), Colouring::region).size() == 17);
+  CHECK(legendOf(human(), Colouring::kind).size() == 3);
+}
