@@ -104,7 +104,8 @@ std::vector<LegendEntry> legendOf(const Document& document, Colouring colouring)
       entries.push_back({radiusColour(1e-3f * mm), fmt::format("{:g}", mm)});
   else
     for (const int percent : {-30, -15, 0, 15, 30})
-      entries.push_back({strainColour(0.01f * float(percent)), fmt::format(percent ? "{:+d} %" : "{} %", percent)});
+      entries.push_back(
+          {strainColour(0.01f * float(percent)), percent == 0 ? "0 %" : fmt::format("{:+d} %", percent)});
   return entries;
 }
 

@@ -157,13 +157,13 @@ void showNames(const PanelInput& in) {
   for (auto& [place, name] : places) {
     place.y = std::max(place.y, free);
     free = place.y + 1.4f * ImGui::GetTextLineHeight();
-    drawLabel(place, *name, 10 * in.scale, in.scale);
+    drawLabel(place, *name, 10 * in.scale, in.layout.picture, in.scale);
   }
   if (!in.state.pointedAt || ImGui::GetIO().WantCaptureMouse) return;
   const VesselId under = in.state.pointedAt->vessel;
   if (std::ranges::find(chosen, under) != chosen.end()) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  drawLabel({mouse.x, mouse.y}, nameOf(under), 14 * in.scale, in.scale);
+  drawLabel({mouse.x, mouse.y}, nameOf(under), 14 * in.scale, in.layout.picture, in.scale);
 }
 
 void showLegend(const PanelInput& in) {

@@ -138,14 +138,17 @@ void showHandles(const PanelInput& in) {
   const std::size_t none = mannequin.grips().size();
   const std::size_t lit = in.heldGrip.value_or(under ? under->grip : none);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const JointHandle* named = nullptr;
   for (const JointHandle& handle : handles) {
     const ImVec2 place{handle.place.x, handle.place.y};
     const bool bright = handle.grip == lit;
     const float radius = (bright ? kHandleRadius + 2 : kHandleRadius) * in.scale;
     list.AddCircleFilled(place, radius, bright ? IM_COL32(255, 190, 25, 255) : IM_COL32(255, 255, 255, 170));
     list.AddCircle(place, radius, IM_COL32(30, 30, 34, 255), 0, 1.5f * in.scale);
-    if (bright) drawLabel(handle.place, mannequin.grips()[handle.grip].name, 10 * in.scale, in.scale);
+    if (bright) named = &handle;
   }
+  if (named)
+    drawLabel(named->place, mannequin.grips()[named->grip].name, 10 * in.scale, in.layout.picture, in.scale);
 }
 
 }  // namespace vasa::viewer

@@ -74,7 +74,7 @@ start
 point 480 600
 xdotool key p
 sleep 0.3
-drag WRIST_X WRIST_Y PULL_X PULL_Y
+drag 407 301 450 190
 wait_for 'a pose by the dragged wrist' titled "$unsaved"
 xdotool key ctrl+z
 wait_for 'undoing it' titled "$saved"
@@ -88,7 +88,7 @@ xdotool click 1
 sleep 0.3
 xdotool type --delay 60 'femrl art'
 sleep 0.5
-point 100 86
+point 100 76 # the first answer
 xdotool click 1
 sleep 0.3
 xdotool key ctrl+s

@@ -122,6 +122,32 @@ TEST_CASE(
   CHECK(report["loads"][2]["outcome"] == "opened");
 }
 
+TEST_CASE("a session pulls a wrist and an ankle, finds femoral arteries by a few letters and shows strain") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const std::string text =
+      "settle\nkey p\nmove 407 301\nframes 2\npress left\nmove 430 250\nmove 450 190\nframes 2\nwindow OUT/held.png\n"
+      "release left\nmove 350 535\npress left\nmove 380 430\nframes 2\nrelease left\nkey p\nsettle\n"
+      "key o\nmove 100 20\npress left\nrelease left\nframes 2\ntype femrl art\nsettle\n"
+      "move 100 76\npress left\nrelease left\nsettle\nkey down\nhold shift\nkey down\nlet shift\n"
+      "hold control\nkey z\nkey y\nkey s\nlet control\nkey k\nkey k\nkey k\nsettle\nwindow OUT/found.png\n";
+  const auto outcome =
+      runProgram({"view", "--clip", "stand", "--size", "960x640", "--validate", "--json", "--out",
+                  folder.path().string(), "--script", scriptIn(folder.path(), text)},
+                 on(display, folder));
+  CHECK_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(outcome.json()["validation_messages"] == 0);
+  CHECK(outcome.json()["selected"].get<std::string>().find("femoral artery") != std::string::npos);
+  const auto scene = nlohmann::json::parse(contentOf(folder.path() / "vasa_001.json"), nullptr, false);
+  REQUIRE(scene.is_object());
+  CHECK(scene["pose"].contains("LeftArm"));
+  CHECK(scene["pose"].contains("LeftUpLeg"));
+  CHECK(scene["pose"].contains("LeftLeg"));
+  CHECK_FALSE(scene["pose"].contains("LeftForeArmRoll"));
+  checkPicture(folder.path() / "held.png", "held");
+  checkPicture(folder.path() / "found.png", "found");
+}
+
 TEST_CASE(
     "opening goes on beside a living window, and Esc ends it within a step; a still's capillaries come in slices") {
   const VirtualDisplay display;
