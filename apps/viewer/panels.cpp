@@ -106,8 +106,13 @@ void showHelp(const PanelInput& in) {
   const Rect& picture = in.layout.picture;
   ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
                           {0.5f, 0.5f});
-  if (ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize) &&
-      ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+  const bool open = ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
+  // In a low window letters are smaller, so that all keys can be seen.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float rows = float(shortcuts().size()),
+              spare = picture.height - 2 * style.WindowPadding.y - 2 * rows * style.CellPadding.y;
+  ImGui::SetWindowFontScale(std::clamp(spare / (rows * ImGui::GetFont()->FontSize), 0.5f, 1.0f));
+  if (open && ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const Shortcut& shortcut : shortcuts()) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(shortcut.keys);

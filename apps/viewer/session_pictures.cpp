@@ -136,6 +136,8 @@ bool Session::drawScene() {
   leaveStill();
   const auto start = Clock::now();
   painter_.draw(shot);
+  state_.pointedAt.reset();  // something else may lie there now
+  movedAt_ = now_;
   const auto end = Clock::now();
   ++report_.pictures;
   timings_.addPicture(painter_.times(), msBetween(start, end));
