@@ -1,6 +1,7 @@
 #include "viewer/mannequin.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "body/mirror.h"
 #include "body/retarget.h"
@@ -52,6 +53,15 @@ int axisOf(JointRange::Motion motion) {
   return motion == JointRange::Motion::flexion ? 0 : motion == JointRange::Motion::abduction ? 1 : 2;
 }
 
+// Tables count from hanging arms; many bodies rest with theirs spread. [rad] beyond what an arm hangs away
+// from the trunk.
+float raisedAtRest(const Skeleton::Joint& joint, const JointMotion& motion, std::string_view part) {
+  constexpr float kHanging = 0.26f;  // 15 degrees; the built-in human's hang by 13
+  if (!part.ends_with("UpperArm")) return 0;
+  const vec3 bone = rotationOf(joint.restWorld) * motion.axes * vec3(0, 0, 1);
+  return std::max(0.0f, std::atan2(std::abs(bone.x), -bone.y) - kHanging);
+}
+
 bool isHinge(std::string_view part) { return part.ends_with("LowerArm") || part.ends_with("LowerLeg"); }
 
 }  // namespace
@@ -59,11 +69,11 @@ bool isHinge(std::string_view part) { return part.ends_with("LowerArm") || part.
 Mannequin::Mannequin(const Skeleton& skeleton, std::span<const JointRange> ranges)
     : parts_(partsOf(skeleton).of), rolls_(skeleton.joints.size()) {
   nameJoints(skeleton);
-  limitJoints(ranges);
+  limitJoints(skeleton, ranges);
   findTwins(skeleton);
   findGrips(skeleton);
   for (std::uint32_t j = 0; j < parts_.size(); ++j) listed_.push_back(j);
-  std::ranges::stable_partition(listed_, [&](std::uint32_t j) { return !parts_[j].empty(); });
+  std::stable_partition(listed_.begin(), listed_.end(), [&](std::uint32_t j) { return !parts_[j].empty(); });
 }
 
 JointId Mannequin::find(std::string_view part) const {
@@ -93,14 +103,16 @@ void Mannequin::nameJoints(const Skeleton& skeleton) {
   }
 }
 
-void Mannequin::limitJoints(std::span<const JointRange> ranges) {
+void Mannequin::limitJoints(const Skeleton& skeleton, std::span<const JointRange> ranges) {
   for (const JointRange& range : ranges) {
     const int axis = axisOf(range.motion);
     const float sense = sensesOf(range.part)[axis];
     for (std::size_t j = 0; j < parts_.size(); ++j) {
       if (parts_[j] != range.part || motions_[j].least[axis] == motions_[j].most[axis]) continue;
-      motions_[j].least[axis] = std::min(sense * range.low, sense * range.high);
-      motions_[j].most[axis] = std::max(sense * range.low, sense * range.high);
+      const float raised = axis == 1 ? raisedAtRest(skeleton.joints[j], motions_[j], range.part) : 0;
+      const float low = sense * (range.low - raised), high = sense * (range.high - raised);
+      motions_[j].least[axis] = std::min(low, high);
+      motions_[j].most[axis] = std::max(low, high);
     }
   }
 }

@@ -13,7 +13,7 @@ namespace vasa::viewer {
 /// A place of the body that can be taken hold of, and what moves when it is pulled.
 struct Grip {
   std::string name;  ///< "left wrist"
-  Limb limb;         ///< of which the tip is the place; limits as of a pose at rest
+  ReachLimb limb;    ///< of which the tip is the place; limits as of a pose at rest
 };
 
 /// A skeleton as something to pose: what its joints are called and how far they go, where it can be taken
@@ -22,8 +22,8 @@ struct Grip {
 class Mannequin {
  public:
   Mannequin() = default;
-  /// @param ranges  how far joints go since rest (data/realism/ranges.csv); what is not in it goes as far as
-  /// jointMotion() says
+  /// @param ranges  how far joints go from hanging arms (data/realism/ranges.csv); what is not in it goes as
+  /// far as jointMotion() says
   Mannequin(const Skeleton& skeleton, std::span<const JointRange> ranges);
 
   std::span<const Grip> grips() const { return grips_; }
@@ -41,7 +41,7 @@ class Mannequin {
 
  private:
   void nameJoints(const Skeleton& skeleton);
-  void limitJoints(std::span<const JointRange> ranges);
+  void limitJoints(const Skeleton& skeleton, std::span<const JointRange> ranges);
   void findTwins(const Skeleton& skeleton);
   void findGrips(const Skeleton& skeleton);
   void gripHand(const Skeleton& skeleton, JointId joint);

@@ -22,7 +22,7 @@ const mat4& before(const Skeleton& skeleton, const Pose& pose, JointId joint) {
   return parent.valid() ? pose.world[parent.value] : skeleton.rootTransform;
 }
 
-std::vector<vec3> anglesIn(const Skeleton& skeleton, const Mannequin& mannequin, const Limb& limb,
+std::vector<vec3> anglesIn(const Skeleton& skeleton, const Mannequin& mannequin, const ReachLimb& limb,
                            const Pose& pose) {
   std::vector<vec3> angles;
   for (const ReachJoint& each : limb.joints)
@@ -33,7 +33,7 @@ std::vector<vec3> anglesIn(const Skeleton& skeleton, const Mannequin& mannequin,
 
 // What a clip, or a slider, has beyond a joint's limits is no reason to jump back; what is held stays as it
 // is.
-Limb widened(Limb limb, std::span<const vec3> angles) {
+ReachLimb widened(ReachLimb limb, std::span<const vec3> angles) {
   for (std::size_t k = 0; k < limb.joints.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       float &least = limb.joints[k].least[axis], &most = limb.joints[k].most[axis];
@@ -120,7 +120,7 @@ void PoseTool::pull(vec2 to, const Document& document, const PosedBody& body, co
   if (!was) return;
   const vec3 target = held_->from + wayInPlane(camera, held_->from, to + held_->off - *was, picture.height);
   const Pose clip = unturned(skeleton, body.pose, body.order.turns);
-  const Limb limb = widened(mannequin.grips()[held_->grip].limb, held_->pressed);
+  const ReachLimb limb = widened(mannequin.grips()[held_->grip].limb, held_->pressed);
   const Reached there =
       reach(skeleton, turned(skeleton, clip, state.turns), limb, target, held_->pressed, held_->latest);
   for (std::size_t k = 0; k < limb.joints.size(); ++k) {

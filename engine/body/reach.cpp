@@ -58,7 +58,7 @@ dmat3 directions(const dmat4& m) {
 /// The limb as a chain of transforms that the angles go between.
 class Chain {
  public:
-  Chain(const Skeleton& skeleton, const Pose& pose, const Limb& limb) {
+  Chain(const Skeleton& skeleton, const Pose& pose, const ReachLimb& limb) {
     dmat4 way(1);  // from the joint before to this one's parent
     for (const ReachJoint& each : limb.joints) {
       const Skeleton::Joint& joint = skeleton.joints[each.joint.value];
@@ -120,7 +120,7 @@ using Values = std::vector<double>;
 /// What is made least, over the angles that are free to change.
 class Search {
  public:
-  Search(const Chain& chain, const Limb& limb, dvec3 target, std::span<const vec3> preferred,
+  Search(const Chain& chain, const ReachLimb& limb, dvec3 target, std::span<const vec3> preferred,
          std::span<const vec3> start)
       : chain_(chain), limb_(limb), target_(target), angles_(start.begin(), start.end()) {
     for (std::size_t k = 0; k < limb.joints.size(); ++k)
@@ -192,7 +192,7 @@ class Search {
   }
 
   const Chain& chain_;
-  const Limb& limb_;
+  const ReachLimb& limb_;
   dvec3 target_;
   std::vector<dvec3> angles_;
   std::vector<Free> free_;
@@ -261,7 +261,7 @@ bool descend(Search& search, double& damping) {
   return false;
 }
 
-Reached searched(const Chain& chain, const Limb& limb, vec3 target, std::span<const vec3> preferred,
+Reached searched(const Chain& chain, const ReachLimb& limb, vec3 target, std::span<const vec3> preferred,
                  std::span<const vec3> start) {
   Search search(chain, limb, dvec3(target), preferred, start);
   double damping = 1e-6;
@@ -277,7 +277,7 @@ float evenly(int n, int base) {
 }
 
 // Angles spread over what the limits leave (Halton 1960): for every base another row.
-std::vector<vec3> otherStart(const Limb& limb, int n) {
+std::vector<vec3> otherStart(const ReachLimb& limb, int n) {
   constexpr int kBases[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   std::vector<vec3> start;
   std::size_t row = 0;
@@ -294,7 +294,7 @@ std::vector<vec3> otherStart(const Limb& limb, int n) {
 
 }  // namespace
 
-Reached reach(const Skeleton& skeleton, const Pose& pose, const Limb& limb, vec3 target,
+Reached reach(const Skeleton& skeleton, const Pose& pose, const ReachLimb& limb, vec3 target,
               std::span<const vec3> preferred, std::span<const vec3> start) {
   const Chain chain(skeleton, pose, limb);
   Reached best = searched(chain, limb, target, preferred, start);
@@ -305,7 +305,7 @@ Reached reach(const Skeleton& skeleton, const Pose& pose, const Limb& limb, vec3
   return best;
 }
 
-vec3 endOf(const Skeleton& skeleton, const Pose& pose, const Limb& limb, std::span<const vec3> angles) {
+vec3 endOf(const Skeleton& skeleton, const Pose& pose, const ReachLimb& limb, std::span<const vec3> angles) {
   const std::vector<dvec3> exact(angles.begin(), angles.end());
   return vec3(Chain(skeleton, pose, limb).end(exact));
 }

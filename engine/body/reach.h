@@ -15,7 +15,7 @@ struct ReachJoint {
 };
 
 /// A limb and a point on it that is taken somewhere.
-struct Limb {
+struct ReachLimb {
   std::vector<ReachJoint> joints;  ///< each before those that hang on it, all of them on the way to the tip
   JointId tip;                     ///< the point's joint: the last one, or one below it
   vec3 offset{0};                  ///< of the point in its space
@@ -36,18 +36,18 @@ struct Reached {
 /// 1960); one of these is taken where it gets there, or 5 mm nearer. The result follows the target steadily
 /// where one starts from the last result, but for that. A function of its arguments alone.
 ///
-///   Limb arm{{{shoulder, axes, {-1, -2, -1}, {2, 1, 1}}, {elbow, axes2, {0, 0, 0}, {2.5f, 0, 0}}}, hand};
-///   const Reached there = reach(skeleton, pose, arm, target, atRest, atRest);
+///   ReachLimb arm{{{shoulder, axes, {-1, -2, -1}, {2, 1, 1}}, {elbow, axes2, {0, 0, 0}, {2.5f, 0, 0}}},
+///   hand}; const Reached there = reach(skeleton, pose, arm, target, atRest, atRest);
 ///
 /// @param pose       what all other joints do; of the limb's own only where they hang
 /// @param target     [m] in the pose's space
 /// @param preferred  one a joint
 /// @param start      one a joint; the search begins there
 /// Some 10 steps, each O(angles² · joints).
-Reached reach(const Skeleton& skeleton, const Pose& pose, const Limb& limb, vec3 target,
+Reached reach(const Skeleton& skeleton, const Pose& pose, const ReachLimb& limb, vec3 target,
               std::span<const vec3> preferred, std::span<const vec3> start);
 
 /// Where a limb's point is with these angles.
-vec3 endOf(const Skeleton& skeleton, const Pose& pose, const Limb& limb, std::span<const vec3> angles);
+vec3 endOf(const Skeleton& skeleton, const Pose& pose, const ReachLimb& limb, std::span<const vec3> angles);
 
 }  // namespace vasa

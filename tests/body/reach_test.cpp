@@ -13,7 +13,7 @@ namespace {
 
 struct LimbRig {
   Skeleton skeleton;
-  Limb limb;
+  ReachLimb limb;
   std::vector<vec3> rest() const { return std::vector<vec3>(limb.joints.size(), vec3(0)); }
 };
 
@@ -60,13 +60,13 @@ vec3 endAt(const LimbRig& rig, const std::vector<vec3>& angles) {
   return endOf(rig.skeleton, restPose(rig.skeleton), rig.limb, angles);
 }
 
-bool within(const Limb& limb, const std::vector<vec3>& angles) {
+bool within(const ReachLimb& limb, const std::vector<vec3>& angles) {
   for (std::size_t k = 0; k < angles.size(); ++k)
     if (glm::clamp(angles[k], limb.joints[k].least, limb.joints[k].most) != angles[k]) return false;
   return true;
 }
 
-std::vector<vec3> anyAngles(const Limb& limb, std::mt19937& random) {
+std::vector<vec3> anyAngles(const ReachLimb& limb, std::mt19937& random) {
   std::vector<vec3> angles;
   for (const ReachJoint& joint : limb.joints) {
     vec3 own;

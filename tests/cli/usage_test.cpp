@@ -24,7 +24,7 @@ TEST_CASE("help and version succeed, on standard output") {
 TEST_CASE("help tells of topics and commands alike, and of none that is not there") {
   const auto overview = runProgram({"help"});
   CHECK(overview.exit == 0);
-  for (const char* topic : {"bodies", "clusters", "formats", "running", "scenes"}) {
+  for (const char* topic : {"bodies", "clusters", "formats", "running", "scenes", "view"}) {
     CAPTURE(topic);
     CHECK(overview.out.find(std::string("  ") + topic + " ") != std::string::npos);
     const auto text = runProgram({"help", topic});

@@ -127,7 +127,9 @@ TEST_CASE("a session pulls a wrist and an ankle, finds femoral arteries by a few
   const TemporaryFolder folder;
   const std::string text =
       "settle\nkey p\nmove 407 301\nframes 2\npress left\nmove 430 250\nmove 450 190\nframes 2\nwindow OUT/held.png\n"
-      "release left\nmove 350 535\npress left\nmove 380 430\nframes 2\nrelease left\nkey p\nsettle\n"
+      "release left\nmove 350 535\npress left\nmove 380 430\nframes 2\nrelease left\nsettle\n"
+      "hold control\nkey c\nkey z\nkey z\nkey v\nlet control\nkey p\nsettle\n"  // as before, through the
+                                                                                // clipboard
       "key o\nmove 100 20\npress left\nrelease left\nframes 2\ntype femrl art\nsettle\n"
       "move 100 76\npress left\nrelease left\nsettle\nkey down\nhold shift\nkey down\nlet shift\n"
       "hold control\nkey z\nkey y\nkey s\nlet control\nkey k\nkey k\nkey k\nsettle\nwindow OUT/found.png\n";

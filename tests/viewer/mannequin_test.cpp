@@ -80,6 +80,25 @@ TEST_CASE("joints go as far as the table says, on both sides") {
   CHECK(roll.most.z == doctest::Approx(glm::radians(80.0f)));
 }
 
+TEST_CASE("ranges count from hanging arms, also where a body rests with its arms spread") {
+  const JointId arm = human().find("LeftArm");
+  const JointTurn spread{arm, {0, glm::radians(-77.0f), 0}, mannequin().motion(arm).axes};  // to 90 degrees
+  Skeleton raised = human();
+  const Pose pose = turned(raised, restPose(raised), {&spread, 1});
+  for (std::size_t j = 0; j < raised.joints.size(); ++j) {
+    const JointId parent = raised.joints[j].parent;
+    const mat4 before = parent.valid() ? pose.world[parent.value] : raised.rootTransform;
+    raised.joints[j].restWorld = pose.world[j];
+    raised.joints[j].rest.rotation = glm::inverse(rotationOf(before)) * rotationOf(pose.world[j]);
+  }
+  const auto ranges = readJointRanges(kData / "realism" / "ranges.csv");
+  REQUIRE(ranges);
+  const Mannequin other(raised, *ranges);
+  CHECK(std::abs(glm::degrees(other.motion(arm).most.y) - 85) < 2);   // 10 beyond where it hangs
+  CHECK(std::abs(glm::degrees(other.motion(arm).least.y) + 45) < 2);  // 120 up from there
+  CHECK(other.motion(human().find("RightArm")).most.y == mannequin().motion(human().find("RightArm")).most.y);
+}
+
 TEST_CASE("joints are called as people call them, and have a twin") {
   const JointId elbow = human().find("LeftForeArm"), roll = human().find("LeftForeArmRoll"),
                 head = human().find("Head");
@@ -96,7 +115,7 @@ TEST_CASE("joints are called as people call them, and have a twin") {
 
 TEST_CASE(
     "a pulled wrist takes the arm along; the pose mirrored has the other wrist at the mirrored place, twice mirrored is the same") {
-  const Limb& arm = gripNamed("left wrist")->limb;
+  const ReachLimb& arm = gripNamed("left wrist")->limb;
   const Pose rest = restPose(human());
   const std::vector<vec3> start(arm.joints.size(), vec3(0));
   for (const vec3 target : {vec3(0.25f, 1.35f, 0.35f), vec3(0.6f, 1.5f, 0.2f), vec3(0.1f, 1.2f, 0.3f),
