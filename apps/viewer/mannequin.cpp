@@ -195,15 +195,15 @@ void Mannequin::gripHand(const Skeleton& skeleton, JointId joint) {
     std::vector<ReachJoint> wrist;
     if (before.valid() && rolls_[before.value]) wrist.push_back(turning(before));
     wrist.push_back(turning(hand));
-    grips_.push_back({names_[joint.value], {std::move(wrist), joint}});
+    grips_.push_back({names_[joint.value], {std::move(wrist), joint}, true});
   } else {
-    grips_.push_back({names_[joint.value], {finger, joint}});
+    grips_.push_back({names_[joint.value], {finger, joint}, true});
   }
   if (!leaf) return;
   finger.push_back(turning(joint));
   const vec3 link = placeOf(skeleton, joint) - placeOf(skeleton, skeleton.joints[joint.value].parent);
   const vec3 end = glm::inverse(rotationOf(skeleton.joints[joint.value].restWorld)) * (0.8f * link);
-  grips_.push_back({names_[joint.value] + ", tip", {std::move(finger), joint, end}});
+  grips_.push_back({names_[joint.value] + ", tip", {std::move(finger), joint, end}, true});
 }
 
 std::vector<JointTurn> mirroredTurns(const Mannequin& mannequin, std::span<const JointTurn> turns) {

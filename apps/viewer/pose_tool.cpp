@@ -9,8 +9,9 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReach = 10,
-                kApart = 2 * kHandleRadius;  // [pixels of an ordinary screen] of a handle, of two
+constexpr float kReach = 10;  // [pixels of an ordinary screen] of a handle
+// [pixels of an ordinary screen] between two; those of the body may overlap a little.
+constexpr float kApart = 1.5f * kHandleRadius, kFineApart = 2 * kHandleRadius;
 
 vec3 placeOf(const Grip& grip, const Pose& pose) {
   return vec3(pose.world[grip.limb.tip.value] * vec4(grip.limb.offset, 1));
@@ -48,14 +49,27 @@ ReachLimb widened(ReachLimb limb, std::span<const vec3> angles) {
 
 std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& pose, const Camera& camera,
                                       const Rect& picture, float scale) {
-  std::vector<JointHandle> handles;
+  struct Seen {
+    JointHandle handle;
+    bool fine;
+    float far;
+  };
+  std::vector<Seen> seen;
   for (std::size_t g = 0; g < mannequin.grips().size(); ++g) {
-    const auto place = seenAt(placeOf(mannequin.grips()[g], pose), camera, picture);
-    if (!place || !picture.holds(*place)) continue;
+    const Grip& grip = mannequin.grips()[g];
+    const vec3 there = placeOf(grip, pose);
+    const auto place = seenAt(there, camera, picture);
+    if (place && picture.holds(*place))
+      seen.push_back({{g, *place}, grip.fine, glm::distance(there, camera.position)});
+  }
+  std::ranges::stable_sort(
+      seen, [](const Seen& a, const Seen& b) { return a.fine != b.fine ? b.fine : a.far < b.far; });
+  std::vector<JointHandle> handles;
+  for (const Seen& each : seen) {
     const auto covers = [&](const JointHandle& other) {
-      return glm::distance(other.place, *place) < kApart * scale;
+      return glm::distance(other.place, each.handle.place) < (each.fine ? kFineApart : kApart) * scale;
     };
-    if (std::ranges::none_of(handles, covers)) handles.push_back({g, *place});
+    if (std::ranges::none_of(handles, covers)) handles.push_back(each.handle);
   }
   return handles;
 }

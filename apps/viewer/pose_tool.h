@@ -19,7 +19,7 @@ struct JointHandle {
   std::size_t grip;  ///< of Mannequin::grips()
   vec2 place;        ///< [pixels]
 };
-/// Of grips that would lie on one another only the first.
+/// Of grips that would lie on one another only the nearest, one of the body before one of a hand.
 /// @param scale  pixels for one of an ordinary screen
 std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& pose, const Camera& camera,
                                       const Rect& picture, float scale);

@@ -64,13 +64,27 @@ struct Posing {
 
 }  // namespace
 
-TEST_CASE("handles lie apart, at least 14 pixels wide, and a press near one takes hold of it") {
+TEST_CASE("handles are at least 14 pixels wide and lie apart, and a press near one takes hold of it") {
   const Posing posing;
   const auto handles = jointHandles(*posing.document.mannequin, posing.body.pose, kCamera, kPicture, 1);
+  CHECK(2 * kHandleRadius >= 14);
   CHECK(handles.size() > 15);
   for (const JointHandle& a : handles)
     for (const JointHandle& b : handles)
-      if (&a != &b) CHECK(glm::distance(a.place, b.place) >= 14);
+      if (&a != &b) CHECK(glm::distance(a.place, b.place) >= 11);
+  // From the side the nearer wrist lies over the other.
+  for (const float side : {1.0f, -1.0f}) {
+    const Camera beside{.position = {side * 4, 1, 0}, .target = {0, 1, 0}};
+    bool near = false, far = false;
+    for (const JointHandle& handle :
+         jointHandles(*posing.document.mannequin, posing.body.pose, beside, kPicture, 1)) {
+      const std::string& name = posing.document.mannequin->grips()[handle.grip].name;
+      near = near || name == (side > 0 ? "left wrist" : "right wrist");
+      far = far || name == (side > 0 ? "right wrist" : "left wrist");
+    }
+    CHECK(near);
+    CHECK_FALSE(far);
+  }
   const vec2 wrist = posing.handle("left wrist");
   CHECK(handleAt(handles, wrist + vec2(0, 7), 1)->place == wrist);
   CHECK_FALSE(handleAt({}, {0, 0}, 1));
