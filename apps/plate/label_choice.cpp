@@ -8,8 +8,8 @@
 #include <map>
 #include <optional>
 
+#include "body/mirror.h"
 #include "curve/bspline.h"
-#include "realism/mirror.h"
 
 namespace vasa::plate {
 namespace {
