@@ -22,13 +22,15 @@ constexpr float kNarrowestColumn = 0.145f, kWidestColumn = 0.2f;  // of the page
 constexpr float kWidestText = 20;                                 // ems of a label
 constexpr float kMainArea = 2;                                    // [mm²] that a main vessel shows on paper
 constexpr float kMainWidth = 0.3f;                                // [mm] of it on paper
-constexpr float kAbove = 0.42f;     // of the height that a picture leaves: it rests a little above the middle
-constexpr float kLine = 1.22f;      // from one line of a text to the next, in its ems
-constexpr float kTextGap = 1.2f;    // [mm] between a text and its line
-constexpr float kStub = 2.0f;       // [mm] level part of a line, beside its text
-constexpr float kColumnGap = 2.0f;  // [mm] between the lines' level parts and the picture
-constexpr float kLabelGap = 1.0f;   // [mm] between texts
-constexpr float kScaleMost = 0.2f;  // of the page's width
+constexpr float kAbove = 0.42f;  // of the height that a picture leaves: it rests a little above the middle
+constexpr float kTitle = 2.3f, kSubtitle = 1.27f;  // ems of theirs, in a label's
+constexpr float kTitleStep = 2.2f;                 // from one base line to the next, in a label's ems
+constexpr float kLine = 1.22f;                     // from one line of a text to the next, in its ems
+constexpr float kTextGap = 1.2f;                   // [mm] between a text and its line
+constexpr float kStub = 2.0f;                      // [mm] level part of a line, beside its text
+constexpr float kColumnGap = 2.0f;                 // [mm] between the lines' level parts and the picture
+constexpr float kLabelGap = 1.0f;                  // [mm] between texts
+constexpr float kScaleMost = 0.2f;                 // of the page's width
 constexpr SweepShape kMapShape{8, 4};
 
 bool isDrawn(const Look& look, MeshRole role) {
@@ -160,9 +162,9 @@ struct PageLayout {
 
 PageLayout layoutOf(const PlateStyle& style) {
   PageLayout page{style.margin, style.page.y - style.margin};
-  if (!style.title.empty()) page.top += 9;
-  if (!style.subtitle.empty()) page.top += 6;
-  if (!style.title.empty() || !style.subtitle.empty()) page.top += 3;
+  if (!style.title.empty()) page.top += 3.3f * style.letters;
+  if (!style.subtitle.empty()) page.top += kTitleStep * style.letters;
+  if (!style.title.empty() || !style.subtitle.empty()) page.top += 1.1f * style.letters;
   if (style.legend || style.scale) page.bottom -= 13;
   return page;
 }
@@ -440,17 +442,17 @@ Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesette
   drawLabels(sheet, plan, style);
   float y = style.margin;
   if (!style.title.empty()) {
-    y += 6;
+    y += kTitleStep * style.letters;
     sheet.items.push_back(SheetText{.at = {style.margin, y},
-                                    .size = 6.3f,
+                                    .size = kTitle * style.letters,
                                     .bold = true,
                                     .colour = ink,
                                     .text = style.title,
                                     .kind = "title"});
   }
   if (!style.subtitle.empty())
-    sheet.items.push_back(SheetText{.at = {style.margin, y + 6},
-                                    .size = 3.5f,
+    sheet.items.push_back(SheetText{.at = {style.margin, y + kTitleStep * style.letters},
+                                    .size = kSubtitle * style.letters,
                                     .colour = grey,
                                     .text = style.subtitle,
                                     .kind = "subtitle"});

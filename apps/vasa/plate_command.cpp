@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <filesystem>
 
@@ -181,7 +182,15 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
     const Camera camera = cameraFrom(*view, Aabb{vec3(-1), vec3(1)}, 1);
     job->subject.towards = camera.position - camera.target;
     if (*view == View::top) job->subject.up = camera.up;
-    job->subject.subtitle = viewText(*view);
+    std::string& subtitle = job->subject.subtitle;
+    std::string seen = viewText(*view);
+    // "Right, palmar view": a limb's side stays.
+    if (const auto comma = subtitle.find(", "); comma != subtitle.npos) {
+      seen[0] = char(std::tolower(static_cast<unsigned char>(seen[0])));
+      subtitle = subtitle.substr(0, comma + 2) + seen;
+    } else {
+      subtitle = seen;
+    }
   }
   job->look = lookOf(file->look);
   if (!file->look.skinOpacity) job->look.skinOpacity = 0.2f;

@@ -122,6 +122,8 @@ TEST_CASE("names choose labels; one that is not seen is told, one that is unknow
   CHECK(chosen.json()["unseen"] == nlohmann::json({"basilar artery"}));
   CHECK(chosen.err.find("'basilar artery' is not seen in this picture") != std::string::npos);
   CHECK(textOf(file).find("Left, anterior view") != std::string::npos);
+  REQUIRE(runProgram(small("leg", file, {"--view", "back", "--labels", "none"})).exit == 0);
+  CHECK(textOf(file).find("Right, posterior view") != std::string::npos);
   const auto unknown = runProgram(small("leg", file, {"--labels", "no such vessel"}));
   CHECK(unknown.exit == 3);
   CHECK(unknown.err.find("no vessel is named 'no such vessel'") != std::string::npos);
