@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs the tests.
 #   ./test.sh           the release build, all tests
-#   ./test.sh format    every source as clang-format has it under .clang-format, scripts without a word of shellcheck and pyflakes
+#   ./test.sh format    every source as clang-format has it under .clang-format, the rest without a word of cmake-lint, shellcheck and pyflakes
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan, leaks too
 #   ./test.sh asan-all  every engine folder, those that draw too; the driver's own leaks are in tests/support/leaks.supp
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
@@ -24,8 +24,9 @@ preset=${1:-release}
 [ $# -gt 0 ] && shift
 scripts/install-dependencies.sh
 if [ "$preset" = format ]; then
-  scripts/install-dependencies.sh clang-format shellcheck pyflakes3
+  scripts/install-dependencies.sh clang-format cmake-format shellcheck pyflakes3
   git ls-files -z '*.cpp' '*.h' | xargs -0 clang-format --dry-run --Werror
+  git ls-files -z '*CMakeLists.txt' '*.cmake' | xargs -0 cmake-lint --suppress-decorations
   git ls-files -z '*.sh' .ci/run | xargs -0 shellcheck
   git ls-files -z '*.py' | xargs -0 pyflakes3
   echo "format: nothing to change"

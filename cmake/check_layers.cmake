@@ -3,6 +3,7 @@
 # usage: cmake -DROOT=<project root> -P check_layers.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${ROOT}/cmake/layers.cmake")
+# All layers that one may include, by whatever way: into the variable that `out` names.
 function(closure layer out)
   set(seen ${layer})
   set(queue ${VASA_MAY_INCLUDE_${layer}})

@@ -27,8 +27,9 @@ function(vasa_install_package)
   set(package "${CMAKE_INSTALL_LIBDIR}/cmake/vasa")
   get_property(headers GLOBAL PROPERTY VASA_PUBLIC_HEADERS)
   set(gathered "${PROJECT_BINARY_DIR}/public_headers")
-  install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" \"-DROOT=${PROJECT_SOURCE_DIR}\" \"-DHEADERS=${headers}\" \"-DOUT=${gathered}\"
-                                        -P \"${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT library)
+  install(CODE "execute_process(
+    COMMAND \"${CMAKE_COMMAND}\" \"-DROOT=${PROJECT_SOURCE_DIR}\" \"-DHEADERS=${headers}\" \"-DOUT=${gathered}\"
+            -P \"${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT library)
   install(DIRECTORY "${gathered}/vasa" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library)
 
   foreach(set vasaTargets vasaRenderTargets)

@@ -3,6 +3,7 @@
 # program itself, so they are as new as it is.
 find_program(VASA_GZIP gzip)
 
+# Manual pages and completions, written by the program.
 function(vasa_install_manuals)
   if(NOT VASA_GZIP OR CMAKE_CROSSCOMPILING)
     return()
@@ -33,6 +34,7 @@ function(vasa_install_debian_papers package component)
   install(FILES "${PROJECT_BINARY_DIR}/debian/changelog.Debian.gz" DESTINATION "${folder}" COMPONENT ${component})
 endfunction()
 
+# Writes both: of the licence and of this version.
 function(vasa_write_debian_papers)
   file(READ "${PROJECT_SOURCE_DIR}/LICENSE" licence)
   string(REGEX MATCH "Copyright \\(c\\) ([^\n]*)" line "${licence}")
@@ -89,7 +91,8 @@ Comes with a human of its own. Works with or without a graphics card.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libvasa-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libdraco-dev, libfmt-dev, libglm-dev, libhwy-dev, libmeshoptimizer-dev, libpng-dev, libstdc++-12-dev, libtbb-dev, libtinyxml2-dev, zlib1g-dev")
+    "libdraco-dev, libfmt-dev, libglm-dev, libhwy-dev, libmeshoptimizer-dev, libpng-dev, \
+libstdc++-12-dev, libtbb-dev, libtinyxml2-dev, zlib1g-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libvulkan-dev, vasa (= ${PROJECT_VERSION}-1)")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
 "C++20 headers, static libraries and CMake files of vasa, which moves blood

@@ -8,6 +8,7 @@ find_program(VASA_GLSLANG glslangValidator)
 find_program(VASA_SPIRV_VAL spirv-val)
 find_program(VASA_SPIRV_OPT spirv-opt)
 
+# A library of shaders, compiled, checked and embedded. SHADERS: files of shaders/.
 function(vasa_shaders name)
   cmake_parse_arguments(ARG "" "" "SHADERS" ${ARGN})
   if(NOT VASA_GLSLANG OR NOT VASA_SPIRV_VAL)

@@ -7,6 +7,7 @@ foreach(tool dpkg dpkg-deb)
     return()
   endif()
 endforeach()
+# Runs a command, which must succeed; what it prints is in `output`.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE error)
   if(NOT result EQUAL 0)
@@ -48,7 +49,8 @@ if(vessels LESS 300)
 endif()
 foreach(file share/man/man1/vasa.1.gz share/man/man1/vasa-export.1.gz share/man/man7/vasa-formats.7.gz share/applications/vasa.desktop
              share/icons/hicolor/scalable/apps/vasa.svg share/bash-completion/completions/vasa share/zsh/vendor-completions/_vasa
-             share/fish/vendor_completions.d/vasa.fish share/vasa/growth/regions.csv share/doc/vasa/copyright lib/cmake/vasa/vasaConfig.cmake
+             share/fish/vendor_completions.d/vasa.fish share/vasa/growth/regions.csv share/doc/vasa/copyright
+             lib/cmake/vasa/vasaConfig.cmake
              include/vasa/scene/scene.h)
   if(NOT EXISTS "${root}/usr/${file}")
     message(FATAL_ERROR "/usr/${file} is missing in the packages")
