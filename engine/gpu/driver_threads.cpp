@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <thread>
 #endif
 
 namespace vasa::gpu {
@@ -68,12 +70,24 @@ DriverThreads::DriverThreads() : before_(threadsOfProcess()) {
 DriverThreads::~DriverThreads() { pthread_setname_np(pthread_self(), name_.data()); }
 
 // The driver makes its rasterisers, then as many unnamed threads for compute shaders; ids grow in that order.
+// A rasteriser names itself once it runs, which on a busy machine may be a moment after it was made.
+std::vector<int> DriverThreads::made() const {
+  std::vector<int> threads;
+  for (int wait = 0; wait < 20; ++wait) {
+    threads.clear();
+    const std::vector<int> now = threadsOfProcess();
+    std::ranges::set_difference(now, before_, std::back_inserter(threads));
+    std::erase_if(threads, [](int thread) { return nameOf(thread) != kMaker && !isRasteriser(thread); });
+    if (2 * std::ranges::count_if(threads, isRasteriser) >= std::ptrdiff_t(threads.size())) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return threads;
+}
+
 void DriverThreads::spread() const {
-  const std::vector<int> on = processors(), now = threadsOfProcess();
+  const std::vector<int> on = processors();
   if (on.size() < 2) return;
-  std::vector<int> made;
-  std::ranges::set_difference(now, before_, std::back_inserter(made));
-  std::erase_if(made, [](int thread) { return nameOf(thread) != kMaker && !isRasteriser(thread); });
+  const std::vector<int> made = this->made();
   const auto first = std::ranges::find_if(made, isRasteriser),
              last = std::find_if_not(first, made.end(), isRasteriser);
   const std::ptrdiff_t count = last - first;
@@ -83,6 +97,7 @@ void DriverThreads::spread() const {
 #else
 DriverThreads::DriverThreads() = default;
 DriverThreads::~DriverThreads() = default;
+std::vector<int> DriverThreads::made() const { return {}; }
 void DriverThreads::spread() const {}
 #endif
 

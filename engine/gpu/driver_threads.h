@@ -16,10 +16,12 @@ class DriverThreads {
   ~DriverThreads();
   DriverThreads(const DriverThreads&) = delete;
   DriverThreads& operator=(const DriverThreads&) = delete;
-  /// Those made since. Call after the device was made.
+  /// Those made since. Call after the device was made; waits up to 20 ms until they can be told apart.
   void spread() const;
 
  private:
+  std::vector<int> made() const;
+
   std::vector<int> before_;  // sorted
   std::array<char, 16> name_{};
 };
