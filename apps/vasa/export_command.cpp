@@ -26,7 +26,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string output, frames, quads, track, unit = "mm";
-  double fps = 0, budgetMegabytes = 64, toleranceMillimetres = 0.05, betweenMillimetres = 1,
+  double fps = 0, budgetMegabytes = 100, toleranceMillimetres = 0.05, betweenMillimetres = 1,
          clearanceMillimetres = 5;
   std::uint32_t samples = 2;
   bool noVolume = false, noSlide = false, avoid = true, flat = false;
@@ -271,7 +271,8 @@ void addExport(CLI::App& app, Command& command) {
       "export", "Animated surface, posed surface, centre lines or measurements for other programs");
   sub->footer(
       "Examples:\n"
-      "  vasa export --clip walk -o walk.glb --budget 30\n"
+      "  vasa export --clip walk -o walk.glb\n"
+      "  vasa export --clip walk -o small.glb --tolerance 0.5 --flat --budget 30\n"
       "  vasa export --clip squat --frames 40 -o squat.obj --quads 12x6\n"
       "  vasa export --clip fist --frames 0:74 -o 'lines/{frame:03}.vtp'\n"
       "  vasa export --clip walk -o walk.csv\n"

@@ -454,8 +454,9 @@ Result<void> run(const Globals& globals, const Options& options) {
     return Error{Fault::usage, "nothing to write; give -o 'frame_{frame:04}.png', --video film.mp4, or both"};
   if (options.output == "-" && globals.json)
     return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
-  if (const auto ending = std::filesystem::path(options.output).extension();
-      !options.output.empty() && options.output != "-" && ending != ".png")
+  // A device takes what it is given.
+  if (const std::filesystem::path name = options.output;
+      !name.empty() && name != "-" && name.extension() != ".png" && !std::filesystem::is_character_file(name))
     return Error{Fault::usage, "-o " + options.output + ": pictures are PNG files; end the name in .png"};
   auto job = prepare(globals, options);
   if (!job) return job.error();
