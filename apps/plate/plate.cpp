@@ -42,20 +42,6 @@ bool isDrawn(const Look& look, MeshRole role) {
   return true;
 }
 
-bool isDrawn(const Look& look, VesselKind kind) {
-  switch (kind) {
-    case VesselKind::artery:
-      return look.drawArteries;
-    case VesselKind::vein:
-    case VesselKind::portalVein:
-      return look.drawVeins;
-    case VesselKind::lymphatic:
-    case VesselKind::other:
-      break;
-  }
-  return look.drawOtherVessels;
-}
-
 // What is drawn, as triangles of the pose.
 struct DrawnPart {
   std::vector<vec3> positions;
@@ -80,7 +66,7 @@ DrawnParts drawnParts(const PlateScene& scene) {
 }
 
 bool isDrawn(const PlateScene& scene, std::uint32_t vessel) {
-  return scene.vessels[vessel] && isDrawn(scene.look, scene.scene.network.vessels()[vessel].kind);
+  return scene.vessels[vessel] && draws(scene.look, scene.scene.network.vessels()[vessel].kind);
 }
 
 // Vessels by their index, what hides them by the number behind the last.

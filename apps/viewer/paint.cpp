@@ -15,18 +15,6 @@ std::vector<std::uint32_t> firstSpans(const Network& network) {
   return first;
 }
 
-bool kindShown(VesselKind kind, const Look& look) {
-  switch (kind) {
-    case VesselKind::artery:
-      return look.drawArteries;
-    case VesselKind::vein:
-    case VesselKind::portalVein:
-      return look.drawVeins;
-    default:
-      return look.drawOtherVessels;
-  }
-}
-
 }  // namespace
 
 std::vector<char> shownVessels(const Document& document, const ViewState& state) {
@@ -36,7 +24,7 @@ std::vector<char> shownVessels(const Document& document, const ViewState& state)
   if (single)
     for (const VesselId vessel : treeBelow(network, state.selected->vessel)) shown[vessel.value] = 1;
   for (std::size_t v = 0; v < shown.size(); ++v)
-    shown[v] = shown[v] && kindShown(network.vessels()[v].kind, state.look) &&
+    shown[v] = shown[v] && draws(state.look, network.vessels()[v].kind) &&
                !state.hidden.has(network.vessels()[v].name);
   return shown;
 }

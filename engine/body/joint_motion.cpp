@@ -93,10 +93,11 @@ vec3 anglesBeside(const Skeleton::Joint& joint, const JointMotion& motion, const
   return anglesOfTurn(glm::normalize(glm::inverse(there) * turnByAngles(sinceRest)));
 }
 
-Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
-  if (turns.empty()) return pose;
+namespace {
+
+// Each joint by what is its own, those below with it.
+Pose turnedBy(const Skeleton& skeleton, const Pose& pose, std::span<const mat4> own) {
   Pose result = pose;
-  const std::vector<mat4> own = ownTurns(skeleton, turns);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const JointId parent = skeleton.joints[j].parent;
     const mat4 before =
@@ -106,17 +107,17 @@ Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTur
   return result;
 }
 
+}  // namespace
+
+Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
+  return turns.empty() ? pose : turnedBy(skeleton, pose, ownTurns(skeleton, turns));
+}
+
 Pose unturned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
   if (turns.empty()) return pose;
-  Pose result = pose;
-  const std::vector<mat4> own = ownTurns(skeleton, turns);
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const JointId parent = skeleton.joints[j].parent;
-    const mat4 before =
-        parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
-    result.world[j] = before * pose.world[j] * glm::inverse(own[j]);
-  }
-  return result;
+  std::vector<mat4> own = ownTurns(skeleton, turns);
+  for (mat4& turn : own) turn = glm::inverse(turn);
+  return turnedBy(skeleton, pose, own);
 }
 
 JointMotion jointMotion(const Skeleton& skeleton, JointId joint, std::string_view role) {

@@ -9,6 +9,20 @@ bool anyTranslucent(const Look& look) {
                    look.veinOpacity}) < 1;
 }
 
+bool draws(const Look& look, VesselKind kind) {
+  switch (kind) {
+    case VesselKind::artery:
+      return look.drawArteries;
+    case VesselKind::vein:
+    case VesselKind::portalVein:
+      return look.drawVeins;
+    case VesselKind::lymphatic:
+    case VesselKind::other:
+      break;
+  }
+  return look.drawOtherVessels;
+}
+
 std::optional<Look> lookNamed(std::string_view name) {
   Look look;
   look.occlusion = 1;

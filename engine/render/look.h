@@ -39,6 +39,9 @@ struct Look {
 /// Whether some bone, organ or vessel lets others shine through by its opacity.
 bool anyTranslucent(const Look& look);
 
+/// Whether vessels of a kind are drawn.
+bool draws(const Look& look, VesselKind kind);
+
 /// The presets "atlas", "clinical" and "xray": style, background, skin and occlusion.
 std::optional<Look> lookNamed(std::string_view name);
 
