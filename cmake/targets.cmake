@@ -20,13 +20,17 @@ function(vasa_library name)
   vasa_install_library(${name} ${ARG_HEADERS})
 endfunction()
 
-# vasa_test(NAME SOURCES ... LINK ...): one doctest program, one ctest entry.
+# vasa_test(NAME SOURCES ... LINK ...): one doctest program, one ctest entry. SECONDS: of one that takes long, so that it begins first
+# where several run at a time.
 function(vasa_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "SECONDS" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE vasa_test_support ${ARG_LINK})
   add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
   if(ARG_LABELS)
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
+  endif()
+  if(ARG_SECONDS)
+    set_tests_properties(${name} PROPERTIES COST ${ARG_SECONDS})
   endif()
 endfunction()
