@@ -116,7 +116,8 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
   const auto seen = seenAt(centre, camera, picture);
   if (!seen || glm::distance(*seen, place_) > kReach * scale_) return false;
   const auto chosen = chosenOf(document, state);
-  Held& held = held_.emplace();
+  held_ = Held{};  // clang 14 knows no emplace() of a class that is nested here
+  Held& held = *held_;
   held.line.vessel = chosen->vessel;
   held.line.at = chosen->share;
   held.from = centre;

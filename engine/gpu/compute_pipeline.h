@@ -54,7 +54,7 @@ class ComputePipeline {
   bool worthDispatching(std::array<std::uint32_t, 3> groups) const;
 
   std::string name_;
-  std::uint32_t pushBytes_ = 0;
+  [[maybe_unused]] std::uint32_t pushBytes_ = 0;  // read by an assertion alone
   std::array<std::uint32_t, 3> mostGroups_{};
   AddressShadow shadow_;
   Unique<VkPipelineLayout> layout_;

@@ -59,7 +59,7 @@ class GraphicsPipeline {
  private:
   void bindBytes(VkCommandBuffer commands, const void* push, std::uint32_t bytes) const;
 
-  std::uint32_t pushBytes_ = 0;
+  [[maybe_unused]] std::uint32_t pushBytes_ = 0;  // read by an assertion alone
   Unique<VkPipelineLayout> layout_;
   Unique<VkPipeline> pipeline_;
 };
