@@ -45,9 +45,8 @@ std::string counted(std::size_t count, const char* one, const char* several) {
   return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
-}  // namespace
-
-std::string checkVerdict(const Report& report) {
+// "No vessel runs through another in any of 34 frames: certified." and what else a reader must know.
+std::string verdict(const Report& report) {
   const Report &summary = report["summary"], &frames = report["frames"];
   const auto number = [&](const char* key) {
     return summary.contains(key) ? summary[key].get<double>() : 0.0;
@@ -80,13 +79,15 @@ std::string checkVerdict(const Report& report) {
   return text;
 }
 
+}  // namespace
+
 std::string checkText(const Report& report) {
   std::string text = frameTable(report["frames"]) + "\n";
   for (const auto& [key, value] : report["summary"].items()) {
     const auto [name, shown] = inMillimetres(key, value);
     text += fmt::format("{:<32}{}\n", name, plainText(shown));
   }
-  return text + "\n" + checkVerdict(report) + "\n";
+  return text + "\n" + verdict(report) + "\n";
 }
 
 }  // namespace vasa::cli

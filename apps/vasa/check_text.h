@@ -8,7 +8,4 @@ namespace vasa::cli {
 /// @param report  {"frames": [...], "summary": {...}}, at least one frame
 std::string checkText(const Report& report);
 
-/// "No vessel runs through another in any of 34 frames: certified." and what else a reader must know.
-std::string checkVerdict(const Report& report);
-
 }  // namespace vasa::cli

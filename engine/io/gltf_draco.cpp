@@ -13,8 +13,6 @@ namespace {
 using nlohmann::json;
 using Bytes = std::vector<std::byte>;
 
-constexpr const char* kDamaged = "export or download the file again";
-
 /// The head of a Draco bitstream 2.2, as far as the amounts: the library takes memory for them before it
 /// knows that the data go on so long.
 class Head {

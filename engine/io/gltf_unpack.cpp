@@ -90,7 +90,7 @@ Bytes decodeMeshopt(const JsonView& place, std::span<const std::byte> data, std:
   const int fault = attributes  ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, data.size())
                     : triangles ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, data.size())
                                 : meshopt_decodeIndexSequence(bytes.data(), count, stride, from, data.size());
-  if (fault != 0) place.fail("the compressed data are damaged", "export or download the file again");
+  if (fault != 0) place.fail("the compressed data are damaged", kDamaged);
   unfilter(place, filter, bytes, count, stride);
   return bytes;
 }

@@ -13,6 +13,9 @@ namespace vasa::gltf {
 /// @return bytes unpacked; 0: nothing was compressed, and nothing has changed
 std::size_t unpack(nlohmann::json& document, Buffers& buffers);
 
+/// What to do about packed data that cannot be decoded.
+inline constexpr const char* kDamaged = "export or download the file again";
+
 /// Coders of meshes reach 5 to 30 to one on what scanners and artists make.
 inline constexpr std::size_t kUnpackedTimes = 40, kUnpackedFreeMiB = 8;
 

@@ -152,17 +152,11 @@ class Forest {
     neighbours_[a].push_back(b);
     neighbours_[b].push_back(a);
   }
-  std::uint32_t lineOf(std::uint32_t s) const {
-    return std::uint32_t(std::upper_bound(first_.begin(), first_.end(), s) - first_.begin() - 1);
-  }
-  vec4 section(std::uint32_t s) const {
-    const std::uint32_t line = lineOf(s);
-    return lines_.lines[line].samples[s - first_[line]];
-  }
   void put(std::uint32_t s, std::uint32_t parent) {
-    const vec4 at = section(s);
-    out_.push_back(
-        {std::int64_t(out_.size()) + 1, swcTypeOf(lines_.lines[lineOf(s)].kind), vec3(at), at.w, parent});
+    const auto number = std::upper_bound(first_.begin(), first_.end(), s) - first_.begin() - 1;
+    const Centrelines::Line& line = lines_.lines[std::size_t(number)];
+    const vec4 at = line.samples[s - first_[std::size_t(number)]];
+    out_.push_back({std::int64_t(out_.size()) + 1, swcTypeOf(line.kind), vec3(at), at.w, parent});
   }
   // Depth first, so that a line's samples follow one another. A sample that is reached twice closes a loop:
   // its double becomes a tip.
