@@ -6,6 +6,7 @@
 #include <iostream>
 #include <set>
 
+#include "atlas/colouring.h"
 #include "camera_choice.h"
 #include "capillary_options.h"
 #include "commands.h"
@@ -68,7 +69,8 @@ struct Job {
   PictureSize size;                     // of what is written
   std::optional<plate::PlateStyle>
       page;  // labels beside the picture, which is smaller then than what is written
-  plate::VesselColours colours;
+  atlas::Colouring colouring = atlas::Colouring::kind;
+  atlas::VesselGroups groups;
 };
 
 constexpr float kScreenDpi = 96;  // of a picture of 1280 by 720 with labels: letters of 11 pixels
@@ -189,10 +191,10 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
     aspect = room.x / room.y;
     pixels = glm::max(glm::round(room * float(size->width) / job.page->page.x), vec2(1));
   }
-  const std::vector<char> all(job.scene.network.vessels().size(), 1);
-  auto colours = plate::colourVessels(job.scene, *plate::colouringNamed(options.colour), all, all);
-  if (!colours) return colours.error();
-  job.colours = std::move(*colours);
+  job.colouring = *atlas::colouringNamed(options.colour);
+  if (job.colouring != atlas::Colouring::kind || job.page) job.groups = atlas::groupsOf(job.scene);
+  if (auto known = atlas::checkColouring(job.colouring, job.groups, job.scene.body.name); !known)
+    return known.error();
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
   if (!camera) return camera.error();
   job.camera = std::move(*camera);
@@ -266,8 +268,9 @@ class Film {
     noteStep(frame);
     if (options_.highlightContacts)
       highlightContacts();
-    else if (options_.colour != "kind")
-      renderer_.setSweepColours(job_.colours.spans);
+    else if (job_.colouring != atlas::Colouring::kind)
+      renderer_.setSweepColours(
+          atlas::spanColours(job_.scene.network, job_.groups, maker_->points(), job_.colouring));
     const Camera camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points());
     renderer_.draw({.points = maker_->points(),
                     .knotFrames = maker_->knotFrames(),
@@ -299,11 +302,9 @@ class Film {
     if (!plan) return plan.error();
     for (const std::string& name : plan->unseen)
       logWarning("'" + name + "' is not seen in this picture and gets no label");
-    const auto colours =
-        plate::colourVessels(job_.scene, *plate::colouringNamed(options_.colour), all, plan->seen);
-    if (!colours) return colours.error();
+    const auto keys = atlas::legendOf(job_.scene.network, job_.groups, job_.colouring, plan->seen);
     const plate::Sheet sheet =
-        plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), *colours);
+        plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), keys);
     return plate::sheetImage(sheet, uvec2(job_.size.width, job_.size.height));
   }
 
@@ -547,8 +548,8 @@ void addRender(CLI::App& app, Command& command) {
       "names with commas between them; for stills (vasa help plate)");
   sub->add_option("--title", options->title, "Title of a picture with labels");
   sub->add_option("--colour", options->colour,
-                  "What colours of vessels stand for: kind, blood, region or radius")
-      ->check(CLI::IsMember({"kind", "blood", "region", "radius"}))
+                  "What colours of vessels stand for: " + atlas::colouringsListed())
+      ->check(CLI::IsMember(std::vector<std::string>(atlas::kColourings.begin(), atlas::kColourings.end())))
       ->capture_default_str();
   sub->add_option("--shard", options->shard,
                   "i/n: draw every n-th frame from the i-th, to share a film among processes");

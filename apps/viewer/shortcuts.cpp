@@ -21,7 +21,7 @@ constexpr Shortcut kShortcuts[] = {
     {"I", "only the chosen vessel and its tree"},
     {"O", "list of all vessels; Up, Down there: another one"},
     {"H", "hide what is chosen; Shift: all else; Ctrl: show all"},
-    {"K, L", "colour by kind, region, radius, strain; legend"},
+    {"K, L", "colour by kind, blood, region, radius, strain, bend, lumen; legend"},
     {"M", "measure along the vessels"},
     {"P", "pose: drag wrists, knees, head; with Ctrl one joint alone"},
     {"Ctrl C, Ctrl V", "copy and paste the pose, while posing"},
@@ -126,7 +126,8 @@ void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Do
   if (key == keyOf('O')) state.outliner.on = !state.outliner.on;
   if (key == keyOf('H') && document) hide(control, shift, state, document->scene.network);
   if (key == keyOf('K'))
-    state.colouring = Colouring((int(state.colouring) + 1) % int(kColourings.size())), state.legend = true;
+    state.colouring = atlas::Colouring((int(state.colouring) + 1) % int(atlas::kColourings.size())),
+    state.legend = true;
   if (key == keyOf('L')) state.legend = !state.legend;
   if (key == keyOf('M')) choose(state, !state.measuring);
   if (key == keyOf('P')) state.posing = !state.posing;

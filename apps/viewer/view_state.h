@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "atlas/colouring.h"
 #include "body/joint_motion.h"
 #include "network/route.h"
 #include "render/look.h"
-#include "viewer/colouring.h"
 #include "viewer/cut_plane.h"
 #include "viewer/forces.h"
 #include "viewer/hidden_vessels.h"
@@ -36,7 +36,7 @@ struct Undoable {
   CutPlane cutPlane;
   bool follow = true;     ///< the camera goes along with a body that walks
   bool contacts = false;  ///< vessels grey, those that touch in colour
-  Colouring colouring = Colouring::kind;
+  atlas::Colouring colouring = atlas::Colouring::kind;
   HiddenVessels hidden;
   std::vector<JointTurn> turns;
   std::vector<std::string> journal;  ///< lines of edits (edit/journal.h), on top of those of other files
