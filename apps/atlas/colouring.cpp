@@ -30,13 +30,13 @@ struct Scale {
 
 // Ramps are told apart also where red and green are not; what runs both ways from a middle has grey there.
 const Scale& scaleOf(Colouring colouring) {
-  static const Scale radius{"radius",
+  static const Scale radius{"Radius",
                             " mm",
                             {0.25f, 1, 4, 16},
                             {vec3(0.62f, 0.79f, 0.84f), vec3(0.25f, 0.56f, 0.71f), vec3(0.25f, 0.29f, 0.56f),
                              vec3(0.30f, 0.08f, 0.30f)},
                             true};
-  static const Scale strain{"longer or shorter than at rest",
+  static const Scale strain{"Longer or shorter than at rest",
                             " %",
                             {-30, -15, 0, 15, 30},
                             {vec3(0.07f, 0.25f, 0.65f), vec3(0.45f, 0.65f, 0.92f), vec3(0.82f, 0.82f, 0.80f),
@@ -44,12 +44,12 @@ const Scale& scaleOf(Colouring colouring) {
                             false,
                             true};
   // At 1 the inside of a bend folds.
-  static const Scale bend{"radius by bending radius",
+  static const Scale bend{"Radius by bending radius",
                           "",
                           {0, 0.25f, 0.5f, 0.75f, 1},
                           {vec3(0.80f, 0.84f, 0.86f), vec3(0.95f, 0.80f, 0.45f), vec3(0.90f, 0.50f, 0.25f),
                            vec3(0.70f, 0.20f, 0.18f), vec3(0.35f, 0.03f, 0.15f)}};
-  static const Scale lumen{"area by that at rest",
+  static const Scale lumen{"Area by that at rest",
                            " %",
                            {50, 75, 100, 125, 150},
                            {vec3(0.50f, 0.05f, 0.35f), vec3(0.85f, 0.50f, 0.65f), vec3(0.82f, 0.82f, 0.80f),
