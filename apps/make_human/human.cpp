@@ -15,22 +15,28 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   const auto shapeOf = [&](std::string_view mesh) {
     return readShape(tables / "parts.csv", tables / "sections.csv", mesh, human.rig);
   };
-  Result<Shape> skin = shapeOf("skin"), forms = shapeOf("bones"), heart = shapeOf("heart"),
-                organs = shapeOf("organs");
-  for (const Result<Shape>* shape : {&skin, &forms, &heart, &organs})
+  Result<Shape> skin = shapeOf("skin"), heart = shapeOf("heart"), organs = shapeOf("organs");
+  for (const Result<Shape>* shape : {&skin, &heart, &organs})
     if (!shape->ok()) return shape->error();
   human.skinShape = std::move(skin).value();
-  Result<SkinnedMesh> bones = makeBones(tables / "bones.csv", *forms, human.rig);
-  if (!bones.ok()) return bones.error();
-  human.meshes = {makeSkin(human.skinShape, human.rig), std::move(bones).value(),
+  const Result<std::vector<BoneForm>> forms =
+      readBoneForms(tables / "bones.csv", tables / "bone_forms.csv", human.rig);
+  if (!forms.ok()) return forms.error();
+  std::vector<SkinnedMesh> bones = makeBones(*forms, human.rig);
+  const SkinnedMesh skeleton = united(bones);
+  human.meshes = {makeSkin(human.skinShape, human.rig), std::move(bones[0]),
                   makeSolid("heart", {0.55f, 0.13f, 0.11f, 1}, *heart, human.rig),
-                  makeSolid("organs", {0.66f, 0.39f, 0.34f, 0.3f}, *organs, human.rig)};
+                  makeSolid("organs", {0.66f, 0.39f, 0.34f, 0.3f}, *organs, human.rig), std::move(bones[1]),
+                  std::move(bones[2])};
   Result<std::vector<Clip>> clips = makeClips(tables / "clips.csv", tables / "clip_keys.csv", human.rig);
   if (!clips.ok()) return clips.error();
   human.clips = std::move(clips).value();
   const Aabb box = human.meshes.front().mesh.bounds();
-  const Surroundings around{human.skinShape, Solid(human.meshes[1].mesh), Solid(human.meshes[2].mesh)};
-  const MotionProbe probe(bodyOf(human.rig, human.meshes, human.clips));
+  const Surroundings around{human.skinShape, Solid(skeleton.mesh), Solid(human.meshes[2].mesh)};
+  std::vector<SkinnedMesh> probed = human.meshes;
+  probed[1] = skeleton;
+  probed.resize(4);
+  const MotionProbe probe(bodyOf(human.rig, std::move(probed), human.clips));
   Result<Network> vessels = makeVessels(tables, human.rig, around, probe, box.high.y - box.low.y, options);
   if (!vessels.ok()) return vessels.error();
   human.vessels = std::move(vessels).value();

@@ -11,12 +11,12 @@ namespace vasa::human {
 struct Human {
   Rig rig;
   Shape skinShape;
-  std::vector<SkinnedMesh> meshes;  ///< skin, bones, heart, organs
+  std::vector<SkinnedMesh> meshes;  ///< skin, bones, heart, organs, cartilage, teeth
   std::vector<Clip> clips;
   Network vessels;
 };
 
-/// Reads joints, parts, sections, bones, clips, clip_keys, vessels and growth (.csv) and makes the human of
+/// Reads joints, parts, sections, bones, bone_forms, clips, clip_keys, vessels and growth (.csv) and makes the human of
 /// them.
 Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& options = {});
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kLevels = 3;  // coarse leaves are 2^kLevels units wide
 constexpr int kCoarse = 1 << kLevels;
-constexpr float kCertainty = 20;  // the distance may be wrong by this factor: beside thin plates it is
 
 using ivec3 = glm::ivec3;
 
@@ -37,10 +36,12 @@ class Contouring {
   Contouring(const ImplicitSurface& surface, float coarse) : surface_(surface), unit_(coarse / kCoarse) {
     const Aabb box = surface.bounds;
     cells_ = ivec3(glm::ceil((box.high - box.low) / coarse)) + 4;
+    origin_ = box.low - coarse * vec3(1.43f, 1.37f, 1.61f);
+    if (box.low.x >= 0 || box.high.x <= 0) return;
     // Odd multiples of half a cell keep the body's symmetry plane on cell faces.
     const float halfWidth = std::ceil((std::max(box.high.x, -box.low.x)) / coarse) + 2;
     cells_.x = int(2 * halfWidth);
-    origin_ = {-halfWidth * coarse, box.low.y - 1.37f * coarse, box.low.z - 1.61f * coarse};
+    origin_.x = -halfWidth * coarse;
   }
 
   TriangleMesh run() {
@@ -60,7 +61,7 @@ class Contouring {
   void grow(Leaf leaf) {
     const vec3 centre = origin_ + unit_ * (vec3(leaf.corner) + 0.5f * float(leaf.size));
     const float reach = 0.87f * unit_ * float(leaf.size);
-    leaf.nearSurface = std::abs(surface_.distance(centre)) < kCertainty * reach;
+    leaf.nearSurface = std::abs(surface_.distance(centre)) < surface_.certainty * reach;
     if (leaf.nearSurface && leaf.size > 1 &&
         surface_.cellSize(centre, reach) < 0.75f * unit_ * float(leaf.size)) {
       const int half = leaf.size / 2;

@@ -9,6 +9,7 @@ struct ImplicitSurface {
   std::function<float(vec3)> distance;         ///< [m] negative inside, slope not far from 1
   std::function<float(vec3, float)> cellSize;  ///< [m] wanted size of the polygons within a radius of a point
   Aabb bounds;
+  float certainty = 20;  ///< the distance may be wrong by this factor: beside thin lofted plates it is
 };
 
 /// A closed, outward-oriented mesh of the surface distance = 0: dual contouring on an octree (Ju, Losasso,

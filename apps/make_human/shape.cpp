@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "make_human/smooth_minimum.h"
+
 // Distance to a superellipse with half axes a, b and exponent n, lofted and capped: with
 //   rho = (|u/a|^n + |v/b|^n)^(1/n),  k = sqrt(rho² + (e/c)²),  e the excess over the part's ends,
 // the surface is k = 1 and (k - 1) / |grad k| is the distance to first order.
 namespace vasa::human {
 namespace {
-
-float smoothMinimum(float a, float b, float k) {
-  const float h = std::max(k - std::abs(a - b), 0.0f);
-  return k > 0 ? std::min(a, b) - h * h / (4 * k) : std::min(a, b);
-}
 
 Part::Section mix(const Part::Section& a, const Part::Section& b, float t) {
   const auto line = [t](float x, float y) { return x + t * (y - x); };

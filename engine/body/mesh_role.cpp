@@ -18,7 +18,7 @@ MeshRole roleNamed(std::string_view name) {
                        [&](std::string_view part) { return lower.find(part) != std::string::npos; });
   };
   if (lower.starts_with("skin")) return MeshRole::skin;
-  if (hasAny({"bone", "skelet"})) return MeshRole::bones;
+  if (hasAny({"bone", "skelet", "cartilage", "teeth"})) return MeshRole::bones;
   if (hasAny({"heart"})) return MeshRole::heart;
   if (hasAny({"skin", "body"})) return MeshRole::skin;
   if (hasAny({"organ", "brain", "lung", "liver", "kidney", "spleen", "stomach"})) return MeshRole::organs;

@@ -26,9 +26,12 @@ shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::uint32_t i, vec3 nor
           influence.weights};
 }
 
-// Bones, heart and skin have colours of their own; any other mesh keeps its material's.
+// Bones, heart and skin have colours of their own, teeth and cartilage among the bones, too; any other mesh
+// keeps its material's.
 std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
-  const vec4 colour = role == MeshRole::other ? srgbColour(mesh.colour) : colourOf(role);
+  vec4 colour = role == MeshRole::other ? srgbColour(mesh.colour) : colourOf(role);
+  if (role == MeshRole::bones && mesh.name == "cartilage") colour = {0.72f, 0.80f, 0.82f, 1};
+  if (role == MeshRole::bones && mesh.name == "teeth") colour = {0.97f, 0.95f, 0.90f, 1};
   return packColour(vec4(vec3(colour), 0)) | (shared::kMeshKind + std::uint32_t(role)) << 24;
 }
 

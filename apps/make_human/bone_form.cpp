@@ -1,0 +1,118 @@
+#include "make_human/bone_form.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "make_human/smooth_minimum.h"
+#include "math/closest_point.h"
+
+// The distance to an ellipsoid-like piece with half axes a, b and cap c: with k = |(u/a, v/b, e/c)|, e the
+// excess over the tube's end, the surface is k = 1 and (k - 1) / |grad k| is the distance to first order.
+namespace vasa::human {
+namespace {
+
+float boxDistance(const Aabb& box, vec3 p) {
+  return glm::length(glm::max(glm::max(box.low - p, p - box.high), vec3(0)));
+}
+
+/// p in a piece's own directions, and its half axes there.
+struct Local {
+  vec3 at{0}, half{1};
+};
+
+float distanceTo(const Local& local, float square) {
+  const vec3 x = glm::abs(local.at) / local.half;
+  const bool round = square == 2;
+  const float sum = round ? x.x * x.x + x.y * x.y : std::pow(x.x, square) + std::pow(x.y, square);
+  const float rho = round ? std::sqrt(sum) : std::pow(sum, 1 / square);
+  const float k = std::sqrt(rho * rho + x.z * x.z);
+  const float least = std::min(local.half.x, local.half.y);
+  if (k < 1e-4f) return -least;
+  vec3 slope{0, 0, x.z / local.half.z / k};
+  if (sum > 0) {
+    const float outer = rho / sum * rho / k;
+    slope.x = outer * (round ? x.x : std::pow(x.x, square - 1)) / local.half.x;
+    slope.y = outer * (round ? x.y : std::pow(x.y, square - 1)) / local.half.y;
+  }
+  return std::max((k - 1) / glm::length(slope), -least);
+}
+
+}  // namespace
+
+float BonePiece::distance(vec3 p) const {
+  if (stations.size() == 1) {
+    const Station& s = stations[0];
+    const vec3 q = p - s.centre;
+    return distanceTo({{glm::dot(q, s.across), glm::dot(q, s.up), glm::dot(q, glm::cross(s.across, s.up))},
+                       {s.width, s.height, capStart}},
+                      square);
+  }
+  std::size_t best = 0;
+  float share = 0, nearest = 1e9f;
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+    const float t = closestOnSegment(p, stations[i].centre, stations[i + 1].centre);
+    const vec3 q = p - glm::mix(stations[i].centre, stations[i + 1].centre, t);
+    const float square2 = glm::dot(q, q);
+    if (square2 < nearest) nearest = square2, best = i, share = t;
+  }
+  const Station &a = stations[best], &b = stations[best + 1];
+  const vec3 q = p - glm::mix(a.centre, b.centre, share);
+  const bool atStart = best == 0 && share == 0, atEnd = best + 2 == stations.size() && share == 1;
+  Local local;
+  local.at = {glm::dot(q, glm::normalize(glm::mix(a.across, b.across, share))),
+              glm::dot(q, glm::normalize(glm::mix(a.up, b.up, share))), 0};
+  local.half = {glm::mix(a.width, b.width, share), glm::mix(a.height, b.height, share),
+                atStart ? capStart : capEnd};
+  if (atStart || atEnd) local.at.z = glm::dot(q, glm::normalize(b.centre - a.centre));
+  return distanceTo(local, square);
+}
+
+float BoneForm::distance(vec3 p) const {
+  float result = 1;
+  for (const BonePiece& piece : pieces) {
+    const float beyond = boxDistance(piece.bounds, p);
+    if (piece.carve) {
+      if (beyond <= piece.blend + std::max(-result, 0.0f))
+        result = -smoothMinimum(-result, piece.distance(p), piece.blend);
+    } else if (beyond < result + piece.blend) {
+      result = smoothMinimum(result, piece.distance(p), piece.blend);
+    }
+  }
+  return result;
+}
+
+vec3 BoneForm::gradient(vec3 p) const {
+  const float h = 2e-4f;
+  vec3 slope;
+  for (int i = 0; i < 3; ++i) {
+    vec3 low = p, high = p;
+    low[i] -= h;
+    high[i] += h;
+    slope[i] = (distance(high) - distance(low)) / (2 * h);
+  }
+  return slope;
+}
+
+float BoneForm::cellSize(vec3 p, float reach) const {
+  float size = 1;
+  for (const BonePiece& piece : pieces)
+    if (piece.cell < size && boxDistance(piece.bounds, p) < reach &&
+        std::abs(piece.distance(p)) < 0.8f * reach + 0.5f * piece.cell)
+      size = piece.cell;
+  return size;
+}
+
+float BoneForm::finestCell() const {
+  float finest = 1;
+  for (const BonePiece& piece : pieces) finest = std::min(finest, piece.cell);
+  return finest;
+}
+
+Aabb BoneForm::bounds() const {
+  Aabb box;
+  for (const BonePiece& piece : pieces)
+    if (!piece.carve) box.add(piece.bounds);
+  return box;
+}
+
+}  // namespace vasa::human
