@@ -1,5 +1,7 @@
 #include "make_human/bones.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
 
 #include "core/parallel.h"
@@ -28,6 +30,36 @@ struct Surface {
   std::vector<vec3> normals;
 };
 
+// Flat places need fewer polygons than the octree gives them: the cheapest edges go. What is left is still
+// dense enough that distances to a bone's vertices tell distances to the bone (body/bone_field.h).
+constexpr float kKeptShare = 0.5f, kThinningError = 0.15e-3f;  // of the triangles; [m]
+
+TriangleMesh thinned(const TriangleMesh& mesh) {
+  std::vector<uvec3> fewer(mesh.triangles.size());
+  const float* first = &mesh.positions[0].x;
+  const float scale = meshopt_simplifyScale(first, mesh.positions.size(), sizeof(vec3));
+  const std::size_t wanted = 3 * std::size_t(kKeptShare * float(fewer.size()));
+  fewer.resize(meshopt_simplify(&fewer[0].x, &mesh.triangles[0].x, 3 * fewer.size(), first,
+                                mesh.positions.size(), sizeof(vec3), wanted, kThinningError / scale, 0,
+                                nullptr) /
+               3);
+  TriangleMesh result;
+  constexpr std::uint32_t kUnused = 0xffffffffu;
+  std::vector<std::uint32_t> numbers(mesh.positions.size(), kUnused);
+  for (uvec3 t : fewer) {
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& number = numbers[t[k]];
+      if (number == kUnused) {
+        number = std::uint32_t(result.positions.size());
+        result.positions.push_back(mesh.positions[t[k]]);
+      }
+      t[k] = number;
+    }
+    result.triangles.push_back(t);
+  }
+  return result;
+}
+
 /// The form's own slope is smoother than the polygons'; in a sharp groove it may point elsewhere.
 std::vector<vec3> smoothNormals(const BoneForm& form, const TriangleMesh& mesh) {
   std::vector<vec3> normals = vertexNormals(mesh);
@@ -51,7 +83,7 @@ Surface surfaceOf(const BoneForm& form) {
   const ImplicitSurface surface{[&](vec3 p) { return form.distance(p); },
                                 [&](vec3 p, float reach) { return form.cellSize(p, kFineReach * reach); },
                                 form.bounds(), kCertain};
-  result.mesh = polygonise(surface, coarseCell(form.finestCell()));
+  result.mesh = thinned(polygonise(surface, coarseCell(form.finestCell())));
   result.normals = smoothNormals(form, result.mesh);
   return result;
 }

@@ -37,15 +37,23 @@ class BodyWriter {
   void addMesh(const SkinnedMesh& mesh) {
     std::vector<glm::u8vec4> joints;
     std::vector<vec4> weights;
+    bool rigid = true;
     for (const SkinInfluence& influence : mesh.influences) {
       joints.emplace_back(influence.joints[0], influence.joints[1], influence.joints[2], influence.joints[3]);
       weights.push_back(influence.weights);
+      rigid = rigid && influence.weights == vec4(1, 0, 0, 0);
     }
     Json attributes;
     attributes["POSITION"] = file_.add(mesh.mesh.positions, GlbWriter::vertices, true);
     attributes["NORMAL"] = file_.add(mesh.normals, GlbWriter::vertices);
     attributes["JOINTS_0"] = file_.add(joints, GlbWriter::vertices);
-    attributes["WEIGHTS_0"] = file_.add(weights, GlbWriter::vertices);
+    if (rigid) {  // a quarter of the bytes
+      attributes["WEIGHTS_0"] =
+          file_.add(std::vector<glm::u8vec4>(weights.size(), {255, 0, 0, 0}), GlbWriter::vertices);
+      file_.root["accessors"].back()["normalized"] = true;
+    } else {
+      attributes["WEIGHTS_0"] = file_.add(weights, GlbWriter::vertices);
+    }
     const std::size_t indices = file_.add(mesh.mesh.triangles);
     Json& meshes = file_.root["meshes"];
     meshes.push_back({{"name", mesh.name},
