@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "body/binding.h"
@@ -8,6 +9,7 @@
 #include "core/parallel.h"
 #include "human/made_human.h"
 #include "io/gltf.h"
+#include "make_human/bones.h"
 #include "make_human/glb.h"
 #include "make_human/solid.h"
 
@@ -92,7 +94,9 @@ TEST_CASE("at rest no vessel is in bone, and only the great ones' origins in the
   const Network& network = madeHuman().vessels;
   std::vector<int> owners;
   const std::vector<vec4> samples = samplesOf(network, network.points(), &owners);
-  const Solid bones(madeHuman().meshes[1].mesh), heart(madeHuman().meshes[2].mesh);
+  const auto& meshes = madeHuman().meshes;
+  const SkinnedMesh skeleton = united(std::array{meshes[1], meshes[4], meshes[5]});
+  const Solid bones(skeleton.mesh), heart(meshes[2].mesh);
   std::map<int, float> inBone, inHeart;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const float radius = samples[i].w;

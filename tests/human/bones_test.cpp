@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "body/skinning.h"
+#include "core/parallel.h"
+#include "human/made_human.h"
+#include "make_human/bones.h"
+#include "make_human/motion_probe.h"
+#include "make_human/solid.h"
+
+using namespace vasa;
+using namespace vasa::human;
+
+namespace {
+
+constexpr std::size_t kFrameStep = 6;
+constexpr std::size_t kVertexStep = 3;  // vertices looked at for leaving the skin
+
+const std::filesystem::path kTables = VASA_HUMAN_TABLES;
+
+const Body& body() {
+  static const Body made = bodyOf(madeHuman().rig, madeHuman().meshes, madeHuman().clips);
+  return made;
+}
+
+const std::vector<BoneForm>& forms() {
+  static const Result<std::vector<BoneForm>> read =
+      readBoneForms(kTables / "bones.csv", kTables / "bone_forms.csv", madeHuman().rig);
+  if (!read.ok()) FAIL(read.error().message);
+  return *read;
+}
+
+/// One bone of the left side or the middle.
+struct Bone {
+  SkinnedMesh mesh;
+  std::vector<vec3> posed;
+};
+
+Bone boneNamed(std::string_view name) {
+  for (const BoneForm& form : forms())
+    if (form.name == name) {
+      BoneForm left = form;
+      left.paired = false;
+      for (SkinnedMesh& mesh : makeBones({left}, madeHuman().rig))
+        if (!mesh.mesh.triangles.empty()) return {std::move(mesh), {}};
+    }
+  FAIL("no bone " << name);
+  return {};
+}
+
+/// A joint and how far its bones' surfaces may be apart [m]: two layers of cartilage. Hip, knee and ankle:
+/// the thickest means of Shepherd and Seedhom 1999, Ann Rheum Dis 58:27; the others: textbook figures.
+struct Contact {
+  std::string a, b;
+  float most;
+};
+
+std::vector<Contact> contacts() {
+  std::vector<Contact> all = {{"thigh bone", "hip bone", 0.0040f},
+                              {"thigh bone", "shin bone", 0.0051f},
+                              {"knee cap", "thigh bone", 0.0051f},
+                              {"ankle bone", "shin bone", 0.0033f},
+                              {"ankle bone", "heel bone", 0.0033f},
+                              {"upper arm bone", "shoulder blade", 0.0040f},
+                              {"ulna", "upper arm bone", 0.0030f},
+                              {"radius", "upper arm bone", 0.0030f},
+                              {"radius", "ulna", 0.0030f},
+                              {"scaphoid", "radius", 0.0030f},
+                              {"lunate", "radius", 0.0030f},
+                              {"metacarpal 1", "trapezium", 0.0030f},
+                              {"metacarpal 2", "trapezoid", 0.0030f},
+                              {"metacarpal 3", "capitate", 0.0030f},
+                              {"metacarpal 4", "hamate", 0.0030f},
+                              {"metacarpal 5", "hamate", 0.0030f},
+                              {"proximal phalanx 1", "metacarpal 1", 0.0030f},
+                              {"distal phalanx 1", "proximal phalanx 1", 0.0030f},
+                              {"collar bone", "manubrium", 0.0050f},
+                              {"shoulder blade", "collar bone", 0.0050f},
+                              {"C1 vertebra", "skull", 0.0040f},
+                              {"lower jaw", "skull", 0.0050f}};
+  for (int i = 2; i <= 5; ++i) {
+    const std::string ray = std::to_string(i);
+    all.push_back({"proximal phalanx " + ray, "metacarpal " + ray, 0.0030f});
+    all.push_back({"middle phalanx " + ray, "proximal phalanx " + ray, 0.0030f});
+    all.push_back({"distal phalanx " + ray, "middle phalanx " + ray, 0.0030f});
+  }
+  for (int i = 1; i <= 5; ++i) {
+    const std::string ray = std::to_string(i);
+    all.push_back({"proximal phalanx of toe " + ray, "metatarsal " + ray, 0.0030f});
+  }
+  // Discs that belong to another joint than the vertebra above: the spine bends there.
+  all.push_back({"disc C4-C5", "C4 vertebra", 0.0030f});
+  all.push_back({"disc C7-T1", "C7 vertebra", 0.0030f});
+  all.push_back({"disc T6-T7", "T6 vertebra", 0.0030f});
+  all.push_back({"disc T12-L1", "T12 vertebra", 0.0030f});
+  all.push_back({"disc L2-L3", "L2 vertebra", 0.0030f});
+  all.push_back({"disc L5-S1", "L5 vertebra", 0.0030f});
+  return all;
+}
+
+/// Visits every few frames of each clip.
+template <class Visit>
+void forPoses(Visit visit) {
+  for (const Clip& clip : body().clips)
+    for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep)
+      visit(clip, frame,
+            skinMatrices(body().skeleton,
+                         samplePose(body().skeleton, clip, float(frame) / clip.framesPerSecond)));
+}
+
+}  // namespace
+
+TEST_CASE("no motion brings a bone out of the skin") {
+  std::map<std::string, std::array<float, 2>> worst;  // of a clip and joint: [m] out, frame
+  std::vector<vec3> skin, bones;
+  forPoses([&](const Clip& clip, std::size_t frame, const std::vector<mat4>& matrices) {
+    skinPositions(body().meshes[0], matrices, skin);
+    const TriangleMesh surface{skin, body().meshes[0].mesh.triangles};
+    const Solid solid(surface);
+    skinPositions(body().meshes[1], matrices, bones);
+    std::vector<float> out(bones.size() / kVertexStep, 0);
+    parallelFor(out.size(), 256, [&](std::size_t i) {
+      const vec3 p = bones[i * kVertexStep];
+      if (solid.winding(p) > 0) return;
+      if (const auto place = solid.at(p, 0.1f)) out[i] = place->distance;
+    });
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (out[i] <= 0) continue;
+      const std::uint16_t joint = body().meshes[1].influences[i * kVertexStep].joints[0];
+      auto& entry = worst[clip.name + ": " + body().skeleton.joints[joint].name];
+      if (out[i] > entry[0]) entry = {out[i], float(frame)};
+    }
+  });
+  for (const auto& [place, entry] : worst)
+    MESSAGE(place << " " << 1e3f * entry[0] << " mm out in frame " << entry[1]);
+  CHECK(worst.empty());
+}
+
+TEST_CASE("the surfaces of a joint are never farther apart than cartilage") {
+  for (const Contact& contact : contacts()) {
+    CAPTURE(contact.a);
+    CAPTURE(contact.b);
+    Bone a = boneNamed(contact.a), b = boneNamed(contact.b);
+    float widest = 0, frameOfWidest = 0;
+    std::string clipOfWidest;
+    forPoses([&](const Clip& clip, std::size_t frame, const std::vector<mat4>& matrices) {
+      skinPositions(a.mesh, matrices, a.posed);
+      skinPositions(b.mesh, matrices, b.posed);
+      const TriangleMesh other{b.posed, b.mesh.mesh.triangles};
+      const Solid solid(other);
+      float gap = 0.05f;
+      for (const vec3 p : a.posed)
+        if (const auto place = solid.at(p, gap)) gap = std::min(gap, std::max(place->distance, 0.0f));
+      if (gap > widest) widest = gap, frameOfWidest = float(frame), clipOfWidest = clip.name;
+    });
+    MESSAGE(contact.a << ", " << contact.b << ": " << 1e3f * widest << " mm in frame " << frameOfWidest
+                      << " of " << clipOfWidest);
+    CHECK(widest <= contact.most);
+  }
+}
