@@ -3,9 +3,12 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "core/parallel.h"
 #include "make_human/polygonise.h"
+#include "make_human/separate_sheets.h"
 
 namespace vasa::human {
 namespace {
@@ -34,6 +37,23 @@ struct Surface {
 // dense enough that distances to a bone's vertices tell distances to the bone (body/bone_field.h).
 constexpr float kKeptShare = 0.5f, kThinningError = 0.15e-3f;  // of the triangles; [m]
 
+/// Takes out pairs of triangles that lie on one another back to back: what is left of a fold.
+void dropFolds(std::vector<uvec3>& triangles) {
+  std::map<std::array<std::uint32_t, 3>, std::vector<std::size_t>> byCorners;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::array<std::uint32_t, 3> corners{triangles[i].x, triangles[i].y, triangles[i].z};
+    std::sort(corners.begin(), corners.end());
+    byCorners[corners].push_back(i);
+  }
+  std::vector<char> folded(triangles.size(), 0);
+  for (const auto& [corners, owners] : byCorners)
+    for (std::size_t k = 0; k + 1 < owners.size(); k += 2) folded[owners[k]] = folded[owners[k + 1]] = 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (!folded[i]) triangles[kept++] = triangles[i];
+  triangles.resize(kept);
+}
+
 TriangleMesh thinned(const TriangleMesh& mesh) {
   std::vector<uvec3> fewer(mesh.triangles.size());
   const float* first = &mesh.positions[0].x;
@@ -43,6 +63,7 @@ TriangleMesh thinned(const TriangleMesh& mesh) {
                                 mesh.positions.size(), sizeof(vec3), wanted, kThinningError / scale, 0,
                                 nullptr) /
                3);
+  dropFolds(fewer);
   TriangleMesh result;
   constexpr std::uint32_t kUnused = 0xffffffffu;
   std::vector<std::uint32_t> numbers(mesh.positions.size(), kUnused);
@@ -57,6 +78,7 @@ TriangleMesh thinned(const TriangleMesh& mesh) {
     }
     result.triangles.push_back(t);
   }
+  separateSheets(result);
   return result;
 }
 
