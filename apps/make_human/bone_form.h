@@ -29,8 +29,8 @@ struct BonePiece {
 /// A bone at rest: the smooth union of its pieces.
 struct BoneForm {
   std::string name;
-  std::string tissue;  ///< bone, cartilage or teeth
-  int joint = -1;      ///< that moves it, into Rig::points
+  std::string tissue;   ///< bone, cartilage or teeth
+  int joint = -1;       ///< that moves it, into Rig::points
   bool paired = false;  ///< this is the left one of two
   std::vector<BonePiece> pieces;
 

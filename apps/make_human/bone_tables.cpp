@@ -8,7 +8,7 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kStep = 2.5e-3f;  // [m] between the stations of a tube, at most
+constexpr float kStep = 2.5e-3f;                                // [m] between the stations of a tube, at most
 constexpr float kGrooveStep = 1.5e-3f, kGrooveSwing = 1.1e-3f;  // of a suture's zigzag
 
 /// Where a form's axes lie in the body, and how long its units are.

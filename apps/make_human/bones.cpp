@@ -13,11 +13,11 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kCell = 0.020f;        // [m] largest polygon of an organ
-constexpr float kLofted = 25;          // beside thin lofted plates distances come out many times too long
-constexpr float kCertain = 3;          // those of a bone's pieces are less wrong
-constexpr float kFineReach = 1.3f;     // how far beyond a leaf a piece's wish for fine polygons counts
-constexpr float kLargestCell = 16e-3f; // [m] largest polygon of a bone
+constexpr float kCell = 0.020f;         // [m] largest polygon of an organ
+constexpr float kLofted = 25;           // beside thin lofted plates distances come out many times too long
+constexpr float kCertain = 3;           // those of a bone's pieces are less wrong
+constexpr float kFineReach = 1.3f;      // how far beyond a leaf a piece's wish for fine polygons counts
+constexpr float kLargestCell = 16e-3f;  // [m] largest polygon of a bone
 
 struct Tissue {
   const char* name;
@@ -126,10 +126,10 @@ void append(SkinnedMesh& to, const Surface& from, int joint, bool mirror) {
 
 void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
   Surface solid;
-  solid.mesh = polygonise({[&](vec3 p) { return shape.distance(p); },
-                           [&](vec3 p, float reach) { return shape.cellSize(p, kLofted * reach); },
-                           shape.bounds()},
-                          kCell);
+  solid.mesh =
+      polygonise({[&](vec3 p) { return shape.distance(p); },
+                  [&](vec3 p, float reach) { return shape.cellSize(p, kLofted * reach); }, shape.bounds()},
+                 kCell);
   solid.normals = vertexNormals(solid.mesh);
   append(to, solid, rig.points[std::size_t(shape.parts.front().path.front())].joint, false);
 }
@@ -159,7 +159,8 @@ SkinnedMesh united(std::span<const SkinnedMesh> meshes) {
   SkinnedMesh all = meshes[0];
   for (const SkinnedMesh& mesh : meshes.subspan(1)) {
     const std::uint32_t first = std::uint32_t(all.mesh.positions.size());
-    all.mesh.positions.insert(all.mesh.positions.end(), mesh.mesh.positions.begin(), mesh.mesh.positions.end());
+    all.mesh.positions.insert(all.mesh.positions.end(), mesh.mesh.positions.begin(),
+                              mesh.mesh.positions.end());
     all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
     all.influences.insert(all.influences.end(), mesh.influences.begin(), mesh.influences.end());
     for (const uvec3& t : mesh.mesh.triangles) all.mesh.triangles.push_back(first + t);

@@ -6,8 +6,8 @@
 namespace vasa::human {
 
 /// Meshes of bones, cartilage and teeth, in this order: every bone a closed smooth solid that moves with one
-/// joint; of paired bones the right one is the left one mirrored. Parallel over bones, the same for any number
-/// of threads.
+/// joint; of paired bones the right one is the left one mirrored. Parallel over bones, the same for any
+/// number of threads.
 std::vector<SkinnedMesh> makeBones(const std::vector<BoneForm>& forms, const Rig& rig);
 
 /// Several meshes as one, with the first one's name and colour.

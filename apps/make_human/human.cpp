@@ -24,9 +24,11 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   if (!forms.ok()) return forms.error();
   std::vector<SkinnedMesh> bones = makeBones(*forms, human.rig);
   const SkinnedMesh skeleton = united(bones);
-  human.meshes = {makeSkin(human.skinShape, human.rig), std::move(bones[0]),
+  human.meshes = {makeSkin(human.skinShape, human.rig),
+                  std::move(bones[0]),
                   makeSolid("heart", {0.55f, 0.13f, 0.11f, 1}, *heart, human.rig),
-                  makeSolid("organs", {0.66f, 0.39f, 0.34f, 0.3f}, *organs, human.rig), std::move(bones[1]),
+                  makeSolid("organs", {0.66f, 0.39f, 0.34f, 0.3f}, *organs, human.rig),
+                  std::move(bones[1]),
                   std::move(bones[2])};
   Result<std::vector<Clip>> clips = makeClips(tables / "clips.csv", tables / "clip_keys.csv", human.rig);
   if (!clips.ok()) return clips.error();

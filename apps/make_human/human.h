@@ -16,8 +16,8 @@ struct Human {
   Network vessels;
 };
 
-/// Reads joints, parts, sections, bones, bone_forms, clips, clip_keys, vessels and growth (.csv) and makes the human of
-/// them.
+/// Reads joints, parts, sections, bones, bone_forms, clips, clip_keys, vessels and growth (.csv) and makes
+/// the human of them.
 Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& options = {});
 
 }  // namespace vasa::human

@@ -20,6 +20,8 @@ constexpr vec4 kRigid{1, 0, 0, 0}, kSmooth{0.5f, 0.5f, 0, 0};
 TEST_CASE("a mesh's name tells what it is") {
   CHECK(roleNamed("Bones") == MeshRole::bones);
   CHECK(roleNamed("skeleton_low") == MeshRole::bones);
+  CHECK(roleNamed("cartilage") == MeshRole::bones);
+  CHECK(roleNamed("teeth") == MeshRole::bones);
   CHECK(roleNamed("heart") == MeshRole::heart);
   CHECK(roleNamed("body") == MeshRole::skin);
   CHECK(roleNamed("organs") == MeshRole::organs);
