@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/shortcuts.h"
-
 namespace vasa::viewer {
 namespace {
 
@@ -101,29 +99,6 @@ void showLoading(const PanelInput& in) {
   ImGui::End();
 }
 
-void showHelp(const PanelInput& in) {
-  if (!in.state.help) return;
-  const Rect& picture = in.layout.picture;
-  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
-                          {0.5f, 0.5f});
-  const bool open = ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
-  // In a low window letters are smaller, so that all keys can be seen.
-  const ImGuiStyle& style = ImGui::GetStyle();
-  const float rows = float(shortcuts().size()),
-              spare = picture.height - 2 * style.WindowPadding.y - 2 * rows * style.CellPadding.y;
-  ImGui::SetWindowFontScale(std::clamp(spare / (rows * ImGui::GetFont()->FontSize), 0.5f, 1.0f));
-  if (open && ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Shortcut& shortcut : shortcuts()) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(shortcut.keys);
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", shortcut.what);
-    }
-    ImGui::EndTable();
-  }
-  ImGui::End();
-}
-
 void showPanels(const PanelInput& in) {
   showCutOutline(in);
   showChosen(in);
@@ -135,13 +110,17 @@ void showPanels(const PanelInput& in) {
   showEdit(in);
   showOutliner(in);
   if (in.state.panels) {
+    showBar(in);
     showSide(in);
     place(in.layout.transport);
     if (ImGui::Begin("##transport", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar)) showTransport(in);
     ImGui::End();
   }
+  showContextMenu(in);
   showHelp(in);
   showQuestion(in);
+  showFailure(in);
+  showFileChooser(in);
   showLoading(in);
 }
 

@@ -65,8 +65,15 @@ void SceneKeeper::opened(const SceneFile& file, const ViewState& state) {
 }
 
 Result<std::filesystem::path> SceneKeeper::save(const Document& document, const ViewState& state,
-                                                const std::filesystem::path& unnamed) {
+                                                const std::filesystem::path& unnamed,
+                                                const std::filesystem::path& as) {
   SceneFile file = file_;
+  if (!as.empty() && as != file.path) {
+    // The journal goes along under the new name.
+    if (!file.path.empty() && !file.edits.empty() && file.edits.back() == ownJournal(file.path))
+      file.edits.pop_back();
+    file.path = as;
+  }
   if (file.path.empty()) file.path = unnamed;
   const Body& body = document.scene.body;
   const Playback& playback = state.playback;

@@ -36,6 +36,8 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       height_(window.height()) {
   ui_.useClipboard(window);
   report_.loads.push_back({.title = loader_.title(), .outcome = "loading"});
+  opening_ = options.dropped;
+  if (!options.file.path.empty()) opening_.push_back(options.file.path);
   loadStart_ = options.start;
   lastWatched_ = Clock::now();
 }
@@ -72,6 +74,7 @@ Result<ViewReport> Session::go() {
     const auto start = Clock::now();
     now_ += pass();
     gather();
+    openFiles();
     lookUnderPointer();
     adopt();
     travel();
@@ -149,12 +152,22 @@ void Session::follow() {
 }
 
 void Session::meetWishes() {
+  takeFile();
   if (std::exchange(state_.wishSave, false)) saveScene();
-  if (std::exchange(state_.wishQuit, false)) (history_.unsaved(state_) ? state_.asking : ending_) = true;
-  if (state_.wishDiscard) ending_ = true;
+  if (std::exchange(state_.wishQuit, false)) {
+    state_.waiting = Waiting::quit;
+    state_.wishGoOn = true;
+  }
+  goOn();
+  askForFile();
   if (state_.wishCancel && loader_.busy()) cancelLoading();
   if (state_.wishPicture && shown_) save({freeName(options_.out, "png"), false});
   state_.wishPicture = state_.wishCancel = false;
+  if (std::exchange(state_.wishCopyPicture, false) && shown_) copyPicture();
+  if (std::exchange(state_.wishFullScreen, false)) {
+    state_.fullScreen = window_.setFullScreen(!state_.fullScreen);
+    panelFrames_ = kRestingFrames;
+  }
   if (std::exchange(state_.wishCopyPose, false) && document_)
     window_.setClipboard(poseText(poseOf(document_->scene.body.skeleton, state_.turns)));
   if (std::exchange(state_.wishPastePose, false) && document_) pastePose();

@@ -6,6 +6,7 @@
 #include "render/profiler.h"
 #include "viewer/app.h"
 #include "viewer/editor.h"
+#include "viewer/file_chooser.h"
 #include "viewer/loader.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
@@ -66,13 +67,20 @@ class Session {
   void takeScript();
   void handle(const InputEvent& event);
   void click(const Click& click);
+  void openContext(vec2 place);
+  void escape();
   std::optional<VesselPlace> vesselAt(vec2 place) const;
   void lookUnderPointer();
   bool isHidden(vec3 place) const;
 
   // time and shapes
   double pass();
-  void openDropped();
+  void openFiles();
+  void startOpening();
+  void askForFile();
+  void takeFile();
+  void goOn();
+  void remember(const std::vector<std::filesystem::path>& files);
   void adopt();
   void cancelLoading();
   void watchLoading();
@@ -90,7 +98,7 @@ class Session {
   void noteEdit();
   void travel();
   void entitle();
-  void saveScene();
+  void saveScene(const std::filesystem::path& as = {});
 
   // pictures
   Layout layoutNow() const;
@@ -108,7 +116,9 @@ class Session {
   void pastePose();
   void record();
   void profile();
-  void save(const SavePicture& wish);
+  bool save(const SavePicture& wish);
+  double framesPerSecond() const;
+  void copyPicture();
   void say(std::string message, double seconds = 4);
   void rest(double drawn);
   ViewReport report() const;
@@ -125,6 +135,7 @@ class Session {
   PointerTool pointer_;
   PoseTool poseTool_;
   Editor editor_;
+  FileChooser files_;
   UndoHistory history_;
   SceneKeeper keeper_;
   Recording recording_;
@@ -144,7 +155,8 @@ class Session {
   Timings timings_;
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;
-  std::vector<std::filesystem::path> dropped_;  // in this frame
+  std::vector<std::filesystem::path> dropped_;  // to be opened
+  std::vector<std::filesystem::path> opening_;  // by the loader
   std::size_t step_ = 0;                        // of the script
   std::uint32_t passing_ = 0;                   // frames that it lets pass
   bool settling_ = false;

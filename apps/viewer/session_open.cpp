@@ -30,8 +30,32 @@ Loader::Wanted firstWanted(const ViewOptions& options) {
   return {titleOf(options.file), [file = options.file] { return file; }, options.furnishing};
 }
 
-void Session::openDropped() {
+// What is not saved is asked about first.
+void Session::openFiles() {
+  if (!state_.wishFiles.empty()) dropped_ = std::exchange(state_.wishFiles, {});
+  if (dropped_.empty() || state_.waiting != Waiting::nothing) return;
+  state_.waiting = Waiting::open;
+  state_.wishGoOn = true;
+  goOn();
+}
+
+// With what waits, unless something is not saved and nobody said that it need not be.
+void Session::goOn() {
+  const bool asked = std::exchange(state_.wishGoOn, false),
+             discard = std::exchange(state_.wishDiscard, false);
+  if (state_.waiting == Waiting::nothing || !(discard || (asked && !(document_ && history_.unsaved(state_)))))
+    return;
+  const Waiting waited = std::exchange(state_.waiting, Waiting::nothing);
+  if (waited == Waiting::quit)
+    ending_ = true;
+  else if (!dropped_.empty())
+    startOpening();
+}
+
+void Session::startOpening() {
   if (loader_.busy()) cancelLoading();
+  state_.failure.clear();
+  opening_ = dropped_;
   auto wanted = wantedOf(options_, std::exchange(dropped_, {}), document_ ? document_->file : options_.file);
   report_.loads.push_back({.title = wanted.title, .outcome = "loading"});
   loadStart_ = lastWatched_ = Clock::now();
@@ -68,10 +92,12 @@ void Session::adopt() {
   report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
   if (!*answer) {
     constexpr double kTimeToRead = 15;
-    if (!document_ && report_.loads.size() == 1)
+    if (!document_ && report_.loads.size() == 1) {
       failure_ = answer->error();
-    else
-      say(answer->error().message, kTimeToRead);
+      return;
+    }
+    say(answer->error().message, kTimeToRead);
+    state_.failure = answer->error().message;
     return;
   }
   document_ = **answer;
@@ -96,9 +122,53 @@ void Session::adopt() {
   profiler_.reset();
   profiling_ = false;
   takeChoices();
+  remember(opening_);
   keeper_.opened(document_->file, state_);
   history_.start(state_);
   entitle();
+}
+
+// The dialogs in which files are chosen.
+void Session::askForFile() {
+  const auto& shown = keeper_.path();
+  const auto folder = shown.empty() ? options_.out : shown.parent_path();
+  if (std::exchange(state_.wishOpen, false)) files_.start(FilePurpose::open, folder, "", options_.openable);
+  if (std::exchange(state_.wishSaveAs, false) && document_)
+    files_.start(FilePurpose::saveScene, folder,
+                 shown.empty() ? freeName(folder, "json").filename().string() : shown.filename().string(),
+                 {".json"});
+  if (files_.isOpen()) panelFrames_ = std::max(panelFrames_, 1);
+}
+
+// What was chosen in them.
+void Session::takeFile() {
+  if (state_.chosenFile.empty()) return;
+  auto file = std::exchange(state_.chosenFile, {});
+  panelFrames_ = kRestingFrames;
+  if (files_.purpose() == FilePurpose::open) {
+    state_.wishFiles = {std::move(file)};
+    return;
+  }
+  if (options_.script) {
+    auto place = placeBelow(options_.out, file);
+    if (!place) {
+      failure_ = place.error();
+      return;
+    }
+    file = std::move(*place);
+  }
+  saveScene(file);
+}
+
+void Session::remember(const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kMost = 10;
+  for (const auto& file : files) {
+    std::error_code ignored;
+    const std::string name = std::filesystem::absolute(file, ignored).lexically_normal().string();
+    std::erase(state_.recent, name);
+    state_.recent.insert(state_.recent.begin(), name);
+  }
+  if (state_.recent.size() > kMost) state_.recent.resize(kMost);
 }
 
 // What the scene says of how it is to be shown.

@@ -188,10 +188,12 @@ void Session::drawWindow() {
               .scale = ui_.scale(),
               .camera = shown_ ? shown_->camera : Camera{},
               .bodyBox = document_ ? bodyBox() : Aabb{},
+              .files = &files_,
               .editor = &editor_,
               .heldGrip = poseTool_.held(),
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,
+              .framesPerSecond = framesPerSecond(),
               .message = now_ < messageUntil_ ? message_ : "",
               .loading = loader_.busy() ? std::optional(loader_.stage()) : std::nullopt,
               .loadingTitle = loader_.title()});
@@ -243,16 +245,31 @@ void Session::record() {
   }
 }
 
-void Session::save(const SavePicture& wish) {
-  if (!wish.panels && !shown_) return;
+// Of what moves; a script's pictures show no times.
+double Session::framesPerSecond() const {
+  const float ms = timings_.shown().median();
+  return options_.script || !state_.playback.playing || ms <= 0 ? 0 : 1000 / double(ms);
+}
+
+// GLFW's clipboard takes text alone, so that it gets the name of a file.
+void Session::copyPicture() {
+  const auto file = std::filesystem::absolute(freeName(options_.out, "png"));
+  if (!save({file, false})) return;
+  window_.setClipboard(file.string());
+  say("wrote " + file.string() + "; its name is on the clipboard");
+}
+
+bool Session::save(const SavePicture& wish) {
+  if (!wish.panels && !shown_) return false;
   const auto written = writePng(wish.path, wish.panels ? canvas_.readBack() : painter_.readBack());
   if (!written) {
     if (options_.script) failure_ = written.error();
     say(written.error().message);
-    return;
+    return false;
   }
   report_.files.push_back(wish.path);
   say("wrote " + wish.path.string());
+  return true;
 }
 
 }  // namespace vasa::viewer

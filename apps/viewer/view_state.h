@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,19 @@ struct Detail {
   int capillaries = 0;        ///< generations
   bool operator==(const Detail&) const = default;
 };
+
+/// What a click in the picture does while a vessel is edited.
+enum class EditTool : std::uint8_t { change, branch, graft };
+
+/// What a context menu is about: a vessel (the chosen one), a joint, or neither.
+struct ContextTarget {
+  bool vessel = false;
+  JointId joint;
+  bool opens = false;  ///< with the next picture
+};
+
+/// What waits for an answer because something is not saved.
+enum class Waiting : std::uint8_t { nothing, quit, open };
 
 /// What undoing brings back (undo_history.h); small, by value.
 struct Undoable {
@@ -53,6 +67,9 @@ struct ViewState : Undoable {
   bool posing = false;     ///< joints can be dragged
   bool bothSides = false;  ///< ... and the body's other side does what is done to one
   bool editing = false;    ///< the chosen vessel can be changed
+  EditTool editTool = EditTool::change;
+  ContextTarget context;
+  bool fullScreen = false;
   JointId joint;           ///< whose sliders are shown
   bool recording = false;  ///< pictures go to a video, a thirtieth of a second each
   std::optional<VesselPlace> selected;
@@ -67,8 +84,22 @@ struct ViewState : Undoable {
   // Wishes, taken back when they are met.
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
        wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
-       wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false;
-  bool asking = false;  ///< whether to quit with something unsaved
+       wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false, wishOpen = false,
+       wishCopyPicture = false, wishFullScreen = false, wishGoOn = false;
+  bool wishSaveAs = false;
+  /// Files that are to be opened together in place of what is shown.
+  std::vector<std::filesystem::path> wishFiles;
+  std::filesystem::path chosenFile;  ///< in the dialog of files, for its purpose; empty: none yet
+
+  Waiting waiting = Waiting::nothing;  ///< whether to go on with something unsaved is being asked
+  std::string failure;              ///< why something could not be opened, until it is read; empty: it could
+  std::vector<std::string> recent;  ///< paths of what was opened lately, the latest first
 };
+
+/// Whose colours are explained as soon as they change.
+inline void setColouring(ViewState& state, Colouring colouring) {
+  state.colouring = colouring;
+  state.legend = true;
+}
 
 }  // namespace vasa::viewer
