@@ -41,8 +41,8 @@ struct Options {
   std::string frames, size = "1280x720", output, video, quads = "auto", shard, hide, track;
   CapillaryOptions capillaries;
   unsigned samples = 4;
-  std::string look;  // empty: as the scene says
-  std::string labels, title, colour = "kind";
+  std::string look;                   // empty: as the scene says
+  std::string labels, title, colour;  // colour empty: as the scene says
   std::string forks = "on";
   std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
@@ -67,7 +67,9 @@ struct Job {
   std::uint64_t runHash = 0;            // tells this run's pictures from another's
   PictureSize size;                     // of what is written
   std::optional<plate::PlateStyle>
-      page;  // labels beside the picture, which is smaller then than what is written
+      page;                 // labels beside the picture, which is smaller then than what is written
+  std::vector<char> shown;  // one a vessel
+  plate::VesselColouring colouring = plate::VesselColouring::kind;
   plate::VesselColours colours;
 };
 
@@ -132,6 +134,26 @@ std::uint64_t hashOfRun(const Job& job, const Options& options, std::uint64_t se
   return hashOf(std::span(run));
 }
 
+// All but what the scene hides.
+std::vector<char> shownVessels(const SceneFile& choice, const Network& network) {
+  std::vector<char> shown(network.vessels().size(), 1);
+  for (const std::string& name : choice.hidden) {
+    const auto found = std::ranges::find(network.vessels(), name, &Vessel::name);
+    if (found == network.vessels().end())
+      logWarning("'" + name + "', which the scene hides, is none of its vessels");
+    for (std::size_t v = 0; v < shown.size(); ++v)
+      if (network.vessels()[v].name == name) shown[v] = 0;
+  }
+  return shown;
+}
+
+plate::VesselColouring colouringOf(const Options& options, const SceneFile& choice) {
+  const std::string& name = options.colour.empty() ? choice.look.colour : options.colour;
+  const auto colouring = plate::colouringNamed(name);
+  if (!colouring) logWarning("colours that tell of " + name + " are the app's alone; kinds are drawn");
+  return colouring.value_or(plate::VesselColouring::kind);
+}
+
 Result<Job> prepare(const Globals& globals, const Options& options) {
   Job job;
   // What is wrong with the words themselves is told before anything is loaded.
@@ -189,8 +211,9 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
     aspect = room.x / room.y;
     pixels = glm::max(glm::round(room * float(size->width) / job.page->page.x), vec2(1));
   }
-  const std::vector<char> all(job.scene.network.vessels().size(), 1);
-  auto colours = plate::colourVessels(job.scene, *plate::colouringNamed(options.colour), all, all);
+  job.shown = shownVessels(job.choice, job.scene.network);
+  job.colouring = colouringOf(options, job.choice);
+  auto colours = plate::colourVessels(job.scene, job.colouring, job.shown, job.shown);
   if (!colours) return colours.error();
   job.colours = std::move(*colours);
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
@@ -266,7 +289,7 @@ class Film {
     noteStep(frame);
     if (options_.highlightContacts)
       highlightContacts();
-    else if (options_.colour != "kind")
+    else if (job_.colouring != plate::VesselColouring::kind || !job_.choice.hidden.empty())
       renderer_.setSweepColours(job_.colours.spans);
     const Camera camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points());
     renderer_.draw({.points = maker_->points(),
@@ -291,16 +314,14 @@ class Film {
   Result<Image> withLabels(Image picture, const Camera& camera) const {
     const auto type = plate::Typesetter::load();
     if (!type) return type.error();
-    const std::vector<char> all(job_.scene.network.vessels().size(), 1);
     const plate::PlateStyle& page = *job_.page;
-    const auto plan =
-        plate::planPlate({job_.scene, *maker_, job_.table, job_.scene.body.meshes, all, all, job_.look}, page,
-                         *type, camera, float(picture.width) / float(picture.height));
+    const auto plan = plate::planPlate(
+        {job_.scene, *maker_, job_.table, job_.scene.body.meshes, job_.shown, job_.shown, job_.look}, page,
+        *type, camera, float(picture.width) / float(picture.height));
     if (!plan) return plan.error();
     for (const std::string& name : plan->unseen)
       logWarning("'" + name + "' is not seen in this picture and gets no label");
-    const auto colours =
-        plate::colourVessels(job_.scene, *plate::colouringNamed(options_.colour), all, plan->seen);
+    const auto colours = plate::colourVessels(job_.scene, job_.colouring, job_.shown, plan->seen);
     if (!colours) return colours.error();
     const plate::Sheet sheet =
         plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), *colours);
@@ -318,6 +339,8 @@ class Film {
     };
     paint(avoider.found(), {1, 0.75f, 0, 1});
     paint(avoider.remaining(), {1, 0, 0, 1});
+    for (std::size_t span = 0; span < colours.size(); ++span)
+      if (job_.colours.spans[span] >> 24 == 0) colours[span] = 0;  // hidden by the scene
     renderer_.setSweepColours(colours);
   }
 
@@ -546,10 +569,10 @@ void addRender(CLI::App& app, Command& command) {
       "Names, a legend and a scale bar beside the figure: main (large vessels), all-visible, none, or "
       "names with commas between them; for stills (vasa help plate)");
   sub->add_option("--title", options->title, "Title of a picture with labels");
-  sub->add_option("--colour", options->colour,
-                  "What colours of vessels stand for: kind, blood, region or radius")
-      ->check(CLI::IsMember({"kind", "blood", "region", "radius"}))
-      ->capture_default_str();
+  sub->add_option(
+         "--colour", options->colour,
+         "What colours of vessels stand for: kind, blood, region or radius (default: as the scene says, else kind)")
+      ->check(CLI::IsMember({"kind", "blood", "region", "radius"}));
   sub->add_option("--shard", options->shard,
                   "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume,
