@@ -38,7 +38,7 @@ constexpr const char* kDroppable =
 // with a skeleton is a body, one without is vessels.
 Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
   const std::string extension = path.extension().string();
-  if (extension == ".json") return readSceneFile(path);
+  if (extension == ".json") return chooseScene({.scene = path.string()});
   SceneFile scene = now;
   if (isMotionFile(path.string())) {
     scene.clip = path.string();

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "viewer/actions.h"
+#include "viewer/kept_views.h"
 #include "viewer/pose_tool.h"
 
 // What can be done, in the order of the menus.
@@ -43,6 +46,14 @@ void chooseNothing(State& state) {
   measureFrom(state, false);
 }
 
+// All of them have their names, or none.
+void toggleLabels(State& state, const Network& network) {
+  const std::vector<VesselId> chosen = chosenVessels(state);
+  const bool all =
+      std::ranges::all_of(chosen, [&](VesselId v) { return state.labelled.has(network.vessel(v).name); });
+  state.labelled.set(network, chosen, !all);
+}
+
 void editWith(State& state, EditTool tool) {
   state.editing = true;
   state.editTool = tool;
@@ -58,6 +69,8 @@ constexpr Action kActions[] = {
      [](State& s, Shown, int) { s.wishSave = true; }, loaded, nullptr, true},
     {saveAs, MenuId::file, "Save as...", {ctrlShift('S')}, "save the scene to another file",
      [](State& s, Shown, int) { s.wishSaveAs = true; }, loaded},
+    {exportFiles, MenuId::file, "Export...", {ctrl('E')}, "vessels, pictures and films to files for other programs",
+     [](State& s, Shown, int) { s.wishExport = true; }, loaded},
     {picture, MenuId::file, "Picture", {plain(Key::f12)}, "picture to a file",
      [](State& s, Shown, int) { s.wishPicture = true; }, loaded, nullptr, true},
     {copyPicture, MenuId::file, "Copy picture", {ctrlShift('C')}, "picture to a file whose name goes to the clipboard",
@@ -107,10 +120,15 @@ constexpr Action kActions[] = {
     {orthographic, MenuId::view, "Orthographic", {plain('5')}, "without perspective",
      [](State& s, Shown, int) { s.orbit.setOrthographic(!s.orbit.orthographic()); }, nullptr,
      [](const State& s) { return s.orbit.orthographic(); }},
+    {goToKept, MenuId::view, "Kept views", {shift(char(kAnyDigit))}, "to a view that was kept",
+     [](State& s, Shown, int digit) { goToView(s.views, unsigned(digit), s.orbit); },
+     [](const State& s, Shown) { return !s.views.empty(); }, nullptr, true},
+    {keep, MenuId::view, "Keep view as", {ctrlShift(char(kAnyDigit))}, "keep this view under a number",
+     [](State& s, Shown, int digit) { keepView(s.views, viewOf(s.orbit, unsigned(digit))); }, loaded},
     {hide, MenuId::view, "Hide", {plain('H')}, "hide what is chosen",
      [](State& s, Shown d, int) { s.hidden.set(d->scene.network, chosenVessels(s), true); }, anyChosen, nullptr, true},
     {hideOthers, MenuId::view, "Hide all else", {shift('H')}, "hide all but what is chosen",
-     [](State& s, Shown d, int) { s.hidden.leaveOnly(d->scene.network, chosenVessels(s)); }, anyChosen},
+     [](State& s, Shown d, int) { s.hidden.setAllBut(d->scene.network, chosenVessels(s)); }, anyChosen},
     {showAll, MenuId::view, "Show all", {ctrl('H')}, "show all vessels",
      [](State& s, Shown, int) { s.hidden.clear(); }, [](const State& s, Shown) { return s.hidden.any(); }},
     {isolate, MenuId::view, "Only its tree", {plain('I')}, "only the chosen vessel and what it gives off",
@@ -119,6 +137,8 @@ constexpr Action kActions[] = {
      [](State& s, Shown, int) { setColouring(s, Colouring((int(s.colouring) + 1) % int(kColourings.size()))); }, nullptr, nullptr, true},
     {legend, MenuId::view, "Legend", {plain('L')}, "what the colours mean",
      [](State& s, Shown, int) { s.legend = !s.legend; }, nullptr, [](const State& s) { return s.legend; }},
+    {label, MenuId::view, "Name it", {plain('N')}, "names of chosen vessels stay in the picture, or go",
+     [](State& s, Shown d, int) { toggleLabels(s, d->scene.network); }, anyChosen},
     {contacts, MenuId::view, "Contacts", {plain('C')}, "where vessels ran through one another",
      [](State& s, Shown, int) { s.contacts = !s.contacts; }, nullptr, [](const State& s) { return s.contacts; }},
     {cut, MenuId::view, "Cutting plane", {plain('X')}, "cut through the body",

@@ -18,8 +18,8 @@ void showVesselMenu(const PanelInput& in) {
   const auto& vessel = in.document->scene.network.vessel(in.state.selected->vessel);
   ImGui::TextDisabled("%s", vessel.name.c_str());
   ImGui::Separator();
-  showItems(in,
-            {ActionId::focus, ActionId::isolate, ActionId::hide, ActionId::hideOthers, ActionId::showAll});
+  showItems(in, {ActionId::focus, ActionId::isolate, ActionId::label, ActionId::hide, ActionId::hideOthers,
+                 ActionId::showAll});
   ImGui::Separator();
   showColourings(in);
   ImGui::Separator();

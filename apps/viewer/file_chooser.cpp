@@ -151,7 +151,9 @@ std::optional<std::filesystem::path> FileChooser::take(std::filesystem::path fil
       return std::nullopt;
     }
   } else {
-    if (!file.has_extension() && !extensions_.empty()) file += extensions_.front();
+    // Another kind of scene cannot be opened again; what is exported says by its name what it is.
+    const bool known = std::ranges::find(extensions_, lower(file.extension().string())) != extensions_.end();
+    if (!known && (purpose_ == FilePurpose::saveScene || !file.has_extension())) file += extensions_.front();
     if (!std::filesystem::is_directory(file.parent_path(), ignored)) {
       message_ = file.parent_path().string() + ": there is no such folder";
       return std::nullopt;

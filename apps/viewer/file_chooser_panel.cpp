@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "scene/exporting.h"
+#include "viewer/exporter.h"
 #include "viewer/file_chooser.h"
 #include "viewer/panels.h"
 
@@ -80,8 +82,38 @@ void showTyped(FileChooser& files, bool focus) {
   if (focus) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   if (ImGui::InputTextWithHint("##typed", "A name or a path", &files.typed,
-                               ImGuiInputTextFlags_CallbackCompletion, complete, &files))
+                               ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_AutoSelectAll,
+                               complete, &files))
     files.typing();
+}
+
+// As what, how large and how much of the clip; by the name's extension.
+void showExportChoices(const PanelInput& in, FileChooser& files) {
+  ExportWish& wish = in.state.exportWish;
+  const std::filesystem::path typed = files.typed;
+  std::string kind = typed.extension().string();
+  ImGui::SetNextItemWidth(90 * in.scale);
+  if (ImGui::BeginCombo("as", kind.c_str(), ImGuiComboFlags_HeightLarge)) {
+    for (const std::string& extension : exportExtensions())
+      if (ImGui::Selectable(extension.c_str(), extension == kind))
+        files.typed = std::filesystem::path(typed).replace_extension(extension).string();
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine();
+  if (isPicture(typed) || isFilm(typed)) {
+    int size[2] = {int(wish.width), int(wish.height)};
+    ImGui::SetNextItemWidth(130 * in.scale);
+    if (ImGui::InputInt2("pixels", size)) {
+      wish.width = std::uint32_t(std::clamp(size[0], 16, 8192));
+      wish.height = std::uint32_t(std::clamp(size[1], 16, 8192));
+    }
+    ImGui::SameLine();
+  }
+  const auto exported = exportKindOf(typed);
+  if (isFilm(typed) || (exported && holdsMotion(*exported)))
+    ImGui::Checkbox("the whole clip", &wish.wholeClip);
+  else
+    ImGui::AlignTextToFramePadding(), ImGui::TextDisabled("of what is shown");
 }
 
 constexpr const char* titleOfChooser(FilePurpose purpose) {
@@ -113,9 +145,11 @@ void showFileChooser(const PanelInput& in) {
   if (stepped) files.step(pressed(ImGuiKey_DownArrow) ? 1 : -1);
   const bool enters = pressed(ImGuiKey_Enter);
   const float line = ImGui::GetFrameHeightWithSpacing(), text = ImGui::GetTextLineHeightWithSpacing();
-  const float below = 2 * line + (files.message().empty() ? 0 : 2 * text);
+  const bool exports = files.purpose() == FilePurpose::exportFile;
+  const float below = (exports ? 3 : 2) * line + (files.message().empty() ? 0 : 2 * text);
   bool take = showRows(files, std::max(ImGui::GetContentRegionAvail().y - below, 3 * text), stepped);
   showTyped(files, starts || enters);
+  if (exports) showExportChoices(in, files);
   if (!files.message().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.98f, 0.62f, 0.35f, 1));
     ImGui::TextWrapped("%s", files.message().c_str());

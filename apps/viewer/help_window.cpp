@@ -40,7 +40,10 @@ void showHelp(const PanelInput& in) {
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoCollapse)) {
     const bool wide = size.x > 640 * in.scale;
-    if (ImGui::BeginTable("##sides", wide ? 2 : 1)) {
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {10 * in.scale, 0});
+    const bool sides = ImGui::BeginTable("##sides", wide ? 2 : 1);
+    ImGui::PopStyleVar();
+    if (sides) {
       ImGui::TableNextColumn();
       showRows("Mouse", mouseShortcuts(), in.scale);
       for (const MenuId menu : {MenuId::file, MenuId::edit, MenuId::pose})

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "viewer/actions.h"
 #include "viewer/panels.h"
 #include "viewer/tool_icons.h"
@@ -19,12 +21,30 @@ void showRecent(const PanelInput& in) {
   ImGui::EndMenu();
 }
 
+// One entry a digit.
+void showNumbers(const PanelInput& in, const Action& action) {
+  if (!ImGui::BeginMenu(action.name, canDo(action, in.state, in.document))) return;
+  for (int digit = 1; digit <= 9; ++digit) {
+    Chord chord = action.chords[0];
+    chord.key = keyOf(char('0' + digit));
+    const bool kept =
+        std::ranges::find(in.state.views, unsigned(digit), &ViewChoice::number) != in.state.views.end();
+    const std::string name = fmt::format("View {}", digit);
+    if (ImGui::MenuItem(name.c_str(), chordText(chord).c_str(), kept, kept || action.id == ActionId::keep))
+      action.act(in.state, in.document, digit);
+  }
+  ImGui::EndMenu();
+}
+
 void showMenu(const PanelInput& in, MenuId menu) {
   for (const Action& action : actions()) {
     if (action.menu != menu) continue;
     if (action.first) ImGui::Separator();
     if (action.id == ActionId::colour) showColourings(in);
-    showActionItem(in, action.id);
+    if (action.chords[0].key == kAnyDigit)
+      showNumbers(in, action);
+    else
+      showActionItem(in, action.id);
     if (action.id == ActionId::open) showRecent(in);
   }
 }
@@ -127,7 +147,7 @@ void showBar(const PanelInput& in) {
     if (in.framesPerSecond > 0) {
       const std::string text = fmt::format("{:.0f} FPS", in.framesPerSecond);
       right -= ImGui::CalcTextSize(text.c_str()).x;
-      ImGui::SetCursorScreenPos({right, bar.top + (bar.height - ImGui::GetTextLineHeight()) / 2});
+      ImGui::SetCursorScreenPos({right, bar.top});  // texts stand in its middle by themselves
       ImGui::TextDisabled("%s", text.c_str());
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("Pictures a second while something moves");
     }

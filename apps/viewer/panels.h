@@ -35,6 +35,8 @@ struct PanelInput {
   std::string message;                  ///< the latest news, e.g. of a picture that was written
   std::optional<Loader::Stage> loading;
   std::string loadingTitle;
+  std::string exportTitle;  ///< of what is being written; empty: nothing is
+  float exportShare = 0;    ///< done of it, 0..1
 };
 
 void showPanels(const PanelInput& in);  ///< all of them
@@ -42,6 +44,7 @@ void showPanels(const PanelInput& in);  ///< all of them
 void showTransport(const PanelInput& in);
 void showHeads(const PanelInput& in);  ///< texts over the picture
 void showLoading(const PanelInput& in);
+void showExporting(const PanelInput& in);                ///< how far an export is
 void showBar(const PanelInput& in);                      ///< menus and tools
 void showActionItem(const PanelInput& in, ActionId id);  ///< a menu's entry, in a menu
 void showColourings(const PanelInput& in);               ///< a menu of them, in a menu

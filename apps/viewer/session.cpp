@@ -28,6 +28,7 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       pointer_(ui_.scale()),
       poseTool_(ui_.scale()),
       editor_(ui_.scale()),
+      exporter_(device_, options.seed, [] { Window::wake(); }),
       keeper_(options.builtIn),
       loader_(loader),
       worker_([] { Window::wake(); }, device_.isCpu()),
@@ -87,6 +88,7 @@ Result<ViewReport> Session::go() {
       if (panelFrames_ > 0 || saving_) drawWindow();
     }
     meetWishes();
+    watchExport();
     record();
     profile();
     watchLoading();
@@ -192,7 +194,7 @@ void Session::say(std::string message, double seconds) {
 }
 
 bool Session::idle() const {
-  if (loader_.busy() || profiling_) return false;
+  if (loader_.busy() || profiling_ || exporter_.busy()) return false;
   if (!document_) return true;
   if (coming_ || reshaper_.busy()) return false;
   return shown_ && !worker_.busy() && (shown_->fine || !state_.fineStills || state_.playback.playing);
@@ -206,7 +208,7 @@ void Session::rest(double drawn) {
   }
   const bool moving = state_.playback.playing || pointer_.dragging() || profiling_ || recording_.running();
   const bool due = panelFrames_ > 0 || !events_.empty();
-  if (making_) {
+  if (making_ || exportMore_) {
     window_.wait(0);
     return;
   }

@@ -6,6 +6,7 @@
 #include "render/profiler.h"
 #include "viewer/app.h"
 #include "viewer/editor.h"
+#include "viewer/exporter.h"
 #include "viewer/file_chooser.h"
 #include "viewer/loader.h"
 #include "viewer/painter.h"
@@ -79,6 +80,8 @@ class Session {
   void startOpening();
   void askForFile();
   void takeFile();
+  void startExport(const std::filesystem::path& file);
+  void watchExport();
   void goOn();
   void remember(const std::vector<std::filesystem::path>& files);
   void adopt();
@@ -116,7 +119,8 @@ class Session {
   void pastePose();
   void record();
   void profile();
-  bool save(const SavePicture& wish);
+  /// @param more  to be said with its name
+  bool save(const SavePicture& wish, const char* more = "");
   double framesPerSecond() const;
   void copyPicture();
   void say(std::string message, double seconds = 4);
@@ -136,6 +140,7 @@ class Session {
   PoseTool poseTool_;
   Editor editor_;
   FileChooser files_;
+  Exporter exporter_;
   UndoHistory history_;
   SceneKeeper keeper_;
   Recording recording_;
@@ -174,6 +179,7 @@ class Session {
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;
+  bool exportMore_ = false;  // slices of its pictures wait
   std::string message_;
   double messageUntil_ = 0;
   std::optional<Error> failure_;

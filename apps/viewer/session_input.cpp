@@ -123,6 +123,8 @@ void Session::escape() {
   if (std::exchange(state_.help, false)) return;
   if (loader_.busy())
     state_.wishCancel = true;
+  else if (exporter_.busy())
+    state_.wishCancelExport = true;
   else
     perform(ActionId::nothing, state_, document_.get());
 }

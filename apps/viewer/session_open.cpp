@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "edit/replay.h"
 #include "viewer/session.h"
 
@@ -114,7 +116,6 @@ void Session::adopt() {
   state_.selected.reset();
   state_.pointedAt.reset();
   state_.alsoChosen.clear();
-  state_.hidden.clear();
   state_.outliner.unfolded.clear();
   state_.turns = turnsOf(document_->scene.body.skeleton, document_->file.pose);
   state_.from = state_.to = std::nullopt;
@@ -137,6 +138,11 @@ void Session::askForFile() {
     files_.start(FilePurpose::saveScene, folder,
                  shown.empty() ? freeName(folder, "json").filename().string() : shown.filename().string(),
                  {".json"});
+  if (std::exchange(state_.wishExport, false) && document_ && body_) {
+    const auto& last = state_.exportWish.file;
+    files_.start(FilePurpose::exportFile, last.empty() ? folder : last.parent_path(),
+                 last.empty() ? "vessels.glb" : last.filename().string(), exportExtensions());
+  }
   if (files_.isOpen()) panelFrames_ = std::max(panelFrames_, 1);
 }
 
@@ -157,7 +163,10 @@ void Session::takeFile() {
     }
     file = std::move(*place);
   }
-  saveScene(file);
+  if (files_.purpose() == FilePurpose::exportFile)
+    startExport(file);
+  else
+    saveScene(file);
 }
 
 void Session::remember(const std::vector<std::filesystem::path>& files) {
@@ -197,6 +206,13 @@ void Session::takeChoices() {
   if (!choice.look.organs) look.drawHeart = look.drawOther = false;
   if (!choice.look.arteries) look.drawArteries = false;
   if (!choice.look.veins) look.drawVeins = false;
+  const auto colouring = std::ranges::find(kColourings, choice.look.colour);
+  state_.colouring =
+      colouring == kColourings.end() ? Colouring::kind : Colouring(colouring - kColourings.begin());
+  state_.legend = choice.look.legend;
+  state_.hidden = VesselNames(choice.hidden);
+  state_.labelled = VesselNames(choice.labels);
+  state_.views = choice.views;
   state_.orbit.look(viewNamed(choice.camera.view).value_or(View::front));
   state_.wishHome = !choice.camera.position;
   if (choice.camera.position)

@@ -7,13 +7,15 @@
 #include "body/joint_motion.h"
 #include "network/route.h"
 #include "render/look.h"
+#include "scene/scene_file.h"
 #include "viewer/colouring.h"
 #include "viewer/cut_plane.h"
+#include "viewer/export_wish.h"
 #include "viewer/forces.h"
-#include "viewer/hidden_vessels.h"
 #include "viewer/orbit.h"
 #include "viewer/outliner.h"
 #include "viewer/playback.h"
+#include "viewer/vessel_names.h"
 
 namespace vasa::viewer {
 
@@ -51,7 +53,9 @@ struct Undoable {
   bool follow = true;     ///< the camera goes along with a body that walks
   bool contacts = false;  ///< vessels grey, those that touch in colour
   Colouring colouring = Colouring::kind;
-  HiddenVessels hidden;
+  bool legend = false;            ///< what the colours mean, in the picture
+  VesselNames hidden, labelled;   ///< not shown; named in the picture also when they are not chosen
+  std::vector<ViewChoice> views;  ///< kept under numbers
   std::vector<JointTurn> turns;
   std::vector<std::string> journal;  ///< lines of edits (edit/journal.h), on top of those of other files
 
@@ -63,7 +67,6 @@ struct Undoable {
 struct ViewState : Undoable {
   Playback playback;
   bool panels = true, timing = false, help = false;
-  bool legend = false;     ///< what the colours mean, in the picture
   bool posing = false;     ///< joints can be dragged
   bool bothSides = false;  ///< ... and the body's other side does what is done to one
   bool editing = false;    ///< the chosen vessel can be changed
@@ -85,10 +88,12 @@ struct ViewState : Undoable {
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
        wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
        wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false, wishOpen = false,
-       wishCopyPicture = false, wishFullScreen = false, wishGoOn = false;
+       wishCopyPicture = false, wishFullScreen = false, wishGoOn = false, wishExport = false,
+       wishCancelExport = false;
   bool wishSaveAs = false;
   /// Files that are to be opened together in place of what is shown.
   std::vector<std::filesystem::path> wishFiles;
+  ExportWish exportWish;             ///< as the dialog has it
   std::filesystem::path chosenFile;  ///< in the dialog of files, for its purpose; empty: none yet
 
   Waiting waiting = Waiting::nothing;  ///< whether to go on with something unsaved is being asked
