@@ -237,7 +237,9 @@ struct Grower::State {
     vec3 aside = direct - glm::dot(direct, along) * along;
     aside = glm::length(aside) > 0.05f ? glm::normalize(aside) : anyPerpendicular(along);
     const vec3 leaving = glm::normalize(0.55f * along + 0.85f * aside);
-    const vec3 wobble = vec3(dice.next(), dice.next(), dice.next()) - 0.5f;
+    // One after the other, as the order of calls among arguments is a compiler's own.
+    const float z = dice.next(), y = dice.next(), x = dice.next();
+    const vec3 wobble = vec3(x, y, z) - 0.5f;
     const vec3 arriving = glm::normalize(direct + 0.6f * wobble);
     const vec3 b1 = root + 0.36f * length * leaving, b2 = target - 0.36f * length * arriving;
     const int steps = std::max(4, int(std::ceil(length / (kStep * scale_))));

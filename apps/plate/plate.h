@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "atlas/colouring.h"
 #include "core/image.h"
 #include "plate/label_choice.h"
 #include "plate/label_layout.h"
 #include "plate/sheet.h"
-#include "plate/vessel_colours.h"
 #include "render/look.h"
 #include "scene/frame.h"
 #include "surface/sweep_table.h"
@@ -79,7 +79,7 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
 
 /// The page with its picture. @param keys  what colours mean
 Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesetter& type,
-                 std::shared_ptr<const Image> picture, const VesselColours& keys);
+                 std::shared_ptr<const Image> picture, const atlas::ColourLegend& keys);
 
 /// A length of 1, 2 or 5 times a power of ten that takes no more than this of paper, in metres.
 float scaleLength(float millimetresAMetre, float mostMillimetres);

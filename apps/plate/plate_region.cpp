@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <optional>
 
+#include "atlas/body_region.h"
 #include "body/mesh_role.h"
 #include "body/skinning.h"
 
 namespace vasa::plate {
 namespace {
 
+using atlas::BodyPart, atlas::BodyRegion;
 using enum BodyPart;
 
 struct Region {
@@ -28,20 +30,20 @@ const std::vector<Region>& regions() {
       {.name = "front", .title = "Vessels of the body", .view = "Anterior view", .towards = {0, 0, 1}},
       {.name = "back", .title = "Vessels of the body", .view = "Posterior view", .towards = {0, 0, -1}},
       {.name = "head", .title = "Vessels of the head and neck", .view = "Right anterolateral view",
-       .framed = {head, neck}, .beside = {shoulder, thorax, upperArm}, .towards = {-1, 0, 0.45f}},
-      {.name = "thorax", .title = "Vessels of the thorax", .view = "Anterior view", .framed = {thorax, shoulder},
-       .beside = {neck, head, abdomen, upperArm}, .towards = {0, 0, 1}, .byBones = true},
+       .framed = {head, neck}, .beside = {shoulder, chest, upperArm}, .towards = {-1, 0, 0.45f}},
+      {.name = "thorax", .title = "Vessels of the thorax", .view = "Anterior view", .framed = {chest, shoulder},
+       .beside = {neck, head, abdomen, pelvis, upperArm}, .towards = {0, 0, 1}, .byBones = true},
       {.name = "abdomen", .title = "Vessels of the abdomen and pelvis", .view = "Anterior view",
-       .framed = {abdomen}, .beside = {thorax, upperLeg}, .towards = {0, 0, 1}},
+       .framed = {abdomen, pelvis}, .beside = {chest, thigh}, .towards = {0, 0, 1}},
       {.name = "arm", .title = "Vessels of the arm", .view = "anterior view",
-       .framed = {upperArm, lowerArm, hand}, .beside = {shoulder, thorax}, .towards = {0, 0, 1},
+       .framed = {upperArm, forearm, hand}, .beside = {shoulder, chest}, .towards = {0, 0, 1},
        .axis = {{upperArm, hand}}},
       {.name = "hand", .title = "Vessels of the hand", .view = "palmar view", .framed = {hand},
-       .beside = {lowerArm}, .towards = {0, 0, 1}, .axis = {{lowerArm, hand}}},
+       .beside = {forearm}, .towards = {0, 0, 1}, .axis = {{forearm, hand}}},
       {.name = "leg", .title = "Vessels of the leg", .view = "anterior view",
-       .framed = {upperLeg, lowerLeg, foot}, .beside = {abdomen}, .towards = {0, 0, 1}, .axis = {{upperLeg, foot}}},
+       .framed = {thigh, leg, foot}, .beside = {abdomen, pelvis}, .towards = {0, 0, 1}, .axis = {{thigh, foot}}},
       {.name = "foot", .title = "Vessels of the foot", .view = "dorsal view", .framed = {foot},
-       .beside = {lowerLeg}, .towards = {0, 0.8f, 0.6f}, .axis = {{foot, foot}}},
+       .beside = {leg}, .towards = {0, 0.8f, 0.6f}, .axis = {{foot, foot}}},
   };
   // clang-format on
   return all;
@@ -55,7 +57,7 @@ bool among(const std::vector<BodyPart>& parts, BodyPart part) {
 
 class Choice {
  public:
-  Choice(const Region& region, int side, std::vector<SidedPart> parts)
+  Choice(const Region& region, int side, std::vector<BodyRegion> parts)
       : region_(region), side_(side), parts_(std::move(parts)) {}
 
   bool framed(std::uint32_t joint) const {
@@ -78,7 +80,7 @@ class Choice {
   }
   const Region& region_;
   int side_;
-  std::vector<SidedPart> parts_;
+  std::vector<BodyRegion> parts_;
 };
 
 // A mesh's triangles of which no corner belongs to what is not drawn.
@@ -142,6 +144,18 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
 
 }  // namespace
 
+std::vector<std::uint16_t> mainJoints(const SkinnedMesh& mesh) {
+  std::vector<std::uint16_t> joints;
+  joints.reserve(mesh.influences.size());
+  for (const SkinInfluence& influence : mesh.influences) {
+    int most = 0;
+    for (int k = 1; k < 4; ++k)
+      if (influence.weights[k] > influence.weights[most]) most = k;
+    joints.push_back(influence.joints[std::size_t(most)]);
+  }
+  return joints;
+}
+
 Result<void> checkPlateName(std::string_view name) {
   std::string names;
   for (const Region& region : regions()) {
@@ -160,9 +174,15 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
   if (region->axis) subject.subtitle = std::string(side < 0 ? "Right, " : "Left, ") + region->view;
   std::optional<Choice> choice;
   if (!region->framed.empty()) {
-    auto parts = partsOfJoints(scene.body);
-    if (!parts) return parts.error();
-    choice.emplace(*region, side, std::move(*parts));
+    const atlas::RegionFinder finder(scene.body.skeleton);
+    if (!finder.knowsPerson())
+      return badInput(scene.body.name +
+                      ": its joints are not all recognised as a person's, so its regions are not known; "
+                      "choose front or back");
+    std::vector<BodyRegion> parts;
+    for (std::uint32_t j = 0; j < scene.body.skeleton.joints.size(); ++j)
+      parts.push_back(finder.of(JointId{j}));
+    choice.emplace(*region, side, std::move(parts));
   }
   takeMeshes(subject, scene, frame, choice ? &*choice : nullptr);
   takeVessels(subject, scene, frame, choice ? &*choice : nullptr);

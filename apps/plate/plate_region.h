@@ -2,7 +2,6 @@
 #include <string_view>
 #include <vector>
 
-#include "plate/body_part.h"
 #include "scene/frame.h"
 
 namespace vasa::plate {
@@ -18,14 +17,17 @@ struct PlateSubject {
   vec3 up{0, 1, 0};
 };
 
+/// Of each of a mesh's vertices the joint that moves it most.
+std::vector<std::uint16_t> mainJoints(const SkinnedMesh& mesh);
+
 /// Fails with usage that lists the pages for a name that is none of theirs: front, back, head, thorax,
 /// abdomen, arm, hand, leg, foot.
 Result<void> checkPlateName(std::string_view name);
 
 /// A page's subject. Of a limb the one on `side` (-1 right, 1 left) is shown, its axis upright, without the
 /// rest of the body; a vessel is drawn whole where some of it lies in what is drawn.
-/// Fails as checkPlateName() does, with badInput where the body's parts are not known (partsOfJoints) or
-/// there are none of those.
+/// Fails as checkPlateName() does, with badInput where the body's parts are not known (atlas::RegionFinder)
+/// or there are none of those.
 Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, std::string_view name,
                                   int side);
 

@@ -55,7 +55,7 @@ void drawLabels(Sheet& sheet, const PlatePlan& plan, const PlateStyle& style) {
 }
 
 // Keys from the left, each a swatch and a text; of a scale a bar with marks.
-void drawKeys(Sheet& sheet, const VesselColours& keys, const PlateStyle& style, const Typesetter& type,
+void drawKeys(Sheet& sheet, const atlas::ColourLegend& keys, const PlateStyle& style, const Typesetter& type,
               float left, float base) {
   const vec3 ink = inkOn(style.paper);
   const float size = style.letters;
@@ -63,8 +63,8 @@ void drawKeys(Sheet& sheet, const VesselColours& keys, const PlateStyle& style, 
     sheet.items.push_back(
         SheetText{.at = {x, y}, .align = align, .size = size, .colour = ink, .text = text, .kind = "key"});
   };
-  if (!keys.scale) {
-    for (const ColourKey& key : keys.keys) {
+  if (keys.ramp.empty()) {
+    for (const atlas::ColourKey& key : keys.keys) {
       sheet.items.push_back(
           SheetBox{{left, base - 0.72f * size}, {left + 2 * size, base + 0.02f * size}, key.colour});
       write(left + 2.6f * size, base, key.text, Lettering::Align::left);
@@ -74,17 +74,16 @@ void drawKeys(Sheet& sheet, const VesselColours& keys, const PlateStyle& style, 
   }
   constexpr float kBar = 44;
   constexpr std::uint32_t kPieces = 256;
-  write(left, base, "Radius", Lettering::Align::left);
-  left += type.widthOf("Radius", size) + size;
+  write(left, base, keys.title, Lettering::Align::left);
+  left += type.widthOf(keys.title, size) + size + 0.5f * type.widthOf(keys.keys.front().text, size);
   auto bar = std::make_shared<Image>(Image{kPieces, 1, std::vector<std::uint8_t>(4 * kPieces, 255)});
   for (std::uint32_t piece = 0; piece < kPieces; ++piece) {
-    // Marks are a factor of four apart.
-    const vec3 colour = radiusColour(0.25e-3f * std::pow(64.0f, (float(piece) + 0.5f) / kPieces));
+    const vec3 colour = keys.at((float(piece) + 0.5f) / kPieces);
     for (int c = 0; c < 3; ++c)
       bar->rgba[4 * piece + std::uint32_t(c)] = std::uint8_t(std::lround(255 * colour[c]));
   }
   sheet.items.push_back(
-      SheetPicture{{left, base - 0.72f * size}, {kBar, 0.74f * size}, bar, "Scale of radii"});
+      SheetPicture{{left, base - 0.72f * size}, {kBar, 0.74f * size}, bar, "Scale: " + keys.title});
   for (std::size_t k = 0; k < keys.keys.size(); ++k)
     write(left + kBar * float(k) / float(keys.keys.size() - 1), base + 1.15f * size, keys.keys[k].text,
           Lettering::Align::centre);
@@ -120,7 +119,7 @@ float scaleLength(float millimetresAMetre, float mostMillimetres) {
 }
 
 Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesetter& type,
-                 std::shared_ptr<const Image> picture, const VesselColours& keys) {
+                 std::shared_ptr<const Image> picture, const atlas::ColourLegend& keys) {
   Sheet sheet{.size = style.page, .paper = style.paper, .title = style.title, .items = {}};
   const vec3 ink = inkOn(style.paper), grey = glm::mix(ink, style.paper, 0.35f);
   sheet.items.push_back(SheetPicture{plan.pictureAt, plan.pictureSize, std::move(picture), style.title});

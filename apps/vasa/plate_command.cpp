@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "atlas/colouring.h"
 #include "commands.h"
 #include "core/atomic_file.h"
 #include "core/log.h"
@@ -114,6 +115,7 @@ Report reportOf(const PlatePlan& plan, const Options& options, const PlateStyle&
 struct Job {
   Scene scene;
   SweepTable table;
+  atlas::VesselGroups groups;
   std::unique_ptr<FrameMaker> frame;
   plate::PlateSubject subject;
   plate::FittedCamera fitted;
@@ -175,6 +177,7 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   line("posing the vessels");
   job->frame = std::make_unique<FrameMaker>(job->scene, FrameOptions{.avoid = true});
   job->frame->make(clip, clip ? clip->timeOfFrame(options.frame) : 0);
+  job->groups = atlas::groupsOf(job->scene);
   auto subject = plate::plateSubject(job->scene, *job->frame, options.name, options.side == "left" ? 1 : -1);
   if (!subject) return subject.error();
   job->subject = std::move(*subject);
@@ -204,12 +207,18 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   return job;
 }
 
-// Colours of what is drawn, and keys to those that are seen.
-Result<plate::VesselColours> coloursOf(const Job& job, const PlatePlan& plan, const std::string& colouring) {
-  return plate::colourVessels(job.scene, *plate::colouringNamed(colouring), job.subject.vessels, plan.seen);
+// Colours of what is drawn.
+std::vector<std::uint32_t> coloursOf(const Job& job, atlas::Colouring colouring) {
+  const Network& network = job.scene.network;
+  auto colours = atlas::spanColours(network, job.groups, job.frame->points(), colouring);
+  std::size_t span = 0;
+  for (std::size_t v = 0; v < network.vessels().size(); ++v)
+    for (const std::size_t end = span + network.vessels()[v].spanCount(); span < end; ++span)
+      if (!job.subject.vessels[v]) colours[span] = 0;
+  return colours;
 }
 
-Image draw(const Job& job, const PlatePlan& plan, const plate::VesselColours& colours, double dpi,
+Image draw(const Job& job, const PlatePlan& plan, std::span<const std::uint32_t> colours, double dpi,
            gpu::Device& device) {
   const auto pixels = [&](float millimetres) {
     return std::uint32_t(std::max(1l, std::lround(millimetres * dpi / kInch)));
@@ -222,7 +231,7 @@ Image draw(const Job& job, const PlatePlan& plan, const plate::VesselColours& co
                         .timed = false};
   if (std::uint64_t(options.width) * options.height <= kSmallPicture) options.supersample = 2;
   Renderer renderer(device, job.scene.network, job.subject.meshes, options);
-  renderer.setSweepColours(colours.spans);
+  renderer.setSweepColours(colours);
   renderer.draw({.points = job.frame->points(),
                  .knotFrames = job.frame->knotFrames(),
                  .jointMatrices = job.frame->jointMatrices(),
@@ -271,13 +280,16 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!plan) return plan.error();
   for (const std::string& name : plan->unseen)
     logWarning("'" + name + "' is not seen in this picture and gets no label");
-  const auto colours = coloursOf(job, *plan, options.colour);
-  if (!colours) return colours.error();
+  const atlas::Colouring colouring = *atlas::colouringNamed(options.colour);
+  if (auto known = atlas::checkColouring(colouring, job.groups, job.scene.body.name); !known)
+    return known.error();
+  const auto colours = coloursOf(job, colouring);
+  const atlas::ColourLegend keys = atlas::legendOf(job.scene.network, job.groups, colouring, plan->seen);
   const auto made = gpu::attempt([&]() -> Result<Report> {
     const StageLog stage("drawing");
     gpu::Device device({.choice = globals.device});
-    auto picture = std::make_shared<const Image>(draw(job, *plan, *colours, options.dpi, device));
-    const plate::Sheet sheet = plate::plateSheet(*plan, job.style, *type, std::move(picture), *colours);
+    auto picture = std::make_shared<const Image>(draw(job, *plan, colours, options.dpi, device));
+    const plate::Sheet sheet = plate::plateSheet(*plan, job.style, *type, std::move(picture), keys);
     if (auto written = write(sheet, options, *form, *type); !written) return written.error();
     return reportOf(*plan, options, job.style, device);
   });
@@ -323,8 +335,8 @@ void addPlate(CLI::App& app, Command& command) {
       ->capture_default_str();
   sub->add_option("--title", options->title, "Instead of the plate's own; '' for none");
   sub->add_option("--colour", options->colour,
-                  "What colours of vessels stand for: kind, blood, region or radius")
-      ->check(CLI::IsMember({"kind", "blood", "region", "radius"}))
+                  "What colours of vessels stand for: " + atlas::colouringsListed())
+      ->check(CLI::IsMember(std::vector<std::string>(atlas::kColourings.begin(), atlas::kColourings.end())))
       ->capture_default_str();
   sub->add_option("--look", options->look, kLookHelp);
   sub->add_option("--hide", options->hide, kHideHelp);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "atlas/colouring.h"
 #include "plate/lettering.h"
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -46,13 +47,6 @@ vec3 heat(float severity) {
   static constexpr std::array kHeat{vec3(0.93f, 0.95f, 0.96f), vec3(0.99f, 0.86f, 0.55f),
                                     vec3(0.87f, 0.40f, 0.27f), vec3(0.40f, 0.05f, 0.15f)};
   return blend(kHeat, severity <= 1 ? 2 * severity : 1 + severity);
-}
-
-vec3 strainColour(float share) {
-  static constexpr std::array kStrain{vec3(0.07f, 0.25f, 0.65f), vec3(0.55f, 0.70f, 0.90f),
-                                      vec3(0.82f, 0.82f, 0.80f), vec3(0.95f, 0.62f, 0.50f),
-                                      vec3(0.70f, 0.08f, 0.10f)};
-  return blend(kStrain, 2 + 2 * share);
 }
 
 // A bar with the colours from one end of a scale to the other.
@@ -111,10 +105,12 @@ Result<Image> drawStrains(const Scene& scene, std::span<const float> strains, fl
   Renderer renderer(
       device, scene.network, scene.body.meshes,
       {.width = kWidth, .height = kHeight, .supersample = 2, .occlusion = true, .timed = false});
+  const atlas::ColourLegend scale = atlas::legendOf(scene.network, {}, atlas::Colouring::strain);
+  const auto colourOf = [&](float strain) { return scale.at(0.5f + 0.5f * strain / full); };
   std::vector<std::uint32_t> colours;
   for (std::size_t v = 0; v < strains.size(); ++v)
     colours.insert(colours.end(), scene.network.vessels()[v].spanCount(),
-                   packColour(vec4(strainColour(strains[v] / full), 1)));
+                   packColour(vec4(colourOf(strains[v]), 1)));
   renderer.setSweepColours(colours);
   FrameMaker maker(scene);
   maker.make(nullptr, 0);
@@ -136,8 +132,7 @@ Result<Image> drawStrains(const Scene& scene, std::span<const float> strains, fl
   const auto percent = [](float share) { return fmt::format("{:+.0f} %", 100 * share); };
   const std::array<std::pair<float, std::string>, 3> marks{
       {{-full, percent(-full)}, {0, "length at rest"}, {full, percent(full)}}};
-  legend(picture, *letters, int(kWidth) / 2 - 120, int(kHeight) - 44, marks,
-         [&](float strain) { return strainColour(strain / full); });
+  legend(picture, *letters, int(kWidth) / 2 - 120, int(kHeight) - 44, marks, colourOf);
   return picture;
 }
 

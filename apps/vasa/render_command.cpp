@@ -6,6 +6,7 @@
 #include <iostream>
 #include <set>
 
+#include "atlas/colouring.h"
 #include "camera_choice.h"
 #include "capillary_options.h"
 #include "commands.h"
@@ -69,8 +70,8 @@ struct Job {
   std::optional<plate::PlateStyle>
       page;                 // labels beside the picture, which is smaller then than what is written
   std::vector<char> shown;  // one a vessel
-  plate::VesselColouring colouring = plate::VesselColouring::kind;
-  plate::VesselColours colours;
+  atlas::Colouring colouring = atlas::Colouring::kind;
+  atlas::VesselGroups groups;
 };
 
 constexpr float kScreenDpi = 96;  // of a picture of 1280 by 720 with labels: letters of 11 pixels
@@ -147,11 +148,8 @@ std::vector<char> shownVessels(const SceneFile& choice, const Network& network) 
   return shown;
 }
 
-plate::VesselColouring colouringOf(const Options& options, const SceneFile& choice) {
-  const std::string& name = options.colour.empty() ? choice.look.colour : options.colour;
-  const auto colouring = plate::colouringNamed(name);
-  if (!colouring) logWarning("colours that tell of " + name + " are the app's alone; kinds are drawn");
-  return colouring.value_or(plate::VesselColouring::kind);
+atlas::Colouring colouringOf(const Options& options, const SceneFile& choice) {
+  return *atlas::colouringNamed(options.colour.empty() ? choice.look.colour : options.colour);
 }
 
 Result<Job> prepare(const Globals& globals, const Options& options) {
@@ -213,9 +211,9 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   }
   job.shown = shownVessels(job.choice, job.scene.network);
   job.colouring = colouringOf(options, job.choice);
-  auto colours = plate::colourVessels(job.scene, job.colouring, job.shown, job.shown);
-  if (!colours) return colours.error();
-  job.colours = std::move(*colours);
+  if (job.colouring != atlas::Colouring::kind || job.page) job.groups = atlas::groupsOf(job.scene);
+  if (auto known = atlas::checkColouring(job.colouring, job.groups, job.scene.body.name); !known)
+    return known.error();
   auto camera = CameraMan::create(*cameraChoice, job.scene, job.clip, aspect);
   if (!camera) return camera.error();
   job.camera = std::move(*camera);
@@ -289,8 +287,9 @@ class Film {
     noteStep(frame);
     if (options_.highlightContacts)
       highlightContacts();
-    else if (job_.colouring != plate::VesselColouring::kind || !job_.choice.hidden.empty())
-      renderer_.setSweepColours(job_.colours.spans);
+    else if (job_.colouring != atlas::Colouring::kind || !job_.choice.hidden.empty())
+      renderer_.setSweepColours(withoutHidden(
+          atlas::spanColours(job_.scene.network, job_.groups, maker_->points(), job_.colouring)));
     const Camera camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points());
     renderer_.draw({.points = maker_->points(),
                     .knotFrames = maker_->knotFrames(),
@@ -321,11 +320,21 @@ class Film {
     if (!plan) return plan.error();
     for (const std::string& name : plan->unseen)
       logWarning("'" + name + "' is not seen in this picture and gets no label");
-    const auto colours = plate::colourVessels(job_.scene, job_.colouring, job_.shown, plan->seen);
-    if (!colours) return colours.error();
+    const auto keys = atlas::legendOf(job_.scene.network, job_.groups, job_.colouring, plan->seen);
     const plate::Sheet sheet =
-        plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), *colours);
+        plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), keys);
     return plate::sheetImage(sheet, uvec2(job_.size.width, job_.size.height));
+  }
+
+  // What the scene hides has no colour.
+  std::vector<std::uint32_t> withoutHidden(std::vector<std::uint32_t> colours) const {
+    auto first = colours.begin();
+    for (std::size_t v = 0; v < job_.shown.size(); ++v) {
+      const auto end = first + job_.scene.network.vessels()[v].spanCount();
+      if (!job_.shown[v]) std::fill(first, end, 0);
+      first = end;
+    }
+    return colours;
   }
 
   // Grey vessels; yellow where they ran through one another, red where they still do.
@@ -339,9 +348,7 @@ class Film {
     };
     paint(avoider.found(), {1, 0.75f, 0, 1});
     paint(avoider.remaining(), {1, 0, 0, 1});
-    for (std::size_t span = 0; span < colours.size(); ++span)
-      if (job_.colours.spans[span] >> 24 == 0) colours[span] = 0;  // hidden by the scene
-    renderer_.setSweepColours(colours);
+    renderer_.setSweepColours(withoutHidden(std::move(colours)));
   }
 
   // Whether this frame's picture is there already, from the same run.
@@ -569,10 +576,10 @@ void addRender(CLI::App& app, Command& command) {
       "Names, a legend and a scale bar beside the figure: main (large vessels), all-visible, none, or "
       "names with commas between them; for stills (vasa help plate)");
   sub->add_option("--title", options->title, "Title of a picture with labels");
-  sub->add_option(
-         "--colour", options->colour,
-         "What colours of vessels stand for: kind, blood, region or radius (default: as the scene says, else kind)")
-      ->check(CLI::IsMember({"kind", "blood", "region", "radius"}));
+  sub->add_option("--colour", options->colour,
+                  "What colours of vessels stand for (default: as the scene says, else kind): " +
+                      atlas::colouringsListed())
+      ->check(CLI::IsMember(std::vector<std::string>(atlas::kColourings.begin(), atlas::kColourings.end())));
   sub->add_option("--shard", options->shard,
                   "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume,

@@ -106,7 +106,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
       document->levels = std::make_shared<const BodyLevels>(bodyLevels(document->scene.body.meshes));
   });
   document->bounds = boundsOf(document->scene);
-  document->groups = std::make_shared<const VesselGroups>(groupsOf(document->scene, *document->mannequin));
+  document->groups = std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(document->scene));
   document->base = std::make_shared<const Network>(document->scene.network);
   document->rebinder = std::make_shared<const Rebinder>(document->scene.body, document->scene.binding.spines);
   document->baseBinding = std::make_shared<const Binding>(document->scene.binding);
@@ -154,7 +154,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
     made->table.patches = std::move(patches);
   }
   made->bounds = boundsOf(made->scene);
-  made->groups = std::make_shared<const VesselGroups>(groupsOf(made->scene, *made->mannequin));
+  made->groups = std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
   if (!made->rules.empty()) {
     auto growth = readGrowth(made->scene, made->rules);
     if (!growth) return growth.error();

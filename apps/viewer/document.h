@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "atlas/vessel_groups.h"
 #include "body/rebind.h"
 #include "core/cancellation.h"
 #include "render/mesh_levels.h"
@@ -10,7 +11,6 @@
 #include "scene/scene.h"
 #include "surface/sweep_table.h"
 #include "viewer/mannequin.h"
-#include "viewer/vessel_groups.h"
 
 namespace vasa::viewer {
 
@@ -39,10 +39,10 @@ class GrowthBehind {
 struct Document {
   SceneFile file;
   Scene scene;
-  SweepTable table;                            ///< of the network, with the forks planned
-  std::shared_ptr<const BodyLevels> levels;    ///< of the body's meshes
-  std::shared_ptr<const Mannequin> mannequin;  ///< the body's skeleton as something to pose
-  std::shared_ptr<const VesselGroups> groups;  ///< what its vessels belong to
+  SweepTable table;                                   ///< of the network, with the forks planned
+  std::shared_ptr<const BodyLevels> levels;           ///< of the body's meshes
+  std::shared_ptr<const Mannequin> mannequin;         ///< the body's skeleton as something to pose
+  std::shared_ptr<const atlas::VesselGroups> groups;  ///< what its vessels belong to
   std::string title;
   Aabb bounds;  ///< at rest [m]
   /// What its own journal is replayed onto; its own: the last that the scene names, if that lies beside the

@@ -50,7 +50,7 @@ struct Exporter::Job {
   std::future<std::shared_ptr<const PosedBody>> coming;
   bool drawing = false;
   std::optional<VideoWriter> video;
-  SpanColours colours;
+  KeptColours colours;
 };
 
 Exporter::Exporter(gpu::Device& device, std::uint32_t seed, std::function<void()> changed)

@@ -114,9 +114,9 @@ void showActionItem(const PanelInput& in, ActionId id) {
 
 void showColourings(const PanelInput& in) {
   if (!ImGui::BeginMenu("Colour by")) return;
-  for (std::size_t c = 0; c < kColourings.size(); ++c)
-    if (ImGui::MenuItem(kColourings[c], nullptr, in.state.colouring == Colouring(c)))
-      setColouring(in.state, Colouring(c));
+  for (std::size_t c = 0; c < atlas::kColourings.size(); ++c)
+    if (ImGui::MenuItem(atlas::kColourings[c], nullptr, in.state.colouring == atlas::Colouring(c)))
+      setColouring(in.state, atlas::Colouring(c));
   ImGui::EndMenu();
 }
 

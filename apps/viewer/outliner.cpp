@@ -8,9 +8,11 @@
 namespace vasa::viewer {
 namespace {
 
+using atlas::VesselSystem;
+
 std::uint32_t keyOfSystem(VesselSystem system) { return 1 + std::uint32_t(system); }
-std::uint32_t keyOfRegion(VesselSystem system, BodyRegion region) {
-  return 100 * keyOfSystem(system) + std::uint32_t(region);
+std::uint32_t keyOfRegion(VesselSystem system, atlas::BodyRegion region) {
+  return 100 * keyOfSystem(system) + std::uint32_t(atlas::rankOf(region));
 }
 
 OutlinerRow vesselRow(const Network& network, VesselId vessel, int depth) {
@@ -45,28 +47,28 @@ void select(ViewState& state, VesselId vessel) {
 
 }  // namespace
 
-std::vector<OutlinerRow> outlinerRows(const Network& network, const VesselGroups& groups,
+std::vector<OutlinerRow> outlinerRows(const Network& network, const atlas::VesselGroups& groups,
                                       const OutlinerState& state, const std::string& search) {
   if (search.find_first_not_of(' ') != std::string::npos) return answers(network, search);
   std::vector<OutlinerRow> rows;
   const auto isUnfolded = [&](std::uint32_t key) { return state.unfolded.contains(key); };
-  for (std::size_t s = 0; s < kSystemNames.size(); ++s) {
+  for (std::size_t s = 0; s < atlas::kSystemNames.size(); ++s) {
     const auto system = VesselSystem(s);
-    std::array<std::vector<VesselId>, kRegionNames.size()> regions;
-    OutlinerRow whole{std::string(kSystemNames[s]),    0,  keyOfSystem(system),
-                      isUnfolded(keyOfSystem(system)), {}, {}};
+    std::vector<std::vector<VesselId>> regions(atlas::bodyRegions().size());
+    OutlinerRow whole{std::string(atlas::kSystemNames[s]), 0,  keyOfSystem(system),
+                      isUnfolded(keyOfSystem(system)),     {}, {}};
     for (std::uint32_t v = 0; v < groups.system.size(); ++v) {
       if (groups.system[v] != system) continue;
-      regions[std::size_t(groups.region[v])].push_back({v});
+      regions[atlas::rankOf(groups.region[v])].push_back({v});
       whole.vessels.push_back({v});
     }
     if (whole.vessels.empty()) continue;
     const bool unfolded = whole.unfolded;
     rows.push_back(std::move(whole));
     for (std::size_t r = 0; unfolded && r < regions.size(); ++r) {
-      const std::uint32_t key = keyOfRegion(system, BodyRegion(r));
-      addRegion(rows, network,
-                {std::string(kRegionNames[r]), 1, key, isUnfolded(key), {}, std::move(regions[r])});
+      const atlas::BodyRegion region = atlas::bodyRegions()[r];
+      const std::uint32_t key = keyOfRegion(system, region);
+      addRegion(rows, network, {atlas::nameOf(region), 1, key, isUnfolded(key), {}, std::move(regions[r])});
     }
   }
   return rows;
@@ -131,7 +133,7 @@ void stepChoice(ViewState& state, std::span<const OutlinerRow> rows, int way, bo
   if (extend) state.alsoChosen = std::move(before);
 }
 
-void revealChoice(ViewState& state, const VesselGroups& groups) {
+void revealChoice(ViewState& state, const atlas::VesselGroups& groups) {
   if (!state.selected) return;
   const std::uint32_t v = state.selected->vessel.value;
   state.outliner.unfolded.insert(keyOfSystem(groups.system[v]));

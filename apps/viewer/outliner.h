@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/vessel_groups.h"
+#include "atlas/vessel_groups.h"
 #include "viewer/vessel_names.h"
 
 namespace vasa::viewer {
@@ -29,7 +29,7 @@ struct OutlinerRow {
 };
 
 /// The lines that are to be seen. With a search: the vessels that answer it, best first (viewer/fuzzy.h).
-std::vector<OutlinerRow> outlinerRows(const Network& network, const VesselGroups& groups,
+std::vector<OutlinerRow> outlinerRows(const Network& network, const atlas::VesselGroups& groups,
                                       const OutlinerState& state, const std::string& search);
 
 /// What a row is of what is shown.
@@ -47,6 +47,6 @@ void chooseRow(ViewState& state, std::span<const OutlinerRow> rows, std::size_t 
 void stepChoice(ViewState& state, std::span<const OutlinerRow> rows, int way, bool extend);
 
 /// Unfolds where the selected vessel is.
-void revealChoice(ViewState& state, const VesselGroups& groups);
+void revealChoice(ViewState& state, const atlas::VesselGroups& groups);
 
 }  // namespace vasa::viewer

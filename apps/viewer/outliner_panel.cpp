@@ -176,17 +176,18 @@ void showNames(const PanelInput& in) {
 
 void showLegend(const PanelInput& in) {
   if (!in.document || !in.state.legend || in.state.contacts) return;
-  const auto entries = legendOf(*in.document, in.state.colouring);
+  const atlas::ColourLegend legend =
+      atlas::legendOf(in.document->scene.network, *in.document->groups, in.state.colouring);
+  const std::vector<atlas::ColourKey>& entries = legend.keys;
   if (entries.empty()) return;
+  const bool scale = !legend.ramp.empty();
   const Rect& picture = in.layout.picture;
   const float edge = 8 * in.scale, line = ImGui::GetTextLineHeightWithSpacing(),
               box = 0.8f * ImGui::GetTextLineHeight();
   float widest = 0;
-  for (const LegendEntry& entry : entries)
+  for (const atlas::ColourKey& entry : entries)
     widest = std::max(widest, ImGui::CalcTextSize(entry.text.c_str()).x);
-  const char* title = in.state.colouring == Colouring::radius   ? "radius, mm"
-                      : in.state.colouring == Colouring::strain ? "length by that at rest"
-                                                                : "";
+  const char* title = legend.title.c_str();
   const float head = *title ? line : 0;
   widest = std::max(widest, *title ? ImGui::CalcTextSize(title).x - 1.6f * box : 0);
   const float high = head + line * float(entries.size());
@@ -199,20 +200,20 @@ void showLegend(const PanelInput& in) {
                      {low.x + 1.6f * box + widest + edge / 2, low.y + high},
                      ImGui::ColorConvertFloat4ToU32({page.x, page.y, page.z, 0.82f}), edge / 2);
   if (*title) list.AddText({low.x, low.y}, ink, title);
-  const auto colourOfEntry = [](const LegendEntry& entry) {
+  const auto colourOfEntry = [](const atlas::ColourKey& entry) {
     return ImGui::ColorConvertFloat4ToU32({entry.colour.x, entry.colour.y, entry.colour.z, 1});
   };
   for (std::size_t e = 0; e < entries.size(); ++e) {
     // Of a scale the largest stands on top.
-    const LegendEntry& entry = isScale(in.state.colouring) ? entries[entries.size() - 1 - e] : entries[e];
+    const atlas::ColourKey& entry = scale ? entries[entries.size() - 1 - e] : entries[e];
     const float top = low.y + head + line * float(e);
-    const bool runsOn = isScale(in.state.colouring) && e + 1 < entries.size();
+    const bool runsOn = scale && e + 1 < entries.size();
     const ImU32 own = colourOfEntry(entry);
     if (runsOn) {
       const ImU32 next = colourOfEntry(entries[entries.size() - 2 - e]);
       list.AddRectFilledMultiColor({low.x, top + line / 2}, {low.x + box, top + 1.5f * line}, own, own, next,
                                    next);
-    } else if (!isScale(in.state.colouring)) {
+    } else if (!scale) {
       list.AddRectFilled({low.x, top + (line - box) / 2}, {low.x + box, top + (line + box) / 2}, own,
                          2 * in.scale);
     }

@@ -17,6 +17,17 @@ std::vector<std::uint32_t> firstSpans(const Network& network) {
 
 }  // namespace
 
+const std::vector<std::uint32_t>& KeptColours::of(const Document& document,
+                                                  std::shared_ptr<const PosedBody> body,
+                                                  atlas::Colouring colouring) {
+  if (body_ != body || colouring_ != colouring) {
+    body_ = std::move(body);
+    colouring_ = colouring;
+    colours_ = atlas::spanColours(document.scene.network, *document.groups, body_->points, colouring);
+  }
+  return colours_;
+}
+
 std::vector<char> shownVessels(const Document& document, const ViewState& state) {
   const Network& network = document.scene.network;
   const bool single = state.isolate && state.selected;
@@ -30,11 +41,11 @@ std::vector<char> shownVessels(const Document& document, const ViewState& state)
 }
 
 std::vector<std::uint32_t> coloursOf(const Document& document, std::shared_ptr<const PosedBody> body,
-                                     const ViewState& state, SpanColours& plain) {
+                                     const ViewState& state, KeptColours& plain) {
   const Network& network = document.scene.network;
   const bool single = state.isolate && state.selected;
   if (!state.selected && !state.contacts && !(state.from && state.to) && !state.hidden.any() &&
-      state.colouring == Colouring::kind)
+      state.colouring == atlas::Colouring::kind)
     return {};
   const std::vector<std::uint32_t> first = firstSpans(network);
   std::vector<std::uint32_t> colours = state.contacts ? std::vector(first.back(), packColour(kQuiet))

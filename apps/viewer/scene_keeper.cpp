@@ -33,7 +33,7 @@ LookChoice lookOf(const ViewState& state) {
   choice.organs = look.drawHeart || look.drawOther;
   choice.arteries = look.drawArteries;
   choice.veins = look.drawVeins;
-  choice.colour = kColourings[std::size_t(state.colouring)];
+  choice.colour = atlas::kColourings[std::size_t(state.colouring)];
   choice.legend = state.legend;
   return choice;
 }

@@ -9,6 +9,7 @@
 #include "viewer/exporter.h"
 #include "viewer/file_chooser.h"
 #include "viewer/loader.h"
+#include "viewer/paint.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
 #include "viewer/pointer.h"
@@ -156,7 +157,7 @@ class Session {
   std::optional<Clock::time_point> editedAt_;  // what is coming, until it is seen
   std::string title_;
   std::shared_ptr<const PosedBody> body_;
-  SpanColours spanColours_;
+  KeptColours spanColours_;
   Timings timings_;
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;

@@ -206,9 +206,7 @@ void Session::takeChoices() {
   if (!choice.look.organs) look.drawHeart = look.drawOther = false;
   if (!choice.look.arteries) look.drawArteries = false;
   if (!choice.look.veins) look.drawVeins = false;
-  const auto colouring = std::ranges::find(kColourings, choice.look.colour);
-  state_.colouring =
-      colouring == kColourings.end() ? Colouring::kind : Colouring(colouring - kColourings.begin());
+  state_.colouring = atlas::colouringNamed(choice.look.colour).value_or(atlas::Colouring::kind);
   state_.legend = choice.look.legend;
   state_.hidden = VesselNames(choice.hidden);
   state_.labelled = VesselNames(choice.labels);

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "atlas/colouring.h"
 #include "body/joint_motion.h"
 #include "network/route.h"
 #include "render/look.h"
 #include "scene/scene_file.h"
-#include "viewer/colouring.h"
 #include "viewer/cut_plane.h"
 #include "viewer/export_wish.h"
 #include "viewer/forces.h"
@@ -52,7 +52,7 @@ struct Undoable {
   CutPlane cutPlane;
   bool follow = true;     ///< the camera goes along with a body that walks
   bool contacts = false;  ///< vessels grey, those that touch in colour
-  Colouring colouring = Colouring::kind;
+  atlas::Colouring colouring = atlas::Colouring::kind;
   bool legend = false;            ///< what the colours mean, in the picture
   VesselNames hidden, labelled;   ///< not shown; named in the picture also when they are not chosen
   std::vector<ViewChoice> views;  ///< kept under numbers
@@ -102,7 +102,7 @@ struct ViewState : Undoable {
 };
 
 /// Whose colours are explained as soon as they change.
-inline void setColouring(ViewState& state, Colouring colouring) {
+inline void setColouring(ViewState& state, atlas::Colouring colouring) {
   state.colouring = colouring;
   state.legend = true;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "collide/closest_tubes.h"
 #include "collide/contact_search.h"
 #include "core/parallel.h"
 
@@ -13,17 +12,6 @@ namespace vasa {
 namespace {
 
 constexpr float kNearAtRest = 0.005f;  // [m]
-constexpr double kExact = 1e-8;        // [m]
-
-// Newton steps from the nearest chords may end in another local minimum than the one for which the pair was
-// reported.
-Contact deepest(const Contact& contact, std::span<const Bezier> tubes, float margin = 0) {
-  if (contact.f < margin) return contact;
-  Contact found = closestOfTubes(tubes[contact.i], tubes[contact.j], kExact);
-  found.i = contact.i, found.j = contact.j;
-  return found;
-}
-
 // By control points, at most; wider counts, too.
 float farthestMoved(const Bezier& a, const Bezier& b) {
   float most = 0;
@@ -42,7 +30,7 @@ Interference::Interference(const Network& network)
   detector_->update(rest_, 0);
   if (!detector_->detect().empty())
     for (const Contact& contact : detector_->contacts())
-      restPairs_.push_back({{contact.i, contact.j}, std::min(deepest(contact, rest_).f, 0.0f)});
+      restPairs_.push_back({{contact.i, contact.j}, std::min(contact.f, 0.0f)});
 }
 
 std::vector<Contact> Interference::findNearAtRest() {
@@ -74,8 +62,7 @@ std::span<const Interference::Place> Interference::find(std::span<const vec4> po
   detector_->update(tubes_, within);
   near_.clear();
   if (!detector_->detect().empty())
-    for (const Contact& contact : detector_->contacts())
-      near_.push_back(beginsToFollow ? contact : deepest(contact, tubes_, margin));
+    for (const Contact& contact : detector_->contacts()) near_.push_back(contact);
   if (beginsToFollow)
     tubesThen_ = tubes_;
   else

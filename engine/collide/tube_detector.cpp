@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 
+#include "collide/closest_tubes.h"
 #include "collide/contact_search.h"
 #include "collide/kernels.h"
 #include "collide/narrow_phase.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr std::size_t kChunk = 1024;       // candidates settled at once
 constexpr std::uint32_t kLeafBlock = 512;  // groups refitted by one task
 constexpr std::size_t kTasksPerThread = 16;
+constexpr double kExact = 1e-8;  // [m]
 
 struct Worker {
   std::vector<GroupPair> stack;
@@ -192,7 +194,11 @@ std::span<const Contact> TubeDetector::contacts() {
   state.contacts.resize(state.pairs.size());
   parallelFor(state.pairs.size(), 64, [&state](std::size_t k) {
     const TubePair pair = state.pairs[k];
-    Contact contact = nearestPlace(state.tree.tubes[pair.i], state.tree.tubes[pair.j]);
+    const Bezier &a = state.tree.tubes[pair.i], &b = state.tree.tubes[pair.j];
+    Contact contact = nearestPlace(a, b);
+    // Newton steps from the nearest chords may end in another local minimum than the one for which the pair
+    // was reported.
+    if (contact.f >= 2 * state.tree.grow) contact = closestOfTubes(a, b, kExact);
     contact.i = pair.i;
     contact.j = pair.j;
     state.contacts[k] = contact;

@@ -160,9 +160,9 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
   constexpr std::array kPresets{"atlas", "clinical", "xray"};
   if (std::find(kPresets.begin(), kPresets.end(), look.preset) == kPresets.end())
     reader.fail(place + "/preset", "must be atlas, clinical or xray");
-  constexpr std::array kColours{"kind", "region", "radius", "strain"};
+  constexpr std::array kColours{"kind", "blood", "region", "radius", "strain", "bend", "lumen"};
   if (std::find(kColours.begin(), kColours.end(), look.colour) == kColours.end())
-    reader.fail(place + "/colour", "must be kind, region, radius or strain");
+    reader.fail(place + "/colour", "must be kind, blood, region, radius, strain, bend or lumen");
 }
 
 void readViews(Reader& reader, const Json& value, const std::string& place, std::vector<ViewChoice>& views) {

@@ -25,8 +25,9 @@ struct LookChoice {
   std::optional<vec4> background;  ///< sRGB 0..1 and opacity; default: the preset's
   bool skin = true, bones = true, organs = true, arteries = true, veins = true;
   std::optional<float> skinOpacity;  ///< default: the preset's
-  std::string colour = "kind";  ///< what vessels' colours tell: kind, region, radius, or strain in the app
-  bool legend = false;          ///< of the colours, in the app
+  std::string colour =
+      "kind";           ///< what vessels' colours tell: kind, blood, region, radius, strain, bend or lumen
+  bool legend = false;  ///< of the colours, in the app
 };
 
 /// Which capillaries grow from the vessels (growth/plan.h).
@@ -59,7 +60,8 @@ struct ViewChoice {
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones":
 ///     true, "organs": true, "arteries": true, "veins": true,
-///               "skin_opacity": 0.3, "colour": "kind" | "region" | "radius" | "strain", "legend": true },
+///               "skin_opacity": 0.3, "colour": "kind" | "blood" | "region" | "radius" | "strain" | "bend" |
+///               "lumen", "legend": true },
 ///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5,
 ///     "rules": "folder" },
 ///     "hidden": ["left great saphenous vein"],

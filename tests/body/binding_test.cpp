@@ -31,7 +31,7 @@ std::vector<vec4> pointsAround(const std::vector<vec3>& chain, std::size_t count
   std::vector<vec4> points;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t link = random() % (chain.size() - 1);
-    const vec3 way(unit(random) - 0.5f, unit(random) - 0.5f, unit(random) - 0.5f);
+    const vec3 way{unit(random) - 0.5f, unit(random) - 0.5f, unit(random) - 0.5f};
     points.emplace_back(glm::mix(chain[link], chain[link + 1], unit(random)) + 0.15f * way, 0.002f);
   }
   return points;

@@ -37,13 +37,13 @@ TEST_CASE("the field is the distance from a box, near it") {
   float worst = 0;
   CHECK(field.clearance({0, 0, 0.12f}) > 0.05f);
   for (int k = 0; k < 20000; ++k) {
-    const vec3 p(any(random), any(random), any(random));
+    const vec3 p{any(random), any(random), any(random)};
     const float exact = glm::clamp(boxDistance(p, low, high), -0.006f, 0.006f);
     const auto [distance, gradient] = field.at(p);
     CHECK(distance == field.distance(p));
     CHECK(field.clearance(p) <= std::max(boxDistance(p, low, high), 0.0f) + 0.001f);
     if (exact >= 0.006f) CHECK(distance <= boxDistance(p, low, high) + 1e-6f);
-    const vec3 other = p + 0.05f * vec3(any(random), any(random), any(random));
+    const vec3 other = p + 0.05f * vec3{any(random), any(random), any(random)};
     if (distance < 0.006f)
       CHECK(std::min(field.distance(other), 0.006f) >=
             distance - std::sqrt(3.0f) * glm::distance(p, other) - 1e-6f);
@@ -52,7 +52,7 @@ TEST_CASE("the field is the distance from a box, near it") {
   }
   CHECK(worst < 0.0011f);  // half a cell, at the edges
   std::vector<vec4> balls;
-  for (int k = 0; k < 21; ++k) balls.emplace_back(any(random), any(random), any(random), 0.001f);
+  for (int k = 0; k < 21; ++k) balls.push_back({any(random), any(random), any(random), 0.001f});
   std::vector<float> distances(balls.size());
   field.distances(balls, distances);
   for (std::size_t k = 0; k < balls.size(); ++k) CHECK(distances[k] == field.distance(vec3(balls[k])));

@@ -14,8 +14,8 @@ Bezier randomTube(std::mt19937& random, float size, float offset) {
   std::uniform_real_distribution<float> value(-1, 1);
   Bezier tube;
   for (vec4& p : tube.b) {
-    p = vec4(size * value(random), size * value(random), size * value(random),
-             size * (1.05f + value(random)));
+    p = vec4{size * value(random), size * value(random), size * value(random),
+             size * (1.05f + value(random))};
     p += vec4(vec3(offset), 0);
   }
   return tube;

@@ -12,11 +12,11 @@ TEST_CASE("a similarity is found again from places and where it takes them") {
   std::uniform_real_distribution<float> unit(-1, 1);
   for (int round = 0; round < 50; ++round) {
     const Similarity told{1 + 0.5f * unit(random),
-                          glm::normalize(quat(unit(random), unit(random), unit(random), unit(random))),
-                          vec3(unit(random), 3, unit(random))};
+                          glm::normalize(quat{unit(random), unit(random), unit(random), unit(random)}),
+                          vec3{unit(random), 3, unit(random)}};
     std::vector<std::pair<vec3, vec3>> pairs;
     for (int i = 0; i < 3 + round % 4; ++i) {
-      const vec3 p(unit(random), unit(random), 2 * unit(random));
+      const vec3 p{unit(random), unit(random), 2 * unit(random)};
       pairs.push_back({p, told(p)});
     }
     const Similarity found = fitSimilarity(pairs, false);

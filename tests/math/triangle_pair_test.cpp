@@ -48,7 +48,7 @@ TEST_CASE("a corner in the other's plane does not hide a crossing") {
 TEST_CASE("random triangles cross where an edge of one pierces the other") {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0, 1);
-  const auto point = [&] { return vec3(unit(random), unit(random), unit(random)); };
+  const auto point = [&] { return vec3{unit(random), unit(random), unit(random)}; };
   int crossing = 0;
   for (int i = 0; i < 4000; ++i) {
     const Triangle p{point(), point(), point()}, q{point(), point(), point()};

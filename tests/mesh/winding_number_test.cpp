@@ -34,7 +34,7 @@ TEST_CASE("the winding number is 1 inside a closed surface, 0 outside and 2 wher
   std::mt19937 random(5);
   std::uniform_real_distribution<float> any(-2, 2);
   for (int k = 0; k < 5000; ++k) {
-    const vec3 p(any(random), any(random), any(random));
+    const vec3 p{any(random), any(random), any(random)};
     const float one = glm::length(p) - 1, other = glm::distance(p, vec3(0.8f, 0, 0)) - 0.7f;
     if (std::min(std::abs(one), std::abs(other)) < 0.02f) continue;
     CHECK(winding.at(p) ==

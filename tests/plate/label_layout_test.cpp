@@ -20,7 +20,7 @@ std::vector<LabelWish> scattered(std::uint32_t seed, std::size_t count, bool lik
   std::vector<LabelWish> wishes;
   for (std::size_t i = 0; i < count; ++i) {
     LabelWish wish{vec2(between(10, 40), likeHeights || i % 3 ? 3.5f : 7.0f), {}};
-    for (int k = 0; k < 1 + int(i % 4); ++k) wish.anchors.emplace_back(between(55, 145), between(10, 290));
+    for (int k = 0; k < 1 + int(i % 4); ++k) wish.anchors.push_back({between(55, 145), between(10, 290)});
     wishes.push_back(std::move(wish));
   }
   return wishes;

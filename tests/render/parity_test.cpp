@@ -302,7 +302,7 @@ TEST_CASE("skinning on the device is that of the body's") {
   SkinnedMesh mesh;
   mesh.name = "skin";
   for (int i = 0; i < 333; ++i) {
-    mesh.mesh.positions.emplace_back(number(engine), number(engine), number(engine));
+    mesh.mesh.positions.push_back({number(engine), number(engine), number(engine)});
     mesh.normals.push_back(glm::normalize(mesh.mesh.positions.back() + vec3(0.01f)));
     SkinInfluence influence;
     for (int k = 0; k < 4; ++k) influence.joints[k] = std::uint16_t(engine() % 7);
@@ -312,7 +312,7 @@ TEST_CASE("skinning on the device is that of the body's") {
   std::vector<mat4> matrices;
   for (int k = 0; k < 7; ++k)
     matrices.push_back(glm::translate(glm::mat4_cast(glm::angleAxis(number(engine), vec3(0, 0.6f, 0.8f))),
-                                      vec3(number(engine), number(engine), number(engine))));
+                                      vec3{number(engine), number(engine), number(engine)}));
   const MeshSet meshes(rig.device(), std::span(&mesh, 1), {oneLevel(mesh)});
   const std::vector<MeshSet::Level> levels = meshes.levelsFor({}, matrices, {}, 100, 0);
   const SkinPass pass(rig.device());

@@ -123,7 +123,7 @@ TEST_CASE("hidden vessels, colours, labels and kept views come back to the byte"
   CHECK(scene->views[1] == ViewChoice{9, {1, 2, 3}, {0, 0.5f, 0}, 12.345f});
   CHECK(sceneText(*scene, "/here") == text);
   CHECK(messageOf(R"({"look": {"colour": "mood"}})") ==
-        "x.json: /look/colour must be kind, region, radius or strain");
+        "x.json: /look/colour must be kind, blood, region, radius, strain, bend or lumen");
   CHECK(messageOf(R"({"hidden": "aorta"})").find("/hidden must be a list of at most") != std::string::npos);
   CHECK(messageOf(R"({"labels": [1]})") == "x.json: /labels/0 must be a string");
   CHECK(messageOf(R"({"views": {"0": {}}})") ==

@@ -171,10 +171,11 @@ struct Bench {
 
   void check(const Site& site, const Outcome& outcome, bool hit,
              const std::map<std::string, std::string>& wanted) {
-    for (const auto& [name, content] : filesOf(folder.path() / "out")) {
+    for (const auto& file : filesOf(folder.path() / "out")) {
+      const std::string& name = file.first;
       CAPTURE(name);
       REQUIRE(wanted.contains(name));
-      CHECK((content == wanted.at(name)));
+      CHECK((file.second == wanted.at(name)));
     }
     if (outcome.exit == 0) {
       CHECK((!hit || goesOn(site)));

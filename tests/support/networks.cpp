@@ -14,6 +14,8 @@ Network built(const NetworkBuilder& builder) {
   return std::move(*network);
 }
 
+// Of calls among the arguments of another the order is a compiler's own: braces, and names of their own, keep it, so that
+// every compiler makes the same networks.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -21,7 +23,7 @@ class Random {
   std::uint32_t below(std::uint32_t count) { return engine_() % count; }
   vec3 direction() {
     for (;;) {
-      const vec3 v(in(-1, 1), in(-1, 1), in(-1, 1));
+      const vec3 v{in(-1, 1), in(-1, 1), in(-1, 1)};
       const float length = glm::length(v);
       if (length > 0.1f && length < 1) return v / length;
     }
@@ -55,7 +57,7 @@ Network windingNetwork(std::uint32_t vessels, std::uint32_t seed) {
   NetworkBuilder builder;
   for (std::uint32_t i = 0; i < vessels; ++i) {
     const std::uint32_t count = 4 + random.below(12);
-    vec3 start(random.in(-0.3f, 0.3f), random.in(0, 1), random.in(-0.2f, 0.2f));
+    vec3 start{random.in(-0.3f, 0.3f), random.in(0, 1), random.in(-0.2f, 0.2f)};
     const bool branch = i % 3 == 2;
     const VesselId host{branch ? random.below(i) : 0};
     float parameter = 0;
@@ -88,8 +90,9 @@ Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed) {
                              std::move(points));
   };
   while (builder.vesselCount() < vessels) {
-    const vec3 place(random.in(-0.4f, 0.4f), random.in(0, 1), random.in(-0.4f, 0.4f));
-    const VesselId trunk = add(place, random.direction(), random.in(0.003f, 0.006f));
+    const vec3 place{random.in(-0.4f, 0.4f), random.in(0, 1), random.in(-0.4f, 0.4f)};
+    const vec3 heading = random.direction();
+    const VesselId trunk = add(place, heading, random.in(0.003f, 0.006f));
     const std::vector<vec4> points = builder.pointsOf(trunk);
     const float parameter = random.in(0.4f, 0.7f) * float(spanCount(points));
     const vec4 at = evaluate(points, parameter);
@@ -99,9 +102,10 @@ Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed) {
       const float angle = random.in(0.45f, most);
       return std::cos(angle) * along + std::sin(angle) * side;
     };
-    for (std::uint32_t i = 0, count = 1 + random.below(3); i < count; ++i)  // often at one place
-      builder.joinToSide({add(vec3(at), leaving(2.6f), at.w * random.in(0.15f, 1)), false},
-                         {trunk, parameter});
+    for (std::uint32_t i = 0, count = 1 + random.below(3); i < count; ++i) {  // often at one place
+      const vec3 away = leaving(2.6f);
+      builder.joinToSide({add(vec3(at), away, at.w * random.in(0.15f, 1)), false}, {trunk, parameter});
+    }
     const vec4 tip = points.back();
     const vec3 onward = glm::normalize(vec3(points.back() - points[points.size() - 2]));
     std::vector<VesselEnd> ends{{trunk, true}};

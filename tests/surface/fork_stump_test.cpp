@@ -21,7 +21,7 @@ struct Thrown {
     points.assign(network.points().begin(), network.points().end());
     std::mt19937 random(seed);
     const auto signedShare = [&] { return share * (2 * float(random() % 4096) / 4095 - 1); };
-    for (vec4& p : points) p += vec4(signedShare(), signedShare(), signedShare(), 0);
+    for (vec4& p : points) p += vec4{signedShare(), signedShare(), signedShare(), 0};
     pinEnds(network, points);
     networkFrames(network, points, restReferences(network), frames);
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -53,46 +54,59 @@ std::filesystem::path largeMesh(const std::filesystem::path& folder, std::uint32
   return path;
 }
 
-// How long loading goes on after it was cancelled [ms], for the worst of some moments.
+// [ms] of processor time, which other work on the machine does not lengthen.
+double workedMs() { return 1000.0 * double(std::clock()) / CLOCKS_PER_SEC; }
+
+// How much is still done after loading was cancelled [ms of processor time], for the worst of some moments.
 double slowestStop(const SceneFile& file, double lastMs) {
   double slowest = 0;
   constexpr int kMoments = 6;
   for (int i = 0; i < kMoments; ++i) {
-    Loader loader;
-    loader.start({"scene", [file] { return file; }, kData / "growth"}, [] {});
-    std::this_thread::sleep_for(
-        std::chrono::microseconds(std::int64_t(1000 * lastMs * (i + 0.5) / kMoments)));
-    loader.stop();
-    for (const double ms : loader.takeStopTimes()) slowest = std::max(slowest, ms);
+    double stopped = 0;
+    {
+      Loader loader;
+      loader.start({"scene", [file] { return file; }, kData / "growth"}, [] {});
+      std::this_thread::sleep_for(
+          std::chrono::microseconds(std::int64_t(1000 * lastMs * (i + 0.5) / kMoments)));
+      stopped = workedMs();
+      loader.stop();
+    }
+    slowest = std::max(slowest, workedMs() - stopped);
   }
   return slowest;
 }
 
-double loadMs(const SceneFile& file) {
+struct Taken {
+  double ms, workedMs;
+};
+
+Taken timeLoading(const SceneFile& file) {
   const auto start = std::chrono::steady_clock::now();
+  const double before = workedMs();
   Loader loader;
   loader.start({"scene", [file] { return file; }, kData / "growth"}, [] {});
   loader.wait();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
+          workedMs() - before};
 }
-
-constexpr double kSoon = 1000;  // [ms] less than a fifth of it where nothing else runs
 
 }  // namespace
 
 TEST_CASE("a scene that is being loaded can be given up at any moment, and is soon left") {
-  const double whole = loadMs(human()), slowest = slowestStop(human(), whole);
-  MESSAGE("loading takes " << whole << " ms, stopping at most " << slowest << " ms");
-  CHECK(slowest < kSoon);
+  const Taken whole = timeLoading(human());
+  const double slowest = slowestStop(human(), whole.ms);
+  MESSAGE("loading takes " << whole.workedMs << " ms of a processor, stopping at most " << slowest);
+  CHECK(slowest < 0.5 * whole.workedMs);
 }
 
 TEST_CASE("so can the conversion of one very large mesh") {
   const TemporaryFolder folder;
   SceneFile file = human();
   file.networks = {largeMesh(folder.path(), 4000)};
-  const double whole = loadMs(file), slowest = slowestStop(file, whole);
-  MESSAGE("converting takes " << whole << " ms, stopping at most " << slowest << " ms");
-  CHECK(slowest < kSoon);
+  const Taken whole = timeLoading(file);
+  const double slowest = slowestStop(file, whole.ms);
+  MESSAGE("converting takes " << whole.workedMs << " ms of a processor, stopping at most " << slowest);
+  CHECK(slowest < 0.5 * whole.workedMs);
 }
 
 TEST_CASE("what is loaded next is not held up by what was given up, and tells what it does") {
