@@ -1,21 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "collide/network_tubes.h"
-#include "collide/tube_list.h"
 #include "commands.h"
-#include "core/atomic_file.h"
-#include "core/cancellation.h"
 #include "core/log.h"
 #include "frame_output.h"
-#include "io/swc.h"
-#include "io/vtp.h"
 #include "render/look.h"
 #include "report.h"
-#include "scene/bake.h"
-#include "scene/measurements.h"
+#include "scene/exporting.h"
 #include "scene_options.h"
 #include "track_option.h"
 
@@ -39,18 +29,12 @@ struct Job {
   FrameOptions frame;
 };
 
-std::string extensionOf(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
 // Formats that hold one shape get the first frame where none is named and the file's name has no place for
 // it.
 std::string framesOf(const Options& options) {
-  const std::string extension = extensionOf(options.output);
-  const bool holdsMotion = extension == ".glb" || extension == ".csv" || extension == ".tubes";
-  if (!options.frames.empty() || holdsMotion || options.output.find('{') != std::string::npos)
+  const auto kind = exportKindOf(options.output);
+  if (!options.frames.empty() || (kind && holdsMotion(*kind)) ||
+      options.output.find('{') != std::string::npos)
     return options.frames;
   return "0";
 }
@@ -75,17 +59,8 @@ Result<Job> prepare(const Options& options) {
   return job;
 }
 
-vec3 linearColour(VesselKind kind) {
-  const vec4 colour = colourOf(kind);
-  const auto linear = [](float c) {
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-  };
-  return {linear(colour.x), linear(colour.y), linear(colour.z)};
-}
-
-Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
-  BakeOptions bake{.first = job.range.first, .last = job.range.last, .frame = job.frame};
-  bake.finestThatFits = options.quads.empty();
+Result<ExportOptions> exportOptions(const Options& options, const Job& job) {
+  ExportOptions settings{.frame = job.frame, .first = job.range.first, .last = job.range.last};
   if (!options.quads.empty()) {
     const auto quads = parseQuads(options.quads);
     if (!quads) return quads.error();
@@ -93,169 +68,54 @@ Result<BakeOptions> bakeOptions(const Options& options, const Job& job) {
       return Error{
           Fault::usage,
           "--quads auto: a file has no picture to measure by; give MxN, or nothing for the finest within --budget"};
-    bake.shape = {quads->around, quads->along};
+    settings.shape = SweepShape{quads->around, quads->along};
   }
-  bake.fps = float(options.fps);
-  bake.maxBytes = std::size_t(options.budgetMegabytes * 1048576);
-  bake.betweenTolerance = float(1e-3 * options.betweenMillimetres);
-  bake.mesh = {float(1e-3 * options.toleranceMillimetres), !options.flat, linearColour};
-  return bake;
+  settings.fps = float(options.fps);
+  settings.mostBytes = std::size_t(options.budgetMegabytes * 1048576);
+  settings.tolerance = float(1e-3 * options.toleranceMillimetres);
+  settings.between = float(1e-3 * options.betweenMillimetres);
+  settings.normals = !options.flat;
+  settings.unit = options.unit;
+  settings.samples = options.samples;
+  settings.clearance = float(1e-3 * options.clearanceMillimetres);
+  settings.colourOf = linearColourOf;
+  return settings;
 }
 
-Report describe(const Bake& bake) {
-  std::size_t triangles = 0;
-  for (const auto& part : bake.mesh.parts) triangles += part.triangles.size();
-  return {{"quads", fmt::format("{}x{}", bake.shape.around, bake.shape.along)},
-          {"vertices", bake.mesh.positions.size()},
-          {"triangles", triangles},
-          {"shapes", bake.mesh.shapes.size()},
-          {"keys", bake.mesh.times.size()},
-          {"error_mm", 1e3 * bake.error},
-          {"between_error_mm", 1e3 * bake.betweenError}};
-}
-
-Result<Report> exportGlb(const Options& options, const Job& job) {
-  auto settings = bakeOptions(options, job);
-  if (!settings) return settings.error();
-  ProgressLine progress("posing");
-  settings->progress = [&](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
-  auto made = bake(job.scene, job.clip, *settings);
-  if (!made) return Error{made.error().fault, options.output + ": " + made.error().message};
-  Report report = describe(*made);
-  const std::vector<std::byte> file = encodeGlb(made->mesh);
-  if (auto written = writeFileAtomically(options.output, file); !written) return written.error();
-  report["file_bytes"] = file.size();
-  return report;
-}
-
-// One file a frame.
-template <class Encode>
-Result<Report> exportFrames(const Options& options, const Job& job, Encode encode) {
-  const auto pattern = FramePattern::parse(options.output, job.range.last > job.range.first);
-  if (!pattern) return pattern.error();
-  Report report;
-  std::size_t bytes = 0;
-  for (std::uint32_t frame = job.range.first; frame <= job.range.last; ++frame) {
-    checkpoint();
-    const Result<std::string> text = encode(frame, report);
-    if (!text) return text.error();
-    if (auto written = writeFileAtomically(pattern->of(frame), *text); !written) return written.error();
-    bytes += text->size();
-  }
-  report["file_bytes"] = bytes;
-  return report;
-}
-
-Result<Report> exportObj(const Options& options, const Job& job) {
-  return exportFrames(options, job, [&](std::uint32_t frame, Report& report) -> Result<std::string> {
-    auto settings = bakeOptions(options, job);
-    if (!settings) return settings.error();
-    settings->first = settings->last = frame;
-    if (options.quads.empty()) settings->finestThatFits = false, settings->shape = {8, 5};
-    settings->maxBytes = std::size_t(1) << 34;
-    settings->mesh.normals = true;
-    const auto made = bake(job.scene, job.clip, *settings);
-    if (!made) return made.error();
-    report = describe(*made);
-    return encodeObj(made->mesh);
-  });
-}
-
-Result<Report> exportLines(const Options& options, const Job& job, bool vtp) {
-  const ImportFrame frame{options.unit == "mm"   ? 0.001
-                          : options.unit == "cm" ? 0.01
-                                                 : 1.0,
-                          ImportFrame::Up::y};
-  FrameMaker maker(job.scene, job.frame);
-  return exportFrames(options, job, [&](std::uint32_t number, Report& report) -> Result<std::string> {
-    maker.make(job.clip, job.clip ? job.clip->timeOfFrame(number) : 0);
-    const Centrelines lines = centrelinesOfNetwork(job.scene.network, maker.points(), options.samples);
-    report = {{"lines", lines.lines.size()}, {"samples", lines.sampleCount()}, {"unit", options.unit}};
-    return vtp ? encodeVtp(vtpOfCentrelines(lines), frame) : encodeSwc(swcOfCentrelines(lines), frame);
-  });
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
-
-Result<Report> exportMeasurements(const Options& options, const Job& job) {
-  FrameMaker maker(job.scene, job.frame);
-  VesselMeter meter(job.scene.network, float(1e-3 * options.clearanceMillimetres));
-  std::string text =
-      "frame,time_s,vessel,name,kind,length_m,volume_m3,radius_min_m,radius_mean_m,radius_max_m,curvature_max_per_m,clearance_m\n";
-  ProgressLine progress("measuring");
-  for (std::uint32_t frame = job.range.first; frame <= job.range.last; ++frame) {
-    checkpoint();
-    const float time = job.clip ? job.clip->timeOfFrame(frame) : 0;
-    maker.make(job.clip, time);
-    const std::vector<VesselMeasures> all = meter.run(maker.points());
-    for (std::size_t v = 0; v < all.size(); ++v) {
-      const Vessel& vessel = job.scene.network.vessels()[v];
-      const VesselMeasures& m = all[v];
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, time, v, quoted(vessel.name),
-                          kindName(vessel.kind), m.length, m.volume, m.leastRadius, m.meanRadius,
-                          m.greatestRadius, m.greatestCurvature,
-                          m.clearance ? fmt::format("{}", *m.clearance) : std::string());
-    }
-    progress.update(frame - job.range.first + 1, job.range.last - job.range.first + 1);
-  }
-  if (auto written = writeFileAtomically(options.output, text); !written) return written.error();
-  return Report{{"rows", (job.range.last - job.range.first + 1) * job.scene.network.vessels().size()},
-                {"file_bytes", text.size()}};
-}
-
-// The first frame as pose 0, the last as pose 1; tubes near one another along the network are left out, as
-// check does.
-Result<Report> exportTubes(const Options& options, const Job& job) {
-  const NetworkTubes layout(job.scene.network);
-  FrameMaker maker(job.scene, job.frame);
-  TubeList list;
-  const std::uint32_t frames[] = {job.range.first, job.range.last};
-  for (const int pose : {0, 1}) {
-    checkpoint();
-    maker.make(job.clip, job.clip ? job.clip->timeOfFrame(frames[pose]) : 0);
-    list.poses[std::size_t(pose)].resize(layout.count());
-    layout.shape(maker.points(), list.poses[std::size_t(pose)]);
-  }
-  for (const NeighbourPair& pair : layout.neighbours().pairs()) list.excluded.push_back(pair.tubes);
-  if (auto written = writeTubeList(options.output, list); !written) return written.error();
-  return Report{{"tubes", layout.count()},
-                {"excluded", list.excluded.size()},
-                {"poses", {frames[0], frames[1]}},
-                {"file_bytes", std::filesystem::file_size(options.output)}};
-}
-
-Result<Report> exportAs(const Options& options, const std::string& extension) {
+Result<Report> exportAs(const Options& options, ExportKind kind) {
   auto job = prepare(options);
   if (!job) return job.error();
   const auto track = TrackFile::open(options.track, job->scene, job->clip, job->frame);
   if (!track) return track.error();
-  auto report = extension == ".glb"     ? exportGlb(options, *job)
-                : extension == ".obj"   ? exportObj(options, *job)
-                : extension == ".csv"   ? exportMeasurements(options, *job)
-                : extension == ".tubes" ? exportTubes(options, *job)
-                                        : exportLines(options, *job, extension == ".vtp");
-  if (!report) return report;
+  auto settings = exportOptions(options, *job);
+  if (!settings) return settings.error();
+  ProgressLine progress("exporting");
+  settings->progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
+  const auto pattern =
+      FramePattern::parse(options.output, !holdsMotion(kind) && job->range.last > job->range.first);
+  if (!pattern && !holdsMotion(kind)) return pattern.error();
+  const auto fileOf = [&](std::uint32_t frame) -> std::filesystem::path {
+    return holdsMotion(kind) ? std::filesystem::path(options.output) : pattern->of(frame);
+  };
+  const auto facts = exportVessels(job->scene, job->clip, kind, *settings, fileOf);
+  if (!facts) return facts.error();
   if (auto saved = track->save(); !saved) return saved.error();
   Report full{{"file", options.output},
               {"clip", job->clip ? job->clip->name : "rest"},
               {"frames", job->range.last - job->range.first + 1},
               {"vessels", job->scene.network.vessels().size()}};
-  full.update(*report);
+  for (const ExportFact& fact : *facts)
+    std::visit([&](const auto& value) { full[fact.name] = value; }, fact.value);
   return full;
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
-  const std::string extension = extensionOf(options.output);
-  constexpr std::string_view kinds[] = {".glb", ".obj", ".vtp", ".swc", ".csv", ".tubes"};
-  if (std::ranges::find(kinds, extension) == std::end(kinds))
-    return Error{
-        Fault::usage,
-        options.output + ": unknown kind of file; export writes .glb, .obj, .vtp, .swc, .csv and .tubes"};
-  const auto report = exportAs(options, extension);
+  const auto kind = exportKindOf(options.output);
+  if (!kind)
+    return Error{Fault::usage,
+                 options.output +
+                     ": unknown kind of file; export writes .glb, .obj, .stl, .vtp, .swc, .csv and .tubes"};
+  const auto report = exportAs(options, *kind);
   if (!report) return report.error();
   if (globals.json) return printJson(*report);
   std::string text;
@@ -281,12 +141,12 @@ void addExport(CLI::App& app, Command& command) {
       "is drawn here: a key a frame (or --fps) and more where motion is curved, each vertex within --tolerance at every key;\n"
       "between_error_mm tells how far off it is between keys. The mesh's extras name the vessels, the vertex\n"
       "attribute _VESSEL numbers them. Without --quads, as fine as --budget allows.\n"
-      ".obj: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
+      ".obj, .stl: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
       ".tubes: the first and the last frame as the two poses of a tube list for vasa bench collide.\n"
       "Formats of one frame write the first where none is named.");
   addSceneOptions(*sub, options->scene);
   addTrackOption(*sub, options->track);
-  sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .vtp, .swc, .csv or .tubes")
+  sub->add_option("-o,--output", options->output, "The file: .glb, .obj, .stl, .vtp, .swc, .csv or .tubes")
       ->required();
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included");
   sub->add_option("--quads", options->quads, "Quads around and along every sweep, MxN");
@@ -307,7 +167,7 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_option("--samples", options->samples, "Samples a sweep of .vtp and .swc")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  sub->add_option("--unit", options->unit, "Unit of .vtp and .swc")
+  sub->add_option("--unit", options->unit, "Unit of .vtp, .swc and .stl")
       ->check(CLI::IsMember({"mm", "cm", "m"}))
       ->capture_default_str();
   sub->add_option("--clearance", options->clearanceMillimetres,

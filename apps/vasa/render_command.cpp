@@ -42,8 +42,8 @@ struct Options {
   std::string frames, size = "1280x720", output, video, quads = "auto", shard, hide, track;
   CapillaryOptions capillaries;
   unsigned samples = 4;
-  std::string look;  // empty: as the scene says
-  std::string labels, title, colour = "kind";
+  std::string look;                   // empty: as the scene says
+  std::string labels, title, colour;  // colour empty: as the scene says
   std::string forks = "on";
   std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
@@ -68,7 +68,8 @@ struct Job {
   std::uint64_t runHash = 0;            // tells this run's pictures from another's
   PictureSize size;                     // of what is written
   std::optional<plate::PlateStyle>
-      page;  // labels beside the picture, which is smaller then than what is written
+      page;                 // labels beside the picture, which is smaller then than what is written
+  std::vector<char> shown;  // one a vessel
   atlas::Colouring colouring = atlas::Colouring::kind;
   atlas::VesselGroups groups;
 };
@@ -134,6 +135,23 @@ std::uint64_t hashOfRun(const Job& job, const Options& options, std::uint64_t se
   return hashOf(std::span(run));
 }
 
+// All but what the scene hides.
+std::vector<char> shownVessels(const SceneFile& choice, const Network& network) {
+  std::vector<char> shown(network.vessels().size(), 1);
+  for (const std::string& name : choice.hidden) {
+    const auto found = std::ranges::find(network.vessels(), name, &Vessel::name);
+    if (found == network.vessels().end())
+      logWarning("'" + name + "', which the scene hides, is none of its vessels");
+    for (std::size_t v = 0; v < shown.size(); ++v)
+      if (network.vessels()[v].name == name) shown[v] = 0;
+  }
+  return shown;
+}
+
+atlas::Colouring colouringOf(const Options& options, const SceneFile& choice) {
+  return *atlas::colouringNamed(options.colour.empty() ? choice.look.colour : options.colour);
+}
+
 Result<Job> prepare(const Globals& globals, const Options& options) {
   Job job;
   // What is wrong with the words themselves is told before anything is loaded.
@@ -191,7 +209,8 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
     aspect = room.x / room.y;
     pixels = glm::max(glm::round(room * float(size->width) / job.page->page.x), vec2(1));
   }
-  job.colouring = *atlas::colouringNamed(options.colour);
+  job.shown = shownVessels(job.choice, job.scene.network);
+  job.colouring = colouringOf(options, job.choice);
   if (job.colouring != atlas::Colouring::kind || job.page) job.groups = atlas::groupsOf(job.scene);
   if (auto known = atlas::checkColouring(job.colouring, job.groups, job.scene.body.name); !known)
     return known.error();
@@ -268,9 +287,9 @@ class Film {
     noteStep(frame);
     if (options_.highlightContacts)
       highlightContacts();
-    else if (job_.colouring != atlas::Colouring::kind)
-      renderer_.setSweepColours(
-          atlas::spanColours(job_.scene.network, job_.groups, maker_->points(), job_.colouring));
+    else if (job_.colouring != atlas::Colouring::kind || !job_.choice.hidden.empty())
+      renderer_.setSweepColours(withoutHidden(
+          atlas::spanColours(job_.scene.network, job_.groups, maker_->points(), job_.colouring)));
     const Camera camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points());
     renderer_.draw({.points = maker_->points(),
                     .knotFrames = maker_->knotFrames(),
@@ -294,11 +313,10 @@ class Film {
   Result<Image> withLabels(Image picture, const Camera& camera) const {
     const auto type = plate::Typesetter::load();
     if (!type) return type.error();
-    const std::vector<char> all(job_.scene.network.vessels().size(), 1);
     const plate::PlateStyle& page = *job_.page;
-    const auto plan =
-        plate::planPlate({job_.scene, *maker_, job_.table, job_.scene.body.meshes, all, all, job_.look}, page,
-                         *type, camera, float(picture.width) / float(picture.height));
+    const auto plan = plate::planPlate(
+        {job_.scene, *maker_, job_.table, job_.scene.body.meshes, job_.shown, job_.shown, job_.look}, page,
+        *type, camera, float(picture.width) / float(picture.height));
     if (!plan) return plan.error();
     for (const std::string& name : plan->unseen)
       logWarning("'" + name + "' is not seen in this picture and gets no label");
@@ -306,6 +324,17 @@ class Film {
     const plate::Sheet sheet =
         plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), keys);
     return plate::sheetImage(sheet, uvec2(job_.size.width, job_.size.height));
+  }
+
+  // What the scene hides has no colour.
+  std::vector<std::uint32_t> withoutHidden(std::vector<std::uint32_t> colours) const {
+    auto first = colours.begin();
+    for (std::size_t v = 0; v < job_.shown.size(); ++v) {
+      const auto end = first + job_.scene.network.vessels()[v].spanCount();
+      if (!job_.shown[v]) std::fill(first, end, 0);
+      first = end;
+    }
+    return colours;
   }
 
   // Grey vessels; yellow where they ran through one another, red where they still do.
@@ -319,7 +348,7 @@ class Film {
     };
     paint(avoider.found(), {1, 0.75f, 0, 1});
     paint(avoider.remaining(), {1, 0, 0, 1});
-    renderer_.setSweepColours(colours);
+    renderer_.setSweepColours(withoutHidden(std::move(colours)));
   }
 
   // Whether this frame's picture is there already, from the same run.
@@ -548,9 +577,9 @@ void addRender(CLI::App& app, Command& command) {
       "names with commas between them; for stills (vasa help plate)");
   sub->add_option("--title", options->title, "Title of a picture with labels");
   sub->add_option("--colour", options->colour,
-                  "What colours of vessels stand for: " + atlas::colouringsListed())
-      ->check(CLI::IsMember(std::vector<std::string>(atlas::kColourings.begin(), atlas::kColourings.end())))
-      ->capture_default_str();
+                  "What colours of vessels stand for (default: as the scene says, else kind): " +
+                      atlas::colouringsListed())
+      ->check(CLI::IsMember(std::vector<std::string>(atlas::kColourings.begin(), atlas::kColourings.end())));
   sub->add_option("--shard", options->shard,
                   "i/n: draw every n-th frame from the i-th, to share a film among processes");
   sub->add_flag("--resume", options->resume,

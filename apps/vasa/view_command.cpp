@@ -13,9 +13,9 @@
 #include "report.h"
 #include "scene/vessel_files.h"
 #include "scene_options.h"
+#include "viewer/actions.h"
 #include "viewer/app.h"
 #include "viewer/recording.h"
-#include "viewer/shortcuts.h"
 
 // vasa view: the interactive app (apps/viewer), from the command line.
 namespace vasa::cli {
@@ -38,7 +38,7 @@ constexpr const char* kDroppable =
 // with a skeleton is a body, one without is vessels.
 Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
   const std::string extension = path.extension().string();
-  if (extension == ".json") return readSceneFile(path);
+  if (extension == ".json") return chooseScene({.scene = path.string()});
   SceneFile scene = now;
   if (isMotionFile(path.string())) {
     scene.clip = path.string();
@@ -100,6 +100,7 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   view.validation = {.core = options.validate, .synchronization = options.validate};
   view.record = options.record;
   view.open = sceneOf;
+  view.openable = {".json", ".vasa", ".glb", ".gltf", ".obj", ".stl", ".swc", ".vtp", ".vtk", ".bvh"};
   view.stopped = [] { return stopRequested(); };
   view.start = kStart;
   return view;
@@ -177,8 +178,13 @@ std::string footer() {
       "  vasa view --body b.glb --network b.vasa --record-script session.txt\n"
       "  xvfb-run -a vasa view --script session.txt --json\n"
       "Mouse and keys:\n";
-  for (const viewer::Shortcut& shortcut : viewer::shortcuts())
-    text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
+  const auto rows = [&](std::span<const viewer::Shortcut> shortcuts) {
+    for (const viewer::Shortcut& shortcut : shortcuts)
+      text += fmt::format("  {:<22}{}\n", shortcut.keys, shortcut.what);
+  };
+  rows(viewer::mouseShortcuts());
+  for (std::size_t menu = 0; menu < viewer::kMenuNames.size(); ++menu)
+    rows(viewer::shortcutsOf(viewer::MenuId(menu)));
   text +=
       "Drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh) on the\n"
       "window to open it; drop a body and its vessels together.\n"

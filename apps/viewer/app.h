@@ -29,6 +29,8 @@ struct ViewOptions {
   std::filesystem::path record;     ///< a script of this session is written here; empty: none
   /// The scene that a dropped file means where `now` is shown. Called on the loading thread.
   std::function<Result<SceneFile>(const std::filesystem::path&, const SceneFile& now)> open;
+  /// Extensions of files that `open` knows, with their dots: the dialog lists them.
+  std::vector<std::string> openable;
   std::function<bool()> stopped;                                                   ///< by a signal
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  ///< of the program
 };

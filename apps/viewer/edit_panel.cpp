@@ -1,10 +1,13 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "viewer/editor.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
 
-// What edits the chosen vessel, over the picture; the handle that moves it; the question before quitting.
+// What edits the chosen vessel, over the picture; the handle that moves it; the question before quitting or
+// opening something else; why something could not be opened.
 namespace vasa::viewer {
 namespace {
 
@@ -28,18 +31,17 @@ void showTools(const PanelInput& in) {
     editor.setRadius(factor, document, state);
   ImGui::SliderFloat("length", &editor.lengthMm, 2, 100, "%.0f mm", ImGuiSliderFlags_AlwaysClamp);
   ImGui::PopItemWidth();
-  const auto tool = [&](const char* name, Editor::Tool which) {
-    if (ImGui::RadioButton(name, editor.tool == which)) editor.tool = which;
+  const auto tool = [&](const char* name, EditTool which) {
+    if (ImGui::RadioButton(name, state.editTool == which)) state.editTool = which;
     ImGui::SameLine();
   };
-  tool("move", Editor::Tool::change);
-  tool("branch", Editor::Tool::branch);
-  tool("graft", Editor::Tool::graft);
+  tool("move", EditTool::change);
+  tool("branch", EditTool::branch);
+  tool("graft", EditTool::graft);
   if (ImGui::Button("Delete")) state.wishDelete = true;
-  ImGui::TextDisabled("%s", editor.tool == Editor::Tool::branch ? "click where the branch is to end"
-                            : editor.tool == Editor::Tool::graft
-                                ? "click the vessel where the graft is to end"
-                                : "drag the ring to move the vessel");
+  ImGui::TextDisabled("%s", state.editTool == EditTool::branch  ? "click where the branch is to end"
+                            : state.editTool == EditTool::graft ? "click the vessel where the graft is to end"
+                                                                : "drag the ring to move the vessel");
 }
 
 void showJournal(const PanelInput& in) {
@@ -94,17 +96,32 @@ void showEditHandle(const PanelInput& in) {
 }
 
 void showQuestion(const PanelInput& in) {
-  if (!in.state.asking) return;
+  if (in.state.waiting == Waiting::nothing) return;
+  const bool quits = in.state.waiting == Waiting::quit;
   const Rect& picture = in.layout.picture;
   ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
                           {0.5f, 0.5f});
   if (ImGui::Begin("##question", nullptr, kFixed)) {
     ImGui::TextUnformatted("Edits or the pose are not saved.");
-    if (ImGui::Button("Save and quit")) in.state.wishSave = in.state.wishQuit = true;
+    if (ImGui::Button(quits ? "Save and quit" : "Save and open"))
+      in.state.wishSave = in.state.wishGoOn = true;
     ImGui::SameLine();
-    if (ImGui::Button("Quit without saving")) in.state.wishDiscard = true;
+    if (ImGui::Button(quits ? "Quit without saving" : "Open without saving")) in.state.wishDiscard = true;
     ImGui::SameLine();
-    if (ImGui::Button("Go on (Esc)")) in.state.asking = false;
+    if (ImGui::Button("Go on (Esc)")) in.state.waiting = Waiting::nothing;
+  }
+  ImGui::End();
+}
+
+void showFailure(const PanelInput& in) {
+  if (in.state.failure.empty()) return;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, 0, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(460 * in.scale, window.x - 24 * in.scale), 0});
+  if (ImGui::Begin("##failure", nullptr, kFixed & ~ImGuiWindowFlags_AlwaysAutoResize)) {
+    ImGui::TextUnformatted("That could not be done.");
+    ImGui::TextWrapped("%s", in.state.failure.c_str());
+    if (ImGui::Button("All right (Esc)")) in.state.failure.clear();
   }
   ImGui::End();
 }

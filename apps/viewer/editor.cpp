@@ -111,7 +111,7 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
   const auto* button = std::get_if<ButtonChanged>(&event);
   if (!button || button->button != Button::left) return false;
   if (!button->down) return std::exchange(held_, std::nullopt).has_value();
-  if (tool != Tool::change || !state.selected) return false;
+  if (state.editTool != EditTool::change || !state.selected) return false;
   const vec3 centre = centreOf(document, body, *state.selected);
   const auto seen = seenAt(centre, camera, picture);
   if (!seen || glm::distance(*seen, place_) > kReach * scale_) return false;
@@ -128,11 +128,11 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
 
 bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Document& document,
                    const PosedBody& body, const Camera& camera, const Rect& picture, ViewState& state) {
-  if (tool == Tool::change || !state.selected) return false;
+  if (state.editTool == EditTool::change || !state.selected) return false;
   const Network& network = document.scene.network;
   const auto chosen = chosenOf(document, state);
   const double radius = decimals(1e3 * double(radiusAt(network, *state.selected)), 2);
-  if (std::exchange(tool, Tool::change) == Tool::graft) {
+  if (std::exchange(state.editTool, EditTool::change) == EditTool::graft) {
     if (!hit) {
       refusal = "There is no vessel where the graft is to end.";
       return true;

@@ -15,8 +15,6 @@ namespace vasa::viewer {
 /// replayed like any other (editedDocument). An act that goes on, such as a drag, writes its line anew.
 class Editor {
  public:
-  enum class Tool { change, branch, graft };
-  Tool tool = Tool::change;
   float lengthMm = 10;  ///< of a stenosis, and of a stretch whose radius is scaled
   std::string refusal;  ///< why the latest line was not done; empty: it was
 

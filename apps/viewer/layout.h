@@ -11,22 +11,24 @@ struct Rect {
   }
 };
 
-/// How the window is shared out: the picture, the list of vessels left of it, the panels right of it, the
-/// clip's time below.
+/// How the window is shared out: the bar of menus and tools above, the picture, the list of vessels left of
+/// it, the panels right of it, the clip's time below.
 struct Layout {
-  Rect picture, panels, transport, outliner;
+  Rect picture, panels, transport, outliner, bar;
 };
 
 /// @param scale  pixels for one of an ordinary screen
 inline Layout layoutOf(float width, float height, float scale, bool panels, bool outliner) {
   const float side = panels ? glm::min(std::round(320 * scale), width / 2) : 0;
-  const float below = panels ? glm::min(std::round(46 * scale), height / 2) : 0;
+  const float below = panels ? glm::min(std::round(46 * scale), height / 3) : 0;
+  const float above = panels ? glm::min(std::round(30 * scale), height / 3) : 0;
   const float list = outliner ? glm::min(std::round(270 * scale), (width - side) / 2) : 0;
-  const float across = glm::max(width - side, 1.0f), down = glm::max(height - below, 1.0f);
-  return {{list, 0, glm::max(across - list, 1.0f), down},
-          {across, 0, side, height},
-          {0, down, across, below},
-          {0, 0, list, down}};
+  const float across = glm::max(width - side, 1.0f), down = glm::max(height - above - below, 1.0f);
+  return {.picture = {list, above, glm::max(across - list, 1.0f), down},
+          .panels = {across, above, side, height - above},
+          .transport = {0, above + down, across, below},
+          .outliner = {0, above, list, down},
+          .bar = {0, 0, width, above}};
 }
 
 }  // namespace vasa::viewer

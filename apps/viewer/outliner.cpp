@@ -74,7 +74,7 @@ std::vector<OutlinerRow> outlinerRows(const Network& network, const atlas::Vesse
   return rows;
 }
 
-RowSight sightOf(const OutlinerRow& row, const Network& network, const HiddenVessels& hidden) {
+RowSight sightOf(const OutlinerRow& row, const Network& network, const VesselNames& hidden) {
   if (!hidden.any()) return RowSight::shown;
   const auto count = std::ranges::count_if(
       row.vessels, [&](VesselId vessel) { return hidden.has(network.vessel(vessel).name); });

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "atlas/vessel_groups.h"
-#include "viewer/hidden_vessels.h"
+#include "viewer/vessel_names.h"
 
 namespace vasa::viewer {
 
@@ -34,7 +34,7 @@ std::vector<OutlinerRow> outlinerRows(const Network& network, const atlas::Vesse
 
 /// What a row is of what is shown.
 enum class RowSight : std::uint8_t { shown, partly, hidden };
-RowSight sightOf(const OutlinerRow& row, const Network& network, const HiddenVessels& hidden);
+RowSight sightOf(const OutlinerRow& row, const Network& network, const VesselNames& hidden);
 
 /// All vessels that are chosen: the selected one first.
 std::vector<VesselId> chosenVessels(const ViewState& state);

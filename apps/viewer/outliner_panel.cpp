@@ -98,7 +98,7 @@ void showButtons(const PanelInput& in) {
   };
   if (button("Hide", "What is chosen (H)")) in.state.hidden.set(network, chosen, true);
   if (button("Only", "What is chosen (Shift H)") && !chosen.empty())
-    in.state.hidden.leaveOnly(network, chosen);
+    in.state.hidden.setAllBut(network, chosen);
   if (button("All", "Show all (Ctrl H)")) in.state.hidden.clear();
   ImGui::TextDisabled("%zu chosen", chosen.size());
 }
@@ -144,9 +144,17 @@ void showNames(const PanelInput& in) {
   const auto nameOf = [&](VesselId vessel) { return network.vessel(vessel).name; };
   constexpr std::size_t kMostLabels = 12;  // more would hide what they name
   const std::vector<VesselId> chosen = chosenVessels(in.state);
+  std::vector<VesselId> named(chosen.begin(),
+                              chosen.begin() + std::ptrdiff_t(std::min(chosen.size(), kMostLabels)));
+  if (in.state.labelled.any())
+    for (std::uint32_t v = 0; v < network.vessels().size(); ++v)
+      if (in.state.labelled.has(network.vessels()[v].name) &&
+          !in.state.hidden.has(network.vessels()[v].name) &&
+          std::ranges::find(named, VesselId{v}) == named.end())
+        named.push_back({v});
   std::vector<std::pair<vec2, const std::string*>> places;
-  for (std::size_t i = 0; i < std::min(chosen.size(), kMostLabels); ++i) {
-    const Vessel& vessel = network.vessel(chosen[i]);
+  for (const VesselId id : named) {
+    const Vessel& vessel = network.vessel(id);
     const vec3 middle(evaluate(Network::pointsOf(vessel, in.body->points), 0.5f * float(vessel.spanCount())));
     const auto place = seenAt(middle, in.camera, in.layout.picture);
     if (place && in.layout.picture.holds(*place)) places.emplace_back(*place, &vessel.name);
@@ -161,7 +169,7 @@ void showNames(const PanelInput& in) {
   }
   if (!in.state.pointedAt || ImGui::GetIO().WantCaptureMouse) return;
   const VesselId under = in.state.pointedAt->vessel;
-  if (std::ranges::find(chosen, under) != chosen.end()) return;
+  if (std::ranges::find(named, under) != named.end()) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   drawLabel({mouse.x, mouse.y}, nameOf(under), 14 * in.scale, in.layout.picture, in.scale);
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/shortcuts.h"
-
 namespace vasa::viewer {
 namespace {
 
@@ -21,13 +19,12 @@ void place(const Rect& rect) {
   ImGui::SetNextWindowSize({rect.width, rect.height});
 }
 
-// A share where one is known, else something that moves: the work goes on.
-void showProgress(const PanelInput& in, const Loader::Stage& stage) {
-  ImGui::TextWrapped("Opening %s", in.loadingTitle.c_str());
-  const ImVec2 size{ImGui::GetContentRegionAvail().x, 6 * in.scale};
+// A share where one is known, else (below 0) something that moves: the work goes on.
+void showProgressBar(float done, float scale) {
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, 6 * scale};
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool known = stage.total > 1;
-  const float share = known ? float(stage.done) / float(stage.total) : 0.25f;
+  const bool known = done >= 0;
+  const float share = known ? done : 0.25f;
   const float phase = std::fmod(float(ImGui::GetTime()), 1.6f) / 0.8f;
   const float from = known ? 0 : (1 - share) * std::min(phase, 2 - phase);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -35,6 +32,12 @@ void showProgress(const PanelInput& in, const Loader::Stage& stage) {
   list.AddRectFilled({at.x + from * size.x, at.y}, {at.x + (from + share) * size.x, at.y + size.y},
                      ImGui::GetColorU32(ImGuiCol_SliderGrab), size.y / 2);
   ImGui::Dummy(size);
+}
+
+void showProgress(const PanelInput& in, const Loader::Stage& stage) {
+  ImGui::TextWrapped("Opening %s", in.loadingTitle.c_str());
+  const bool known = stage.total > 1;
+  showProgressBar(known ? float(stage.done) / float(stage.total) : -1, in.scale);
   if (known)
     ImGui::TextDisabled("%s: %zu of %zu", stage.what, stage.done, stage.total);
   else
@@ -101,25 +104,18 @@ void showLoading(const PanelInput& in) {
   ImGui::End();
 }
 
-void showHelp(const PanelInput& in) {
-  if (!in.state.help) return;
+// In a corner: work in the picture goes on.
+void showExporting(const PanelInput& in) {
+  if (in.exportTitle.empty()) return;
   const Rect& picture = in.layout.picture;
-  ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
-                          {0.5f, 0.5f});
-  const bool open = ImGui::Begin("##help", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
-  // In a low window letters are smaller, so that all keys can be seen.
-  const ImGuiStyle& style = ImGui::GetStyle();
-  const float rows = float(shortcuts().size()),
-              spare = picture.height - 2 * style.WindowPadding.y - 2 * rows * style.CellPadding.y;
-  ImGui::SetWindowFontScale(std::clamp(spare / (rows * ImGui::GetFont()->FontSize), 0.5f, 1.0f));
-  if (open && ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Shortcut& shortcut : shortcuts()) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(shortcut.keys);
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", shortcut.what);
-    }
-    ImGui::EndTable();
+  const float edge = 8 * in.scale;
+  ImGui::SetNextWindowPos({picture.left + picture.width - edge, picture.top + picture.height - edge}, 0,
+                          {1, 1});
+  ImGui::SetNextWindowSize({std::min(280 * in.scale, picture.width - 2 * edge), 0});
+  if (ImGui::Begin("##exporting", nullptr, kFixed | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    ImGui::TextWrapped("Writing %s", in.exportTitle.c_str());
+    showProgressBar(in.exportShare > 0 ? in.exportShare : -1, in.scale);
+    if (ImGui::Button("Cancel (Esc)")) in.state.wishCancelExport = true;
   }
   ImGui::End();
 }
@@ -135,13 +131,18 @@ void showPanels(const PanelInput& in) {
   showEdit(in);
   showOutliner(in);
   if (in.state.panels) {
+    showBar(in);
     showSide(in);
     place(in.layout.transport);
     if (ImGui::Begin("##transport", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar)) showTransport(in);
     ImGui::End();
   }
+  showExporting(in);
+  showContextMenu(in);
   showHelp(in);
   showQuestion(in);
+  showFailure(in);
+  showFileChooser(in);
   showLoading(in);
 }
 

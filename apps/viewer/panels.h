@@ -3,6 +3,7 @@
 #include <string>
 
 #include "render/profiler.h"
+#include "viewer/actions.h"
 #include "viewer/layout.h"
 #include "viewer/loader.h"
 #include "viewer/pose_worker.h"
@@ -14,6 +15,7 @@
 namespace vasa::viewer {
 
 class Editor;
+class FileChooser;
 
 struct PanelInput {
   ViewState& state;
@@ -24,13 +26,17 @@ struct PanelInput {
   float scale = 1;                      ///< pixels for one of an ordinary screen
   Camera camera;                        ///< of the picture
   Aabb bodyBox;                         ///< where the body is [m]
+  FileChooser* files = nullptr;         ///< the dialog in which files are chosen
   Editor* editor = nullptr;             ///< null: nothing can be edited
   std::optional<std::size_t> heldGrip;  ///< of the mannequin, that is being dragged
   const Profiler* profiler = nullptr;   ///< running or done; null: never run
   bool fine = false;                    ///< the picture is a still
+  double framesPerSecond = 0;           ///< of what moves; 0: nothing does
   std::string message;                  ///< the latest news, e.g. of a picture that was written
   std::optional<Loader::Stage> loading;
   std::string loadingTitle;
+  std::string exportTitle;  ///< of what is being written; empty: nothing is
+  float exportShare = 0;    ///< done of it, 0..1
 };
 
 void showPanels(const PanelInput& in);  ///< all of them
@@ -38,7 +44,12 @@ void showPanels(const PanelInput& in);  ///< all of them
 void showTransport(const PanelInput& in);
 void showHeads(const PanelInput& in);  ///< texts over the picture
 void showLoading(const PanelInput& in);
-void showHelp(const PanelInput& in);  ///< keys and what they do
+void showExporting(const PanelInput& in);                ///< how far an export is
+void showBar(const PanelInput& in);                      ///< menus and tools
+void showActionItem(const PanelInput& in, ActionId id);  ///< a menu's entry, in a menu
+void showColourings(const PanelInput& in);               ///< a menu of them, in a menu
+void showContextMenu(const PanelInput& in);              ///< of what was clicked with the right button
+void showHelp(const PanelInput& in);                     ///< keys and what they do
 void showLookSection(const PanelInput& in);
 void showCutControls(const PanelInput& in);
 void showCutOutline(const PanelInput& in);  ///< the cutting plane's, over the picture
@@ -53,7 +64,10 @@ void showPoseSection(const PanelInput& in);
 void showHandles(const PanelInput& in);     ///< joints to drag, over the picture
 void showEdit(const PanelInput& in);        ///< what edits the chosen vessel, over the picture
 void showEditHandle(const PanelInput& in);  ///< the chosen place, to drag
-void showQuestion(const PanelInput& in);    ///< before quitting with something unsaved
+void showQuestion(
+    const PanelInput& in);               ///< before quitting or opening something else with something unsaved
+void showFailure(const PanelInput& in);  ///< why something could not be opened
+void showFileChooser(const PanelInput& in);  ///< the dialog in which files are chosen
 void showTimingSection(const PanelInput& in);
 
 }  // namespace vasa::viewer

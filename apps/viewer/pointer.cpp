@@ -47,14 +47,16 @@ void PointerTool::drag(vec2 way, const Rect& picture, ViewState& state) const {
 }
 
 std::optional<Click> PointerTool::release(const Rect& picture, double now) {
-  const bool click = held_ == Button::left && !moved_;
+  const bool click = held_ != Button::middle && !moved_;
+  const bool right = held_ == Button::right;
   held_.reset();
   if (!click) return std::nullopt;
+  if (right) return Click{.place = place_ - vec2(picture.left, picture.top), .right = true};
   const bool twice =
       now - clickedWhen_ < kTwiceWithin && glm::distance(place_, clickedAt_) <= kClickReach * scale_;
   clickedWhen_ = twice ? -10 : now;
   clickedAt_ = place_;
-  return Click{place_ - vec2(picture.left, picture.top), twice};
+  return Click{.place = place_ - vec2(picture.left, picture.top), .twice = twice};
 }
 
 }  // namespace vasa::viewer

@@ -11,10 +11,12 @@ namespace vasa::viewer {
 struct Click {
   vec2 place;          ///< [pixels] from the picture's top left corner
   bool twice = false;  ///< shortly after another one there
+  bool right = false;  ///< with the right button
 };
 
 /// What the pointer does in the picture: left or middle button turns, with shift or the right button it moves
-/// the picture, with control or the wheel it goes nearer. A left press that does not move is a click.
+/// the picture, with control or the wheel it goes nearer. A left or right press that does not move is
+/// a click.
 class PointerTool {
  public:
   /// @param scale  pixels for one of an ordinary screen

@@ -39,6 +39,19 @@ bool PoseOrder::operator==(const PoseOrder& other) const {
          measures == other.measures && sameTurns(turns, other.turns);
 }
 
+void takeShapeOf(FrameMaker& maker, bool contacts, PosedBody& body) {
+  body.pose = maker.pose();
+  body.points.assign(maker.points().begin(), maker.points().end());
+  body.knotFrames.assign(maker.knotFrames().begin(), maker.knotFrames().end());
+  body.jointMatrices.assign(maker.jointMatrices().begin(), maker.jointMatrices().end());
+  body.heartScale = maker.heartScale();
+  body.report = maker.report();
+  if (!maker.avoider() || !contacts) return;
+  body.contactsBefore = maker.lookAtPosed().vessels.contacts;
+  body.touched = spansOf(maker.avoider()->found());
+  body.touching = spansOf(maker.avoider()->remaining());
+}
+
 // Setting up avoidance takes a while, so the ways of making shapes that were used last are kept.
 struct PoseWorker::Maker {
   explicit Maker(const PoseOrder& like)
@@ -61,17 +74,7 @@ struct PoseWorker::Maker {
     live = true;
     auto done = std::make_shared<PosedBody>();
     done->order = wanted;
-    done->pose = maker.pose();
-    done->points.assign(maker.points().begin(), maker.points().end());
-    done->knotFrames.assign(maker.knotFrames().begin(), maker.knotFrames().end());
-    done->jointMatrices.assign(maker.jointMatrices().begin(), maker.jointMatrices().end());
-    done->heartScale = maker.heartScale();
-    done->report = maker.report();
-    if (maker.avoider() && wanted.contacts) {
-      done->contactsBefore = maker.lookAtPosed().vessels.contacts;
-      done->touched = spansOf(maker.avoider()->found());
-      done->touching = spansOf(maker.avoider()->remaining());
-    }
+    takeShapeOf(maker, wanted.contacts, *done);
     done->ms = msSince(start);
     if (wanted.measures) {
       if (!meter) meter.emplace(wanted.document->scene.network, kClearanceReach);

@@ -45,6 +45,9 @@ struct PosedBody {
   bool provisional = false;
 };
 
+/// What a maker has made. @param contacts  places where vessels touch, too; the maker must look for them
+void takeShapeOf(FrameMaker& maker, bool contacts, PosedBody& body);
+
 /// Makes shapes on a thread of its own while earlier ones are drawn. Before a document's first, for which
 /// more has to be set up, comes a provisional one. Of orders that come in faster than they are done only the
 /// latest is; one for another document cancels what is being done, and so does the end.

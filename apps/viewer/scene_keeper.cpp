@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
+#include "viewer/kept_views.h"
 
 namespace vasa::viewer {
 namespace {
@@ -11,13 +12,12 @@ namespace {
 // To so many parts of a whole, as the nearest float: nothing more is written of it.
 float rounded(float value, double parts) { return float(std::round(double(value) * parts) / parts); }
 
-CameraChoice cameraOf(Orbit orbit) {
-  orbit.setOrthographic(false);
-  const Camera camera = orbit.camera(0, 1);
+CameraChoice cameraOf(const Orbit& orbit) {
+  const ViewChoice view = viewOf(orbit);
   CameraChoice choice;
-  choice.position = camera.position;
-  choice.target = camera.target;
-  choice.angleDegrees = rounded(glm::degrees(camera.verticalAngle), 1000);
+  choice.position = view.position;
+  choice.target = view.target;
+  choice.angleDegrees = view.angleDegrees;
   return choice;
 }
 
@@ -33,6 +33,8 @@ LookChoice lookOf(const ViewState& state) {
   choice.organs = look.drawHeart || look.drawOther;
   choice.arteries = look.drawArteries;
   choice.veins = look.drawVeins;
+  choice.colour = atlas::kColourings[std::size_t(state.colouring)];
+  choice.legend = state.legend;
   return choice;
 }
 
@@ -65,8 +67,15 @@ void SceneKeeper::opened(const SceneFile& file, const ViewState& state) {
 }
 
 Result<std::filesystem::path> SceneKeeper::save(const Document& document, const ViewState& state,
-                                                const std::filesystem::path& unnamed) {
+                                                const std::filesystem::path& unnamed,
+                                                const std::filesystem::path& as) {
   SceneFile file = file_;
+  if (!as.empty() && as != file.path) {
+    // The journal goes along under the new name.
+    if (!file.path.empty() && !file.edits.empty() && file.edits.back() == ownJournal(file.path))
+      file.edits.pop_back();
+    file.path = as;
+  }
   if (file.path.empty()) file.path = unnamed;
   const Body& body = document.scene.body;
   const Playback& playback = state.playback;
@@ -77,6 +86,9 @@ Result<std::filesystem::path> SceneKeeper::save(const Document& document, const 
   if (!file.camera.position || state.orbit != orbit_) file.camera = cameraOf(state.orbit);
   file.look = lookOf(state);
   file.capillaries.levels = unsigned(state.detail.capillaries);
+  file.hidden = state.hidden.list();
+  file.labels = state.labelled.list();
+  file.views = state.views;
   file.pose = poseOf(body.skeleton, state.turns);
   file.chosen = state.selected ? document.scene.network.vessel(state.selected->vessel).name : "";
   const auto journal = ownJournal(file.path);

@@ -19,8 +19,12 @@ class SceneKeeper {
   /// Writes the journal beside the scene, then the scene, each whole or not at all. A view that has not been
   /// changed is written as it was read, to the last digit.
   /// @param unnamed  of a scene that has no file yet
+  /// @param as       another file from now on; empty: the one it has
   Result<std::filesystem::path> save(const Document& document, const ViewState& state,
-                                     const std::filesystem::path& unnamed);
+                                     const std::filesystem::path& unnamed,
+                                     const std::filesystem::path& as = {});
+  /// Empty: there is none yet.
+  const std::filesystem::path& path() const { return file_.path; }
 
  private:
   std::filesystem::path builtIn_;

@@ -28,6 +28,7 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       pointer_(ui_.scale()),
       poseTool_(ui_.scale()),
       editor_(ui_.scale()),
+      exporter_(device_, options.seed, [] { Window::wake(); }),
       keeper_(options.builtIn),
       loader_(loader),
       worker_([] { Window::wake(); }, device_.isCpu()),
@@ -36,6 +37,8 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       height_(window.height()) {
   ui_.useClipboard(window);
   report_.loads.push_back({.title = loader_.title(), .outcome = "loading"});
+  opening_ = options.dropped;
+  if (!options.file.path.empty()) opening_.push_back(options.file.path);
   loadStart_ = options.start;
   lastWatched_ = Clock::now();
 }
@@ -72,6 +75,7 @@ Result<ViewReport> Session::go() {
     const auto start = Clock::now();
     now_ += pass();
     gather();
+    openFiles();
     lookUnderPointer();
     adopt();
     travel();
@@ -84,6 +88,7 @@ Result<ViewReport> Session::go() {
       if (panelFrames_ > 0 || saving_) drawWindow();
     }
     meetWishes();
+    watchExport();
     record();
     profile();
     watchLoading();
@@ -149,12 +154,22 @@ void Session::follow() {
 }
 
 void Session::meetWishes() {
+  takeFile();
   if (std::exchange(state_.wishSave, false)) saveScene();
-  if (std::exchange(state_.wishQuit, false)) (history_.unsaved(state_) ? state_.asking : ending_) = true;
-  if (state_.wishDiscard) ending_ = true;
+  if (std::exchange(state_.wishQuit, false)) {
+    state_.waiting = Waiting::quit;
+    state_.wishGoOn = true;
+  }
+  goOn();
+  askForFile();
   if (state_.wishCancel && loader_.busy()) cancelLoading();
   if (state_.wishPicture && shown_) save({freeName(options_.out, "png"), false});
   state_.wishPicture = state_.wishCancel = false;
+  if (std::exchange(state_.wishCopyPicture, false) && shown_) copyPicture();
+  if (std::exchange(state_.wishFullScreen, false)) {
+    state_.fullScreen = window_.setFullScreen(!state_.fullScreen);
+    panelFrames_ = kRestingFrames;
+  }
   if (std::exchange(state_.wishCopyPose, false) && document_)
     window_.setClipboard(poseText(poseOf(document_->scene.body.skeleton, state_.turns)));
   if (std::exchange(state_.wishPastePose, false) && document_) pastePose();
@@ -179,7 +194,7 @@ void Session::say(std::string message, double seconds) {
 }
 
 bool Session::idle() const {
-  if (loader_.busy() || profiling_) return false;
+  if (loader_.busy() || profiling_ || exporter_.busy()) return false;
   if (!document_) return true;
   if (coming_ || reshaper_.busy()) return false;
   return shown_ && !worker_.busy() && (shown_->fine || !state_.fineStills || state_.playback.playing);
@@ -193,7 +208,7 @@ void Session::rest(double drawn) {
   }
   const bool moving = state_.playback.playing || pointer_.dragging() || profiling_ || recording_.running();
   const bool due = panelFrames_ > 0 || !events_.empty();
-  if (making_) {
+  if (making_ || exportMore_) {
     window_.wait(0);
     return;
   }

@@ -6,6 +6,8 @@
 #include "render/profiler.h"
 #include "viewer/app.h"
 #include "viewer/editor.h"
+#include "viewer/exporter.h"
+#include "viewer/file_chooser.h"
 #include "viewer/loader.h"
 #include "viewer/paint.h"
 #include "viewer/painter.h"
@@ -67,13 +69,22 @@ class Session {
   void takeScript();
   void handle(const InputEvent& event);
   void click(const Click& click);
+  void openContext(vec2 place);
+  void escape();
   std::optional<VesselPlace> vesselAt(vec2 place) const;
   void lookUnderPointer();
   bool isHidden(vec3 place) const;
 
   // time and shapes
   double pass();
-  void openDropped();
+  void openFiles();
+  void startOpening();
+  void askForFile();
+  void takeFile();
+  void startExport(const std::filesystem::path& file);
+  void watchExport();
+  void goOn();
+  void remember(const std::vector<std::filesystem::path>& files);
   void adopt();
   void cancelLoading();
   void watchLoading();
@@ -91,7 +102,7 @@ class Session {
   void noteEdit();
   void travel();
   void entitle();
-  void saveScene();
+  void saveScene(const std::filesystem::path& as = {});
 
   // pictures
   Layout layoutNow() const;
@@ -109,7 +120,10 @@ class Session {
   void pastePose();
   void record();
   void profile();
-  void save(const SavePicture& wish);
+  /// @param more  to be said with its name
+  bool save(const SavePicture& wish, const char* more = "");
+  double framesPerSecond() const;
+  void copyPicture();
   void say(std::string message, double seconds = 4);
   void rest(double drawn);
   ViewReport report() const;
@@ -126,6 +140,8 @@ class Session {
   PointerTool pointer_;
   PoseTool poseTool_;
   Editor editor_;
+  FileChooser files_;
+  Exporter exporter_;
   UndoHistory history_;
   SceneKeeper keeper_;
   Recording recording_;
@@ -145,7 +161,8 @@ class Session {
   Timings timings_;
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;
-  std::vector<std::filesystem::path> dropped_;  // in this frame
+  std::vector<std::filesystem::path> dropped_;  // to be opened
+  std::vector<std::filesystem::path> opening_;  // by the loader
   std::size_t step_ = 0;                        // of the script
   std::uint32_t passing_ = 0;                   // frames that it lets pass
   bool settling_ = false;
@@ -163,6 +180,7 @@ class Session {
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;
+  bool exportMore_ = false;  // slices of its pictures wait
   std::string message_;
   double messageUntil_ = 0;
   std::optional<Error> failure_;

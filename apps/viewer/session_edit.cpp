@@ -96,14 +96,16 @@ void Session::entitle() {
   if (title != title_) window_.setTitle(title_ = std::move(title));
 }
 
-void Session::saveScene() {
+void Session::saveScene(const std::filesystem::path& as) {
   if (!document_) return;
   if (state_.journal != document_->journal) return say("An edit is still being made; save again in a moment");
-  const auto written = keeper_.save(*document_, state_, freeName(options_.out, "json"));
+  const auto written = keeper_.save(*document_, state_, freeName(options_.out, "json"), as);
   if (!written) {
     if (options_.script) failure_ = written.error();
+    state_.failure = written.error().message;
     return say(written.error().message, 8);
   }
+  remember({*written});
   history_.markSaved(state_);
   entitle();
   report_.files.push_back(*written);

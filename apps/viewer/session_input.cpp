@@ -1,5 +1,5 @@
+#include "viewer/actions.h"
 #include "viewer/session.h"
-#include "viewer/shortcuts.h"
 
 // How a session comes by its input: from the window or from a script, never more than one change of a button
 // or key a frame, and none in the frame of a move, because ImGui sees states, not changes, and learns in a
@@ -27,7 +27,6 @@ void Session::gather() {
     moved = true;
     if (changesState(event)) break;
   }
-  if (!dropped_.empty()) openDropped();
   recorder_.endFrame();
 }
 
@@ -83,9 +82,10 @@ void Session::handle(const InputEvent& event) {
     width_ = size->width;
     height_ = size->height;
   } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
-    if (key->down && key->key == Key::escape && loader_.busy())
-      state_.wishCancel = true;
-    else if (key->down && !ui_.wantsKeys() && !(state_.outliner.focused && isArrow(key->key)))
+    if (key->down && key->key == Key::escape)
+      escape();
+    else if (key->down && !files_.isOpen() && !ui_.wantsKeys() &&
+             !(state_.outliner.focused && isArrow(key->key)))
       applyShortcut(key->key, pointer_.control(), pointer_.shift(), state_, document_.get());
   } else if (const auto* file = std::get_if<FileDropped>(&event)) {
     dropped_.emplace_back(file->path);
@@ -108,6 +108,25 @@ void Session::handle(const InputEvent& event) {
   const bool edited = editing && editor_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
   if (edited && !std::holds_alternative<PointerMoved>(event)) return;
   if (const auto clicked = pointer_.feed(event, pictureRect(), free, now_, state_)) click(*clicked);
+}
+
+// Out of what is uppermost: a menu, a question, help, opening; last of what is chosen.
+void Session::escape() {
+  files_.close();
+  if (ui_.closePopups() || ui_.wantsKeys()) return;
+  if (!state_.failure.empty()) return state_.failure.clear();
+  if (state_.waiting != Waiting::nothing) {
+    state_.waiting = Waiting::nothing;
+    dropped_.clear();
+    return;
+  }
+  if (std::exchange(state_.help, false)) return;
+  if (loader_.busy())
+    state_.wishCancel = true;
+  else if (exporter_.busy())
+    state_.wishCancelExport = true;
+  else
+    perform(ActionId::nothing, state_, document_.get());
 }
 
 }  // namespace vasa::viewer

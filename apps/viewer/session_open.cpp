@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "edit/replay.h"
 #include "viewer/session.h"
 
@@ -30,8 +32,32 @@ Loader::Wanted firstWanted(const ViewOptions& options) {
   return {titleOf(options.file), [file = options.file] { return file; }, options.furnishing};
 }
 
-void Session::openDropped() {
+// What is not saved is asked about first.
+void Session::openFiles() {
+  if (!state_.wishFiles.empty()) dropped_ = std::exchange(state_.wishFiles, {});
+  if (dropped_.empty() || state_.waiting != Waiting::nothing) return;
+  state_.waiting = Waiting::open;
+  state_.wishGoOn = true;
+  goOn();
+}
+
+// With what waits, unless something is not saved and nobody said that it need not be.
+void Session::goOn() {
+  const bool asked = std::exchange(state_.wishGoOn, false),
+             discard = std::exchange(state_.wishDiscard, false);
+  if (state_.waiting == Waiting::nothing || !(discard || (asked && !(document_ && history_.unsaved(state_)))))
+    return;
+  const Waiting waited = std::exchange(state_.waiting, Waiting::nothing);
+  if (waited == Waiting::quit)
+    ending_ = true;
+  else if (!dropped_.empty())
+    startOpening();
+}
+
+void Session::startOpening() {
   if (loader_.busy()) cancelLoading();
+  state_.failure.clear();
+  opening_ = dropped_;
   auto wanted = wantedOf(options_, std::exchange(dropped_, {}), document_ ? document_->file : options_.file);
   report_.loads.push_back({.title = wanted.title, .outcome = "loading"});
   loadStart_ = lastWatched_ = Clock::now();
@@ -68,10 +94,12 @@ void Session::adopt() {
   report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
   if (!*answer) {
     constexpr double kTimeToRead = 15;
-    if (!document_ && report_.loads.size() == 1)
+    if (!document_ && report_.loads.size() == 1) {
       failure_ = answer->error();
-    else
-      say(answer->error().message, kTimeToRead);
+      return;
+    }
+    say(answer->error().message, kTimeToRead);
+    state_.failure = answer->error().message;
     return;
   }
   document_ = **answer;
@@ -88,7 +116,6 @@ void Session::adopt() {
   state_.selected.reset();
   state_.pointedAt.reset();
   state_.alsoChosen.clear();
-  state_.hidden.clear();
   state_.outliner.unfolded.clear();
   state_.turns = turnsOf(document_->scene.body.skeleton, document_->file.pose);
   state_.from = state_.to = std::nullopt;
@@ -96,9 +123,61 @@ void Session::adopt() {
   profiler_.reset();
   profiling_ = false;
   takeChoices();
+  remember(opening_);
   keeper_.opened(document_->file, state_);
   history_.start(state_);
   entitle();
+}
+
+// The dialogs in which files are chosen.
+void Session::askForFile() {
+  const auto& shown = keeper_.path();
+  const auto folder = shown.empty() ? options_.out : shown.parent_path();
+  if (std::exchange(state_.wishOpen, false)) files_.start(FilePurpose::open, folder, "", options_.openable);
+  if (std::exchange(state_.wishSaveAs, false) && document_)
+    files_.start(FilePurpose::saveScene, folder,
+                 shown.empty() ? freeName(folder, "json").filename().string() : shown.filename().string(),
+                 {".json"});
+  if (std::exchange(state_.wishExport, false) && document_ && body_) {
+    const auto& last = state_.exportWish.file;
+    files_.start(FilePurpose::exportFile, last.empty() ? folder : last.parent_path(),
+                 last.empty() ? "vessels.glb" : last.filename().string(), exportExtensions());
+  }
+  if (files_.isOpen()) panelFrames_ = std::max(panelFrames_, 1);
+}
+
+// What was chosen in them.
+void Session::takeFile() {
+  if (state_.chosenFile.empty()) return;
+  auto file = std::exchange(state_.chosenFile, {});
+  panelFrames_ = kRestingFrames;
+  if (files_.purpose() == FilePurpose::open) {
+    state_.wishFiles = {std::move(file)};
+    return;
+  }
+  if (options_.script) {
+    auto place = placeBelow(options_.out, file);
+    if (!place) {
+      failure_ = place.error();
+      return;
+    }
+    file = std::move(*place);
+  }
+  if (files_.purpose() == FilePurpose::exportFile)
+    startExport(file);
+  else
+    saveScene(file);
+}
+
+void Session::remember(const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kMost = 10;
+  for (const auto& file : files) {
+    std::error_code ignored;
+    const std::string name = std::filesystem::absolute(file, ignored).lexically_normal().string();
+    std::erase(state_.recent, name);
+    state_.recent.insert(state_.recent.begin(), name);
+  }
+  if (state_.recent.size() > kMost) state_.recent.resize(kMost);
 }
 
 // What the scene says of how it is to be shown.
@@ -127,6 +206,11 @@ void Session::takeChoices() {
   if (!choice.look.organs) look.drawHeart = look.drawOther = false;
   if (!choice.look.arteries) look.drawArteries = false;
   if (!choice.look.veins) look.drawVeins = false;
+  state_.colouring = atlas::colouringNamed(choice.look.colour).value_or(atlas::Colouring::kind);
+  state_.legend = choice.look.legend;
+  state_.hidden = VesselNames(choice.hidden);
+  state_.labelled = VesselNames(choice.labels);
+  state_.views = choice.views;
   state_.orbit.look(viewNamed(choice.camera.view).value_or(View::front));
   state_.wishHome = !choice.camera.position;
   if (choice.camera.position)

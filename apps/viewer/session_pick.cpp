@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -120,8 +121,35 @@ void Session::lookUnderPointer() {
   state_.pointedAt = under;
 }
 
+// Of a joint's handle while posing, else of the vessel there, which becomes the chosen one.
+void Session::openContext(vec2 place) {
+  state_.context = {.opens = true};
+  const Rect rect = pictureRect();
+  if (state_.posing) {
+    const auto handle =
+        handleAt(jointHandles(*document_->mannequin, body_->pose, cameraNow(), rect, ui_.scale()),
+                 place + vec2(rect.left, rect.top), ui_.scale());
+    if (handle) state_.context.joint = document_->mannequin->grips()[handle->grip].limb.joints.back().joint;
+    if (handle) state_.joint = state_.context.joint;
+    if (handle) return;
+  }
+  const auto under = vesselAt(place);
+  if (!under) return;
+  state_.context.vessel = true;
+  const auto chosen = chosenVessels(state_);
+  if (std::ranges::find(chosen, under->vessel) == chosen.end()) state_.alsoChosen.clear();
+  // One of several that are chosen stays one of them.
+  else if (state_.selected->vessel != under->vessel) {
+    std::erase(state_.alsoChosen, under->vessel);
+    state_.alsoChosen.push_back(state_.selected->vessel);
+  }
+  state_.selected = under;
+  if (state_.outliner.on) revealChoice(state_, *document_->groups);
+}
+
 void Session::click(const Click& click) {
   if (!document_ || !body_) return;
+  if (click.right) return openContext(click.place);
   const Rect rect = pictureRect();
   const Camera camera = cameraNow();
   const auto place = vesselAt(click.place);

@@ -170,6 +170,40 @@ bool Session::makeStill(const Shot& fine) {
   return true;
 }
 
+// What is shown, as it is now.
+void Session::startExport(const std::filesystem::path& file) {
+  if (!document_ || !body_) return;
+  state_.exportWish.file = file;
+  Camera camera = cameraNow();
+  exporter_.start(state_.exportWish, {document_, body_, state_, camera});
+}
+
+// A slice of a picture, or a look at what its thread does.
+void Session::watchExport() {
+  if (std::exchange(state_.wishCancelExport, false)) exporter_.cancel();
+  if (exporter_.busy()) {
+    panelFrames_ = std::max(panelFrames_, 1);
+    exportMore_ = exporter_.step();
+    if (steady()) {
+      while (exporter_.busy()) {
+        exporter_.wait();
+        exporter_.step();
+      }
+      exportMore_ = false;
+    }
+  }
+  const auto outcome = exporter_.take();
+  if (!outcome) return;
+  exportMore_ = false;
+  if (!*outcome) {
+    if (options_.script) failure_ = outcome->error();
+    if (outcome->error().fault != Fault::interrupted) state_.failure = outcome->error().message;
+    return say(outcome->error().message, 8);
+  }
+  report_.files.push_back(**outcome);
+  say("wrote " + (*outcome)->string());
+}
+
 void Session::leaveStill() {
   if (making_) ++report_.stillsGivenUp;
   making_.reset();
@@ -188,13 +222,17 @@ void Session::drawWindow() {
               .scale = ui_.scale(),
               .camera = shown_ ? shown_->camera : Camera{},
               .bodyBox = document_ ? bodyBox() : Aabb{},
+              .files = &files_,
               .editor = &editor_,
               .heldGrip = poseTool_.held(),
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,
+              .framesPerSecond = framesPerSecond(),
               .message = now_ < messageUntil_ ? message_ : "",
               .loading = loader_.busy() ? std::optional(loader_.stage()) : std::nullopt,
-              .loadingTitle = loader_.title()});
+              .loadingTitle = loader_.title(),
+              .exportTitle = exporter_.title(),
+              .exportShare = exporter_.share()});
   const auto declared = Clock::now();
   canvas_.draw(shown_ ? painter_.picture() : nullptr, std::uint32_t(layout.picture.left),
                std::uint32_t(layout.picture.top), ui_.end());
@@ -243,16 +281,29 @@ void Session::record() {
   }
 }
 
-void Session::save(const SavePicture& wish) {
-  if (!wish.panels && !shown_) return;
+// Of what moves; a script's pictures show no times.
+double Session::framesPerSecond() const {
+  const float ms = timings_.shown().median();
+  return options_.script || !state_.playback.playing || ms <= 0 ? 0 : 1000 / double(ms);
+}
+
+// GLFW's clipboard takes text alone, so that it gets the name of a file.
+void Session::copyPicture() {
+  const auto file = std::filesystem::absolute(freeName(options_.out, "png"));
+  if (save({file, false}, "; its name is on the clipboard")) window_.setClipboard(file.string());
+}
+
+bool Session::save(const SavePicture& wish, const char* more) {
+  if (!wish.panels && !shown_) return false;
   const auto written = writePng(wish.path, wish.panels ? canvas_.readBack() : painter_.readBack());
   if (!written) {
     if (options_.script) failure_ = written.error();
     say(written.error().message);
-    return;
+    return false;
   }
   report_.files.push_back(wish.path);
-  say("wrote " + wish.path.string());
+  say("wrote " + wish.path.string() + more);
+  return true;
 }
 
 }  // namespace vasa::viewer

@@ -61,6 +61,9 @@ void readSettings(const std::string& text, Settings& settings) {
   take(json, "beat", state.forces.beat);
   take(json, "loop", state.playback.loop);
   take(json, "speed", state.playback.speed, -2.0f, 2.0f);
+  if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
+    for (const Json& file : *recent)
+      if (file.is_string()) state.recent.push_back(file.get<std::string>());
 }
 
 std::string writeSettings(const Settings& settings) {
@@ -82,8 +85,9 @@ std::string writeSettings(const Settings& settings) {
                   {"volume", state.forces.volume},
                   {"beat", state.forces.beat},
                   {"loop", state.playback.loop},
-                  {"speed", state.playback.speed}};
-  return json.dump(2) + "\n";
+                  {"speed", state.playback.speed},
+                  {"recent", state.recent}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void loadSettings(Settings& settings) {

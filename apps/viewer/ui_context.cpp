@@ -1,6 +1,7 @@
 #include "viewer/ui_context.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>  // closing popups
 
 #include <filesystem>
 
@@ -79,6 +80,8 @@ void setStyle(float scale) {
   colours[ImGuiCol_TextSelectedBg] = dim;
   colours[ImGuiCol_TableHeaderBg] = {0.18f, 0.185f, 0.20f, 1};
   colours[ImGuiCol_NavHighlight] = accent;
+  colours[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0};  // pictures below are not drawn anew (UiChanges)
+  colours[ImGuiCol_TitleBgActive] = colours[ImGuiCol_TitleBg] = colours[ImGuiCol_Header];
   style.ScaleAllSizes(scale);
 }
 
@@ -136,6 +139,12 @@ bool UiContext::wantsPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 bool UiContext::isHeld() const { return ImGui::IsAnyItemActive(); }
 
 bool UiContext::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
+
+bool UiContext::closePopups() {
+  if (ImGui::GetCurrentContext()->OpenPopupStack.empty()) return false;
+  ImGui::ClosePopupToLevel(0, true);
+  return true;
+}
 
 Window::Pointer UiContext::pointer() const {
   switch (ImGui::GetMouseCursor()) {

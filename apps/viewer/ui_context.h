@@ -20,6 +20,7 @@ class UiContext {
   bool isHeld() const;        ///< a slider or a text is being changed
   bool wantsPointer() const;  ///< it is over a panel, or a panel has hold of it
   bool wantsKeys() const;     ///< text is being typed
+  bool closePopups();         ///< menus that are open. @return whether any was
   Window::Pointer pointer() const;
 
   /// Panels are declared between these two. @param seconds  since the last frame

@@ -53,7 +53,8 @@ bool UndoHistory::redo(ViewState& state) {
 
 bool UndoHistory::unsaved(const ViewState& state) const {
   const Undoable now = kept(state);
-  return now.journal != saved_.journal || now.turns != saved_.turns;
+  return now.journal != saved_.journal || now.turns != saved_.turns || now.hidden != saved_.hidden ||
+         now.labelled != saved_.labelled || now.views != saved_.views;
 }
 
 }  // namespace vasa::viewer

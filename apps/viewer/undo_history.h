@@ -21,7 +21,8 @@ class UndoHistory {
   bool canRedo() const { return at_ + 1 < steps_.size(); }
 
   void markSaved(const ViewState& state) { saved_ = kept(state); }
-  /// Whether edits or the pose are others than those that were saved: views and looks are quickly made again.
+  /// Whether edits, the pose, what is hidden or labelled, or kept views are others than those that were
+  /// saved: looks are quickly made again.
   bool unsaved(const ViewState& state) const;
 
  private:

@@ -43,7 +43,7 @@ void showVesselSection(const PanelInput& in) {
   ImGui::SetNextItemWidth(110 * in.scale);
   int colouring = int(in.state.colouring);
   if (ImGui::Combo("colour (K)", &colouring, atlas::kColourings.data(), int(atlas::kColourings.size())))
-    in.state.colouring = atlas::Colouring(colouring), in.state.legend = true;
+    setColouring(in.state, atlas::Colouring(colouring));
   ImGui::SameLine();
   ImGui::Checkbox("Legend (L)", &in.state.legend);
   if (in.state.contacts && in.body) {

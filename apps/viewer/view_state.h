@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,12 +8,14 @@
 #include "body/joint_motion.h"
 #include "network/route.h"
 #include "render/look.h"
+#include "scene/scene_file.h"
 #include "viewer/cut_plane.h"
+#include "viewer/export_wish.h"
 #include "viewer/forces.h"
-#include "viewer/hidden_vessels.h"
 #include "viewer/orbit.h"
 #include "viewer/outliner.h"
 #include "viewer/playback.h"
+#include "viewer/vessel_names.h"
 
 namespace vasa::viewer {
 
@@ -23,6 +26,19 @@ struct Detail {
   int capillaries = 0;        ///< generations
   bool operator==(const Detail&) const = default;
 };
+
+/// What a click in the picture does while a vessel is edited.
+enum class EditTool : std::uint8_t { change, branch, graft };
+
+/// What a context menu is about: a vessel (the chosen one), a joint, or neither.
+struct ContextTarget {
+  bool vessel = false;
+  JointId joint;
+  bool opens = false;  ///< with the next picture
+};
+
+/// What waits for an answer because something is not saved.
+enum class Waiting : std::uint8_t { nothing, quit, open };
 
 /// What undoing brings back (undo_history.h); small, by value.
 struct Undoable {
@@ -37,7 +53,9 @@ struct Undoable {
   bool follow = true;     ///< the camera goes along with a body that walks
   bool contacts = false;  ///< vessels grey, those that touch in colour
   atlas::Colouring colouring = atlas::Colouring::kind;
-  HiddenVessels hidden;
+  bool legend = false;            ///< what the colours mean, in the picture
+  VesselNames hidden, labelled;   ///< not shown; named in the picture also when they are not chosen
+  std::vector<ViewChoice> views;  ///< kept under numbers
   std::vector<JointTurn> turns;
   std::vector<std::string> journal;  ///< lines of edits (edit/journal.h), on top of those of other files
 
@@ -49,10 +67,12 @@ struct Undoable {
 struct ViewState : Undoable {
   Playback playback;
   bool panels = true, timing = false, help = false;
-  bool legend = false;     ///< what the colours mean, in the picture
   bool posing = false;     ///< joints can be dragged
   bool bothSides = false;  ///< ... and the body's other side does what is done to one
   bool editing = false;    ///< the chosen vessel can be changed
+  EditTool editTool = EditTool::change;
+  ContextTarget context;
+  bool fullScreen = false;
   JointId joint;           ///< whose sliders are shown
   bool recording = false;  ///< pictures go to a video, a thirtieth of a second each
   std::optional<VesselPlace> selected;
@@ -67,8 +87,24 @@ struct ViewState : Undoable {
   // Wishes, taken back when they are met.
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
        wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
-       wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false;
-  bool asking = false;  ///< whether to quit with something unsaved
+       wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false, wishOpen = false,
+       wishCopyPicture = false, wishFullScreen = false, wishGoOn = false, wishExport = false,
+       wishCancelExport = false;
+  bool wishSaveAs = false;
+  /// Files that are to be opened together in place of what is shown.
+  std::vector<std::filesystem::path> wishFiles;
+  ExportWish exportWish;             ///< as the dialog has it
+  std::filesystem::path chosenFile;  ///< in the dialog of files, for its purpose; empty: none yet
+
+  Waiting waiting = Waiting::nothing;  ///< whether to go on with something unsaved is being asked
+  std::string failure;              ///< why something could not be opened, until it is read; empty: it could
+  std::vector<std::string> recent;  ///< paths of what was opened lately, the latest first
 };
+
+/// Whose colours are explained as soon as they change.
+inline void setColouring(ViewState& state, atlas::Colouring colouring) {
+  state.colouring = colouring;
+  state.legend = true;
+}
 
 }  // namespace vasa::viewer

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -16,6 +17,7 @@ struct Window::State {
   std::vector<InputEvent> events;
   std::array<GLFWcursor*, 5> pointers{};
   Pointer pointer = Pointer::arrow;
+  glm::ivec2 corner{0}, size{0};  // before it filled the screen
 };
 
 namespace {
@@ -215,6 +217,37 @@ float Window::scale() const {
 void Window::resize(std::uint32_t width, std::uint32_t height) {
   const vec2 pixels = pixelsPerUnit(state_->window);
   glfwSetWindowSize(state_->window, int(float(width) / pixels.x), int(float(height) / pixels.y));
+}
+
+// The screen that has most of it.
+bool Window::setFullScreen(bool on) {
+  GLFWwindow* const window = state_->window;
+  if (!on) {
+    if (state_->size.x > 0)
+      glfwSetWindowMonitor(window, nullptr, state_->corner.x, state_->corner.y, state_->size.x,
+                           state_->size.y, GLFW_DONT_CARE);
+    return false;
+  }
+  glfwGetWindowPos(window, &state_->corner.x, &state_->corner.y);
+  glfwGetWindowSize(window, &state_->size.x, &state_->size.y);
+  int count = 0, most = 0;
+  GLFWmonitor* best = glfwGetPrimaryMonitor();
+  GLFWmonitor** screens = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    glm::ivec2 at{0};
+    glfwGetMonitorPos(screens[i], &at.x, &at.y);
+    const GLFWvidmode* mode = glfwGetVideoMode(screens[i]);
+    if (!mode) continue;
+    const glm::ivec2 shared =
+        glm::min(at + glm::ivec2(mode->width, mode->height), state_->corner + state_->size) -
+        glm::max(at, state_->corner);
+    const int area = std::max(shared.x, 0) * std::max(shared.y, 0);
+    if (area > most) most = area, best = screens[i];
+  }
+  const GLFWvidmode* mode = best ? glfwGetVideoMode(best) : nullptr;
+  if (!mode) return false;
+  glfwSetWindowMonitor(window, best, 0, 0, mode->width, mode->height, mode->refreshRate);
+  return true;
 }
 
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }

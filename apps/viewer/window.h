@@ -39,6 +39,8 @@ class Window {
   /// Pixels for one of an ordinary screen.
   float scale() const;
   void resize(std::uint32_t width, std::uint32_t height);
+  /// Over all of the screen it is on, or back to where it was. @return whether it is
+  bool setFullScreen(bool on);
   void setTitle(const std::string& title);
   enum class Pointer { arrow, text, hand, resizeAcross, resizeDown };
   void setPointer(Pointer pointer);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -36,5 +37,8 @@ std::vector<std::byte> encodeGlb(const AnimatedMesh& mesh);
 
 /// A Wavefront OBJ text of the mesh at its first key: an object for each label, vertices and normals shared.
 std::string encodeObj(const AnimatedMesh& mesh);
+
+/// A binary STL file of the mesh at its first key, one solid. @param unit  [m] of its numbers
+std::vector<std::byte> encodeStl(const AnimatedMesh& mesh, double unit);
 
 }  // namespace vasa

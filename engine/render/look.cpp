@@ -1,6 +1,7 @@
 #include "render/look.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vasa {
 
@@ -70,6 +71,14 @@ vec4 colourOf(MeshRole role) {
       break;
   }
   return {0.78f, 0.70f, 0.66f, 1};
+}
+
+vec3 linearColourOf(VesselKind kind) {
+  const vec4 colour = colourOf(kind);
+  const auto linear = [](float c) {
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  };
+  return {linear(colour.x), linear(colour.y), linear(colour.z)};
 }
 
 std::uint32_t packColour(vec4 colour) {

@@ -48,6 +48,8 @@ std::optional<Look> lookNamed(std::string_view name);
 /// Arteries red, veins blue, portal vein purple, lymph vessels green, others grey.
 vec4 colourOf(VesselKind kind);
 vec4 colourOf(MeshRole role);
+/// Of a kind of vessel, linear, as files for other programs have colours.
+vec3 linearColourOf(VesselKind kind);
 
 /// A colour as the shaders read it: 8 bits each, red lowest, alpha highest.
 std::uint32_t packColour(vec4 colour);

@@ -16,6 +16,7 @@ using Json = nlohmann::json;
 constexpr std::size_t kMaximumBytes = 1 << 20;
 constexpr int kMaximumDepth = 16;
 constexpr std::size_t kMostFiles = 1000;
+constexpr std::size_t kMostNames = 100'000;  // a file of 1 MiB has room for no more
 
 // The first fault that reading meets; what follows it is not looked at.
 struct BrokenRule {
@@ -89,6 +90,14 @@ class Reader {
       if (!name.empty()) out = folder_ / name;
     };
   }
+  Field texts(std::vector<std::string>& out, std::size_t most) {
+    return [this, &out, most](const Json& value, const std::string& place) {
+      if (!value.is_array() || value.size() > most)
+        return fail(place, "must be a list of at most " + std::to_string(most) + " names");
+      for (std::size_t i = 0; i < value.size(); ++i)
+        text(out.emplace_back())(value[i], place + "/" + std::to_string(i));
+    };
+  }
   Field paths(std::vector<std::filesystem::path>& out) {
     return [this, &out](const Json& value, const std::string& place) {
       if (!value.is_array()) return fail(place, "must be a list of file names");
@@ -145,10 +154,34 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
                  {"organs", reader.flag(look.organs)},
                  {"arteries", reader.flag(look.arteries)},
                  {"veins", reader.flag(look.veins)},
-                 {"skin_opacity", reader.number(look.skinOpacity, 0, 1)}});
+                 {"skin_opacity", reader.number(look.skinOpacity, 0, 1)},
+                 {"colour", reader.text(look.colour)},
+                 {"legend", reader.flag(look.legend)}});
   constexpr std::array kPresets{"atlas", "clinical", "xray"};
   if (std::find(kPresets.begin(), kPresets.end(), look.preset) == kPresets.end())
     reader.fail(place + "/preset", "must be atlas, clinical or xray");
+  constexpr std::array kColours{"kind", "blood", "region", "radius", "strain", "bend", "lumen"};
+  if (std::find(kColours.begin(), kColours.end(), look.colour) == kColours.end())
+    reader.fail(place + "/colour", "must be kind, blood, region, radius, strain, bend or lumen");
+}
+
+void readViews(Reader& reader, const Json& value, const std::string& place, std::vector<ViewChoice>& views) {
+  if (!value.is_object()) return reader.fail(place, "must be an object of views");
+  for (const auto& [key, item] : value.items()) {  // by rising name
+    const std::string where = place + "/" + key;
+    if (key.size() != 1 || key[0] < '1' || key[0] > '9')
+      return reader.fail(where, "is no view's number: they are called 1 to 9");
+    std::optional<vec3> position, target;
+    ViewChoice view{.number = unsigned(key[0] - '0')};
+    reader.object(item, where,
+                  {{"position", reader.vector(position, -kFar, kFar)},
+                   {"target", reader.vector(target, -kFar, kFar)},
+                   {"angle", reader.number(view.angleDegrees, 1, 150)}});
+    if (!position || !target) return reader.fail(where, "must have a position and a target");
+    view.position = *position;
+    view.target = *target;
+    views.push_back(view);
+  }
 }
 
 void readPose(Reader& reader, const Json& value, const std::string& place, std::vector<TurnChoice>& pose) {
@@ -188,6 +221,9 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
        {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }},
        {"capillaries",
         [&](const Json& v, const std::string& p) { readCapillaries(reader, v, p, scene.capillaries); }},
+       {"hidden", reader.texts(scene.hidden, kMostNames)},
+       {"labels", reader.texts(scene.labels, kMostNames)},
+       {"views", [&](const Json& v, const std::string& p) { readViews(reader, v, p, scene.views); }},
        {"time", reader.number(scene.time, 0, 1e6f)},
        {"pose", [&](const Json& v, const std::string& p) { readPose(reader, v, p, scene.pose); }},
        {"chosen", reader.text(scene.chosen)}});

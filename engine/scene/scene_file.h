@@ -25,6 +25,9 @@ struct LookChoice {
   std::optional<vec4> background;  ///< sRGB 0..1 and opacity; default: the preset's
   bool skin = true, bones = true, organs = true, arteries = true, veins = true;
   std::optional<float> skinOpacity;  ///< default: the preset's
+  std::string colour =
+      "kind";           ///< what vessels' colours tell: kind, blood, region, radius, strain, bend or lumen
+  bool legend = false;  ///< of the colours, in the app
 };
 
 /// Which capillaries grow from the vessels (growth/plan.h).
@@ -42,16 +45,29 @@ struct TurnChoice {
   vec3 degrees{0};
 };
 
+/// A view that is kept under a number: of the app.
+struct ViewChoice {
+  unsigned number = 1;          ///< 1 to 9
+  vec3 position{0}, target{0};  ///< [m]
+  float angleDegrees = 30;      ///< vertical opening
+
+  bool operator==(const ViewChoice&) const = default;
+};
+
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
 ///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones":
 ///     true, "organs": true, "arteries": true, "veins": true,
-///               "skin_opacity": 0.3 },
+///               "skin_opacity": 0.3, "colour": "kind" | "blood" | "region" | "radius" | "strain" | "bend" |
+///               "lumen", "legend": true },
 ///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5,
 ///     "rules": "folder" },
-///     "time": 1.5, "pose": { "LeftForeArm": [bend, spread, twist] }, "chosen": "aorta" }
+///     "hidden": ["left great saphenous vein"],
+///     "time": 1.5, "pose": { "LeftForeArm": [bend, spread, twist] }, "chosen": "aorta",
+///     "labels": ["coeliac trunk"],
+///     "views": { "1": { "position": [x,y,z], "target": [x,y,z], "angle": 30 } } }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
@@ -62,10 +78,13 @@ struct SceneFile {
   CameraChoice camera;
   LookChoice look;
   CapillaryChoice capillaries;
-  float time = 0;                ///< [s] in the clip, where the app begins
-  std::vector<TurnChoice> pose;  ///< of the app; by the joint's name
-  std::string chosen;            ///< name of the vessel that is chosen in the app; empty: none
-  std::filesystem::path path;    ///< the scene file itself; empty: there is none
+  std::vector<std::string> hidden;  ///< names of vessels that pictures leave out
+  float time = 0;                   ///< [s] in the clip, where the app begins
+  std::vector<TurnChoice> pose;     ///< of the app; by the joint's name
+  std::string chosen;               ///< name of the vessel that is chosen in the app; empty: none
+  std::vector<std::string> labels;  ///< names of vessels that the app writes beside them
+  std::vector<ViewChoice> views;    ///< by rising number
+  std::filesystem::path path;       ///< the scene file itself; empty: there is none
 };
 
 /// Whether a clip is meant that a file of its own holds.

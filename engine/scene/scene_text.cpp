@@ -51,6 +51,17 @@ Json look(const LookChoice& choice) {
   for (const auto& [name, shown] : parts)
     if (!shown) json[name] = false;
   if (choice.skinOpacity) json["skin_opacity"] = number(*choice.skinOpacity);
+  if (choice.colour != LookChoice().colour) json["colour"] = choice.colour;
+  if (choice.legend) json["legend"] = true;
+  return json;
+}
+
+Json views(const std::vector<ViewChoice>& choices) {
+  Json json = Json::object();
+  for (const ViewChoice& view : choices)
+    json[std::to_string(view.number)] = {{"position", list(view.position)},
+                                         {"target", list(view.target)},
+                                         {"angle", number(view.angleDegrees)}};
   return json;
 }
 
@@ -85,11 +96,14 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   add("camera", camera(scene.camera));
   add("look", look(scene.look));
   add("capillaries", capillaries(scene.capillaries, folder));
+  add("hidden", scene.hidden);
   if (scene.time != 0) json["time"] = number(scene.time);
   std::map<std::string, Json> pose;  // by name, as readers hand them out
   for (const TurnChoice& turn : scene.pose) pose[turn.joint] = list(turn.degrees);
   add("pose", pose);
   if (!scene.chosen.empty()) json["chosen"] = scene.chosen;
+  add("labels", scene.labels);
+  add("views", views(scene.views));
   return json.dump(2) + "\n";
 }
 

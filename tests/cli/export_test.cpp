@@ -6,6 +6,7 @@
 #include "cli/program.h"
 #include "io/gltf.h"
 #include "io/obj.h"
+#include "io/stl.h"
 #include "io/swc.h"
 #include "io/vtp.h"
 #include "network/file.h"
@@ -106,6 +107,37 @@ TEST_CASE("export: a posed surface, and centre lines that convert reads back") {
   const auto samples = parseSwc(swc, "2.swc");
   REQUIRE(samples.ok());
   CHECK(encodeSwc(*samples) == swc);
+}
+
+TEST_CASE("export: .stl holds the triangles of .obj, in millimetres or in another unit") {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::vector<std::string> one{"--clip",  "squat", "--frames",   "9",
+                                     "--quads", "4x2",   "--no-avoid", "-o"};
+  const auto write = [&](const char* name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = one;
+    arguments.push_back(path(name));
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return exported(arguments);
+  };
+  const auto report = write("a.stl", {});
+  CHECK(report["unit"] == "mm");
+  CHECK(report["file_bytes"] == 84 + 50 * report["triangles"].get<std::size_t>());
+  write("m.stl", {"--unit", "m"});
+  write("a.obj", {});
+  const auto millimetres = readStl(path("a.stl"), {0.001}), metres = readStl(path("m.stl"));
+  const auto surfaces = readObj(path("a.obj"));
+  REQUIRE(millimetres.ok());
+  REQUIRE(metres.ok());
+  REQUIRE(surfaces.ok());
+  REQUIRE(millimetres->size() == 1);
+  Aabb all;
+  for (const MeshElement& element : *surfaces) all.add(element.mesh.bounds());
+  for (const auto* read : {&millimetres, &metres}) {
+    const Aabb box = (*read)->front().mesh.bounds();
+    CHECK(glm::distance(box.low, all.low) < 1e-4f);
+    CHECK(glm::distance(box.high, all.high) < 1e-4f);
+  }
 }
 
 TEST_CASE("export: a row a frame and vessel") {

@@ -48,6 +48,45 @@ TEST_CASE("a clip becomes numbered pictures with vessels in them") {
   CHECK(blue > 50);
 }
 
+TEST_CASE(
+    "render leaves out what a scene hides and colours as it says, unless the command line says otherwise") {
+  TemporaryFolder folder;
+  const auto draw = [&](const std::string& name, const std::string& keys, std::vector<std::string> more) {
+    const auto scene = folder.path() / (name + ".json");
+    std::ofstream(scene) << R"({ "look": { "skin": false, "bones": false, "organs": false)" << keys << " }";
+    std::vector<std::string> arguments{"render",
+                                       scene.string(),
+                                       "--size",
+                                       "192x320",
+                                       "--quads",
+                                       "4x2",
+                                       "--frames",
+                                       "0",
+                                       "--clip",
+                                       "stand",
+                                       "--no-avoid",
+                                       "-o",
+                                       (folder.path() / (name + ".png")).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto outcome = runProgram(arguments);
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    return std::pair(bytesOf(folder.path() / (name + ".png")), outcome.err);
+  };
+  const auto pixels = [&](const std::string& name) { return readPng(folder.path() / (name + ".png"))->rgba; };
+  draw("all", "}", {});
+  draw("hidden", R"(}, "hidden": ["abdominal aorta", "left femoral vein"])", {});
+  draw("region", R"(, "colour": "region" })", {});
+  draw("asked", "}", {"--colour", "region"});
+  draw("kinds", R"(, "colour": "region" })", {"--colour", "kind"});
+  const auto strain = draw("strain", R"(, "colour": "strain" }, "hidden": ["nobody"])", {});
+  CHECK(pixels("hidden") != pixels("all"));
+  CHECK(pixels("region") == pixels("asked"));
+  CHECK(pixels("region") != pixels("all"));
+  CHECK(pixels("kinds") == pixels("all"));
+  CHECK(pixels("strain") != pixels("all"));
+  CHECK(strain.second.find("'nobody'") != std::string::npos);
+}
+
 TEST_CASE("the same frame has the same bits on one and two threads, and in any order of frames") {
   TemporaryFolder one, two, single;
   REQUIRE(runProgram(walk(one.path(), {"--frames", "0:3", "--threads", "1"}),

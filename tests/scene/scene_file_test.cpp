@@ -69,6 +69,71 @@ TEST_CASE("a scene may ask for capillaries") {
   CHECK(messageOf(R"({"capillaries": {"edges": 4}})").find("must be 3, 5, 8, 10, or 0") != std::string::npos);
 }
 
+TEST_CASE("hidden vessels, colours, labels and kept views come back to the byte") {
+  const std::string text = R"({
+  "look": {
+    "preset": "atlas",
+    "colour": "radius",
+    "legend": true
+  },
+  "hidden": [
+    "a",
+    "b \"c\""
+  ],
+  "labels": [
+    "d"
+  ],
+  "views": {
+    "1": {
+      "position": [
+        0.1,
+        1.5,
+        3.0
+      ],
+      "target": [
+        0.0,
+        1.0,
+        0.0
+      ],
+      "angle": 30.0
+    },
+    "9": {
+      "position": [
+        1.0,
+        2.0,
+        3.0
+      ],
+      "target": [
+        0.0,
+        0.5,
+        0.0
+      ],
+      "angle": 12.345
+    }
+  }
+}
+)";
+  const auto scene = parseScene(text, "/here", "x.json");
+  REQUIRE_MESSAGE(scene.ok(), scene.error().message);
+  CHECK(scene->look.colour == "radius");
+  CHECK(scene->look.legend);
+  CHECK(scene->hidden == std::vector<std::string>{"a", "b \"c\""});
+  CHECK(scene->labels == std::vector<std::string>{"d"});
+  REQUIRE(scene->views.size() == 2);
+  CHECK(scene->views[1] == ViewChoice{9, {1, 2, 3}, {0, 0.5f, 0}, 12.345f});
+  CHECK(sceneText(*scene, "/here") == text);
+  CHECK(messageOf(R"({"look": {"colour": "mood"}})") ==
+        "x.json: /look/colour must be kind, blood, region, radius, strain, bend or lumen");
+  CHECK(messageOf(R"({"hidden": "aorta"})").find("/hidden must be a list of at most") != std::string::npos);
+  CHECK(messageOf(R"({"labels": [1]})") == "x.json: /labels/0 must be a string");
+  CHECK(messageOf(R"({"views": {"0": {}}})") ==
+        "x.json: /views/0 is no view's number: they are called 1 to 9");
+  CHECK(messageOf(R"({"views": {"1": {"position": [0, 0, 0]}}})") ==
+        "x.json: /views/1 must have a position and a target");
+  CHECK(messageOf(R"({"views": {"1": {"eye": 1}}})").find("/views/1/eye is not a known key") !=
+        std::string::npos);
+}
+
 TEST_CASE("an empty scene is the default one") {
   const auto scene = parseScene("{}", "", "x.json");
   REQUIRE(scene.ok());
@@ -81,7 +146,7 @@ TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("[1]") == "x.json: / must be an object");
   CHECK(
       messageOf(R"({"boddy": 1})") ==
-      "x.json: /boddy is not a known key; use one of body, camera, capillaries, chosen, clip, edits, joint_map, look, networks, pose, time");
+      "x.json: /boddy is not a known key; use one of body, camera, capillaries, chosen, clip, edits, hidden, joint_map, labels, look, networks, pose, time, views");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");

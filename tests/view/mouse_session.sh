@@ -1,13 +1,14 @@
 #!/bin/sh
 # A person's session with a real mouse and keyboard, on a display without a screen: tests/view/mouse_session.sh VASA DATA
 # Drags the wrist, undoes and redoes it, chooses a vessel in the list, saves, opens again and saves again: the scene has to be the same to
-# the byte. What the app has understood is read from its window's title, which begins with a star while something is unsaved, and from
+# the byte. Hides the vessel, changes colours by a menu, keeps a view, saves under another name, exports, opens what is damaged and then that
+# other scene by the dialog: saved again it has to be the same, too. What the app has understood is read from its window's title, which begins with a star while something is unsaved, and from
 # the scene.
 set -eu
 command -v xdotool >/dev/null || exit 77
 if [ -z "${MOUSE_SESSION_INSIDE:-}" ]; then
   export MOUSE_SESSION_INSIDE=1
-  exec xvfb-run -a -s '-screen 0 1280x1024x24' "$0" "$@"
+  exec xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' "$0" "$@"
 fi
 vasa=$1 data=$2
 folder=$(mktemp -d)
@@ -27,11 +28,10 @@ fail() {
 
 # wait_for WHAT COMMAND...: until it succeeds, a minute at most
 wait_for() {
-  what=$1 tries=0
+  what=$1 latest=$(($(date +%s) + 60))
   shift
   until "$@" >/dev/null 2>&1; do
-    tries=$((tries + 1))
-    [ $tries -lt 600 ] || fail "$what did not happen"
+    [ "$(date +%s)" -lt "$latest" ] || fail "$what did not happen"
     sleep 0.1
   done
 }
@@ -74,7 +74,7 @@ start
 point 480 600
 xdotool key p
 sleep 0.3
-drag 407 301 450 190
+drag 403 316 443 210
 wait_for 'a pose by the dragged wrist' titled "$unsaved"
 xdotool key ctrl+z
 wait_for 'undoing it' titled "$saved"
@@ -83,12 +83,12 @@ wait_for 'redoing it' titled "$unsaved"
 xdotool key p
 xdotool key o
 sleep 1
-point 100 20
+point 100 50
 xdotool click 1
 sleep 0.3
 xdotool type --delay 60 'femrl art'
 sleep 0.5
-point 100 76 # the first answer
+point 100 106 # the first answer
 xdotool click 1
 sleep 0.3
 xdotool key ctrl+s
@@ -103,3 +103,62 @@ xdotool key ctrl+s
 sleep 1
 end
 cmp "$folder/first.json" "$folder/scene.json" || fail 'opened and saved again, the scene is another'
+
+# type_file PATH: into a dialog of files that has just been asked for
+type_file() {
+  sleep 0.7
+  xdotool type --delay 30 "$1"
+  sleep 0.3
+}
+
+start
+point 480 600
+xdotool key h
+wait_for 'hiding the chosen vessel' titled "$unsaved"
+point 110 15 # the menu View
+xdotool click 1
+sleep 0.5
+point 140 408 # its entry Next colouring
+xdotool click 1
+sleep 0.5
+xdotool key ctrl+shift+1
+sleep 0.3
+xdotool key ctrl+shift+s
+type_file "$folder/second.json"
+xdotool key Return
+wait_for 'saving under another name' titled "$saved"
+xdotool key ctrl+e
+type_file "$folder/vessels.glb"
+point 313 499 # not the whole clip
+xdotool click 1
+sleep 0.3
+xdotool key Return
+wait_for 'the export' test -s "$folder/vessels.glb"
+end
+[ "$(head -c 4 "$folder/vessels.glb")" = glTF ] || fail 'what was exported is no GLB'
+for key in '"hidden"' '"colour": "region"' '"views"' '"LeftArm"'; do
+  grep -q "$key" "$folder/second.json" || fail "there is no $key in the scene that was saved under another name"
+done
+cmp "$folder/first.json" "$folder/scene.json" || fail 'saving under another name changed the first scene'
+cp "$folder/second.json" "$folder/kept.json"
+
+echo '{ "body": 3 }' >"$folder/bad.json"
+start
+xdotool key ctrl+o
+type_file "$folder/bad.json"
+xdotool key Return
+sleep 1
+xdotool key Escape
+sleep 0.3
+xdotool key ctrl+o
+type_file "$folder/second.json"
+xdotool key Return
+save_again() {
+  xdotool key ctrl+s
+  sleep 0.5
+  [ -n "$(find "$folder/second.json" -newer "$folder/kept.json")" ]
+}
+wait_for 'opening another scene, and saving it' save_again
+end
+cmp "$folder/kept.json" "$folder/second.json" || fail 'opened by the dialog and saved again, the scene is another'
+cmp "$folder/first.json" "$folder/scene.json" || fail 'opening another scene changed the first one'

@@ -94,7 +94,7 @@ TEST_CASE(
   text +=
       "key space\nframes 4\nkey space\nsettle\nwindow OUT/changed.png\nresize 900 600\nframes 2\nresize 960 640\nsettle\nwindow OUT/anew.png\n";
   text +=
-      "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 252\npress left\nrelease left\nsettle\n";
+      "drop OUT/bad.swc\nsettle\ndrop OUT/lines.vtp\nsettle\nwindow OUT/dropped.png\nmove 320 269\npress left\nrelease left\nsettle\n";
   auto options = on(display, folder);
   const auto outcome = runProgram({"view", "--clip", "walk", "--size", "960x640", "--validate", "--json",
                                    "--script", scriptIn(folder.path(), text)},
@@ -126,12 +126,12 @@ TEST_CASE("a session pulls a wrist and an ankle, finds femoral arteries by a few
   const VirtualDisplay display;
   const TemporaryFolder folder;
   const std::string text =
-      "settle\nkey p\nmove 407 301\nframes 2\npress left\nmove 430 250\nmove 450 190\nframes 2\nwindow OUT/held.png\n"
-      "release left\nmove 350 535\npress left\nmove 380 430\nframes 2\nrelease left\nsettle\n"
+      "settle\nkey p\nmove 403 316\nframes 2\npress left\nmove 424 267\nmove 443 210\nframes 2\nwindow OUT/held.png\n"
+      "release left\nmove 348 538\npress left\nmove 377 438\nframes 2\nrelease left\nsettle\n"
       "hold control\nkey c\nkey z\nkey z\nkey v\nlet control\nkey p\nsettle\n"  // as before, through the
                                                                                 // clipboard
-      "key o\nmove 100 20\npress left\nrelease left\nframes 2\ntype femrl art\nsettle\n"
-      "move 100 76\npress left\nrelease left\nsettle\nkey down\nhold shift\nkey down\nlet shift\n"
+      "key o\nmove 100 50\npress left\nrelease left\nframes 2\ntype femrl art\nsettle\n"
+      "move 100 106\npress left\nrelease left\nsettle\nkey down\nhold shift\nkey down\nlet shift\n"
       "hold control\nkey z\nkey y\nkey s\nlet control\nkey k\nkey k\nkey k\nsettle\nwindow OUT/found.png\n";
   const auto outcome =
       runProgram({"view", "--clip", "stand", "--size", "960x640", "--validate", "--json", "--out",
@@ -148,6 +148,86 @@ TEST_CASE("a session pulls a wrist and an ankle, finds femoral arteries by a few
   CHECK_FALSE(scene["pose"].contains("LeftForeArmRoll"));
   checkPicture(folder.path() / "held.png", "held");
   checkPicture(folder.path() / "found.png", "found");
+}
+
+TEST_CASE(
+    "a session at 800x600 and one with letters twice as large have room for menus, help and what a click offers") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& size, const std::string& scale, const std::string& text) {
+    const auto outcome = runProgram({"view", "--clip", "stand", "--size", size, "--ui-scale", scale,
+                                     "--validate", "--json", "--script", scriptIn(folder.path(), text)},
+                                    on(display, folder));
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    CHECK(outcome.json()["validation_messages"] == 0);
+  };
+  run("800x600", "1",
+      "settle\nmove 110 15\npress left\nrelease left\nframes 3\nwindow OUT/menus.png\nkey escape\nkey f1\nframes 3\n"
+      "window OUT/help.png\n");
+  run("1600x1200", "2",
+      "settle\nmove 640 600\npress right\nrelease right\nsettle\nwindow OUT/context.png\nkey escape\nkey n\nkey k\n"
+      "frames 2\n");
+  for (const char* name : {"menus", "help", "context"})
+    checkPicture(folder.path() / (std::string(name) + ".png"), name);
+}
+
+TEST_CASE(
+    "a session saves under another name what it hides, names and keeps, exports, and opens that again by the dialog") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& text) {
+    return runProgram({"view", "--clip", "stand", "--size", "800x600", "--json", "--out",
+                       folder.path().string(), "--script", scriptIn(folder.path(), text)},
+                      on(display, folder));
+  };
+  const std::string press = "\nlet control\nframes 3\n";
+  const auto first =
+      run("settle\nmove 320 300\npress right\nrelease right\nsettle\nkey escape\nkey n\nkey h\nkey k\n"
+          "hold control\nhold shift\nkey 4\nkey s\nlet shift" +
+          press +
+          "type second\nkey enter\nsettle\n"
+          "hold control\nkey e" +
+          press +
+          "type small.csv\nkey enter\nsettle\n"
+          "hold control\nkey e" +
+          press +
+          "type small.stl\nkey enter\nsettle\n"
+          "hold control\nkey e" +
+          press + "type small.png\nkey enter\nsettle\n");
+  REQUIRE_MESSAGE(first.exit == 0, first.err);
+  CHECK(first.json()["files"].size() == 4);
+  const std::string saved = contentOf(folder.path() / "second.json");
+  const auto scene = nlohmann::json::parse(saved, nullptr, false);
+  REQUIRE(scene.is_object());
+  CHECK(scene["hidden"].size() == 1);
+  CHECK(scene["labels"] == scene["hidden"]);
+  CHECK(scene["look"]["colour"] == "region");
+  CHECK(scene["look"]["legend"] == true);
+  CHECK(scene["views"].contains("4"));
+  CHECK(readPng(folder.path() / "small.png")->width == 1920);
+  CHECK(std::ranges::count(contentOf(folder.path() / "small.csv"), '\n') > 959 * 100);  // of the whole clip
+  const auto bytes = contentOf(folder.path() / "small.stl");
+  CHECK(bytes.size() > 84);
+  CHECK((bytes.size() - 84) % 50 == 0);
+
+  std::filesystem::remove(folder.path() / "second.vedit");
+  const auto again = run("settle\nhold control\nkey o" + press +
+                         "type sec\nkey enter\nsettle\nhold control\nkey s\nlet control\n");
+  REQUIRE_MESSAGE(again.exit == 0, again.err);
+  REQUIRE(again.json()["loads"].size() == 2);
+  CHECK(again.json()["loads"][1]["outcome"] == "opened");
+  REQUIRE(again.json()["files"].size() == 1);
+  CHECK(std::filesystem::path(again.json()["files"][0].get<std::string>()).filename() == "second.json");
+  CHECK(contentOf(folder.path() / "second.json") == saved);
+
+  // A script writes below its folder only; what is not saved keeps what is dropped waiting, Esc stays.
+  CHECK(run("settle\nhold control\nhold shift\nkey s\nlet shift" + press +
+            "type /tmp/elsewhere\nkey enter\nsettle\n")
+            .exit == 3);
+  const auto asked = run(
+      "settle\nmove 320 300\npress right\nrelease right\nsettle\nkey escape\nkey h\ndrop OUT/second.json\nsettle\nkey escape\nsettle\n");
+  CHECK(asked.exit == 0);
+  CHECK(asked.json()["loads"].size() == 1);
 }
 
 TEST_CASE(
@@ -189,7 +269,7 @@ TEST_CASE("on a high-DPI screen window, panels and texts are as large as on an o
                                     on(display, folder));
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
     CHECK(outcome.json()["width"] == 1920 - 2 * 320);
-    CHECK(outcome.json()["height"] == 1280 - 2 * 46);
+    CHECK(outcome.json()["height"] == 1280 - 2 * (30 + 46));
     checkPicture(folder.path() / "large.png", "large");
     CHECK(runProgram({"view", "--ui-scale", "9"}, on(display, folder)).exit == 2);
   }

@@ -66,9 +66,9 @@ TEST_CASE(
   const TemporaryFolder folder;
   const auto scene = sceneIn(folder.path(), "abdominal aorta"), journal = folder.path() / "scene.vedit";
   const std::string out = folder.path().string();
-  const std::string pick = "settle\nkey e\nmove 320 300\npress left\nrelease left\nsettle\n";
+  const std::string pick = "settle\nkey e\nmove 320 315\npress left\nrelease left\nsettle\n";
   const std::string drag =
-      "press left\nmove 332 300\nframes 1\nmove 350 304\nframes 2\nrelease left\nsettle\n";
+      "press left\nmove 331 315\nframes 1\nmove 348 319\nframes 2\nrelease left\nsettle\n";
   const ViewReport first =
       session(scene, pick + "window " + out + "/picked.png\n" + drag + "window " + out + "/dragged.png\n" +
                          control("z") + "window " + out + "/undone.png\n" + control("y") + control("s"));
@@ -101,9 +101,9 @@ TEST_CASE(
   const auto click = [](const char* place) {
     return std::string("move ") + place + "\npress left\nrelease left\nsettle\n";
   };
-  const std::string pick = "settle\nkey e\n" + click("311 330");
+  const std::string pick = "settle\nkey e\n" + click("311 343");
   const std::string slide =
-      "move 26 127\npress left\nframes 1\nmove 108 127\nframes 2\nrelease left\nsettle\n";
+      "move 26 157\npress left\nframes 1\nmove 108 157\nframes 2\nrelease left\nsettle\n";
   session(scene, pick + slide + control("s"));
   auto edits = readJournal(journal);
   REQUIRE(edits);
@@ -114,8 +114,8 @@ TEST_CASE(
   CHECK(stenosis->percent > 60);
 
   const TemporaryFolder other;
-  const std::string branch = click("103 214") + click("200 430"),
-                    graftToNothing = click("185 214") + click("30 560"), remove = click("270 214");
+  const std::string branch = click("103 244") + click("206 438"),
+                    graftToNothing = click("185 244") + click("45 562"), remove = click("270 244");
   session(sceneIn(other.path(), "left femoral artery"),
           pick + slide + control("z") + branch + graftToNothing + remove + control("s"));
   edits = readJournal(other.path() / "scene.vedit");
