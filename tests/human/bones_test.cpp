@@ -147,9 +147,9 @@ TEST_CASE("no motion brings a bone farther out of the skin than the skin's blend
   });
   for (const auto& [place, entry] : worst)
     if (entry[0] > 0.001f) MESSAGE(place << " " << 1e3f * entry[0] << " mm out in frame " << entry[1]);
-  for (const auto& [place, entry] : worst) {
-    CAPTURE(place);
-    CHECK(entry[0] <= allowedOut(place));
+  for (const auto& found : worst) {
+    CAPTURE(found.first);
+    CHECK(found.second[0] <= allowedOut(found.first));
   }
 }
 
