@@ -136,7 +136,7 @@ xdotool key Return
 wait_for 'the export' test -s "$folder/vessels.glb"
 end
 [ "$(head -c 4 "$folder/vessels.glb")" = glTF ] || fail 'what was exported is no GLB'
-for key in '"hidden"' '"colour": "region"' '"views"' '"LeftArm"'; do
+for key in '"hidden"' '"colour": "blood"' '"views"' '"LeftArm"'; do
   grep -q "$key" "$folder/second.json" || fail "there is no $key in the scene that was saved under another name"
 done
 cmp "$folder/first.json" "$folder/scene.json" || fail 'saving under another name changed the first scene'

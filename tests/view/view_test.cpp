@@ -201,7 +201,7 @@ TEST_CASE(
   REQUIRE(scene.is_object());
   CHECK(scene["hidden"].size() == 1);
   CHECK(scene["labels"] == scene["hidden"]);
-  CHECK(scene["look"]["colour"] == "region");
+  CHECK(scene["look"]["colour"] == "blood");
   CHECK(scene["look"]["legend"] == true);
   CHECK(scene["views"].contains("4"));
   CHECK(readPng(folder.path() / "small.png")->width == 1920);
