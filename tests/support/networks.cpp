@@ -14,8 +14,8 @@ Network built(const NetworkBuilder& builder) {
   return std::move(*network);
 }
 
-// Of calls among the arguments of another the order is a compiler's own: braces, and names of their own, keep it, so that
-// every compiler makes the same networks.
+// Of calls among the arguments of another the order is a compiler's own: braces, and names of their own, keep
+// it, so that every compiler makes the same networks.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}

@@ -18,8 +18,8 @@ const Limb kLimbs[] = {
     {{0.05f, 0, 0.5f}, {0.07f, 0, 0.04f}, 0.035f}, {{-0.05f, 0, 0.5f}, {-0.07f, 0, 0.04f}, 0.035f},
     {{0.1f, 0, 0.8f}, {0.2f, 0, 0.46f}, 0.025f},   {{-0.1f, 0, 0.8f}, {-0.2f, 0, 0.46f}, 0.025f}};
 
-// A hash of a counter, so that the same seed gives the same network with every standard library; braces and names of
-// their own keep the order of calls with every compiler.
+// A hash of a counter, so that the same seed gives the same network with every standard library; braces and
+// names of their own keep the order of calls with every compiler.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : state_(seed * 0x9e3779b97f4a7c15ull + 0x1234567) {}
@@ -74,8 +74,7 @@ class Grower {
     const int limb = int(random_.between(0, 5.999f));
     const Limb& where = kLimbs[limb];
     const float along = random_.between(0, 1), aside = random_.between(0, 0.8f);
-    const vec3 position =
-        glm::mix(where.from, where.to, along) + where.radius * aside * random_.direction();
+    const vec3 position = glm::mix(where.from, where.to, along) + where.radius * aside * random_.direction();
     const float share = random_.between(0, 1);
     sprouts_.push_back({position, random_.direction(), scale_ * (0.0006f + 0.0042f * share * share * share),
                         limb, nodes_++});
