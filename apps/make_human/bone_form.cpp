@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "make_human/smooth_minimum.h"
+#include "make_human/smooth_union.h"
 #include "math/closest_point.h"
 
 // The distance to an ellipsoid-like piece with half axes a, b and cap c: with k = |(u/a, v/b, e/c)|, e the
 // excess over the tube's end, the surface is k = 1 and (k - 1) / |grad k| is the distance to first order.
 namespace vasa::human {
 namespace {
-
-float boxDistance(const Aabb& box, vec3 p) {
-  return glm::length(glm::max(glm::max(box.low - p, p - box.high), vec3(0)));
-}
 
 /// p in a piece's own directions, and its half axes there.
 struct Local {
@@ -67,52 +63,15 @@ float BonePiece::distance(vec3 p) const {
   return distanceTo(local, square);
 }
 
-float BoneForm::distance(vec3 p) const {
-  float result = 1;
-  for (const BonePiece& piece : pieces) {
-    const float beyond = boxDistance(piece.bounds, p);
-    if (piece.carve) {
-      if (beyond <= piece.blend + std::max(-result, 0.0f))
-        result = -smoothMinimum(-result, piece.distance(p), piece.blend);
-    } else if (beyond < result + piece.blend) {
-      result = smoothMinimum(result, piece.distance(p), piece.blend);
-    }
-  }
-  return result;
-}
-
-vec3 BoneForm::gradient(vec3 p) const {
-  const float h = 2e-4f;
-  vec3 slope;
-  for (int i = 0; i < 3; ++i) {
-    vec3 low = p, high = p;
-    low[i] -= h;
-    high[i] += h;
-    slope[i] = (distance(high) - distance(low)) / (2 * h);
-  }
-  return slope;
-}
-
-float BoneForm::cellSize(vec3 p, float reach) const {
-  float size = 1;
-  for (const BonePiece& piece : pieces)
-    if (piece.cell < size && boxDistance(piece.bounds, p) < reach &&
-        std::abs(piece.distance(p)) < 0.8f * reach + 0.5f * piece.cell)
-      size = piece.cell;
-  return size;
-}
+float BoneForm::distance(vec3 p) const { return unionDistance(pieces, p, true); }
+vec3 BoneForm::gradient(vec3 p) const { return slopeOf(*this, p); }
+float BoneForm::cellSize(vec3 p, float reach) const { return unionCellSize(pieces, p, reach); }
+Aabb BoneForm::bounds() const { return unionBounds(pieces); }
 
 float BoneForm::finestCell() const {
   float finest = 1;
   for (const BonePiece& piece : pieces) finest = std::min(finest, piece.cell);
   return finest;
-}
-
-Aabb BoneForm::bounds() const {
-  Aabb box;
-  for (const BonePiece& piece : pieces)
-    if (!piece.carve) box.add(piece.bounds);
-  return box;
 }
 
 }  // namespace vasa::human

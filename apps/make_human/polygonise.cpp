@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "make_human/separate_sheets.h"
+#include "make_human/smooth_union.h"
 
 // Every octree leaf that the surface crosses gets one vertex. Every shortest edge between leaves whose ends
 // lie on different sides of the surface gives a polygon of the three or four leaves around it. Such polygons
@@ -169,21 +170,11 @@ class Contouring {
   std::vector<int> crossings_;
 };
 
-vec3 gradientOf(const ImplicitSurface& surface, vec3 p) {
-  const float h = 3e-4f;
-  vec3 slope;
-  for (int i = 0; i < 3; ++i) {
-    vec3 low = p, high = p;
-    low[i] -= h;
-    high[i] += h;
-    slope[i] = (surface.distance(high) - surface.distance(low)) / (2 * h);
-  }
-  return slope;
-}
+constexpr float kDifference = 3e-4f;  // [m] over which slopes are taken
 
 vec3 ontoSurface(const ImplicitSurface& surface, vec3 p, float reach) {
   for (int step = 0; step < 2; ++step) {
-    const vec3 slope = gradientOf(surface, p);
+    const vec3 slope = slopeOf(surface, p, kDifference);
     const float square = glm::dot(slope, slope);
     if (square < 1e-6f) return p;
     vec3 move = -surface.distance(p) / square * slope;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "make_human/smooth_minimum.h"
+#include "make_human/smooth_union.h"
 
 // Distance to a superellipse with half axes a, b and exponent n, lofted and capped: with
 //   rho = (|u/a|^n + |v/b|^n)^(1/n),  k = sqrt(rho² + (e/c)²),  e the excess over the part's ends,
@@ -15,10 +15,6 @@ Part::Section mix(const Part::Section& a, const Part::Section& b, float t) {
   const auto line = [t](float x, float y) { return x + t * (y - x); };
   return {line(a.u, b.u),         line(a.v, b.v),       line(a.width, b.width),
           line(a.front, b.front), line(a.back, b.back), line(a.square, b.square)};
-}
-
-float boxDistance(const Aabb& box, vec3 p) {
-  return glm::length(glm::max(glm::max(box.low - p, p - box.high), vec3(0)));
 }
 
 }  // namespace
@@ -47,45 +43,9 @@ float Part::distance(vec3 p) const {
   return (k - 1) / glm::length(slope);
 }
 
-float Shape::distance(vec3 p) const {
-  float result = 1;
-  for (const Part& part : parts) {
-    const float beyond = boxDistance(part.bounds, p);
-    if (part.carve) {
-      if (beyond <= part.blend) result = -smoothMinimum(-result, part.distance(p), part.blend);
-    } else if (beyond < result + part.blend) {
-      result = smoothMinimum(result, part.distance(p), part.blend);
-    }
-  }
-  return result;
-}
-
-vec3 Shape::gradient(vec3 p) const {
-  const float h = 2e-4f;
-  vec3 slope;
-  for (int i = 0; i < 3; ++i) {
-    vec3 low = p, high = p;
-    low[i] -= h;
-    high[i] += h;
-    slope[i] = (distance(high) - distance(low)) / (2 * h);
-  }
-  return slope;
-}
-
-float Shape::cellSize(vec3 p, float reach) const {
-  float size = 1;
-  for (const Part& part : parts)
-    if (part.cell < size && boxDistance(part.bounds, p) < reach &&
-        std::abs(part.distance(p)) < 0.8f * reach + 0.5f * part.cell)
-      size = part.cell;
-  return size;
-}
-
-Aabb Shape::bounds() const {
-  Aabb box;
-  for (const Part& part : parts)
-    if (!part.carve) box.add(part.bounds);
-  return box;
-}
+float Shape::distance(vec3 p) const { return unionDistance(parts, p, false); }
+vec3 Shape::gradient(vec3 p) const { return slopeOf(*this, p); }
+float Shape::cellSize(vec3 p, float reach) const { return unionCellSize(parts, p, reach); }
+Aabb Shape::bounds() const { return unionBounds(parts); }
 
 }  // namespace vasa::human
