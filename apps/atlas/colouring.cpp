@@ -256,4 +256,13 @@ std::vector<std::uint32_t> spanColours(const Network& network, const VesselGroup
   return colours;
 }
 
+void leaveOut(const Network& network, std::span<const char> shown, std::span<std::uint32_t> spanColours) {
+  std::size_t first = 0;
+  for (std::size_t v = 0; v < shown.size(); ++v) {
+    const std::size_t count = network.vessels()[v].spanCount();
+    if (!shown[v]) std::ranges::fill(spanColours.subspan(first, count), 0u);
+    first += count;
+  }
+}
+
 }  // namespace vasa::atlas

@@ -55,4 +55,8 @@ std::vector<float> spanStrains(const Network& network, std::span<const vec4> poi
 std::vector<std::uint32_t> spanColours(const Network& network, const VesselGroups& groups,
                                        std::span<const vec4> points, Colouring colouring);
 
+/// Vessels that are not shown have no colour, which leaves them out of the picture.
+/// @param shown  one a vessel
+void leaveOut(const Network& network, std::span<const char> shown, std::span<std::uint32_t> spanColours);
+
 }  // namespace vasa::atlas

@@ -211,10 +211,7 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
 std::vector<std::uint32_t> coloursOf(const Job& job, atlas::Colouring colouring) {
   const Network& network = job.scene.network;
   auto colours = atlas::spanColours(network, job.groups, job.frame->points(), colouring);
-  std::size_t span = 0;
-  for (std::size_t v = 0; v < network.vessels().size(); ++v)
-    for (const std::size_t end = span + network.vessels()[v].spanCount(); span < end; ++span)
-      if (!job.subject.vessels[v]) colours[span] = 0;
+  atlas::leaveOut(network, job.subject.vessels, colours);
   return colours;
 }
 

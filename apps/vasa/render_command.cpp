@@ -328,12 +328,7 @@ class Film {
 
   // What the scene hides has no colour.
   std::vector<std::uint32_t> withoutHidden(std::vector<std::uint32_t> colours) const {
-    auto first = colours.begin();
-    for (std::size_t v = 0; v < job_.shown.size(); ++v) {
-      const auto end = first + job_.scene.network.vessels()[v].spanCount();
-      if (!job_.shown[v]) std::fill(first, end, 0);
-      first = end;
-    }
+    atlas::leaveOut(job_.scene.network, job_.shown, colours);
     return colours;
   }
 

@@ -68,11 +68,7 @@ std::vector<std::uint32_t> coloursOf(const Document& document, std::shared_ptr<c
       }
   for (const VesselId vessel : chosenVessels(state))
     paint(vessel, 0, network.vessel(vessel).spanCount(), kChosen);
-  if (single || state.hidden.any()) {
-    const std::vector<char> shown = shownVessels(document, state);
-    for (std::uint32_t v = 0; v < shown.size(); ++v)
-      if (!shown[v]) paint({v}, 0, network.vessels()[v].spanCount(), vec4(0));
-  }
+  if (single || state.hidden.any()) atlas::leaveOut(network, shownVessels(document, state), colours);
   return colours;
 }
 
