@@ -2,7 +2,23 @@
 # Paths count from shaders/ unless they are absolute. Linking vasa_NAME gives, for a.comp,
 #   #include "spirv/a_comp.h"        ->  vasa::spirv::a_comp, a constexpr vasa::gpu::ShaderCode
 # A shader includes "shared/x.h" and "lib/y.glsl" from shaders/; a changed include rebuilds what uses it.
-option(VASA_OPTIMISE_SHADERS "Run spirv-opt -O over the shaders" OFF)
+
+# Made ready for drivers, which would do the same at each start, slower: calls inlined, variables to values, what is found
+# twice found once. No pass that rewrites arithmetic, so that CPU references and pictures hold to the bit.
+set(VASA_SPIRV_PASSES
+    --inline-entry-points-exhaustive
+    --eliminate-dead-functions
+    --private-to-local
+    --scalar-replacement=100
+    --convert-local-access-chains
+    --eliminate-local-single-block
+    --eliminate-local-single-store
+    --ssa-rewrite
+    --eliminate-dead-code-aggressive
+    --eliminate-dead-branches
+    --merge-blocks
+    --redundancy-elimination
+    --eliminate-dead-code-aggressive)
 
 find_program(VASA_GLSLANG glslangValidator)
 find_program(VASA_SPIRV_VAL spirv-val)
@@ -11,11 +27,10 @@ find_program(VASA_SPIRV_OPT spirv-opt)
 # A library of shaders, compiled, checked and embedded. SHADERS: files of shaders/.
 function(vasa_shaders name)
   cmake_parse_arguments(ARG "" "" "SHADERS" ${ARGN})
-  if(NOT VASA_GLSLANG OR NOT VASA_SPIRV_VAL)
-    message(FATAL_ERROR "glslangValidator or spirv-val is missing; install glslang-tools and spirv-tools")
-  endif()
-  if(VASA_OPTIMISE_SHADERS AND NOT VASA_SPIRV_OPT)
-    message(FATAL_ERROR "spirv-opt is missing; install spirv-tools or set VASA_OPTIMISE_SHADERS=OFF")
+  if(NOT VASA_GLSLANG
+     OR NOT VASA_SPIRV_OPT
+     OR NOT VASA_SPIRV_VAL)
+    message(FATAL_ERROR "glslangValidator, spirv-opt or spirv-val is missing; install glslang-tools and spirv-tools")
   endif()
   set(root "${PROJECT_BINARY_DIR}/shaders/${name}")
   set(script "${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake")
@@ -39,9 +54,8 @@ function(vasa_shaders name)
         list(APPEND compile -DVASA_INT64)
       endif()
       list(APPEND compile "${source}")
-      if(VASA_OPTIMISE_SHADERS)
-        list(APPEND compile COMMAND "${VASA_SPIRV_OPT}" -O --target-env=vulkan1.3 "${code}" -o "${code}")
-      endif()
+      list(APPEND compile COMMAND "${VASA_SPIRV_OPT}" --target-env=vulkan1.3 ${VASA_SPIRV_PASSES} "${code}" -o
+           "${code}")
       list(APPEND compile COMMAND "${VASA_SPIRV_VAL}" --target-env vulkan1.3 "${code}")
     endforeach()
     add_custom_command(

@@ -15,7 +15,6 @@ uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d);
 
 #include "lib/fork.glsl"
 
-Ring ringAt(ForkRing ring);
 ForkBranch branchAt(uint branch);
 vec3 piercingOf(ForkBranch branch);
 
@@ -36,7 +35,6 @@ void put(uint vertex, SurfacePoint point) {
 vec2 stepOf(uint around) { return stepAt(push.tables, around); }
 vec2 halfStepOf(uint around) { return halfStepAt(push.tables, around); }
 
-Ring ringAt(ForkRing ring) { return ringOf(push.points, push.knots, push.tables, ring); }
 ForkBranch branchAt(uint branch) { return push.branches.branch[branch]; }
 vec3 piercingOf(ForkBranch branch) {
   return pointAt(spanAt(push.points, push.tables, branch.crossPoint, branch.crossClass), branch.crossT).xyz;
@@ -44,20 +42,34 @@ vec3 piercingOf(ForkBranch branch) {
 
 uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d) { return push.keepAll != 0 ? 3 : seenOfQuad(a, b, c, d, vec2(view.columns, view.rows), view.snap); }
 
+// Of the trunk's two ends, then of branches.
+ForkRing ringOfPart(ForkRecord fork, uint part) {
+  if (part == 0) return fork.a;
+  if (part == 1) return fork.b;
+  return push.branches.branch[fork.firstBranch + part - 2].ring;
+}
+
 // A ball around the fork, with room to spare for the collars' control points, lies outside one side of the picture.
-bool outOfView(ForkRecord fork, Ring a, Ring b) {
-  vec3 centre = 0.5 * (a.section.centre + b.section.centre);
-  float reach = distance(centre, a.section.centre) + a.section.radius + b.section.radius;
-  for (uint i = 0; i < fork.branchCount; ++i) {
-    ForkRing ring = push.branches.branch[fork.firstBranch + i].ring;
-    vec4 end = pointAt(spanAt(push.points, push.tables, ring.point, ring.spanClass), ring.t);
-    reach = max(reach, distance(centre, end.xyz) + end.w);
+bool outOfView(ForkRecord fork) {
+  vec4 ends[2 + kMostBranches];
+  for (uint part = 0; part < 2 + fork.branchCount; ++part) {
+    ForkRing ring = ringOfPart(fork, part);
+    ends[part] = pointAt(spanAt(push.points, push.tables, ring.point, ring.spanClass), ring.t);
   }
+  vec3 centre = 0.5 * (ends[0].xyz + ends[1].xyz);
+  float reach = distance(centre, ends[0].xyz) + ends[0].w + ends[1].w;
+  for (uint part = 2; part < 2 + fork.branchCount; ++part) reach = max(reach, distance(centre, ends[part].xyz) + ends[part].w);
   for (uint i = 0; i < 5; ++i) {
     vec4 plane = view.planes[i];
     if (dot(plane.xyz, centre) + plane.w < -1.8 * reach) return true;
   }
   return false;
+}
+
+// One loop for all of them: a device compiles what is called once for each place that calls it.
+void evaluateRings(ForkRecord fork) {
+  for (uint part = 0; part < 2 + fork.branchCount; ++part)
+    rings[part] = ringOf(push.points, push.knots, push.tables, ringOfPart(fork, part));
 }
 
 ForkShape shapeOf(ForkRecord fork) {
@@ -142,8 +154,10 @@ void main() {
     if ((view.hiddenKinds >> (colour >> 24) & 1u) == 0u) {
       ForkRecord fork = push.forks.fork[item];
       ForkShape shape = shapeOf(fork);
-      Ring a = ringAt(fork.a), b = ringAt(fork.b);
-      if (push.keepAll != 0 || !outOfView(fork, a, b)) build(fork, shape, a, b);
+      if (push.keepAll != 0 || !outOfView(fork)) {
+        evaluateRings(fork);
+        build(fork, shape);
+      }
       if (triangles != 0) vertices = chooseVertices(rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows));
     }
   }

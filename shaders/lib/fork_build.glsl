@@ -1,6 +1,5 @@
 // A fork's vertices and triangles from its rings. Mirrors evaluateFork() of engine/surface/fork.cpp: the same operations in
 // the same order. The shader that includes it has what lib/fork_collar.glsl and lib/fork_stump.glsl ask for and
-//   Ring ringAt(ForkRing ring)
 //   ForkBranch branchAt(uint branch)
 //   vec3 piercingOf(ForkBranch branch)     where its axis pierces the wall at rest
 //   vec2 halfStepOf(uint around)        (cos, sin) of π/m
@@ -33,7 +32,11 @@ void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Tr
   windows[i] = window;
 }
 
-void build(ForkRecord fork, ForkShape shape, Ring a, Ring b) {
+// The trunk's two ends, then branches.
+Ring rings[2 + kMostBranches];
+
+void build(ForkRecord fork, ForkShape shape) {
+  Ring a = rings[0], b = rings[1];
   precise float thirdA = fork.scaleA / 3.0, thirdB = -(fork.scaleB / 3.0);
   precise vec3 chord = b.section.centre - a.section.centre;
   Trunk trunk = Trunk(Bezier(vec4(a.section.centre, a.section.radius), innerPoint(a, thirdA), innerPoint(b, thirdB),
@@ -61,18 +64,16 @@ void build(ForkRecord fork, ForkShape shape, Ring a, Ring b) {
   uint seams[kMostBranches];
   for (uint i = 0; i < fork.branchCount; ++i) {
     ForkBranch branch = branchAt(fork.firstBranch + i);
-    seams[i] = collar(branch, ringAt(branch.ring), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
+    seams[i] = collar(branch, rings[2 + i], rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
   }
   addForkTriangles(shape);
-  // The trunk's two ends, then branches.
   for (uint part = 0; part < fork.branchCount + 2; ++part) {
     bool atA = part == 0, ofTrunk = part < 2;
     uint i = ofTrunk ? 0 : part - 2;
     if (!cut && (ofTrunk || !stumps[i])) continue;
-    ForkBranch branch = branchAt(fork.firstBranch + i);
-    Ring ring = ringAt(atA ? fork.a : ofTrunk ? fork.b : branch.ring);
+    Ring ring = rings[part];
     precise vec3 outward = ring.turn * ring.section.tangent, inward = -outward;
-    vec3 towards = atA ? b.section.centre : ofTrunk ? a.section.centre : wallAt(trunk, middle, branch.centre).centre;
+    vec3 towards = atA ? b.section.centre : ofTrunk ? a.section.centre : pointAt(trunk.bezier, branchAt(fork.firstBranch + i).centre).xyz;
     uint ringRow = atA ? 0 : ofTrunk ? kTrunkRows - 1 : branchRow(i);
     uint tipRow = atA ? 2 : ofTrunk ? ringRow - 1 : ringRow - 2;
     addStump(shape, ring, atA ? 0 : ofTrunk ? first : seams[i], atA ? outward : inward, towards, ringRow,

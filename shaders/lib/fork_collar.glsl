@@ -19,13 +19,21 @@ uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 toward
     vec2 polar = directions[k];
     precise float x = record.holeAround * polar.x;
     precise float depth = sqrt(1.0 - x * x);
-    precise float s = record.centre + record.holeAlong * polar.y;
-    Section section = wallAt(trunk, middle, s);
-    SurfacePoint hole = surfacePoint(section, turned(towards, vec2(depth, x)));
-    precise float cornerX = record.cornerAround * x;
-    precise float cornerS = record.centre + (record.cornerAlong * record.holeAlong) * polar.y;
-    precise float cornerDepth = sqrt(1.0 - cornerX * cornerX);
-    SurfacePoint corner = surfacePoint(wallAt(trunk, middle, cornerS), turned(towards, vec2(cornerDepth, cornerX)));
+    // The corner's section, then the hole's. One loop for both: a device compiles what is called once for each place
+    // that calls it.
+    Section section;
+    SurfacePoint hole, corner;
+    float s;
+    for (uint place = 0; place < 2; ++place) {
+      precise float way = place == 1 ? record.holeAlong : record.cornerAlong * record.holeAlong;
+      precise float aside = place == 1 ? x : record.cornerAround * x;
+      precise float there = record.centre + way * polar.y, deep = sqrt(1.0 - aside * aside);
+      section = wallAt(trunk, middle, there);
+      s = there;
+      SurfacePoint point = surfacePoint(section, turned(towards, vec2(deep, aside)));
+      if (place == 1) hole = point;
+      else corner = point;
+    }
     precise vec3 chord = corner.position - hole.position;
     precise vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
 

@@ -31,23 +31,25 @@ bool mayCover(Edge ab, Edge bc, Edge ca, vec2 low, vec2 high, vec2 size, vec2 pl
   return span.x >= 0 && span.y >= 0 && (!small || min(min(outside.x, outside.y), min(outside.z, outside.w)) <= 0);
 }
 
+// Of the s-th sample in its pixel, from the middle: Vulkan's standard places.
+vec2 placeOfSample(uint s) {
+  return kSamples == 1 ? vec2(0) : vec2(0.5 * float(s & 1u) - (s < 2 ? 0.125 : 0.375), 0.25 * float(s) - 0.375);
+}
+
 bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 size, float snap) {
   vec2 low = min(min(a, b), c) - snap, high = max(max(a, b), c) + snap, reach = high - low;
   Edge ab = edgeOf(a, b, snap), bc = edgeOf(b, c, snap), ca = edgeOf(c, a, snap);
-  bool front = cross2(ab.along, bc.along) <= 4 * snap * (reach.x + reach.y), covers;
-  if (kSamples == 1) {
-    covers = mayCover(ab, bc, ca, low, high, size, vec2(0));
-  } else {  // Vulkan's standard places
-    covers = mayCover(ab, bc, ca, low, high, size, vec2(-0.125, -0.375)) ||
-             mayCover(ab, bc, ca, low, high, size, vec2(0.375, -0.125)) ||
-             mayCover(ab, bc, ca, low, high, size, vec2(-0.375, 0.125)) ||
-             mayCover(ab, bc, ca, low, high, size, vec2(0.125, 0.375));
-  }
-  return high.x >= 0.5 * kBehind || (front && covers);
+  bool front = cross2(ab.along, bc.along) <= 4 * snap * (reach.x + reach.y), seen = high.x >= 0.5 * kBehind;
+  for (uint s = 0; s < kSamples && front && !seen; ++s) seen = mayCover(ab, bc, ca, low, high, size, placeOfSample(s));
+  return seen;
 }
 
+// One loop for both triangles: a device compiles what is called once for each place that calls it.
 uint seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, vec2 size, float snap) {
-  return (seenOfTriangle(a, b, c, size, snap) ? 1u : 0u) | (seenOfTriangle(a, c, d, size, snap) ? 2u : 0u);
+  uint seen = 0;
+  for (uint i = 0; i < 2; ++i)
+    seen |= seenOfTriangle(a, i == 0 ? b : c, i == 0 ? c : d, size, snap) ? 1u << i : 0u;
+  return seen;
 }
 
 #endif
