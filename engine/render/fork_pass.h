@@ -8,6 +8,7 @@ namespace vasa {
 /// CPU references: surface/fork.h, surface/fork_template.h, surface/visible.h.
 class ForkPass {
  public:
+  ForkPass() = default;
   /// @param samples  of the picture: 1 or 4 a pixel
   /// @param forks    read, not kept: of a network that it will write
   ForkPass(gpu::Device& device, std::uint32_t samples, const ForkSet& forks);

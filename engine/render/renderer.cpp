@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <string_view>
 
@@ -102,6 +103,8 @@ struct Renderer::State {
   std::vector<std::uint32_t> ownColours;  // of the spans, by their vessels' kinds
   TubeSet tubes;
   ForkSet forks;
+  // A driver takes as long for the forks' shader as for all others: that is made beside the rest.
+  std::future<ForkPass> comingForkPass;
   PatchSet patches;
   MeshSet meshes;
   FrameUpload upload;
@@ -156,12 +159,13 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table},
             chosen.templateBytes),
       forks(device, tubes.table(), tubes.detail(), chosen.templateBytes),
+      comingForkPass(
+          std::async(std::launch::async, [this] { return ForkPass(device, options.samples, forks); })),
       patches(device, tubes.table().patches),
       meshes(device, skinned, levelsOf(skinned, chosen)),
       upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
       detailPass(device, tubes),
       tubePass(device, chosen.samples, tubes),
-      forkPass(device, chosen.samples, forks),
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
@@ -178,6 +182,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
     capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites,
                         options.capillaries);
   setColours({});
+  forkPass = comingForkPass.get();
 }
 
 void Renderer::State::setColours(std::span<const std::uint32_t> given) {
