@@ -87,10 +87,14 @@ struct Renderer::State {
   State(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> skinned,
         const RenderOptions& chosen);
 
-  /// Everything, or what comes before the capillaries where they are left to recordSlice().
-  void record(VkCommandBuffer commands, const RenderInput& input, bool slices);
-  void drawFirst(const RenderInput& input, bool slices);
-  void recordSlice(VkCommandBuffer commands);
+  /// Everything, or what comes before the capillaries where there are some: those wait until it is known that
+  /// all vessels have had their room, since they cost more than all else.
+  void record(VkCommandBuffer commands, const RenderInput& input);
+  void drawFirst(const RenderInput& input);
+  /// The next batches of the picture's capillaries, and with the last one what comes behind them.
+  void recordSlice(VkCommandBuffer commands, std::size_t batches);
+  void drawSlice(std::size_t batches);
+  void addTimes();
   bool settleRounds(const Look& look);
   double timeStatic(const StaticTubes& tubes, const RenderInput& input);
   shared::DetailView viewOf(const RenderInput& input) const;
@@ -280,7 +284,7 @@ shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
                     detailSnap(device, target.spec().size));
 }
 
-void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input, bool slices) {
+void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
   if (rounds > 1 && !second) second.emplace(device, filling.room());
   if (options.timed && timerRounds < rounds)
     timer.emplace(device, kScopes + kScopesOfRound * (timerRounds = rounds));
@@ -322,26 +326,37 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input,
   if (frame.wholeEnd) return;
   if (patched) recordPatches(commands, frame.push, input.look);
   if (occludes) recordOcclusion(commands, input);
-  if (grows && slices && capillaries->batches() > 0) {
+  if (grows && capillaries->batches() > 0) {
     begun = std::move(frame);
     return;
-  }
-  if (grows) {
-    const auto scope = timer->scope(commands, kCapillaries);
-    recordCapillaries(commands, frame, 0, capillaries->batches());
   }
   const auto scope = timer->scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
   recordEnd(commands, frame);
 }
 
-// The next batch of the picture's capillaries, and with the last one what comes behind them.
-void Renderer::State::recordSlice(VkCommandBuffer commands) {
-  recordCapillaries(commands, *begun, drawnBatches, drawnBatches + 1);
-  if (++drawnBatches < capillaries->batches()) return;
+void Renderer::State::recordSlice(VkCommandBuffer commands, std::size_t batches) {
+  timer->begin(commands);
+  const std::size_t from = drawnBatches;
+  drawnBatches = std::min(from + batches, capillaries->batches());
+  {
+    const auto scope = timer->scope(commands, kCapillaries);
+    recordCapillaries(commands, *begun, from, drawnBatches);
+  }
+  if (drawnBatches < capillaries->batches()) return;
+  const auto scope = timer->scope(commands, kMeshes);
   target.begin(commands, {}, 0, gpu::Stretch::last);
   recordEnd(commands, *begun);
   begun.reset();
+}
+
+void Renderer::State::drawSlice(std::size_t batches) {
+  const auto start = Clock::now();
+  gpu::Commands commands = device.queue().begin("slice");
+  recordSlice(commands, batches);
+  device.queue().wait(device.queue().submit(std::move(commands)));
+  times.total += msSince(start);
+  addTimes();
 }
 
 // Whether the frame's rounds did for all of its vessels; says how many the next one gets, with an eighth to
@@ -398,7 +413,7 @@ void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
   state_->setColours(colours);
 }
 
-void Renderer::State::drawFirst(const RenderInput& input, bool slices) {
+void Renderer::State::drawFirst(const RenderInput& input) {
   const auto start = Clock::now();
   begun.reset();
   drawnBatches = 0;
@@ -409,10 +424,15 @@ void Renderer::State::drawFirst(const RenderInput& input, bool slices) {
   transparent = input.look.transparent;
   do {
     gpu::Commands commands = device.queue().begin("frame");
-    record(commands, input, slices);
+    record(commands, input);
     device.queue().wait(device.queue().submit(std::move(commands)));
   } while (!settleRounds(input.look));
   times.total = msSince(start);
+  addTimes();
+}
+
+// Of what was submitted last.
+void Renderer::State::addTimes() {
   for (const auto& [name, ms] : timer->results()) {
     const std::string_view stage(name);
     (stage == kTessellate    ? times.tessellate
@@ -423,19 +443,17 @@ void Renderer::State::drawFirst(const RenderInput& input, bool slices) {
   }
 }
 
-void Renderer::draw(const RenderInput& input) { state_->drawFirst(input, false); }
+void Renderer::draw(const RenderInput& input) {
+  state_->drawFirst(input);
+  if (state_->begun) state_->drawSlice(state_->capillaries->batches());
+}
 
-void Renderer::begin(const RenderInput& input) { state_->drawFirst(input, true); }
+void Renderer::begin(const RenderInput& input) { state_->drawFirst(input); }
 
 bool Renderer::step() {
-  State& s = *state_;
-  if (!s.begun) return false;
-  const auto start = Clock::now();
-  gpu::Commands commands = s.device.queue().begin("slice");
-  s.recordSlice(commands);
-  s.device.queue().wait(s.device.queue().submit(std::move(commands)));
-  s.times.total += msSince(start);
-  return s.begun.has_value();
+  if (!state_->begun) return false;
+  state_->drawSlice(1);
+  return state_->begun.has_value();
 }
 
 void Renderer::take(const Network& network, const SweepTable& table) {
