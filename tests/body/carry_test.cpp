@@ -109,7 +109,9 @@ TEST_CASE(
     if (!carried.ok()) FAIL(carried.error().message);
     CHECK_MESSAGE(carried->fit.share > 0.8f, turn);
     CHECK_MESSAGE(carried->fit.by.scale == doctest::Approx(1 / size).epsilon(0.05), turn);
-    CHECK_MESSAGE(worstAway(carried->network.points, network.points()) < 0.015f, turn);
+    const float away = worstAway(carried->network.points, network.points());
+    CHECK_MESSAGE(away < 0.015f, turn);
+    MESSAGE(1e3f * away << " mm");
     CHECK(carried->network.points[0].w == doctest::Approx(network.points()[0].w).epsilon(0.06));
   }
 }

@@ -25,7 +25,8 @@ SkinInfluence influenceAt(const Skeleton& skeleton, vec3 p) {
     else if (distance < near[1].first)
       near[1] = {distance, joint.parent.value};
   }
-  const float first = 1 / (near[0].first * near[0].first), second = 1 / (near[1].first * near[1].first);
+  const auto pull = [](float distance) { return 1 / (distance * distance + 1e-6f); };
+  const float first = pull(near[0].first), second = pull(near[1].first);
   return {{std::uint16_t(near[0].second), std::uint16_t(near[1].second), 0, 0},
           vec4(first, second, 0, 0) / (first + second)};
 }
