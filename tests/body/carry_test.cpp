@@ -111,7 +111,6 @@ TEST_CASE(
     CHECK_MESSAGE(carried->fit.by.scale == doctest::Approx(1 / size).epsilon(0.05), turn);
     const float away = worstAway(carried->network.points, network.points());
     CHECK_MESSAGE(away < 0.015f, turn);
-    MESSAGE(1e3f * away << " mm");
     CHECK(carried->network.points[0].w == doctest::Approx(network.points()[0].w).epsilon(0.06));
   }
 }
