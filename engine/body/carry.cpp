@@ -95,7 +95,7 @@ void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std:
     if (a < match.size() && b < match.size() && match[a] != kNone && match[b] != kNone)
       releaseUneven(from, to, a, b, match);
   };
-  release("hips", "neck");
+  release("hips", "neck"), release("neck", "head");
   for (const std::string side : {"left", "right"})
     release(side + "LowerArm", side + "Hand"), release(side + "UpperArm", side + "LowerArm");
 }
