@@ -62,7 +62,7 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame:
   if (unit == 1) return found;
   logInfo(path.string() + ": read as millimetres, as it would be " +
           std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
-          " m large in metres; vasa convert --unit says otherwise");
+          " m large in metres; --unit of vasa convert and vasa fit says otherwise");
   return read(VesselImport{{unit, up}, {}});
 }
 
