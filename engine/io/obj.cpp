@@ -190,7 +190,7 @@ class Reader {
   std::vector<std::uint32_t> corners_;
   std::vector<Face> faces_;
   std::vector<Object> objects_;
-  std::string_view material_;  // of the faces to come
+  std::string_view material_;           // of the faces to come
   std::vector<std::uint32_t> numbers_;  // of the object in work, one a vertex
 };
 
