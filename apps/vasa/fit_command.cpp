@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "body/carry.h"
+#include "body/strain.h"
+#include "body/surface_carry.h"
 #include "commands.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -14,15 +18,98 @@
 #include "network/reshape.h"
 #include "report.h"
 #include "rest_report.h"
+#include "scene/vessel_files.h"
 
-// vasa fit: a network carried from one body to another with the same joints.
+// vasa fit: a network carried from one body, or from the surface around it, to another body.
 namespace vasa::cli {
 namespace {
 
 struct Options {
-  std::string network, from, to, output, jointMap;
+  std::string network, from, to, output, jointMap, unit, up;
   bool exact = false;
 };
+
+constexpr std::size_t kListed = 10;  // vessels of a report's lists for readers
+
+// What the network comes from, and where it went.
+struct Carried {
+  CarriedNetwork network;
+  SkinReport outsideBefore;
+  std::optional<SurfaceFit> surface;
+};
+
+bool isGltf(const std::string& file) { return file.ends_with(".glb") || file.ends_with(".gltf"); }
+
+// A surface without a skeleton.
+Result<bool> isSurface(const Options& options) {
+  if (!holdsSurfaces(options.from)) return false;
+  if (!isGltf(options.from)) return true;
+  const auto summary = checkGltf(options.from);
+  if (!summary) return summary.error();
+  return summary->skins == 0;
+}
+
+Result<TriangleMesh> readSurfaceOf(const Options& options) {
+  const auto up = options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y;
+  const double unit = options.unit.empty() ? 0 : metresOfUnit(options.unit);
+  const auto sources =
+      unit > 0 ? readSurfaces(options.from, {{unit, up}, {}}) : readSurfacesInLikelyUnit(options.from, up);
+  if (!sources) return sources.error();
+  TriangleMesh mesh = meshOf(*sources);
+  if (unit > 0 && isGltf(options.from))  // read in metres, whatever their unit
+    for (vec3& p : mesh.positions) p *= float(unit);
+  return mesh;
+}
+
+Result<Carried> carry(const Options& options, const Network& network, const Body& to) {
+  const auto surface = isSurface(options);
+  if (!surface) return surface.error();
+  if (*surface) {
+    if (!options.jointMap.empty())
+      return Error{Fault::usage, "--joint-map pairs joints, and " + options.from + " has none"};
+    const auto mesh = readSurfaceOf(options);
+    if (!mesh) return mesh.error();
+    auto carried = carryBySurface(network, *mesh, to, options.network, options.from);
+    if (!carried) return carried.error();
+    return Carried{std::move(carried->network), measureOutside(network, network.points(), *mesh),
+                   carried->fit};
+  }
+  if (!options.unit.empty() || !options.up.empty())
+    return Error{Fault::usage, "--unit and --up belong to a surface as --from; " + options.from +
+                                   " is a body, in metres with +Y up"};
+  const auto from = readBody(options.from);
+  if (!from) return from.error();
+  JointMap map;
+  if (!options.jointMap.empty()) {
+    auto read = readJointMap(options.jointMap);
+    if (!read) return read.error();
+    map = std::move(*read);
+  }
+  auto carried = carryNetwork(network, *from, to, options.network, map);
+  if (!carried) return carried.error();
+  return Carried{std::move(*carried), measureOutside(network, network.points(), *from), {}};
+}
+
+Report surfaceJson(const SurfaceFit& fit) {
+  const vec3 move = fit.by.move;
+  return {{"share", fit.share},
+          {"distance_mm", 1e3 * fit.distance},
+          {"scale", fit.by.scale},
+          {"turn_degrees", 2 * std::acos(std::min(1.0f, std::abs(fit.by.turn.w))) * 180 / kPi},
+          {"move_m", {move.x, move.y, move.z}}};
+}
+
+Report strainJson(const Network& network, std::span<const vec4> before, float factor) {
+  Report list = Report::array();
+  for (const VesselStrain& strain : measureStrain(network, before, network.points(), factor)) {
+    if (list.size() == kListed) break;
+    list.push_back({{"name", network.vessel(strain.vessel).name},
+                    {"least", strain.least},
+                    {"most", strain.most},
+                    {"place_m", {strain.place.x, strain.place.y, strain.place.z}}});
+  }
+  return list;
+}
 
 Report outsideJson(const Network& network, const SkinReport& outside) {
   Report list = Report::array();
@@ -38,14 +125,34 @@ Report outsideJson(const Network& network, const SkinReport& outside) {
           {"vessels", std::move(list)}};
 }
 
+std::string matchText(const Report& report) {
+  if (!report.contains("surface"))
+    return fmt::format("joints     {} matched{}\n", report["joints_matched"].get<int>(),
+                       report["joints_free"].empty()
+                           ? ""
+                           : "; these go with the joint before them: " + report["joints_free"].dump());
+  const Report& surface = report["surface"];
+  return fmt::format(
+      "surface    {:.0f} % of it lie near the skin, {:.1f} mm off in the mean: times {:.3f}, turned by {:.0f} degrees\n",
+      100 * surface["share"].get<double>(), surface["distance_mm"].get<double>(),
+      surface["scale"].get<double>(), surface["turn_degrees"].get<double>());
+}
+
+std::string strainText(const Report& report) {
+  std::string text;
+  for (const Report& vessel : report["strained"])
+    text += fmt::format("{}{:<50} pieces {:.2f} to {:.2f} times as long\n",
+                        text.empty() ? "strained   " : "           ", plainText(vessel["name"]),
+                        vessel["least"].get<double>(), vessel["most"].get<double>());
+  return text;
+}
+
 std::string asText(const Report& report) {
-  std::string text = fmt::format("joints     {} matched{}\n", report["joints_matched"].get<int>(),
-                                 report["joints_free"].empty() ? ""
-                                                               : "; these go with the joint before them: " +
-                                                                     report["joints_free"].dump());
+  std::string text = matchText(report);
   text += fmt::format("network    {} vessels, {:.2f} m (before {:.2f} m), radii times {:.3f}\n",
                       report["vessels"].get<std::size_t>(), report["length_m"].get<double>(),
                       report["length_before_m"].get<double>(), report["radius_factor"].get<double>());
+  text += strainText(report);
   const Report& outside = report["outside_skin"];
   if (!outside["measured"].get<bool>()) return text + "outside    not known: the body has no skin\n";
   text += fmt::format(
@@ -54,7 +161,7 @@ std::string asText(const Report& report) {
       100 * report["outside_skin_before"]["share"].get<double>());
   std::size_t listed = 0;
   for (const Report& vessel : outside["vessels"]) {
-    if (++listed > 10) break;
+    if (++listed > kListed) break;
     text += fmt::format("           {:<50} {:.1f} of {:.1f} mm, farthest {:.1f} mm\n",
                         plainText(vessel["name"]), 1e3 * vessel["outside_m"].get<double>(),
                         1e3 * vessel["length_m"].get<double>(), 1e3 * vessel["farthest_m"].get<double>());
@@ -66,18 +173,11 @@ std::string asText(const Report& report) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto network = readNetwork(options.network);
   if (!network) return network.error();
-  const auto from = readBody(options.from);
-  if (!from) return from.error();
   const auto to = readBody(options.to);
   if (!to) return to.error();
-  JointMap map;
-  if (!options.jointMap.empty()) {
-    auto read = readJointMap(options.jointMap);
-    if (!read) return read.error();
-    map = std::move(*read);
-  }
-  auto carried = carryNetwork(*network, *from, *to, options.network, map);
-  if (!carried) return carried.error();
+  auto carrying = carry(options, *network, *to);
+  if (!carrying) return carrying.error();
+  CarriedNetwork* const carried = &carrying->network;
   KinkRelaxer(*network).run(carried->points);
   checkpoint();
   const auto fitted = reshapeNetwork(*network, carried->points, carried->bodyHeight);
@@ -87,21 +187,22 @@ Result<void> run(const Globals& globals, const Options& options) {
   const Network& parted = repair.network;
   const auto bytes = writeNetwork(options.output, parted, {.quantise = !options.exact});
   if (!bytes) return bytes.error();
-  Report report{
-      {"file", options.output},
-      {"file_bytes", *bytes},
-      {"vessels", parted.vessels().size()},
-      {"length_m", measure(parted, parted.points()).length},
-      {"length_before_m", measure(*network, network->points()).length},
-      {"body_height_m", carried->bodyHeight},
-      {"radius_factor", carried->radiusFactor},
-      {"joints_matched", carried->jointsMatched},
-      {"joints_free", carried->jointsFree},
-      {"points_pushed_in", carried->pushedIn},
-      {"kinks", kinkCount(parted, parted.points())},
-      {"kinks_before", kinkCount(*network, network->points())},
-      {"outside_skin", outsideJson(parted, measureOutside(parted, parted.points(), *to))},
-      {"outside_skin_before", outsideJson(*network, measureOutside(*network, network->points(), *from))}};
+  Report report{{"file", options.output},
+                {"file_bytes", *bytes},
+                {"vessels", parted.vessels().size()},
+                {"length_m", measure(parted, parted.points()).length},
+                {"length_before_m", measure(*network, network->points()).length},
+                {"body_height_m", carried->bodyHeight},
+                {"radius_factor", carried->radiusFactor},
+                {"joints_matched", carried->jointsMatched},
+                {"joints_free", carried->jointsFree},
+                {"points_pushed_in", carried->pushedIn},
+                {"kinks", kinkCount(parted, parted.points())},
+                {"kinks_before", kinkCount(*network, network->points())},
+                {"outside_skin", outsideJson(parted, measureOutside(parted, parted.points(), *to))},
+                {"outside_skin_before", outsideJson(*network, carrying->outsideBefore)},
+                {"strained", strainJson(parted, network->points(), carried->radiusFactor)}};
+  if (carrying->surface) report["surface"] = surfaceJson(*carrying->surface);
   addRestRepair(report, repair);
   return globals.json ? printJson(report) : printText(restRepairText(repair) + asText(report));
 }
@@ -110,18 +211,30 @@ Result<void> run(const Globals& globals, const Options& options) {
 
 void addFit(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("fit", "Carry a network from one body to another with the same joints");
+  CLI::App* sub =
+      app.add_subcommand("fit", "Carry a network from one body, or the surface around it, to another");
   sub->footer(
       "Examples:\n"
       "  vasa fit adult.vasa --from adult.glb --to child.glb -o child.vasa\n"
       "  vasa fit adult.vasa --from adult.glb --to other.glb --joint-map joints.txt -o other.vasa --json\n"
+      "  vasa fit scan.vasa --from torso.stl --unit mm --up z --to body.glb -o scan_in_body.vasa\n"
       "Joints match by name where both bodies are rigged by one convention, else by what part of a human body their\n"
       "names mean; --joint-map pairs the rest: a line `joint of the new body = joint of the old` each.\n"
-      "Vessels that run through one another where they have come are moved apart, as by convert.");
+      "--from may be a surface without a skeleton, of a whole person or a part, upright and held as the body is at rest: it is found in\n"
+      "the body's skin by its shape, and what lies in it follows. Where front and back look alike it is taken to face +Z (scans with\n"
+      "+Z up: -Y).\n"
+      "Vessels that run through one another where they have come are moved apart, as by convert. The report lists the ten vessels\n"
+      "of which a piece of 2 cm changed its length most, beside what the whole did.");
   sub->add_option("NETWORK", options->network, "The network (.vasa)")->required();
-  sub->add_option("--from", options->from, "The body it lies in (glTF)")->required();
+  sub->add_option("--from", options->from,
+                  "The body it lies in (glTF), or the surface around it (GLB, OBJ, STL, VTP, VTK)")
+      ->required();
   sub->add_option("--to", options->to, "The body to carry it to (glTF)")->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
+  sub->add_option("--unit", options->unit, "Unit of a surface as --from (default: the likely one)")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in", "um"}));
+  sub->add_option("--up", options->up, "Axis of a surface as --from that points up (default: y)")
+      ->check(CLI::IsMember({"y", "z"}));
   sub->add_option("--joint-map", options->jointMap, "Pairs of joints");
   sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");
   sub->callback(

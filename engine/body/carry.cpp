@@ -6,6 +6,7 @@
 
 #include "body/binding.h"
 #include "body/deform.h"
+#include "body/inside.h"
 #include "body/retarget.h"
 #include "body/skin_warp.h"
 #include "body/ties.h"
@@ -47,31 +48,56 @@ float shareBetween(const Skeleton& skeleton, std::size_t a, std::size_t b, std::
          std::max(glm::dot(way, way), 1e-12f);
 }
 
+// Releases joints between the two ends of a chain until no part of it is stretched or squeezed by more than
+// kMostUneven beside the whole of it.
+void releaseUneven(const Skeleton& from, const Skeleton& to, std::size_t first, std::size_t last,
+                   std::vector<std::uint32_t>& match) {
+  constexpr float kMostUneven = 1.15f;
+  struct Stop {
+    std::size_t joint;
+    float own, other;
+  };
+  std::vector<Stop> stops;
+  for (JointId j{std::uint32_t(last)}; j.valid(); j = from.joints[j.value].parent) {
+    if (match[j.value] != kNone)
+      stops.push_back({j.value, shareBetween(from, first, last, j.value),
+                       shareBetween(to, match[first], match[last], match[j.value])});
+    if (j.value == first) break;
+  }
+  while (stops.size() > 2) {
+    std::size_t worst = 0;
+    float most = std::log(kMostUneven);
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const float own = stops[i].own - stops[i + 1].own, other = stops[i].other - stops[i + 1].other;
+      const float uneven = own > 0 && other > 0 ? std::abs(std::log(other / own)) : 1e9f;
+      if (uneven > most) most = uneven, worst = i + 1;
+    }
+    if (worst == 0) return;
+    // Of the part's two ends the one that is farther from its place; the chain's own ends stay.
+    const auto off = [&](std::size_t i) {
+      return i == 0 || i + 1 == stops.size() ? -1.0f : std::abs(stops[i].own - stops[i].other);
+    };
+    const std::size_t gone = off(worst) > off(worst - 1) ? worst : worst - 1;
+    match[stops[gone].joint] = kNone;
+    stops.erase(stops.begin() + std::ptrdiff_t(gone));
+  }
+}
+
 // Rigs put the joints of a spine at other vertebrae, and those that only twist a limb at other places along
 // it, under the same names: the former go with the trunk as a whole, the latter with the limb.
 void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std::uint32_t>& match) {
-  constexpr float kSamePlace = 0.15f;
-  const auto matched = [&](std::size_t j) { return j < match.size() && match[j] != kNone; };
-  const auto release = [&](std::size_t a, std::size_t b, std::size_t j) {
-    if (!matched(a) || !matched(b) || !matched(j)) return;
-    const float own = shareBetween(from, a, b, j), other = shareBetween(to, match[a], match[b], match[j]);
-    if (std::abs(own - other) > kSamePlace) match[j] = kNone;
-  };
   std::vector<std::string> names;
   for (const auto& joint : from.joints) names.push_back(joint.name);
   const HumanoidNames parts = humanoidNames(names);
-  const auto jointOf = [&](std::string_view part) {
-    return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin());
+  const auto release = [&](const std::string& start, const std::string& end) {
+    const auto a = std::size_t(std::ranges::find(parts.of, start) - parts.of.begin()),
+               b = std::size_t(std::ranges::find(parts.of, end) - parts.of.begin());
+    if (a < match.size() && b < match.size() && match[a] != kNone && match[b] != kNone)
+      releaseUneven(from, to, a, b, match);
   };
-  for (const std::string_view part : {"spine", "chest", "upperChest"})
-    release(jointOf("hips"), jointOf("neck"), jointOf(part));
-  for (const std::string_view side : {"left", "right"})
-    for (const auto& [upper, lower] : {std::pair("LowerArm", "Hand"), std::pair("UpperArm", "LowerArm")}) {
-      const std::size_t a = jointOf(std::string(side) + upper), b = jointOf(std::string(side) + lower);
-      if (!matched(a) || !matched(b)) continue;
-      for (JointId j = from.joints[b].parent; j.valid() && j.value != a; j = from.joints[j.value].parent)
-        release(a, b, j.value);
-    }
+  release("hips", "neck"), release("neck", "head");
+  for (const std::string side : {"left", "right"})
+    release(side + "LowerArm", side + "Hand"), release(side + "UpperArm", side + "LowerArm");
 }
 
 // How long the ways from each matched joint to the matched one before it are in all. Unlike how far apart
@@ -227,45 +253,14 @@ class Carrier {
     SkinWarp(skin_, *shell_).run(std::span(points_).first(network_.points().size()));
   }
 
-  // Points outside the skin, or nearer to it than their radius and than they were, are moved in; their
-  // neighbours come along.
   void pushInside() {
     if (!shell_) return;
-    constexpr int kRoundsInside = 3;
-    constexpr float kSkinThickness = 0.0012f;  // of the body's height
-    const float thickness = kSkinThickness * to_.height();
     const SkinShell before(skinAtRest(from_));
-    std::vector<float> wanted(out_.points.size());
-    parallelFor(wanted.size(), 32, [&](std::size_t i) {
-      const float was = out_.radiusFactor * before.look(vec3(network_.points()[i])).depth;
-      wanted[i] = std::min(std::min(out_.points[i].w, 4 * thickness) + thickness, was);
+    std::vector<float> depths(out_.points.size());
+    parallelFor(depths.size(), 32, [&](std::size_t i) {
+      depths[i] = out_.radiusFactor * before.look(vec3(network_.points()[i])).depth;
     });
-    for (int round = 0; round < kRoundsInside; ++round) {
-      std::vector<vec3> moves(out_.points.size(), vec3(0));
-      parallelFor(moves.size(), 32, [&](std::size_t i) {
-        const vec4& p = out_.points[i];
-        const auto place = shell_->look(vec3(p));
-        if (place.depth < wanted[i] - 1e-5f) moves[i] = place.nearest - wanted[i] * place.normal - vec3(p);
-      });
-      if (round == 0)
-        out_.pushedIn =
-            std::uint32_t(std::ranges::count_if(moves, [](const vec3& m) { return m != vec3(0); }));
-      spreadAlongVessels(moves);
-      for (std::size_t i = 0; i < moves.size(); ++i) out_.points[i] += vec4(moves[i], 0);
-    }
-  }
-
-  // A neighbour moves half as far, its neighbour a quarter: no kinks.
-  void spreadAlongVessels(std::vector<vec3>& moves) const {
-    for (const Vessel& vessel : network_.vessels()) {
-      const auto own = Network::pointsOf(vessel, std::span(moves));
-      const auto follow = [&](std::size_t i, std::size_t before) {
-        const vec3 half = 0.5f * own[before];
-        if (glm::dot(half, half) > glm::dot(own[i], own[i])) own[i] = half;
-      };
-      for (std::size_t i = 1; i < own.size(); ++i) follow(i, i - 1);
-      for (std::size_t i = own.size() - 1; i-- > 0;) follow(i, i + 1);
-    }
+    out_.pushedIn = moveInside(network_, depths, *shell_, to_.height(), out_.points);
   }
 
   const Network& network_;
@@ -288,8 +283,11 @@ Result<CarriedNetwork> carryNetwork(const Network& network, const Body& from, co
 }
 
 SkinReport measureOutside(const Network& network, std::span<const vec4> points, const Body& body) {
+  return measureOutside(network, points, skinAtRest(body));
+}
+
+SkinReport measureOutside(const Network& network, std::span<const vec4> points, TriangleMesh skin) {
   SkinReport report;
-  TriangleMesh skin = skinAtRest(body);
   if (skin.empty()) return report;
   const SkinShell shell(std::move(skin));
   constexpr int kPerSpan = 4;

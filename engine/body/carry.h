@@ -26,9 +26,10 @@ struct CarriedNetwork {
 ///
 /// Method: the first body is bound to its vessels and posed as the other one stands at rest, so that limbs
 /// bend as in any motion. Then each joint's surroundings are stretched along its link and across it so that
-/// joints come to lie on joints, blended by the same shares. Last, where both have a skin, what lies between
-/// the first one's (carried the same way) and the other's nearest skin is spread into the body, more the
-/// nearer a point is to it, and points that are then less deep below it than they were (and than their
+/// joints come to lie on joints, blended by the same shares; joints of the trunk and of a limb that would
+/// stretch a part of it by over 15 % beside the whole are left out. Last, where both have a skin, what lies
+/// between the first one's (carried the same way) and the other's nearest skin is spread into the body, more
+/// the nearer a point is to it, and points that are then less deep below it than they were (and than their
 /// radius) are moved in, their neighbours along the vessel with them. Radii change as the skeletons' sizes
 /// do.
 ///
@@ -53,5 +54,6 @@ struct SkinReport {
 
 /// Looks at each span in four places. Empty where the body has no skin.
 SkinReport measureOutside(const Network& network, std::span<const vec4> points, const Body& body);
+SkinReport measureOutside(const Network& network, std::span<const vec4> points, TriangleMesh skin);
 
 }  // namespace vasa

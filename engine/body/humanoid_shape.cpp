@@ -1,6 +1,7 @@
 #include "body/humanoid_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -16,6 +17,17 @@ constexpr float kEqual = 0.12f;  // a pair's lengths differ by no more than this
 constexpr float kShortLimb =
     0.15f;  // of the longest way from the root to a tip: fingers, eyes and ribs are no limbs
 constexpr std::size_t kMostJoints = 1000;
+constexpr std::size_t kLongestChain = 24, kMostBefore = 4, kMostTwists = 4;
+
+// A person's limbs: upper by lower bone; both of an arm by both of a leg, both of a leg by the way from the
+// hips to its tip (which may be the ankle or the toes). Spreads are of the logarithm.
+struct Proportions {
+  float ratio, ratioSpread, share, shareSpread;
+};
+constexpr Proportions kArm{1.15f, 0.2f, 0.67f, 0.25f}, kLeg{1.02f, 0.15f, 0.9f, 0.2f};
+// What else counts as much as one spread, squared: a bone shorter by this share than the way through its
+// joints; some joints passed over; a wrist where fingers begin.
+constexpr float kBentBone = 0.02f, kSkippedJoint = 0.3f, kHandSeen = 1.5f;
 
 struct Pair {
   std::uint32_t at, a, b;  // the joint they leave, the first joint of each
@@ -87,13 +99,15 @@ class Shape {
     Pair legs = pairs[0], arms = pairs[1];
     // The joint nearer to the root has the legs, as a rule; where the other pair has the feet, that one has.
     if (isBelow(legs.at, arms.at)) std::swap(legs, arms);
-    const auto armLimb = limb(arms.a), legLimb = limb(legs.a);
-    if (!armLimb || !legLimb || !isBelow(arms.at, legs.at)) return false;
+    if (!isBelow(arms.at, legs.at)) return false;
+    const auto leg = limb(legs.a, false);
+    if (!leg) return false;
+    legBones_ = straight(leg->chain, leg->upper, leg->lower) + straight(leg->chain, leg->lower, leg->end);
     nameTrunk(legs, arms);
     const std::optional<bool> leftIsA = sideOf(legs, arms);
     if (!leftIsA) return false;
     for (const auto& [pair, arm] : {std::pair(legs, false), std::pair(arms, true)}) {
-      const bool same = glm::dot(across(pair), left_) > 0;
+      const bool same = glm::dot(across(pair, arm), left_) > 0;
       if (!nameLimb(same ? pair.a : pair.b, "left", arm) || !nameLimb(same ? pair.b : pair.a, "right", arm))
         return false;
     }
@@ -113,19 +127,56 @@ class Shape {
     return best;
   }
 
+  // A limb's longest chain, and where in it its upper bone begins, its lower bone, and what comes behind.
   struct Limb {
     std::vector<std::uint32_t> chain;
-    std::size_t upper;  // in the chain
+    std::size_t upper, lower, end;
   };
-  std::optional<Limb> limb(std::uint32_t first) const {
-    Limb limb{{}, 0};
-    for (std::uint32_t j = first; j != kNone; j = longest(j)) limb.chain.push_back(j);
-    float most = 0;
-    for (std::size_t i = 0; i + 2 < limb.chain.size() && i < 4; ++i) {
-      const float upper = link(limb.chain[i + 1]), lower = link(limb.chain[i + 2]);
-      if (const float both = std::min(upper, lower); both > most) most = both, limb.upper = i;
-    }
-    return most > 0 ? std::optional(limb) : std::nullopt;
+
+  // Bones may be divided by joints that only twist them, so any three joints of the chain may be the limb's:
+  // the three that look most like a person's, each bone straight, are.
+  std::optional<Limb> limb(std::uint32_t first, bool arm) const {
+    Limb best{{}, 0, 0, 0};
+    for (std::uint32_t j = first; j != kNone && best.chain.size() < kLongestChain; j = longest(j))
+      best.chain.push_back(j);
+    const auto& chain = best.chain;
+    float least = 1e30f;
+    for (std::size_t i = 0; i < chain.size() && i <= kMostBefore; ++i)
+      for (std::size_t j = i + 1; j < chain.size() && j - i <= kMostTwists + 1; ++j)
+        for (std::size_t k = j + 1; k < chain.size() && k - j <= kMostTwists + 1; ++k)
+          if (const float cost = unlikeness(chain, {i, j, k}, arm); cost < least)
+            least = cost, best.upper = i, best.lower = j, best.end = k;
+    return least < 1e30f ? std::optional(best) : std::nullopt;
+  }
+
+  float unlikeness(const std::vector<std::uint32_t>& chain, const std::array<std::size_t, 3>& at,
+                   bool arm) const {
+    const float upper = straight(chain, at[0], at[1]), lower = straight(chain, at[1], at[2]);
+    if (!(upper > 0) || !(lower > 0)) return 1e30f;
+    const float bend = upper / along(chain, at[0], at[1]) + lower / along(chain, at[1], at[2]);
+    const Proportions& person = arm ? kArm : kLeg;
+    const float whole = arm ? legBones_ : reach_[chain.front()] + link(chain.front());
+    const auto off = [](float value, float wanted, float spread) {
+      const float ratio = std::log(value / wanted) / spread;
+      return ratio * ratio;
+    };
+    float cost = off(upper / lower, person.ratio, person.ratioSpread) +
+                 off((upper + lower) / whole, person.share, person.shareSpread) + (2 - bend) / kBentBone +
+                 kSkippedJoint * float(at[2] - at[0] - 2);
+    if (arm && hasFingers(chain[at[2]])) cost -= kHandSeen;
+    return cost;
+  }
+  float straight(const std::vector<std::uint32_t>& chain, std::size_t a, std::size_t b) const {
+    return glm::distance(places_[chain[a]], places_[chain[b]]);
+  }
+  float along(const std::vector<std::uint32_t>& chain, std::size_t a, std::size_t b) const {
+    float sum = 0;
+    for (std::size_t i = a + 1; i <= b; ++i) sum += link(chain[i]);
+    return sum;
+  }
+  bool hasFingers(std::uint32_t joint) const {
+    return std::ranges::count_if(children_[joint], [&](std::uint32_t child) { return count_[child] > 1; }) >
+           1;
   }
 
   vec3 end(const Pair& pair, bool ofA) const {
@@ -133,9 +184,9 @@ class Shape {
     while (longest(j) != kNone) j = longest(j);
     return tips_[j];
   }
-  vec3 across(const Pair& pair) const {
+  vec3 across(const Pair& pair, bool arm) const {
     const vec3 apart = places_[pair.a] - places_[pair.b];
-    const auto a = limb(pair.a), b = limb(pair.b);
+    const auto a = limb(pair.a, arm), b = limb(pair.b, arm);
     if (glm::length(apart) > 1e-4f * pair.length || !a || !b) return apart;
     return places_[a->chain[a->upper]] - places_[b->chain[b->upper]];
   }
@@ -146,15 +197,14 @@ class Shape {
     if (!(glm::length(up) > 0)) return std::nullopt;
     up = glm::normalize(up);
     for (const bool a : {true, false}) {
-      const auto leg = limb(a ? legs.a : legs.b);
+      const auto leg = limb(a ? legs.a : legs.b, false);
       if (!leg) return std::nullopt;
-      const std::size_t ankle = leg->upper + 2;
-      forward += end(legs, a) - places_[leg->chain[ankle]];
+      forward += end(legs, a) - places_[leg->chain[leg->end]];
     }
     forward -= glm::dot(forward, up) * up;
     left_ =
         glm::length(forward) > 0.05f * legs.length ? glm::cross(up, glm::normalize(forward)) : vec3(1, 0, 0);
-    const float side = glm::dot(across(legs), left_);
+    const float side = glm::dot(across(legs, false), left_);
     if (side == 0) return std::nullopt;
     return side > 0;
   }
@@ -180,14 +230,19 @@ class Shape {
   }
 
   bool nameLimb(std::uint32_t first, const std::string& side, bool arm) {
-    const auto own = limb(first);
-    if (!own || own->chain.size() < own->upper + 3) return false;
-    const auto at = [&](std::size_t k) { return own->chain[own->upper + k]; };
-    name(at(0), side + (arm ? "UpperArm" : "UpperLeg"));
-    name(at(1), side + (arm ? "LowerArm" : "LowerLeg"));
-    name(at(2), side + (arm ? "Hand" : "Foot"));
-    if (arm && own->upper > 0) name(own->chain[own->upper - 1], side + "Shoulder");
-    if (!arm && own->chain.size() > own->upper + 3) name(at(3), side + "Toes");
+    const auto own = limb(first, arm);
+    if (!own) return false;
+    const auto& chain = own->chain;
+    name(chain[own->upper], side + (arm ? "UpperArm" : "UpperLeg"));
+    name(chain[own->lower], side + (arm ? "LowerArm" : "LowerLeg"));
+    name(chain[own->end], side + (arm ? "Hand" : "Foot"));
+    if (arm && own->upper > 0) {  // of a collar bone and what follows it the longest
+      std::size_t collar = 0;
+      for (std::size_t i = 1; i < own->upper; ++i)
+        if (link(chain[i + 1]) > link(chain[collar + 1])) collar = i;
+      name(chain[collar], side + "Shoulder");
+    }
+    if (!arm && own->end + 1 < chain.size()) name(chain[own->end + 1], side + "Toes");
     return true;
   }
 
@@ -197,6 +252,7 @@ class Shape {
   std::vector<float> reach_;          // of the longest way from a joint to a tip
   std::vector<std::uint32_t> count_;  // of a joint and those behind it
   std::vector<std::string_view> out_;
+  float legBones_ = 0;  // [m] a thigh and a shin
   vec3 left_{1, 0, 0};
 };
 

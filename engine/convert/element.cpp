@@ -9,6 +9,7 @@
 #include "convert/reeb.h"
 #include "convert/reslice.h"
 #include "convert/rings.h"
+#include "convert/untold.h"
 #include "math/closest_point.h"
 #include "mesh/boundary.h"
 #include "mesh/components.h"
@@ -129,6 +130,7 @@ PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
     result.sections.push_back(std::move(sections));
   }
   connectForks(result.graph, result.sections, tree);
+  for (std::vector<vec4>& sections : result.sections) dropUntold(sections, piece.mesh, tree);
   return result;
 }
 

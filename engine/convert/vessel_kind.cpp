@@ -36,7 +36,8 @@ bool hasAny(const std::string& text, const std::array<std::string_view, N>& word
 // A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next
 // source.
 VesselKind kindInText(std::string_view raw) {
-  static constexpr std::array<std::string_view, 13> kArtery{"arter",
+  // Arches and arcades of hand, foot and bowel are arteries where nothing says that they are venous.
+  static constexpr std::array<std::string_view, 18> kArtery{"arter",
                                                             "aorta",
                                                             "aortic",
                                                             "coeliac trunk",
@@ -48,11 +49,34 @@ VesselKind kindInText(std::string_view raw) {
                                                             " lad ",
                                                             " rca ",
                                                             " lcx ",
-                                                            "thyrocervical"};
-  static constexpr std::array<std::string_view, 15> kVein{
-      " vein",          " vena ",         " venae ",          " venous",       "venule",
-      "azygos",         "azygous",        " cava ",           " svc ",         " ivc ",
-      "coronary sinus", "sagittal sinus", "transverse sinus", "sigmoid sinus", "jugular"};
+                                                            "thyrocervical",
+                                                            "costocervical",
+                                                            "palmar arch",
+                                                            "plantar arch",
+                                                            "carpal arch",
+                                                            "intestinal arcade"};
+  static constexpr std::array<std::string_view, 22> kVein{" vein",
+                                                          " vena ",
+                                                          " venae ",
+                                                          " venous",
+                                                          "venule",
+                                                          "azygos",
+                                                          "azygous",
+                                                          " cava ",
+                                                          " svc ",
+                                                          " ivc ",
+                                                          "coronary sinus",
+                                                          "sagittal sinus",
+                                                          "transverse sinus",
+                                                          "sigmoid sinus",
+                                                          "jugular",
+                                                          "straight sinus",
+                                                          "occipital sinus",
+                                                          "cavernous sinus",
+                                                          "petrosal sinus",
+                                                          "confluence of sinuses",
+                                                          "pterygoid plexus",
+                                                          "pampiniform"};
   static constexpr std::array<std::string_view, 2> kLymph{"lymph", "thoracic duct"};
   const std::string text = spaced(raw);
   const bool artery = hasAny(text, kArtery), vein = hasAny(text, kVein);
@@ -115,8 +139,12 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
   for (const std::string_view text : texts)
     if (kind == VesselKind::other) kind = kindInText(text);
   if (kind == VesselKind::other && element.colour) kind = kindOfColour(*element.colour);
-  const bool portal = spaced(element.name).find(" portal ") != std::string::npos;
-  return kind == VesselKind::vein && portal ? VesselKind::portalVein : kind;
+  if (kind != VesselKind::vein) return kind;
+  const auto portal = [](std::string_view text) {
+    return spaced(text).find(" portal ") != std::string::npos;
+  };
+  const bool told = portal(element.name) || std::ranges::any_of(element.surroundings, portal);
+  return told ? VesselKind::portalVein : kind;
 }
 
 }  // namespace vasa

@@ -1,5 +1,7 @@
 #include "io/animated_mesh.h"
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 
 #include "io/glb_writer.h"
@@ -92,6 +94,12 @@ std::string encodeObj(const AnimatedMesh& mesh) {
     for (char& c : name)
       if (c == '\n' || c == '\r') c = ' ';
     text += "o " + name + '\n';
+    if (label < mesh.labels.size() && !mesh.labels[label].kind.empty()) {
+      std::string material = mesh.labels[label].kind;
+      std::ranges::replace_if(
+          material, [](unsigned char c) { return std::isspace(c) != 0; }, '_');
+      text += "usemtl " + material + '\n';
+    }
     for (const uvec3& t : triangles) {
       text += 'f';
       for (int k = 0; k < 3; ++k) {

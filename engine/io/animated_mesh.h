@@ -35,7 +35,8 @@ struct AnimatedMesh {
 /// the mesh's extras list as "vessels" (name, kind, id). Uses no extension.
 std::vector<std::byte> encodeGlb(const AnimatedMesh& mesh);
 
-/// A Wavefront OBJ text of the mesh at its first key: an object for each label, vertices and normals shared.
+/// A Wavefront OBJ text of the mesh at its first key: an object for each label, its material named by its
+/// kind, vertices and normals shared.
 std::string encodeObj(const AnimatedMesh& mesh);
 
 /// A binary STL file of the mesh at its first key, one solid. @param unit  [m] of its numbers

@@ -23,7 +23,10 @@ struct Face {
 struct Object {
   std::string name;
   std::size_t firstFace;
+  std::string_view material = {};  // of its first face, in the text
 };
+// Longer ones name nothing that a reader knows; each object has a copy.
+constexpr std::size_t kLongestMaterial = 128;
 
 class Reader {
  public:
@@ -42,6 +45,8 @@ class Reader {
         if (auto read = vertex(line); !read) return read.error();
       } else if (keyword == "f") {
         if (auto read = face(line); !read) return read.error();
+      } else if (keyword == "usemtl") {
+        material_ = restOf(line);
       } else if (keyword == "o" || keyword == "g") {
         begin(line);
         if (objects_.size() > mostObjects)
@@ -83,7 +88,16 @@ class Reader {
     return {};
   }
 
+  static std::string_view restOf(std::string_view line) {
+    const std::size_t from = std::min(line.find_first_not_of(" \t"), line.size()),
+                      to = line.find_last_not_of(" \t\r");
+    const std::string_view rest = to == line.npos ? std::string_view{} : line.substr(from, to + 1 - from);
+    return rest.size() <= kLongestMaterial ? rest : std::string_view{};
+  }
+
   Result<void> face(std::string_view line) {
+    if (objects_.empty()) objects_.push_back({{}, 0});
+    if (objects_.back().firstFace == faces_.size()) objects_.back().material = material_;
     faces_.push_back({corners_.size(), line_});
     const auto vertices = std::int64_t(positions_.size());
     for (std::string_view word = nextWord(line); !word.empty() && word[0] != '#'; word = nextWord(line)) {
@@ -119,7 +133,6 @@ class Reader {
   }
 
   Result<std::vector<MeshElement>> elements() {
-    if (objects_.empty() || objects_.front().firstFace > 0) objects_.insert(objects_.begin(), Object{{}, 0});
     numbers_.assign(positions_.size(), kNone);
     std::vector<MeshElement> elements;
     elements.reserve(objects_.size());
@@ -130,6 +143,7 @@ class Reader {
           {},
           {},
           meshOf(object.firstFace, i + 1 < objects_.size() ? objects_[i + 1].firstFace : faces_.size())};
+      if (!object.material.empty()) element.surroundings.emplace_back(object.material);
       if (!element.mesh.empty()) elements.push_back(std::move(element));
     }
     if (elements.empty()) return badInput(file_ + ": every face has lost its area; export the surface again");
@@ -176,6 +190,7 @@ class Reader {
   std::vector<std::uint32_t> corners_;
   std::vector<Face> faces_;
   std::vector<Object> objects_;
+  std::string_view material_;           // of the faces to come
   std::vector<std::uint32_t> numbers_;  // of the object in work, one a vertex
 };
 

@@ -52,8 +52,9 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
 
 // What `read` gives, in the likely unit.
 template <class Read>
-auto readInLikelyUnit(const std::filesystem::path& path, Read read) -> decltype(read(VesselImport{})) {
-  auto found = read(VesselImport{});
+auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame::Up up = ImportFrame::Up::y)
+    -> decltype(read(VesselImport{})) {
+  auto found = read(VesselImport{{1, up}, {}});
   const std::string extension = extensionOf(path);
   if (!found || extension == ".glb" || extension == ".gltf") return found;  // metres by definition
   const vec3 extent = extentOf(*found);
@@ -61,14 +62,13 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read) -> decltype(
   if (unit == 1) return found;
   logInfo(path.string() + ": read as millimetres, as it would be " +
           std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
-          " m large in metres; vasa convert --unit says otherwise");
-  return read(VesselImport{{unit, ImportFrame::Up::y}, {}});
+          " m large in metres; --unit of vasa convert and vasa fit says otherwise");
+  return read(VesselImport{{unit, up}, {}});
 }
 
 Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyHeight,
                                   const ReadingProgress& told) {
-  const auto sources =
-      readInLikelyUnit(path, [&](const VesselImport& import) { return readSurfaces(path, import); });
+  const auto sources = readSurfacesInLikelyUnit(path, ImportFrame::Up::y);
   if (!sources) return sources.error();
   ConvertOptions options{.bodyHeight = bodyHeight};
   if (told) {
@@ -141,6 +141,23 @@ Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& pat
   std::vector<SourceElement> sources = describeElements(std::move(*elements), path.stem().string());
   for (SourceElement& source : sources) source.kind = import.kind.value_or(source.kind);
   return sources;
+}
+
+Result<std::vector<SourceElement>> readSurfacesInLikelyUnit(const std::filesystem::path& path,
+                                                            ImportFrame::Up up) {
+  return readInLikelyUnit(
+      path, [&](const VesselImport& import) { return readSurfaces(path, import); }, up);
+}
+
+TriangleMesh meshOf(const std::vector<SourceElement>& sources) {
+  TriangleMesh whole;
+  for (const SourceElement& source : sources) {
+    const TriangleMesh& mesh = source.element.mesh;
+    const auto first = std::uint32_t(whole.positions.size());
+    whole.positions.insert(whole.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const uvec3& t : mesh.triangles) whole.triangles.push_back(t + first);
+  }
+  return whole;
 }
 
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import) {

@@ -34,6 +34,11 @@ bool holdsCentrelines(const std::filesystem::path& path);
 /// file.
 Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,
                                                 const VesselImport& import = {});
+/// The same in the likely unit (likelyUnit), which is said where it is not metres. @param up  of all but glTF
+Result<std::vector<SourceElement>> readSurfacesInLikelyUnit(const std::filesystem::path& path,
+                                                            ImportFrame::Up up);
+/// All triangles of some surfaces.
+TriangleMesh meshOf(const std::vector<SourceElement>& sources);
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import = {});
 
 /// A network out of any file that has vessels: ours (.vasa) as it is, others converted (convert/convert.h).

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "body/doll.h"
 #include "body/motion_rest.h"
 #include "body/retarget.h"
@@ -101,6 +103,66 @@ TEST_CASE("bodies in others' dialects are moved as well, those without names by 
     const Retargeting done = carried({"smpl", DollDialect::Zero::oneAxis, 1, true, false}, body);
     CHECK_MESSAGE(worstAngle(body, done.clip, family) < 10, describeMatch(done));
   }
+}
+
+namespace {
+
+// A body whose limbs are divided by joints that only twist them, with a knee cap beside each shin, all of
+// them numbered.
+Body divided(const Body& body) {
+  Body out;
+  out.name = "divided.glb";
+  std::vector<JointId> now(body.skeleton.joints.size());
+  const auto add = [&](JointId parent, vec3 place) {
+    Skeleton::Joint joint;
+    joint.name = std::string("b").append(std::to_string(out.skeleton.joints.size()));
+    joint.parent = parent;
+    joint.rest.translation =
+        place - (parent.valid() ? vec3(out.skeleton.joints[parent.value].restWorld[3]) : vec3(0));
+    joint.restWorld = glm::translate(mat4(1), place);
+    joint.inverseBind = glm::inverse(joint.restWorld);
+    out.skeleton.joints.push_back(joint);
+    return JointId{std::uint32_t(out.skeleton.joints.size() - 1)};
+  };
+  const auto is = [&](const Skeleton::Joint& joint, const char* word) {
+    return joint.name.find(word) != std::string::npos;
+  };
+  for (std::size_t j = 0; j < body.skeleton.joints.size(); ++j) {
+    const Skeleton::Joint& joint = body.skeleton.joints[j];
+    const vec3 place(joint.restWorld[3]);
+    JointId parent;
+    if (joint.parent.valid()) {
+      parent = now[joint.parent.value];
+      const vec3 from(body.skeleton.joints[joint.parent.value].restWorld[3]);
+      const int twists = is(joint, "Hand") ? 2 : is(joint, "Lower") || is(joint, "Foot") ? 1 : 0;
+      for (int i = 1; i <= twists; ++i)
+        parent = add(parent, glm::mix(from, place, float(i) / float(twists + 1)));
+    }
+    now[j] = add(parent, place);
+    if (is(joint, "LowerLeg")) add(parent, place + vec3(0, 0, 0.04f));
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("limbs without names are known through joints that only twist them") {
+  const Body plain = dollBody("vrm"), body = divided(plain);
+  const HumanoidNames parts = partsOf(body.skeleton);
+  CHECK(parts.family == "shape");
+  for (std::size_t j = 0; j < plain.skeleton.joints.size(); ++j) {
+    const auto& joint = plain.skeleton.joints[j];
+    const auto found = std::ranges::find(parts.of, joint.name);
+    const bool limb =
+        joint.name.find("Arm") != joint.name.npos || joint.name.find("Leg") != joint.name.npos ||
+        joint.name.find("Hand") != joint.name.npos || joint.name.find("Foot") != joint.name.npos;
+    if (!limb) continue;
+    REQUIRE_MESSAGE(found != parts.of.end(), joint.name);
+    const vec3 place(body.skeleton.joints[std::size_t(found - parts.of.begin())].restWorld[3]);
+    CHECK_MESSAGE(glm::distance(place, vec3(joint.restWorld[3])) < 1e-4f, joint.name);
+  }
+  const Retargeting done = carried({"smpl", DollDialect::Zero::t, 100, false, false}, body);
+  CHECK_MESSAGE(done.sureness > 0.75f, describeMatch(done));
 }
 
 TEST_CASE("what fits by few joints is refused with how sure it is and what helps") {

@@ -1,9 +1,15 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "body/doll.h"
+#include "body/person.h"
 #include "cli/program.h"
 #include "core/atomic_file.h"
 #include "io/bvh.h"
+#include "io/gltf.h"
+#include "io/swc.h"
 #include "network/file.h"
 #include "support/shared_data.h"
 
@@ -104,6 +110,102 @@ TEST_CASE(
   CHECK(runProgram({"place", path("scan.vasa"), "--turn", "w:90", "-o", path("x.vasa")}).exit == 2);
 }
 
+namespace {
+
+// In a scanner's coordinates: millimetres, +Z up, elsewhere, a smaller person.
+vec3 scanned(vec3 p) { return 900.0f * vec3(p.x, -p.z, p.y) + vec3(-120, 340, 77); }
+
+std::string line(const char* word, vec3 p, const char* end) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%s%.4f %.4f %.4f%s", word, double(p.x), double(p.y), double(p.z), end);
+  return text;
+}
+
+// The built-in human's trunk as a scan would have it: the skin between crotch and shoulders, without arms.
+std::string scannedTrunk() {
+  const auto body = readBody(humanBody());
+  REQUIRE(body.ok());
+  std::string obj = "o trunk\n";
+  const auto skin = std::ranges::find(body->meshes, std::string("skin"), &SkinnedMesh::name);
+  REQUIRE(skin != body->meshes.end());
+  for (const vec3& p : skin->mesh.positions) obj += line("v ", scanned(p), "\n");
+  for (const uvec3& t : skin->mesh.triangles) {
+    bool inside = true;
+    for (int k = 0; k < 3; ++k) {
+      const vec3 p = skin->mesh.positions[t[k]];
+      inside = inside && p.y > 0.88f && p.y < 1.42f && std::abs(p.x) < (p.y < 1.14f ? 0.175f : 0.2f);
+    }
+    if (inside)
+      obj += "f " + std::to_string(t.x + 1) + " " + std::to_string(t.y + 1) + " " + std::to_string(t.z + 1) +
+             "\n";
+  }
+  return obj;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a scan's vessels with its skin and no skeleton are fitted to a body: millimetres, +Z up, elsewhere") {
+  const TemporaryFolder folder;
+  const auto human = readNetwork(humanVessels());
+  REQUIRE(human.ok());
+  const auto vessels = human->vessels();
+  const auto aorta = std::ranges::find(vessels, std::string_view("abdominal aorta"), &Vessel::name);
+  REQUIRE(aorta != vessels.end());
+  const auto own = human->pointsOf(*aorta);
+  const float ownSpans = float(aorta->spanCount());
+  std::string swc;
+  int id = 0;
+  for (int i = 0; i <= 30; ++i) {
+    const vec4 p = evaluate(own, ownSpans * float(i) / 30);
+    ++id;
+    swc += std::to_string(id) + " 0" + line(" ", scanned(vec3(p)), " ") + std::to_string(900 * p.w) + " " +
+           std::to_string(i ? id - 1 : -1) + "\n";
+  }
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto lines = write(folder, "aorta.swc", swc), trunk = write(folder, "trunk.obj", scannedTrunk());
+  REQUIRE(runProgram({"convert", lines, "--unit", "mm", "--up", "z", "-o", path("scan.vasa")}).exit == 0);
+  for (const bool told : {true, false}) {  // the unit is the likely one where it is not told
+    std::vector<std::string> words{
+        "fit", path("scan.vasa"),   "--from", trunk, "--up", "z", "--to", humanBody().string(),
+        "-o",  path("fitted.vasa"), "--json"};
+    if (told) words.insert(words.end(), {"--unit", "mm"});
+    const auto outcome = runProgram(words);
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    const auto report = outcome.json();
+    CHECK(report["surface"]["share"].get<double>() > 0.85);
+    CHECK(report["surface"]["scale"].get<double>() == doctest::Approx(1 / 0.9).epsilon(0.04));
+    CHECK(report["outside_skin"]["share"].get<double>() < 0.01);
+    CHECK(report["strained"].size() == 1);
+    const auto fitted = readNetwork(path("fitted.vasa"));
+    REQUIRE(fitted.ok());
+    const auto points = fitted->pointsOf(fitted->vessels()[0]);
+    const float spans = float(fitted->vessels()[0].spanCount());
+    for (const float t : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+      const vec3 p(evaluate(points, t * spans));
+      float away = 1e9f;  // from where it runs in the human
+      for (int i = 0; i <= 200; ++i)
+        away = std::min(away, glm::distance(p, vec3(evaluate(own, ownSpans * float(i) / 200))));
+      CHECK_MESSAGE(away < 0.02f, t);
+    }
+  }
+  const auto moved = runProgram({"check", "--network", path("fitted.vasa"), "--clip", "walk", "--frames",
+                                 "0:2", "--body", humanBody().string(), "--json"});
+  CHECK_MESSAGE(moved.exit == 0, moved.err);
+  // What belongs to surfaces is refused for bodies, and the other way round.
+  CHECK(runProgram({"fit", humanVessels().string(), "--from", humanBody().string(), "--to",
+                    humanBody().string(), "--unit", "mm", "-o", path("x.vasa")})
+            .exit == 2);
+  CHECK(runProgram({"fit", path("scan.vasa"), "--from", trunk, "--to", humanBody().string(), "--joint-map",
+                    write(folder, "map.txt", "a = b\n"), "-o", path("x.vasa")})
+            .exit == 2);
+  // The same file read upright as it is: the vessels lie elsewhere.
+  const auto lying = runProgram(
+      {"fit", path("scan.vasa"), "--from", trunk, "--to", humanBody().string(), "-o", path("x.vasa")});
+  CHECK(lying.exit == 3);
+  CHECK_MESSAGE(lying.err.find("--up") != std::string::npos, lying.err);
+}
+
 TEST_CASE("networks that have no vessel in common are said to be strangers") {
   const TemporaryFolder folder;
   const auto swc = write(folder, "odd.swc", "1 0 0 0 0 2 -1\n2 0 0 10 0 2 1\n3 0 0 20 0 2 2\n");
@@ -124,4 +226,84 @@ TEST_CASE("files of a kind that is not read say what to do") {
     CHECK(outcome.exit == 2);
     CHECK_MESSAGE(outcome.err.find(remedy) != std::string::npos, outcome.err);
   }
+}
+
+namespace {
+
+// A vein along the spine and an artery down to the knee, in metres.
+std::string personVessels() {
+  std::string swc;
+  int id = 0;
+  const auto trace = [&](vec3 from, vec3 to, int type) {
+    for (int i = 0; i <= 12; ++i) {
+      ++id;
+      swc += std::to_string(id) + " " + std::to_string(type) +
+             line(" ", glm::mix(from, to, float(i) / 12), " ") + "0.006 " + std::to_string(i ? id - 1 : -1) +
+             "\n";
+    }
+  };
+  trace({0.02f, 1.4f, -0.03f}, {0.02f, 0.96f, -0.03f}, 11);
+  trace({-0.09f, 0.88f, 0.01f}, {-0.09f, 0.45f, 0.01f}, 10);
+  return swc;
+}
+
+// How far each vessel goes between two frames of walk, in the mean [m].
+std::vector<float> waysOf(const TemporaryFolder& folder, const std::string& body, const std::string& network,
+                          std::string& told) {
+  std::vector<std::vector<vec3>> at;
+  for (const char* frame : {"0", "60"}) {
+    const auto out = (folder.path() / (std::string(frame) + ".swc")).string();
+    const auto outcome =
+        runProgram({"export", "--body", body, "--network", network, "--clip", "walk", "--frames",
+                    std::string(frame) + ":" + frame, "--unit", "m", "-o", out, "--no-avoid"});
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    told += outcome.err;
+    const auto samples = readSwc(out, {});
+    REQUIRE(samples.ok());
+    at.emplace_back();
+    for (const auto& sample : *samples) at.back().push_back(sample.position);
+  }
+  REQUIRE(at[0].size() == at[1].size());
+  std::vector<float> ways;
+  for (std::size_t i = 0; i < at[0].size(); ++i) ways.push_back(glm::distance(at[0][i], at[1][i]));
+  return ways;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "vessels follow a body with a small odd second primitive, and those that a rig leaves behind are told") {
+  const TemporaryFolder folder;
+  const auto lines = write(folder, "vessels.swc", personVessels());
+  const auto net = (folder.path() / "net.vasa").string();
+  REQUIRE(runProgram({"convert", lines, "--unit", "m", "-o", net}).exit == 0);
+  std::string told;
+  for (const float way : waysOf(folder, write(folder, "eyes.glb", personGlb({.eyes = true})), net, told))
+    CHECK(way == doctest::Approx(1).epsilon(0.02));
+  CHECK_MESSAGE(told.find("stay in the rest pose") == std::string::npos, told);
+  told.clear();
+  const auto ways = waysOf(folder, write(folder, "stuck.glb", personGlb({.stuck = true})), net, told);
+  const bool follow = std::ranges::all_of(ways, [](float way) { return way > 0.9f; });
+  CHECK_MESSAGE((follow || told.find("stay in the rest pose while stuck.glb moves") != std::string::npos),
+                told);
+}
+
+TEST_CASE("rest is the pose that a skin is bound in, for fit as for what it is given to") {
+  const TemporaryFolder folder;
+  const auto lines = write(folder, "vessels.swc", personVessels());
+  const auto net = (folder.path() / "net.vasa").string(), out = (folder.path() / "out.vasa").string();
+  REQUIRE(runProgram({"convert", lines, "--unit", "m", "-o", net}).exit == 0);
+  const auto stands = write(folder, "stands.glb", personGlb()),
+             jumps = write(folder, "jumps.glb", personGlb({.jumps = true}));
+  const auto outcome =
+      runProgram({"fit", net, "--from", stands, "--to", jumps, "-o", out, "--exact", "--json"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(outcome.json()["outside_skin"]["share"].get<double>() < 0.01);
+  const auto before = readNetwork(net), after = readNetwork(out);
+  REQUIRE(before.ok());
+  REQUIRE(after.ok());
+  for (std::size_t i = 0; i < before->points().size(); ++i)
+    CHECK(glm::distance(vec3(before->points()[i]), vec3(after->points()[i])) < 0.002f);
+  CHECK(after->bodyHeight() == doctest::Approx(1.75f).epsilon(0.02));
+  CHECK(runProgram({"check", "--body", jumps, "--network", out, "--frames", "0"}).exit == 0);
 }

@@ -17,6 +17,13 @@ TEST_CASE("the kind comes from the category, else the element's name, else the f
   CHECK(kindOf(named("splenic"), "bp3d_veins") == VesselKind::vein);
   CHECK(kindOf(named("Inferior Vena Cava"), "body") == VesselKind::vein);
   CHECK(kindOf(named("arch of aorta"), "body") == VesselKind::artery);
+  CHECK(kindOf(named("left deep palmar arch"), "body") == VesselKind::artery);
+  CHECK(kindOf(named("left deep palmar venous arch"), "body") == VesselKind::vein);
+  CHECK(kindOf(named("left cavernous sinus"), "body") == VesselKind::vein);
+  CHECK(kindOf(named("carotid sinus"), "body") == VesselKind::artery);
+  MeshElement splenic = named("splenic vein");
+  splenic.surroundings = {"portal_vein"};
+  CHECK(kindOf(splenic, "body") == VesselKind::portalVein);
   CHECK(kindOf(named("left portal vein", "vein"), "x") == VesselKind::portalVein);
   CHECK(kindOf(named("portal"), "x") == VesselKind::other);
   CHECK(kindOf(named("thoracic duct"), "x") == VesselKind::lymphatic);

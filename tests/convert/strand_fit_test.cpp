@@ -35,6 +35,20 @@ TEST_CASE("widely spaced sections: the spline does not swing out between them") 
   }
 }
 
+TEST_CASE("rings far apart on a bend: the spline follows the bend, not the corners of lines between them") {
+  Sections sections;  // of a circle of 100 mm, 30 mm apart
+  const auto at = [](float i) { return 0.1f * vec3(std::cos(0.3f * i), std::sin(0.3f * i), 0.1f * i); };
+  for (int i = 0; i <= 12; ++i) sections.push_back(vec4(at(float(i)), 0.0015f));
+  const auto points = fitStrand(sections);
+  CHECK(spanCount(points) <= 12);
+  for (float i = 0; i <= 12; i += 0.1f) {
+    float away = 1e9f;
+    for (float u = 0; u <= float(spanCount(points)); u += 0.01f)
+      away = std::min(away, glm::distance(at(i), vec3(evaluate(points, u))));
+    CHECK(away < 0.0005f);
+  }
+}
+
 TEST_CASE("a slanted end loses its taper, a whole one nothing") {
   Sections sections = sectionsBetween({0, 0, 0}, {0, 0.05f, 0}, 0.004f, 0.001f);
   Sections whole = sections;

@@ -63,6 +63,7 @@ TEST_CASE("an OBJ has an object a vessel and is read back the same") {
   if (!elements.ok()) FAIL(elements.error().message);
   REQUIRE(elements->size() == 2);
   CHECK((*elements)[0].name == "left \"x\" artery");
+  CHECK((*elements)[0].surroundings == std::vector<std::string>{"artery"});
   CHECK((*elements)[0].mesh.positions[1] == vec3(1, 0, 0));
   CHECK((*elements)[1].mesh.triangles.size() == 1);
   CHECK((*elements)[1].mesh.positions[1] == vec3(1, 1, 0.25f));

@@ -44,6 +44,18 @@ TEST_CASE("an OBJ gives one element an object, polygons cut into triangles, othe
   CHECK((*elements)[1].mesh.triangles.size() == 1);
 }
 
+TEST_CASE("an OBJ's object knows the material of its first face, what comes before the first object too") {
+  ObjFile file;
+  const auto elements =
+      file.read(std::string(kSquare) +
+                "f 1 2 3\nusemtl Portal vein \no a\nf 1 2 3\nusemtl red\nf 1 3 4\no b\nf 1 2 4\n");
+  REQUIRE(elements.ok());
+  REQUIRE(elements->size() == 3);
+  CHECK((*elements)[0].surroundings.empty());
+  CHECK((*elements)[1].surroundings == std::vector<std::string>{"Portal vein"});
+  CHECK((*elements)[2].surroundings == std::vector<std::string>{"red"});
+}
+
 TEST_CASE("an OBJ in millimetres with Z up comes out in metres with Y up") {
   ObjFile file;
   const auto elements =

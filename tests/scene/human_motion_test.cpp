@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
+#include "body/retarget.h"
 #include "core/hash.h"
 #include "scene/correction_step.h"
 #include "scene/frame.h"
@@ -104,4 +107,21 @@ TEST_CASE("a frame is the same whichever frames were made before it") {
   other.make(&clipNamed("squat"), 0.1f);
   CHECK(hashAt(other, 16.5f) == hashes[3]);
   CHECK(hashAt(other, 0) == hashes[0]);
+}
+
+TEST_CASE("the built-in human, bare of names, is known by its shape as by its names") {
+  Body bare = human().body;
+  const HumanoidNames told = partsOf(bare.skeleton);
+  for (std::size_t j = 0; j < bare.skeleton.joints.size(); ++j)
+    bare.skeleton.joints[j].name = std::string("b").append(std::to_string(j));
+  const HumanoidNames seen = partsOf(bare.skeleton);
+  for (const std::string side : {"left", "right"})
+    for (const char* limb : {"UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"}) {
+      const std::string part = side + limb;
+      const auto a = std::ranges::find(told.of, part), b = std::ranges::find(seen.of, part);
+      CHECK_MESSAGE(a - told.of.begin() == b - seen.of.begin(), part);
+    }
+  const auto done = retargeted(standingStill(human().body), bare);
+  if (!done.ok()) FAIL(done.error().message);
+  CHECK_MESSAGE(done->sureness > 0.75f, describeMatch(*done));
 }

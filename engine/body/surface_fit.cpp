@@ -1,0 +1,151 @@
+#include "body/surface_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/parallel.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::size_t kCoarseSamples = 250, kFineSamples = 2000;
+constexpr int kCoarseSteps = 25, kFineSteps = 60;
+constexpr std::size_t kRefined = 6;  // of the starts
+constexpr int kFacings = 4, kHeights = 9;
+constexpr float kSizes[] = {0.8f, 1, 1.25f};
+constexpr float kSmallest = 0.6f, kLargest = 1.6f;
+constexpr float kFacing = 0.3f;               // least cosine between normals that belong together
+constexpr float kFar = 0.15f, kNear = 0.03f;  // of the body's height: pairs, at first and at last
+constexpr float kOddSize = 0.25f;             // of the logarithm: a size as odd as this ...
+constexpr float kOddSizeCost = 0.05f;         // ... is as bad as this share of the surface elsewhere
+constexpr float kTurnedCost = 0.02f;          // and so is another facing than the file's
+
+struct Sample {
+  vec3 place, normal;
+};
+
+class Fitter {
+ public:
+  Fitter(const TriangleMesh& surface, const SkinShell& skin)
+      : skin_(skin), tree_(skin.mesh()), height_(skin.mesh().bounds().extent().y) {
+    const Aabb box = surface.bounds();
+    centre_ = 0.5f * (box.low + box.high), extent_ = box.extent();
+    const std::vector<vec3> normals = vertexNormals(surface);
+    const auto take = [&](std::size_t count) {
+      std::vector<Sample> samples;
+      count = std::min(count, surface.positions.size());
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t v = i * surface.positions.size() / count;
+        samples.push_back({surface.positions[v], normals[v]});
+      }
+      return samples;
+    };
+    coarse_ = take(kCoarseSamples), fine_ = take(kFineSamples);
+  }
+
+  SurfaceFit run() const {
+    std::vector<Try> tries = starts();
+    parallelFor(tries.size(), 1, [&](std::size_t i) { refine(tries[i], coarse_, kCoarseSteps); });
+    std::ranges::stable_sort(tries, {}, &Try::cost);
+    tries.resize(std::min(tries.size(), kRefined));
+    parallelFor(tries.size(), 1, [&](std::size_t i) { refine(tries[i], fine_, kFineSteps); });
+    const Try& best = *std::ranges::min_element(tries, {}, &Try::cost);
+    SurfaceFit fit{best.by, 0, 0};
+    std::size_t near = 0;
+    double sum = 0;
+    for (const Sample& sample : fine_)
+      if (const auto there = partnerOf(sample, best.by, kNear * height_))
+        ++near, sum += glm::distance(*there, best.by(sample.place));
+    fit.share = float(near) / float(std::max<std::size_t>(1, fine_.size()));
+    fit.distance = near ? float(sum / double(near)) : 0;
+    return fit;
+  }
+
+ private:
+  struct Try {
+    Similarity by;
+    bool turned;
+    float cost = 0;
+  };
+
+  // The surface's middle on the body's axis, at all heights at which it lies between head and feet.
+  std::vector<Try> starts() const {
+    const Aabb box = skin_.mesh().bounds();
+    std::vector<Try> tries;
+    for (int facing = 0; facing < kFacings; ++facing)
+      for (const float size : kSizes) {
+        const float half = std::min(0.5f * size * extent_.y, 0.5f * height_);
+        for (int i = 0; i < kHeights; ++i) {
+          const float low = box.low.y + half, high = box.high.y - half;
+          const vec3 middle(0.5f * (box.low.x + box.high.x),
+                            glm::mix(low, high, float(i) / float(kHeights - 1)),
+                            0.5f * (box.low.z + box.high.z));
+          Similarity by{size, glm::angleAxis(float(facing) * kPi / 2, vec3(0, 1, 0)), vec3(0)};
+          by.move = middle - by(centre_);
+          tries.push_back({by, facing != 0});
+        }
+      }
+    return tries;
+  }
+
+  // The nearest place of the skin, if it is near and faces as the sample does.
+  std::optional<vec3> partnerOf(const Sample& sample, const Similarity& by, float within) const {
+    const auto near = tree_.nearest(by(sample.place), within);
+    if (near.triangle >= skin_.mesh().triangles.size()) return std::nullopt;
+    const uvec3 t = skin_.mesh().triangles[near.triangle];
+    const auto& at = skin_.mesh().positions;
+    const vec3 normal = glm::cross(at[t.y] - at[t.x], at[t.z] - at[t.x]);
+    const float size = glm::length(normal);
+    if (!(size > 0) || glm::dot(normal / size, by.turn * sample.normal) < kFacing) return std::nullopt;
+    return near.point;
+  }
+
+  void refine(Try& one, std::span<const Sample> samples, int steps) const {
+    std::vector<std::pair<vec3, vec3>> pairs;
+    for (int step = 0; step < steps; ++step) {
+      const float within = height_ * glm::mix(kFar, kNear, float(step) / float(steps - 1));
+      pairs.clear();
+      for (const Sample& sample : samples)
+        if (const auto there = partnerOf(sample, one.by, within)) pairs.push_back({sample.place, *there});
+      if (pairs.size() < samples.size() / 10 + 3) break;
+      Similarity next = fitSimilarity(pairs, false);
+      if (next.scale < kSmallest || next.scale > kLargest) {
+        const float size = std::clamp(next.scale, kSmallest, kLargest);
+        for (auto& pair : pairs) pair.first *= size;
+        next = fitSimilarity(pairs, true);
+        next.scale = size;
+      }
+      one.by = next;
+    }
+    one.cost = costOf(one, samples);
+  }
+
+  // The share of the surface that is elsewhere: by how far, and all of it where it faces another way.
+  float costOf(const Try& one, std::span<const Sample> samples) const {
+    double sum = 0;
+    for (const Sample& sample : samples) {
+      const float within = 2 * kNear * height_;
+      const auto there = partnerOf(sample, one.by, within);
+      sum += there ? glm::distance(*there, one.by(sample.place)) / within : 1;
+    }
+    const float odd = std::log(one.by.scale) / kOddSize;
+    return float(sum / double(std::max<std::size_t>(1, samples.size()))) + kOddSizeCost * odd * odd +
+           (one.turned ? kTurnedCost : 0);
+  }
+
+  const SkinShell& skin_;
+  TriangleTree tree_;
+  float height_;
+  vec3 centre_{0}, extent_{0};
+  std::vector<Sample> coarse_, fine_;
+};
+
+}  // namespace
+
+SurfaceFit fitSurface(const TriangleMesh& surface, const SkinShell& skin) {
+  return Fitter(surface, skin).run();
+}
+
+}  // namespace vasa

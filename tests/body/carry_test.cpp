@@ -1,0 +1,136 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "body/carry.h"
+#include "body/doll.h"
+#include "body/person.h"
+#include "body/strain.h"
+#include "body/surface_carry.h"
+#include "network/sample_network.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+// An arch and what leaves it, in the trunk.
+Network archNetwork() {
+  std::vector<vec4> arch;
+  for (int i = 0; i <= 12; ++i) {
+    const float t = float(i) / 12;  // up in front, over, and down behind
+    const float angle = kPi * std::min(1.0f, t / 0.5f);
+    arch.emplace_back(0.02f * std::cos(angle),
+                      t < 0.5f ? 1.3f + 0.05f * std::sin(angle) : 1.3f - 0.5f * (t - 0.5f),
+                      0.03f * std::cos(angle), 0.012f);
+  }
+  NetworkBuilder builder;
+  builder.addVessel({"arch", {}, VesselKind::artery}, arch);
+  builder.addVessel({"along the spine", {}, VesselKind::vein},
+                    straightVessel({0.02f, 1.0f, -0.03f}, {0.02f, 1.4f, -0.03f}, 0.01f, 8));
+  auto network = builder.build(1.75f);
+  if (!network.ok()) FAIL(network.error().message);
+  return std::move(*network);
+}
+
+float worstAway(std::span<const vec4> points, std::span<const vec4> wanted) {
+  float worst = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    worst = std::max(worst, glm::distance(vec3(points[i]), vec3(wanted[i])));
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("strain is told by pieces, beside the factor of the whole, the worst vessel first") {
+  NetworkBuilder builder;
+  builder.addVessel({"even"}, straightVessel({0, 0, 0}, {0, 0.2f, 0}, 0.002f, 20));
+  builder.addVessel({"uneven"}, straightVessel({1, 0, 0}, {1, 0.2f, 0}, 0.002f, 20));
+  const auto network = builder.build(1);
+  REQUIRE(network.ok());
+  std::vector<vec4> after(network->points().begin(), network->points().end());
+  for (vec4& p : after) {  // twice as large; of the second vessel the upper half three times as long as that
+    if (p.x > 0.5f && p.y > 0.1f) p.y = 0.1f + 3 * (p.y - 0.1f);
+    p.x *= 2, p.y *= 2, p.z *= 2;
+  }
+  const auto strains = measureStrain(*network, network->points(), after, 2);
+  REQUIRE(strains.size() == 2);
+  CHECK(network->vessel(strains[0].vessel).name == "uneven");
+  CHECK(strains[0].most == doctest::Approx(3).epsilon(0.02));
+  CHECK(strains[0].least == doctest::Approx(1).epsilon(0.02));
+  CHECK(strains[0].place.y > 0.2f);
+  CHECK(strains[1].most == doctest::Approx(1).epsilon(1e-3));
+  CHECK(strains[1].least == doctest::Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("joints of a spine that sit at other vertebrae stretch no vessel") {
+  const Body from = dollBody("vrm");
+  Body to = from;
+  // The chest's joint six centimetres lower, all that hangs on it where it was: another rig of the same
+  // person.
+  const std::uint32_t chest = from.skeleton.find("chest").value;
+  auto& joints = to.skeleton.joints;
+  joints[chest].restWorld[3].y -= 0.06f;
+  joints[chest].rest.translation.y -= 0.06f;
+  for (auto& joint : joints)
+    if (joint.parent.value == chest) joint.rest.translation.y += 0.06f;
+  joints[chest].inverseBind = glm::inverse(joints[chest].restWorld);
+  const Network network = archNetwork();
+  const auto carried = carryNetwork(network, from, to, "arch.vasa");
+  if (!carried.ok()) FAIL(carried.error().message);
+  const auto strains = measureStrain(network, network.points(), carried->points, carried->radiusFactor);
+  for (const VesselStrain& strain : strains) {
+    CHECK(strain.least > 0.95f);
+    CHECK(strain.most < 1.05f);
+  }
+  CHECK(worstAway(carried->points, network.points()) < 0.01f);
+}
+
+TEST_CASE(
+    "a trunk's surface is found in a body wherever it stands and whatever it faces, and its vessels follow") {
+  const Body body = person();
+  const SkinShell skin(skinAtRest(body));
+  const Network network = archNetwork();
+  for (const auto& [turn, size] : {std::pair(0.0f, 1.0f), {90.0f, 0.9f}, {180.0f, 1.0f}, {-90.0f, 1.15f}}) {
+    // Someone else's trunk, which is where the body's would be by `by`.
+    Similarity by{size, glm::angleAxis(turn * kPi / 180, vec3(0, 1, 0)), vec3(-0.4f, 0.7f, 1.3f)};
+    TriangleMesh trunk = stacked({personTrunk().begin(), personTrunk().end() - 1}, 0);
+    for (vec3& p : trunk.positions) p = by(p);
+    std::vector<vec4> points;
+    for (const vec4& p : network.points()) points.push_back(vec4(by(vec3(p)), size * p.w));
+    NetworkBuilder builder;
+    for (const Vessel& vessel : network.vessels()) {
+      const auto own = Network::pointsOf(vessel, std::span<const vec4>(points));
+      builder.addVessel({vessel.name, {}, vessel.kind}, {own.begin(), own.end()});
+    }
+    const auto elsewhere = builder.build(1.75f);
+    REQUIRE(elsewhere.ok());
+    const auto carried = carryBySurface(*elsewhere, trunk, body, "arch.vasa", "trunk.stl");
+    if (!carried.ok()) FAIL(carried.error().message);
+    CHECK_MESSAGE(carried->fit.share > 0.8f, turn);
+    CHECK_MESSAGE(carried->fit.by.scale == doctest::Approx(1 / size).epsilon(0.05), turn);
+    const float away = worstAway(carried->network.points, network.points());
+    CHECK_MESSAGE(away < 0.015f, turn);
+    CHECK(carried->network.points[0].w == doctest::Approx(network.points()[0].w).epsilon(0.06));
+  }
+}
+
+TEST_CASE("surfaces that are no skin of the vessels or of a person are refused with what helps") {
+  const Body body = person();
+  const Network network = archNetwork();
+  TriangleMesh away = stacked(personTrunk(), 2);
+  auto refused = carryBySurface(network, away, body, "arch.vasa", "trunk.stl");
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().message.find("100 % of these vessels lie outside trunk.stl") != std::string::npos);
+  CHECK(refused.error().message.find("--unit, --up") != std::string::npos);
+  // A flat slab around the vessels.
+  TriangleMesh slab = stacked({{0.9f, 1.5f, 0.5f, 0.5f}, {1.45f, 1.5f, 0.5f, 0.5f}}, 0);
+  refused = carryBySurface(network, slab, body, "arch.vasa", "slab.stl");
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().message.find("slab.stl is not found in the skin of doll.glb") != std::string::npos);
+  CHECK(refused.error().message.find("vasa place") != std::string::npos);
+  Body bare = dollBody("vrm");
+  refused = carryBySurface(network, stacked(personTrunk(), 0), bare, "arch.vasa", "trunk.stl");
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().message.find("has no skin") != std::string::npos);
+}
