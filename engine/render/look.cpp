@@ -68,6 +68,7 @@ vec4 colourOf(MeshRole role) {
     case MeshRole::organs:
       return {0.84f, 0.66f, 0.62f, 1};
     case MeshRole::other:
+    case MeshRole::keepOut:
       break;
   }
   return {0.78f, 0.70f, 0.66f, 1};
