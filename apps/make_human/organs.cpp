@@ -10,46 +10,61 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kThinningError = 0.3e-3f;                 // [m]
-constexpr float kGrooveStep = 2e-3f;                      // [m] along a vessel
-constexpr float kGrooveWider = 0.6e-3f;                   // [m] than the vessel's wall
-constexpr float kGrooveBlend = 2.5e-3f, kGrooveCell = 2e-3f;  // [m]
+constexpr float kThinningError = 0.3e-3f;                       // [m]
+constexpr float kGrooveStep = 2e-3f;                            // [m] along a vessel
+constexpr float kGrooveWider = 0.6e-3f;                         // [m] than the vessel's wall
+constexpr float kGrooveBlend = 2.5e-3f, kGrooveCell = 2.5e-3f;  // [m]
+constexpr float kDeepest = 9e-3f;  // [m] below the surface: what lies deeper goes through the organ
 
-/// A groove along a vessel: a tube a little wider than it.
-BonePiece grooveAlong(const Network& network, const Vessel& vessel) {
+void addGroove(BoneForm& form, BonePiece& groove) {
+  if (groove.stations.size() > 1) {
+    groove.capStart = groove.stations.front().width;
+    groove.capEnd = groove.stations.back().width;
+    form.pieces.push_back(groove);
+  }
+  groove.stations.clear();
+  groove.bounds = {};
+}
+
+/// A groove along a vessel: a tube a little wider than it, open outwards also where the vessel has sunk in.
+void carveGroove(BoneForm& form, std::span<const vec4> points) {
+  const BoneForm uncut = form;
   BonePiece groove;
   groove.carve = true;
   groove.blend = kGrooveBlend;
   groove.cell = kGrooveCell;
-  const auto points = network.pointsOf(vessel);
-  const float spans = float(points.size()) - 3;
-  const auto at = [&](float u) { return evaluate(points, u); };
+  const auto spans = float(spanCount(points));
   for (float u = 0; u <= spans; u += 0.125f) {
-    const vec4 p = at(u);
-    if (!groove.stations.empty() && glm::distance(vec3(p), groove.stations.back().centre) < kGrooveStep)
-      continue;
-    const vec3 along = glm::normalize(vec3(at(std::min(u + 0.05f, spans)) - at(std::max(u - 0.05f, 0.0f))));
-    const vec3 up = anyPerpendicular(along);
-    const float radius = p.w + kGrooveWider;
-    groove.stations.push_back({vec3(p), glm::cross(up, along), up, radius, radius});
-    groove.bounds.add(vec3(p) - radius);
-    groove.bounds.add(vec3(p) + radius);
+    const vec4 at = evaluate(points, u);
+    const vec3 p(at), way(evaluateDerivative(points, u));
+    const float distance = uncut.distance(p), radius = at.w + kGrooveWider;
+    if (distance < -kDeepest) addGroove(form, groove);
+    if (distance < -kDeepest || glm::length(way) == 0) continue;
+    if (!groove.stations.empty() && glm::distance(p, groove.stations.back().centre) < kGrooveStep) continue;
+    const vec3 along = glm::normalize(way);
+    vec3 up = uncut.gradient(p);
+    up -= glm::dot(up, along) * along;
+    if (glm::length(up) < 0.1f) up = anyPerpendicular(along);
+    up = glm::normalize(up);
+    const float sunk = std::max(at.w - distance, 0.0f);
+    const float height = radius + 0.5f * sunk;
+    groove.stations.push_back({p + 0.5f * sunk * up, glm::cross(up, along), up, radius, height});
+    groove.bounds.add(groove.stations.back().centre - height);
+    groove.bounds.add(groove.stations.back().centre + height);
   }
-  groove.capStart = groove.stations.front().width;
-  groove.capEnd = groove.stations.back().width;
-  return groove;
+  addGroove(form, groove);
 }
 
 /// What vessels ask of each form.
 Result<void> carveGrooves(Table& table, const Network& network, std::vector<BoneForm>& forms) {
+  const auto vessels = network.vessels();
   for (std::size_t row = 0; row < forms.size(); ++row)
     for (std::string_view name : split(table.text(row, "grooves"), ';')) {
       if (name.empty()) continue;
-      const auto vessels = network.vessels();
       const auto found = std::ranges::find(vessels, name, &Vessel::name);
       if (found == vessels.end()) table.fault(row, "no vessel " + quoted(name));
       if (!table.state().ok()) return table.state();
-      forms[row].pieces.push_back(grooveAlong(network, *found));
+      carveGroove(forms[row], network.pointsOf(*found));
     }
   return table.state();
 }
