@@ -8,7 +8,7 @@ namespace vasa::human {
 namespace {
 
 constexpr float kCell = 0.020f;  // [m] largest polygon of an organ
-constexpr float kLofted = 25;  // beside thin lofted plates distances come out many times too long
+constexpr float kLofted = 25;    // beside thin lofted plates distances come out many times too long
 
 // What is left is still dense enough that distances to a bone's vertices tell distances to the bone
 // (body/bone_field.h).

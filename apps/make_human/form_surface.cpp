@@ -41,8 +41,7 @@ TriangleMesh thinned(const TriangleMesh& mesh, float error) {
   const float scale = meshopt_simplifyScale(first, mesh.positions.size(), sizeof(vec3));
   const std::size_t wanted = 3 * std::size_t(kKeptShare * float(fewer.size()));
   fewer.resize(meshopt_simplify(&fewer[0].x, &mesh.triangles[0].x, 3 * fewer.size(), first,
-                                mesh.positions.size(), sizeof(vec3), wanted, error / scale, 0,
-                                nullptr) /
+                                mesh.positions.size(), sizeof(vec3), wanted, error / scale, 0, nullptr) /
                3);
   dropFolds(fewer);
   TriangleMesh result;

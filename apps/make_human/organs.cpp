@@ -13,6 +13,7 @@ namespace {
 constexpr float kThinningError = 0.3e-3f;                       // [m]
 constexpr float kGrooveStep = 2e-3f;                            // [m] along a vessel
 constexpr float kGrooveWider = 0.6e-3f;                         // [m] than the vessel's wall
+constexpr float kNarrowest = 1.7e-3f;                           // [m] that the polygons can show
 constexpr float kGrooveBlend = 2.5e-3f, kGrooveCell = 2.5e-3f;  // [m]
 constexpr float kDeepest = 9e-3f;  // [m] below the surface: what lies deeper goes through the organ
 
@@ -37,7 +38,7 @@ void carveGroove(BoneForm& form, std::span<const vec4> points) {
   for (float u = 0; u <= spans; u += 0.125f) {
     const vec4 at = evaluate(points, u);
     const vec3 p(at), way(evaluateDerivative(points, u));
-    const float distance = uncut.distance(p), radius = at.w + kGrooveWider;
+    const float distance = uncut.distance(p), radius = std::max(at.w + kGrooveWider, kNarrowest);
     if (distance < -kDeepest) addGroove(form, groove);
     if (distance < -kDeepest || glm::length(way) == 0) continue;
     if (!groove.stations.empty() && glm::distance(p, groove.stations.back().centre) < kGrooveStep) continue;
@@ -77,7 +78,7 @@ void append(SkinnedMesh& to, const FormSurface& from, const std::vector<int>& pa
     to.mesh.positions.push_back(p);
     to.normals.push_back(mirror ? mirrored(from.normals[i]) : from.normals[i]);
     Weights weights(rig.joints.size(), 0);
-    addPathWeights(path, rig, p, 1, weights);
+    addPathWeights(path, rig, upPath(path, rig, p), 1, weights);
     to.influences.push_back(strongest(weights));
   }
   for (const uvec3& t : from.mesh.triangles)

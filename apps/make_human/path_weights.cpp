@@ -9,11 +9,7 @@ namespace {
 
 constexpr float kLeastWeight = 0.02f;
 
-/// How far along the path p lies, and how far along each joint is.
-struct PathPosition {
-  float along = 0;
-  std::vector<float> joints;
-};
+}  // namespace
 
 PathPosition alongPath(const std::vector<int>& path, const Rig& rig, vec3 p) {
   PathPosition result;
@@ -32,10 +28,17 @@ PathPosition alongPath(const std::vector<int>& path, const Rig& rig, vec3 p) {
   return result;
 }
 
-}  // namespace
+PathPosition upPath(const std::vector<int>& path, const Rig& rig, vec3 p) {
+  const RigPoint &first = rig.points[std::size_t(path.front())], &last = rig.points[std::size_t(path.back())];
+  const vec3 up = glm::normalize(rig.points[std::size_t(last.towards)].position - first.position);
+  PathPosition result{glm::dot(p - first.position, up), {}};
+  for (const int joint : path)
+    result.joints.push_back(glm::dot(rig.points[std::size_t(joint)].position - first.position, up));
+  return result;
+}
 
-void addPathWeights(const std::vector<int>& path, const Rig& rig, vec3 p, float share, Weights& weights) {
-  const PathPosition position = alongPath(path, rig, p);
+void addPathWeights(const std::vector<int>& path, const Rig& rig, const PathPosition& position, float share,
+                    Weights& weights) {
   float left = share;
   for (std::size_t i = path.size(); i-- > 0;) {
     const RigPoint& joint = rig.points[std::size_t(path[i])];

@@ -25,7 +25,7 @@ Weights weightsAt(const Shape& shape, const Rig& rig, vec3 p) {
     const float range = std::max(0.35f * shape.parts[i].blend, 1e-3f);
     const float share = std::exp(-(distances[i] - nearest) / range);
     if (shape.parts[i].carve || share < 1e-3f) continue;
-    addPathWeights(shape.parts[i].path, rig, p, share, weights);
+    addPathWeights(shape.parts[i].path, rig, alongPath(shape.parts[i].path, rig, p), share, weights);
     total += share;
   }
   for (float& weight : weights) weight /= total;
