@@ -157,7 +157,7 @@ TEST_CASE("organs follow the trunk in every motion, untorn and inside the skin")
     MESSAGE(clip.name << ": edges " << range.x << " to " << range.y << " of rest, " << 1e3f * farthest
                       << " mm out " << which);
     CHECK(farthest <= 0.001f);
-    CHECK(range.x > 0.35f);
-    CHECK(range.y < 1.9f);
+    CHECK(range.x > 0.6f);
+    CHECK(range.y < 1.4f);
   }
 }
