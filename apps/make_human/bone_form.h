@@ -26,12 +26,12 @@ struct BonePiece {
   float distance(vec3 p) const;
 };
 
-/// A bone at rest: the smooth union of its pieces.
+/// A bone or an organ at rest: the smooth union of its pieces.
 struct BoneForm {
   std::string name;
-  std::string tissue;   ///< bone, cartilage or teeth
-  int joint = -1;       ///< that moves it, into Rig::points
-  bool paired = false;  ///< this is the left one of two
+  std::string tissue;     ///< bone, cartilage or teeth; of an organ its colour
+  std::vector<int> path;  ///< joints that move it, into Rig::points, in order along it; a bone has one
+  bool paired = false;    ///< this is the left one of two
   std::vector<BonePiece> pieces;
 
   float distance(vec3 p) const;  ///< [m] negative inside; exact near the surface to first order
@@ -41,9 +41,15 @@ struct BoneForm {
   Aabb bounds() const;
 };
 
+/// How the first table calls what it has a row of, and what that is made of.
+struct FormColumns {
+  std::string_view name = "bone", tissue = "tissue";
+};
+
 /// Reads bones.csv (a row a bone: what it is made of, the joint that moves it, where it is put) and
-/// bone_forms.csv (a row a piece). Of paired bones the left ones alone.
+/// bone_forms.csv (a row a piece), or tables of organs like them. Of paired bones the left ones alone.
 Result<std::vector<BoneForm>> readBoneForms(const std::filesystem::path& bones,
-                                            const std::filesystem::path& forms, const Rig& rig);
+                                            const std::filesystem::path& forms, const Rig& rig,
+                                            FormColumns columns = {});
 
 }  // namespace vasa::human

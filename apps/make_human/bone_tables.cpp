@@ -96,15 +96,20 @@ std::vector<Rough> ontoSurface(const BoneForm& form, std::vector<Rough> line, fl
 
 class FormReader {
  public:
-  FormReader(Table& bones, Table& forms, const Rig& rig) : bones_(bones), forms_(forms), rig_(rig) {}
+  FormReader(Table& bones, Table& forms, const Rig& rig, FormColumns columns)
+      : bones_(bones), forms_(forms), rig_(rig), columns_(columns) {}
 
   void read(std::size_t row, std::vector<BoneForm>& to) {
     BoneForm form;
-    form.name = bones_.text(row, "bone");
-    form.tissue = bones_.text(row, "tissue");
+    form.name = bones_.text(row, columns_.name);
+    form.tissue = bones_.text(row, columns_.tissue);
     form.paired = bones_.text(row, "side") == "LR";
-    form.joint = rig_.find(bones_.text(row, "joint"));
-    if (form.joint < 0) bones_.fault(row, "no joint " + quoted(bones_.text(row, "joint")));
+    for (std::string_view name : split(bones_.text(row, "joint"), ' ')) {
+      if (name.empty()) continue;
+      form.path.push_back(rig_.find(name));
+      if (form.path.back() < 0) bones_.fault(row, "no joint " + quoted(name));
+    }
+    if (form.path.empty()) bones_.fault(row, "a joint moves it");
     const Placing placing = placingOf(row);
     for (std::string_view name : split(bones_.text(row, "form"), '+')) {
       const std::size_t before = form.pieces.size();
@@ -219,18 +224,20 @@ class FormReader {
 
   Table &bones_, &forms_;
   const Rig& rig_;
+  FormColumns columns_;
 };
 
 }  // namespace
 
 Result<std::vector<BoneForm>> readBoneForms(const std::filesystem::path& bones,
-                                            const std::filesystem::path& forms, const Rig& rig) {
+                                            const std::filesystem::path& forms, const Rig& rig,
+                                            FormColumns columns) {
   Result<Table> boneTable = Table::read(bones);
   if (!boneTable.ok()) return boneTable.error();
   Result<Table> formTable = Table::read(forms);
   if (!formTable.ok()) return formTable.error();
   std::vector<BoneForm> result;
-  FormReader reader(*boneTable, *formTable, rig);
+  FormReader reader(*boneTable, *formTable, rig, columns);
   for (std::size_t row = 0; row < boneTable->rowCount(); ++row) {
     reader.read(row, result);
     if (!boneTable->state().ok()) return boneTable->state().error();

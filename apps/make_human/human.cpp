@@ -1,7 +1,11 @@
 #include "make_human/human.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "make_human/bones.h"
 #include "make_human/clips.h"
+#include "make_human/organs.h"
 #include "make_human/skin.h"
 #include "make_human/vessels.h"
 
@@ -15,8 +19,8 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   const auto shapeOf = [&](std::string_view mesh) {
     return readShape(tables / "parts.csv", tables / "sections.csv", mesh, human.rig);
   };
-  Result<Shape> skin = shapeOf("skin"), heart = shapeOf("heart"), organs = shapeOf("organs");
-  for (const Result<Shape>* shape : {&skin, &heart, &organs})
+  Result<Shape> skin = shapeOf("skin"), heart = shapeOf("heart"), brain = shapeOf("brain");
+  for (const Result<Shape>* shape : {&skin, &heart, &brain})
     if (!shape->ok()) return shape->error();
   human.skinShape = std::move(skin).value();
   const Result<std::vector<BoneForm>> forms =
@@ -26,10 +30,10 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   const SkinnedMesh skeleton = united(bones);
   human.meshes = {makeSkin(human.skinShape, human.rig),
                   std::move(bones[0]),
-                  makeSolid("heart", {0.55f, 0.13f, 0.11f, 1}, *heart, human.rig),
-                  makeSolid("organs", {0.66f, 0.39f, 0.34f, 0.3f}, *organs, human.rig),
+                  makeSolid("keep-out: heart", {0.55f, 0.13f, 0.11f, 0}, *heart, human.rig),
                   std::move(bones[1]),
-                  std::move(bones[2])};
+                  std::move(bones[2]),
+                  makeSolid("organ: brain", {0.66f, 0.39f, 0.34f, 0.3f}, *brain, human.rig)};
   Result<std::vector<Clip>> clips = makeClips(tables / "clips.csv", tables / "clip_keys.csv", human.rig);
   if (!clips.ok()) return clips.error();
   human.clips = std::move(clips).value();
@@ -37,11 +41,14 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   const Surroundings around{human.skinShape, Solid(skeleton.mesh), Solid(human.meshes[2].mesh)};
   std::vector<SkinnedMesh> probed = human.meshes;
   probed[1] = skeleton;
-  probed.resize(4);
+  probed.resize(3);
   const MotionProbe probe(bodyOf(human.rig, std::move(probed), human.clips));
   Result<Network> vessels = makeVessels(tables, human.rig, around, probe, box.high.y - box.low.y, options);
   if (!vessels.ok()) return vessels.error();
   human.vessels = std::move(vessels).value();
+  Result<std::vector<SkinnedMesh>> organs = makeOrgans(tables, human.rig, human.vessels);
+  if (!organs.ok()) return organs.error();
+  std::ranges::move(*organs, std::back_inserter(human.meshes));
   return human;
 }
 

@@ -11,13 +11,15 @@ namespace vasa::human {
 struct Human {
   Rig rig;
   Shape skinShape;
-  std::vector<SkinnedMesh> meshes;  ///< skin, bones, heart, organs, cartilage, teeth
+  std::vector<SkinnedMesh>
+      meshes;  ///< skin, bones, what vessels keep out of at the heart, cartilage, teeth, organs
   std::vector<Clip> clips;
   Network vessels;
 };
 
-/// Reads joints, parts, sections, bones, bone_forms, clips, clip_keys, vessels and growth (.csv) and makes
-/// the human of them.
+/// Reads joints, parts, sections, bones, bone_forms, organs, organ_forms, clips, clip_keys, vessels and
+/// growth
+/// (.csv) and makes the human of them.
 Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& options = {});
 
 }  // namespace vasa::human

@@ -3,56 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "make_human/path_weights.h"
 #include "make_human/polygonise.h"
-#include "math/closest_point.h"
 
 namespace vasa::human {
 namespace {
 
 constexpr float kCoarseCell = 0.030f;
 constexpr int kSmoothingRounds = 6;
-constexpr float kLeastWeight = 0.02f;
-
-using Weights = std::vector<float>;  // one a joint
-
-/// How far along the path p lies, and how far along each joint is.
-struct PathPosition {
-  float along = 0;
-  std::vector<float> joints;
-};
-
-PathPosition alongPath(const std::vector<int>& path, const Rig& rig, vec3 p) {
-  PathPosition result;
-  float nearest = 1e9f, length = 0;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const vec3 a = rig.points[std::size_t(path[i])].position;
-    const bool last = i + 1 == path.size();
-    const int next = last ? rig.points[std::size_t(path[i])].towards : path[i + 1];
-    const vec3 b = rig.points[std::size_t(next)].position;
-    const float t = closestOnSegment(p, a, b), distance = glm::distance(p, glm::mix(a, b, t));
-    if (distance < nearest) nearest = distance, result.along = length + t * glm::distance(a, b);
-    if (i == 0 && t == 0) result.along = std::min(result.along, glm::dot(p - a, glm::normalize(b - a)));
-    result.joints.push_back(length);
-    length += glm::distance(a, b);
-  }
-  return result;
-}
-
-void addPathWeights(const Part& part, const Rig& rig, vec3 p, float share, Weights& weights) {
-  const PathPosition position = alongPath(part.path, rig, p);
-  float left = share;
-  for (std::size_t i = part.path.size(); i-- > 0;) {
-    const RigPoint& joint = rig.points[std::size_t(part.path[i])];
-    float passed = 1;
-    if (i > 0) {
-      const float t =
-          std::clamp(0.5f + 0.5f * (position.along - position.joints[i]) / joint.skinBlend, 0.0f, 1.0f);
-      passed = t * t * (3 - 2 * t);
-    }
-    weights[std::size_t(joint.joint)] += passed * left;
-    left *= 1 - passed;
-  }
-}
 
 Weights weightsAt(const Shape& shape, const Rig& rig, vec3 p) {
   std::vector<float> distances;
@@ -67,7 +25,7 @@ Weights weightsAt(const Shape& shape, const Rig& rig, vec3 p) {
     const float range = std::max(0.35f * shape.parts[i].blend, 1e-3f);
     const float share = std::exp(-(distances[i] - nearest) / range);
     if (shape.parts[i].carve || share < 1e-3f) continue;
-    addPathWeights(shape.parts[i], rig, p, share, weights);
+    addPathWeights(shape.parts[i].path, rig, alongPath(shape.parts[i].path, rig, p), share, weights);
     total += share;
   }
   for (float& weight : weights) weight /= total;
@@ -87,24 +45,6 @@ void smooth(std::vector<Weights>& weights, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < weights.size(); ++i)
     for (std::size_t k = 0; k < weights[i].size(); ++k)
       weights[i][k] = 0.5f * weights[i][k] + 0.5f * next[i][k] / counts[i];
-}
-
-SkinInfluence strongest(const Weights& weights) {
-  std::vector<std::uint16_t> order(weights.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = std::uint16_t(i);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return weights[a] > weights[b]; });
-  SkinInfluence influence;
-  float total = 0;
-  for (int i = 0; i < 4; ++i)
-    if (weights[order[std::size_t(i)]] >= kLeastWeight) total += weights[order[std::size_t(i)]];
-  for (int i = 0; i < 4; ++i) {
-    const float weight = weights[order[std::size_t(i)]];
-    if (weight < kLeastWeight) break;
-    influence.joints[std::size_t(i)] = order[std::size_t(i)];
-    influence.weights[i] = weight / total;
-  }
-  influence.weights.x = 1 - influence.weights.y - influence.weights.z - influence.weights.w;
-  return influence;
 }
 
 }  // namespace

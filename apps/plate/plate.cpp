@@ -35,11 +35,13 @@ bool isDrawn(const Look& look, MeshRole role) {
       return look.drawHeart && look.heartOpacity > kOpaque;
     case MeshRole::skin:
       return look.drawSkin && look.skinOpacity > kOpaque;
-    case MeshRole::organs:
     case MeshRole::other:
       return look.drawOther && look.otherOpacity > kOpaque;
+    case MeshRole::organs:  // they always let vessels shine through
+    case MeshRole::keepOut:
+      break;
   }
-  return true;
+  return false;
 }
 
 // What is drawn, as triangles of the pose.

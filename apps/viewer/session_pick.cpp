@@ -62,6 +62,7 @@ bool hides(MeshRole role, const Look& look) {
     case MeshRole::skin:
       return look.drawSkin && look.skinOpacity >= kSeenThrough;
     case MeshRole::organs:
+    case MeshRole::keepOut:
       break;  // always let light through
   }
   return false;

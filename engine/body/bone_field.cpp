@@ -104,8 +104,7 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
   Aabb bounds;
   for (const SpineJoint& joint : spines.joints) bounds.add(joint.centre);
   for (const SkinnedMesh& mesh : body.meshes) {
-    const MeshRole role = roleNamed(mesh.name);
-    if (!movesByRigidParts(mesh) || role == MeshRole::organs || role == MeshRole::skin) continue;
+    if (!movesByRigidParts(mesh) || !isSolid(mesh)) continue;
     fromMeshes_ = true;
     for (std::size_t v = 0; v < mesh.influences.size(); ++v) {
       const SkinInfluence& influence = mesh.influences[v];

@@ -8,16 +8,25 @@
 #include "body/bone_field.h"
 
 namespace vasa {
+namespace {
 
-MeshRole roleNamed(std::string_view name) {
+std::string lowerCase(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
+  return lower;
+}
+
+}  // namespace
+
+MeshRole roleNamed(std::string_view name) {
+  const std::string lower = lowerCase(name);
   const auto hasAny = [&](std::initializer_list<std::string_view> parts) {
     return std::any_of(parts.begin(), parts.end(),
                        [&](std::string_view part) { return lower.find(part) != std::string::npos; });
   };
   if (lower.starts_with("skin")) return MeshRole::skin;
+  if (lower.starts_with("keep-out")) return MeshRole::keepOut;
   if (hasAny({"bone", "skelet", "cartilage", "teeth"})) return MeshRole::bones;
   if (hasAny({"heart"})) return MeshRole::heart;
   if (hasAny({"skin", "body"})) return MeshRole::skin;
@@ -28,8 +37,10 @@ MeshRole roleNamed(std::string_view name) {
 bool isSolid(const SkinnedMesh& mesh) {
   switch (roleNamed(mesh.name)) {
     case MeshRole::bones:
-    case MeshRole::heart:
+    case MeshRole::keepOut:
       return true;
+    case MeshRole::heart:
+      return !lowerCase(mesh.name).starts_with("organ");
     case MeshRole::skin:
     case MeshRole::organs:
       return false;

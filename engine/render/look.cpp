@@ -62,12 +62,13 @@ vec4 colourOf(MeshRole role) {
     case MeshRole::bones:
       return {0.93f, 0.86f, 0.71f, 1};
     case MeshRole::heart:
-      return {0.52f, 0.11f, 0.12f, 1};
+      return {0.70f, 0.42f, 0.38f, 1};
     case MeshRole::skin:
       return {0.86f, 0.60f, 0.48f, 1};
     case MeshRole::organs:
       return {0.84f, 0.66f, 0.62f, 1};
     case MeshRole::other:
+    case MeshRole::keepOut:
       break;
   }
   return {0.78f, 0.70f, 0.66f, 1};

@@ -13,6 +13,8 @@
 namespace vasa {
 namespace {
 
+constexpr float kOrganOpacity = 0.3f;  // of one whose material tells none
+
 shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::uint32_t i, vec3 normal) {
   const vec3 position = mesh.mesh.positions[i];
   const SkinInfluence& influence = mesh.influences[i];
@@ -27,9 +29,12 @@ shared::SkinVertex restVertex(const SkinnedMesh& mesh, std::uint32_t i, vec3 nor
 }
 
 // Bones, heart and skin have colours of their own, teeth and cartilage among the bones, too; any other mesh
-// keeps its material's.
+// keeps its material's, an organ where that is more than the white of a file that tells none.
+bool isPlain(const SkinnedMesh& mesh) { return vec3(mesh.colour) == vec3(1); }
+
 std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
-  vec4 colour = role == MeshRole::other ? srgbColour(mesh.colour) : colourOf(role);
+  const bool own = role == MeshRole::other || (role == MeshRole::organs && !isPlain(mesh));
+  vec4 colour = own ? srgbColour(mesh.colour) : colourOf(role);
   if (role == MeshRole::bones && mesh.name == "cartilage") colour = {0.72f, 0.80f, 0.82f, 1};
   if (role == MeshRole::bones && mesh.name == "teeth") colour = {0.97f, 0.95f, 0.90f, 1};
   return packColour(vec4(vec3(colour), 0)) | (shared::kMeshKind + std::uint32_t(role)) << 24;
@@ -46,6 +51,8 @@ bool shown(MeshRole role, const Look& look) {
     case MeshRole::organs:
     case MeshRole::other:
       return look.drawOther && look.otherOpacity > 0;
+    case MeshRole::keepOut:
+      break;
   }
   return false;
 }
@@ -63,7 +70,11 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const
            mesh.influences.size() == mesh.normals.size());
     const MeshRole role = roleNamed(mesh.name);
     Part& part =
-        parts_.emplace_back(Part{.role = role, .levels = {}, .closed = levels[k].closed, .balls = {}});
+        parts_.emplace_back(Part{.role = role,
+                                 .opacity = mesh.colour.a < 1 ? mesh.colour.a : kOrganOpacity,
+                                 .levels = {},
+                                 .closed = levels[k].closed,
+                                 .balls = {}});
     for (const MeshLevel& level : levels[k].levels) {
       part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()),
                              std::uint32_t(3 * level.triangles.size()), std::uint32_t(vertices.size()),
@@ -100,6 +111,7 @@ std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const
     std::size_t level = 0;
     while (level + 1 < part.levels.size() && part.levels[level + 1].error <= error) ++level;
     chosen.push_back(part.levels[level]);
+    chosen.back().depth = depth;
     chosen.back().bothSides = !part.closed || camera.cut || depth <= camera.nearDistance;
   }
   return chosen;

@@ -18,9 +18,11 @@ class MeshSet {
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
     bool bothSides = true;  ///< backs of triangles may be seen
+    float depth = 0;        ///< [m] how far before the eye its nearest place lies, about
   };
   struct Part {
     MeshRole role;
+    float opacity = 1;          ///< of an organ
     std::vector<Level> levels;  ///< the mesh itself, then ever coarser ones
     bool closed = false;
     std::vector<JointBall> balls;  ///< where it is, if it has several levels

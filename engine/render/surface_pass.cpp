@@ -1,7 +1,9 @@
 #include "render/surface_pass.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "shared/sweep.h"
 #include "spirv/cut_frag.h"
@@ -31,7 +33,6 @@ struct VertexLayout {
 };
 
 constexpr float kXrayVessels = 1.8f;
-constexpr float kOrganOpacity = 0.3f;
 constexpr std::uint32_t kWholePart = 31;  // item shift: a part is one item
 
 // How much light a surface of the x-ray style gathers.
@@ -46,6 +47,7 @@ float xrayLight(MeshRole role) {
     case MeshRole::organs:
       return 0.25f;
     case MeshRole::other:
+    case MeshRole::keepOut:
       break;
   }
   return 0.5f;
@@ -61,6 +63,7 @@ float opacityOf(MeshRole role, const Look& look) {
       return look.otherOpacity;
     case MeshRole::organs:  // they and the skin are blended
     case MeshRole::skin:
+    case MeshRole::keepOut:
       break;
   }
   return 1;
@@ -82,20 +85,26 @@ void bindVertices(VkCommandBuffer commands, const gpu::Buffer& vertices, VkDevic
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
 }
 
-// @param closed  pipeline for parts whose triangles' backs are not seen
-void drawParts(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-               std::span<const MeshSet::Level> levels, const gpu::GraphicsPipeline& pipeline,
-               const gpu::GraphicsPipeline& closed, MeshRole role) {
+void bindMeshes(VkCommandBuffer commands, const MeshSet& meshes) {
   bindVertices(commands, meshes.posed(), 0);
   vkCmdBindIndexBuffer(commands, meshes.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+void drawPart(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
+              const MeshSet::Level& level, std::uint32_t part, const gpu::GraphicsPipeline& pipeline) {
   push.hiddenKinds = 0;
-  for (std::uint32_t i = 0; i < meshes.parts().size(); ++i) {
-    const MeshSet::Level& level = levels[i];
-    if (level.indexCount == 0 || meshes.parts()[i].role != role) continue;
-    push.colours = meshes.colours() + 4 * i;
-    (level.bothSides ? pipeline : closed).bind(commands, push);
-    vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, std::int32_t(level.firstVertex), 0);
-  }
+  push.colours = meshes.colours() + 4 * part;
+  pipeline.bind(commands, push);
+  vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, std::int32_t(level.firstVertex), 0);
+}
+
+// The parts of a role that are shown.
+std::vector<std::uint32_t> partsOf(const MeshSet& meshes, std::span<const MeshSet::Level> levels,
+                                   MeshRole role) {
+  std::vector<std::uint32_t> parts;
+  for (std::uint32_t i = 0; i < meshes.parts().size(); ++i)
+    if (levels[i].indexCount > 0 && meshes.parts()[i].role == role) parts.push_back(i);
+  return parts;
 }
 
 }  // namespace
@@ -213,10 +222,12 @@ void SurfacePass::recordVessels(VkCommandBuffer commands, shared::DrawPush push,
 void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                                std::span<const MeshSet::Level> levels, const Look& look, bool partial) const {
   const Pipelines& own = pipelines(look, partial);
+  bindMeshes(commands, meshes);
   for (const MeshRole role : {MeshRole::bones, MeshRole::heart, MeshRole::other}) {
     push.opacity = xrayLight(role);
     push.shiftAndOpacities = shiftAndOpacities(kWholePart, opacityOf(role, look));
-    drawParts(commands, push, meshes, levels, own.opaque, own.closed, role);
+    for (const std::uint32_t i : partsOf(meshes, levels, role))
+      drawPart(commands, push, meshes, levels[i], i, levels[i].bothSides ? own.opaque : own.closed);
   }
 }
 
@@ -226,11 +237,17 @@ void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush p
   const Pipelines& own = pipelines(look, partial);
   const bool xray = look.style == LookStyle::xray;
   push.shiftAndOpacities = shiftAndOpacities(kWholePart, 1);
+  bindMeshes(commands, meshes);
   for (const MeshRole role : {MeshRole::organs, MeshRole::skin}) {
-    const float opacity = role == MeshRole::skin ? look.skinOpacity : kOrganOpacity * look.otherOpacity;
-    push.opacity = opacity * (xray ? xrayLight(role) : 1);
-    if (!xray) drawParts(commands, push, meshes, levels, own.skinDepth, own.skinDepth, role);
-    drawParts(commands, push, meshes, levels, own.skinColour, own.skinColour, role);
+    std::vector<std::uint32_t> parts = partsOf(meshes, levels, role);
+    std::ranges::stable_sort(parts, std::greater{}, [&](std::uint32_t i) { return levels[i].depth; });
+    for (const std::uint32_t i : parts) {
+      const float opacity =
+          role == MeshRole::skin ? look.skinOpacity : meshes.parts()[i].opacity * look.otherOpacity;
+      push.opacity = opacity * (xray ? xrayLight(role) : 1);
+      if (!xray) drawPart(commands, push, meshes, levels[i], i, own.skinDepth);
+      drawPart(commands, push, meshes, levels[i], i, own.skinColour);
+    }
   }
 }
 

@@ -1,8 +1,9 @@
 #include "scene/beat.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+
+#include "body/mesh_role.h"
 
 namespace vasa {
 namespace {
@@ -14,9 +15,7 @@ constexpr float kHeld = 0.8f,
                 kFree = 1.7f;  // vessels nearer than the first follow wholly, beyond the second not: radii
 
 bool isHeart(const SkinnedMesh& mesh) {
-  std::string name = mesh.name;
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return name.find("heart") != std::string::npos && !mesh.mesh.positions.empty();
+  return roleNamed(mesh.name) == MeshRole::heart && !mesh.mesh.positions.empty();
 }
 
 // The joint that carries most of the mesh.

@@ -26,6 +26,9 @@ TEST_CASE("a mesh's name tells what it is") {
   CHECK(roleNamed("body") == MeshRole::skin);
   CHECK(roleNamed("organs") == MeshRole::organs);
   CHECK(roleNamed("Left Lung") == MeshRole::organs);
+  CHECK(roleNamed("organ: heart") == MeshRole::heart);
+  CHECK(roleNamed("organ: large bowel") == MeshRole::organs);
+  CHECK(roleNamed("Keep-out: heart") == MeshRole::keepOut);
   CHECK(roleNamed("Object_4") == MeshRole::other);
   CHECK(roleNamed("") == MeshRole::other);
 }
@@ -34,6 +37,8 @@ TEST_CASE(
     "vessels keep out of bones and heart, not of skin and organs; of the unnamed what moves by rigid parts counts") {
   CHECK(isSolid(meshNamed("bones", kSmooth)));
   CHECK(isSolid(meshNamed("heart", kRigid)));
+  CHECK(isSolid(meshNamed("keep-out: heart", kRigid)));
+  CHECK_FALSE(isSolid(meshNamed("organ: heart", kRigid)));
   CHECK_FALSE(isSolid(meshNamed("skin", kRigid)));
   CHECK_FALSE(isSolid(meshNamed("organs", kRigid)));
   CHECK(isSolid(meshNamed("Object_4", kRigid)));

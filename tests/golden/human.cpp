@@ -37,9 +37,9 @@ struct Shot {
   const char* clip = "";
   std::uint32_t frame = 0;
   View view = View::front;
-  const char* subject = "";     // a joint to look at; none: the whole body
-  float around = 0.12f;         // [m] how much about it
-  const char* parts = "abhsv";  // arteries, bones, heart, skin, veins
+  const char* subject = "";      // a joint to look at; none: the whole body
+  float around = 0.12f;          // [m] how much about it
+  const char* parts = "abhosv";  // arteries, bones, heart, other organs, skin, veins
   std::uint32_t growLevels = 0;
   bool transparent = false, occlusion = true, beating = false;
   float boneOpacity = 1, skinOpacity = -1;  // below 0: the preset's
@@ -52,6 +52,7 @@ Look lookOf(const Shot& shot) {
   look.drawArteries = parts.find('a') != std::string_view::npos;
   look.drawBones = parts.find('b') != std::string_view::npos;
   look.drawHeart = parts.find('h') != std::string_view::npos;
+  look.drawOther = parts.find('o') != std::string_view::npos;
   look.drawSkin = parts.find('s') != std::string_view::npos;
   look.drawVeins = parts.find('v') != std::string_view::npos;
   look.transparent = shot.transparent;
@@ -118,6 +119,7 @@ std::vector<Picture> humanPictures() {
       picture("parts/bones", {.parts = "b"}),
       picture("parts/heart", {.subject = "Spine1", .parts = "hav"}),
       picture("parts/heart_beating", {.subject = "Spine1", .parts = "hav", .beating = true}),
+      picture("parts/organs", {.subject = "Spine", .around = 0.24f, .parts = "ahov"}),
       picture("parts/skin", {.parts = "s"}),
       picture("presets/atlas", {.view = View::left, .subject = "Head"}),
       picture("presets/clinical", {.preset = "clinical", .subject = "Head"}),
@@ -130,7 +132,7 @@ std::vector<Picture> humanPictures() {
       picture("poses/walk", {.clip = "walk", .frame = 9}),
       picture("poses/squat", {.clip = "squat", .frame = 30, .view = View::left}),
       picture("poses/fist", {.clip = "fist", .frame = 20, .view = View::left, .subject = "LeftHandFinger2"}),
-      picture("poses/top", {.view = View::top, .parts = "abhv"}),
+      picture("poses/top", {.view = View::top, .parts = "abhov"}),
       picture("poses/run", {.clip = "run", .frame = 5, .view = View::right}),
       picture("poses/arms_overhead", {.clip = "arms_overhead", .frame = 60, .view = View::back}),
       picture("poses/moved_apart", {.clip = "stand",
@@ -143,7 +145,7 @@ std::vector<Picture> humanPictures() {
       picture("opacity/skin", {.view = View::left, .subject = "Head", .skinOpacity = 0.9f}),
       picture("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 2}),
       picture("regions/foot", {.subject = "LeftToeBase", .parts = "ab", .growLevels = 2}),
-      picture("regions/head", {.subject = "Head", .parts = "ab", .growLevels = 3}),
+      picture("regions/head", {.subject = "Head", .parts = "abo", .growLevels = 3}),
   };
 }
 

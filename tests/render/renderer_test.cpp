@@ -227,6 +227,34 @@ TEST_CASE("a beating heart is smaller, and nothing else is") {
   CHECK(pixels(false, 0.5f) == pixels(false, 1));
 }
 
+TEST_CASE(
+    "an organ is seen through another, whichever comes first in the file; what is keep-out is never drawn") {
+  VASA_REQUIRE_GPU(rig);
+  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  subject.joints = {mat4(1)};
+  const auto picture = [&](const std::vector<SkinnedMesh>& meshes) {
+    Renderer renderer(rig.device(), subject.network, meshes, small());
+    RenderInput input = subject.input(sideView());
+    input.look.transparent = true;
+    input.look.drawArteries = false;
+    renderer.draw(input);
+    return renderer.readBack();
+  };
+  const SkinnedMesh right = test::boxMesh("organ: right", {-0.3f, -0.2f, 0.3f}, {-0.2f, 0.2f, 0.6f});
+  const SkinnedMesh left = test::boxMesh("organ: left", {0.2f, -0.2f, 0.3f}, {0.3f, 0.2f, 0.6f});
+  const SkinnedMesh hidden = test::boxMesh("keep-out: all", {-0.3f, -0.2f, 0.3f}, {0.3f, 0.2f, 0.6f});
+  const Image both = picture({right, left}), turned = picture({left, right}), one = picture({left});
+  REQUIRE(covered(one) > 0);
+  CHECK(both.pixels == turned.pixels);
+  int most = 0, mostOfOne = 0;
+  for (std::size_t i = 3; i < both.pixels.size(); i += 4) {
+    most = std::max(most, int(both.pixels[i]));
+    mostOfOne = std::max(mostOfOne, int(one.pixels[i]));
+  }
+  CHECK(most > mostOfOne + 10);
+  CHECK(covered(picture({hidden})) == 0);
+}
+
 TEST_CASE("a cutting plane of any direction takes away what lies behind it, and nothing else") {
   VASA_REQUIRE_GPU(rig);
   const LoneBone bone;

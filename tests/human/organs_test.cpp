@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <cmath>
+
+#include "body/skinning.h"
+#include "core/parallel.h"
+#include "human/made_human.h"
+#include "make_human/motion_probe.h"
+#include "make_human/solid.h"
+
+using namespace vasa;
+using namespace vasa::human;
+
+namespace {
+
+constexpr std::size_t kFirst = 5;       // of the organs among the meshes
+constexpr std::size_t kFrameStep = 6;   // of a clip
+constexpr std::size_t kVertexStep = 2;  // looked at for leaving the skin
+
+const SkinnedMesh& organ(std::string_view name) {
+  const std::vector<SkinnedMesh>& meshes = madeHuman().meshes;
+  const auto found = std::ranges::find(meshes, "organ: " + std::string(name), &SkinnedMesh::name);
+  REQUIRE_MESSAGE(found != meshes.end(), name);
+  return *found;
+}
+
+/// What an adult's has: from the smallest to the largest that textbooks call usual, both of a pair together;
+/// lungs as full as at the end of a quiet breath; [ml].
+struct Usual {
+  const char* name;
+  float least, most;
+};
+constexpr Usual kUsual[] = {
+    {"heart", 450, 800},        {"right lung", 1000, 2200}, {"left lung", 900, 2000},
+    {"liver", 900, 1800},       {"gall bladder", 10, 50},   {"stomach", 150, 1000},
+    {"oesophagus", 15, 50},     {"windpipe", 20, 70},       {"pancreas", 45, 110},
+    {"spleen", 70, 250},        {"kidney", 200, 360},       {"suprarenal gland", 5, 16},
+    {"large bowel", 500, 1300}, {"small bowel", 500, 1300}, {"bladder", 40, 400}};
+
+const char* const kCoronary[] = {"left coronary artery",
+                                 "anterior interventricular artery",
+                                 "circumflex artery",
+                                 "right coronary artery",
+                                 "posterior interventricular artery",
+                                 "right posterolateral artery",
+                                 "right marginal artery",
+                                 "diagonal artery",
+                                 "second diagonal artery",
+                                 "left marginal artery",
+                                 "posterior left ventricular artery",
+                                 "great cardiac vein",
+                                 "middle cardiac vein",
+                                 "small cardiac vein",
+                                 "posterior vein of left ventricle"};
+
+const Body& body() {
+  static const Body made = bodyOf(madeHuman().rig, madeHuman().meshes, madeHuman().clips);
+  return made;
+}
+
+/// Longest and shortest edges beside their lengths at rest.
+vec2 stretch(const TriangleMesh& rest, const std::vector<vec3>& posed) {
+  vec2 range(1, 1);
+  for (const uvec3& t : rest.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      const float length = glm::distance(rest.positions[a], rest.positions[b]);
+      if (length < 1e-3f) continue;
+      const float share = glm::distance(posed[a], posed[b]) / length;
+      range = {std::min(range.x, share), std::max(range.y, share)};
+    }
+  return range;
+}
+
+}  // namespace
+
+TEST_CASE("every organ is there, as large as people's are") {
+  for (const Usual& usual : kUsual) {
+    CAPTURE(usual.name);
+    const float millilitres = 1e6f * organ(usual.name).mesh.volume();
+    CHECK(millilitres >= usual.least);
+    CHECK(millilitres <= usual.most);
+  }
+}
+
+TEST_CASE("organs together have the triangles that a picture's time allows") {
+  std::size_t triangles = 0;
+  for (std::size_t m = kFirst; m < madeHuman().meshes.size(); ++m)
+    triangles += madeHuman().meshes[m].mesh.triangles.size();
+  CHECK(triangles <= 44000);
+}
+
+TEST_CASE("at rest organs lie well below the skin and not in bones") {
+  const Solid skin(madeHuman().meshes[0].mesh), bones(madeHuman().meshes[1].mesh);
+  for (std::size_t m = kFirst; m < madeHuman().meshes.size(); ++m) {
+    const SkinnedMesh& mesh = madeHuman().meshes[m];
+    CAPTURE(mesh.name);
+    float shallowest = 1, inBone = 0;
+    for (const vec3 p : mesh.mesh.positions) {
+      const auto place = skin.at(p, 0.02f);
+      shallowest = std::min(shallowest, place ? -place->distance : -1.0f);
+      if (const auto bone = bones.at(p, 0.001f)) inBone = std::max(inBone, -bone->distance);
+    }
+    CHECK(shallowest > 0.005f);
+    CHECK(inBone < 0.005f);
+  }
+}
+
+TEST_CASE("the vessels of the heart lie on its surface, in grooves of it") {
+  const Solid heart(organ("heart").mesh);
+  const Network& network = madeHuman().vessels;
+  int samples = 0, near = 0, sunk = 0;
+  for (const char* name : kCoronary) {
+    CAPTURE(name);
+    const auto vessel = std::ranges::find(network.vessels(), name, &Vessel::name);
+    REQUIRE(vessel != network.vessels().end());
+    const auto points = network.pointsOf(*vessel);
+    for (float u = 0; u <= float(spanCount(points)); u += 0.25f) {
+      const vec4 p = evaluate(points, u);
+      const auto place = heart.at(vec3(p), 0.02f);
+      ++samples;
+      near += place && std::abs(place->distance) < p.w + 0.003f;
+      sunk += place && place->distance < -p.w;
+    }
+  }
+  CHECK(samples > 150);
+  CHECK(float(near) >= 0.93f * float(samples));  // the right coronary artery begins on the aorta
+  CHECK(float(sunk) <= 0.02f * float(samples));
+}
+
+TEST_CASE("organs follow the trunk in every motion, untorn and inside the skin") {
+  std::vector<vec3> skin, posed;
+  for (const Clip& clip : body().clips) {
+    CAPTURE(clip.name);
+    float farthest = 0;
+    vec2 range(1, 1);
+    std::string which;
+    for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
+      const std::vector<mat4> matrices = skinMatrices(
+          body().skeleton, samplePose(body().skeleton, clip, float(frame) / clip.framesPerSecond));
+      skinPositions(body().meshes[0], matrices, skin);
+      const TriangleMesh surface{skin, body().meshes[0].mesh.triangles};
+      const Solid solid(surface);
+      for (std::size_t m = kFirst; m < body().meshes.size(); ++m) {
+        skinPositions(body().meshes[m], matrices, posed);
+        const vec2 edges = stretch(body().meshes[m].mesh, posed);
+        range = {std::min(range.x, edges.x), std::max(range.y, edges.y)};
+        std::vector<float> out(posed.size() / kVertexStep, 0);
+        parallelFor(out.size(), 256, [&](std::size_t i) {
+          const vec3 p = posed[i * kVertexStep];
+          if (solid.winding(p) > 0) return;
+          if (const auto place = solid.at(p, 0.1f)) out[i] = place->distance;
+        });
+        const float most = *std::max_element(out.begin(), out.end());
+        if (most > farthest) farthest = most, which = body().meshes[m].name;
+      }
+    }
+    MESSAGE(clip.name << ": edges " << range.x << " to " << range.y << " of rest, " << 1e3f * farthest
+                      << " mm out " << which);
+    CHECK(farthest <= 0.001f);
+    CHECK(range.x > 0.6f);
+    CHECK(range.y < 1.4f);
+  }
+}
