@@ -1,6 +1,7 @@
 #include "io/gltf_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/gltf_rule.h"
@@ -105,7 +106,8 @@ void prune(json& value) {
     for (json& child : value) prune(child);
   } else if (value.is_number_float()) {
     const double number = value.get<double>();
-    if (number == std::int64_t(number)) value = std::int64_t(number);
+    constexpr double kExact = 9007199254740992;  // 2^53: whole numbers below are exact, and no cast overflows
+    if (std::abs(number) <= kExact && number == std::trunc(number)) value = std::int64_t(number);
   }
 }
 
