@@ -245,11 +245,11 @@ TEST_CASE(
   const SkinnedMesh hidden = test::boxMesh("keep-out: all", {-0.3f, -0.2f, 0.3f}, {0.3f, 0.2f, 0.6f});
   const Image both = picture({right, left}), turned = picture({left, right}), one = picture({left});
   REQUIRE(covered(one) > 0);
-  CHECK(both.pixels == turned.pixels);
+  CHECK(both.rgba == turned.rgba);
   int most = 0, mostOfOne = 0;
-  for (std::size_t i = 3; i < both.pixels.size(); i += 4) {
-    most = std::max(most, int(both.pixels[i]));
-    mostOfOne = std::max(mostOfOne, int(one.pixels[i]));
+  for (std::size_t i = 3; i < both.rgba.size(); i += 4) {
+    most = std::max(most, int(both.rgba[i]));
+    mostOfOne = std::max(mostOfOne, int(one.rgba[i]));
   }
   CHECK(most > mostOfOne + 10);
   CHECK(covered(picture({hidden})) == 0);
