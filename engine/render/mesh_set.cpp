@@ -69,12 +69,11 @@ MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const
     assert(mesh.normals.size() == mesh.mesh.positions.size() &&
            mesh.influences.size() == mesh.normals.size());
     const MeshRole role = roleNamed(mesh.name);
-    Part& part =
-        parts_.emplace_back(Part{.role = role,
-                                 .opacity = mesh.colour.a < 1 ? mesh.colour.a : kOrganOpacity,
-                                 .levels = {},
-                                 .closed = levels[k].closed,
-                                 .balls = {}});
+    Part& part = parts_.emplace_back(Part{.role = role,
+                                          .opacity = mesh.colour.a < 1 ? mesh.colour.a : kOrganOpacity,
+                                          .levels = {},
+                                          .closed = levels[k].closed,
+                                          .balls = {}});
     for (const MeshLevel& level : levels[k].levels) {
       part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()),
                              std::uint32_t(3 * level.triangles.size()), std::uint32_t(vertices.size()),
