@@ -143,6 +143,16 @@ class Band {
     if (!(distance > 1e-6f)) normal = glm::length(normal) > 0 ? glm::normalize(normal) : vec3(0, 0, 1);
     return {near.s, near.t, distance, normal};
   }
+  // A segment, however it turns about its first end, lies clear of an obstacle: most do, and this is quickly
+  // told.
+  bool beyond(const Obstacle& obstacle, vec3 from, vec3 to) const {
+    const vec3 off = from - 0.5f * (obstacle.a + obstacle.b);
+    // The hundredth is for rounding.
+    const float reach =
+        1.01f * (0.5f * glm::distance(obstacle.a, obstacle.b) + std::max(obstacle.radiusA, obstacle.radiusB) +
+                 task_.radius + kGraftGap + glm::distance(from, to));
+    return glm::dot(off, off) > reach * reach;
+  }
   float clearOf(const HostPlace& host) const { return kClear * (host.radius + task_.radius + kGraftGap); }
   bool ownHost(const Obstacle& obstacle, float fromStart, float fromEnd) const {
     return (obstacle.vessel == hosts_[0].vessel && fromStart < clearOf(hosts_[0])) ||
@@ -242,6 +252,7 @@ class Band {
       along.push_back(along.back() + glm::distance(nodes_[i].at, nodes_[i + 1].at));
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i)
       for (const Obstacle* obstacle : near_) {
+        if (beyond(*obstacle, nodes_[i].at, nodes_[i + 1].at)) continue;
         if (ownHost(*obstacle, along[i], along.back() - along[i + 1])) continue;
         const SegmentPair near = closestSegments(nodes_[i].at, nodes_[i + 1].at, obstacle->a, obstacle->b);
         const float lack = task_.radius + std::lerp(obstacle->radiusA, obstacle->radiusB, near.t) +

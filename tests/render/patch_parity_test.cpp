@@ -21,7 +21,8 @@ namespace {
 
 using test::Forks;
 
-void checkAgainstReference(const Forks& passes, float apart = 1e-6f) {
+// @param apart, turned  [m], of a unit normal; an octahedral normal alone is off by 1e-4
+void checkAgainstReference(const Forks& passes, float apart = 1e-6f, float turned = 2e-4f) {
   const PatchTable& table = passes.tubes.table().patches;
   float position = 0, normal = 0;
   const auto compare = [&](std::uint32_t vertex, const SurfacePoint& wanted) {
@@ -50,7 +51,7 @@ void checkAgainstReference(const Forks& passes, float apart = 1e-6f) {
     for (std::uint32_t i = 0; i < wanted.size(); ++i) compare(patch.firstVertex + i, wanted[i]);
   }
   CHECK(position <= apart);
-  CHECK(normal <= 2e-4f);
+  CHECK(normal <= turned);
 }
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -166,7 +167,8 @@ TEST_CASE(
         joints.push_back(poseSeam(passes.posed(), i, 8).joint);
       CHECK(std::ranges::any_of(table.patches,
                                 [&](const auto& patch) { return patchSmoothing(table, patch, joints) > 0; }));
-      checkAgainstReference(passes, 2e-5f);
+      // Smoothing carries rounding on, and places this far apart turn a triangle of some millimetres by more.
+      checkAgainstReference(passes, 2e-5f, 1e-3f);
       CHECK(test::openEdgesDrawn(passes) == 0);
     }
   }
