@@ -11,6 +11,7 @@
 #include "convert/keep_patches.h"
 #include "convert_report.h"
 #include "core/log.h"
+#include "io/foreign_files.h"
 #include "network/file.h"
 #include "network/join_lines.h"
 #include "rest_report.h"
@@ -47,15 +48,13 @@ VesselImport importOf(const Options& options, double metresPerUnit) {
   return import;
 }
 
-bool isGltf(const std::string& file) { return file.ends_with(".glb") || file.ends_with(".gltf"); }
-
 Result<std::vector<SourceElement>> readSources(const Options& options, double metresPerUnit) {
   std::vector<SourceElement> sources;
   for (const std::string& file : options.meshes) {
     auto read = readSurfaces(file, importOf(options, metresPerUnit));
     if (!read) return read.error();
     // Metres by definition, but not in every exporter's hands.
-    if (isGltf(file) && !options.unit.empty())
+    if (isGltfFile(file) && !options.unit.empty())
       for (SourceElement& source : *read)
         for (vec3& p : source.element.mesh.positions) p *= float(metresPerUnit);
     std::ranges::move(*read, std::back_inserter(sources));
@@ -72,7 +71,7 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   if (!found) return found;
   const vec3 extent = extentOf(*found);
   if (likelyUnit(extent) == 1) return found;
-  if (std::ranges::all_of(options.meshes, isGltf)) {
+  if (std::ranges::all_of(options.meshes, isGltfFile)) {
     logWarning(fmt::format(
         "the vessels are {:.0f} m large, and glTF is in metres; --unit mm reads it as millimetres",
         std::max({extent.x, extent.y, extent.z})));

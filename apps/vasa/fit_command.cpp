@@ -6,11 +6,13 @@
 
 #include "body/carry.h"
 #include "body/strain.h"
+#include "body/strain_limit.h"
 #include "body/surface_carry.h"
 #include "commands.h"
 #include "core/cancellation.h"
 #include "core/log.h"
 #include "io/bvh.h"
+#include "io/foreign_files.h"
 #include "io/gltf.h"
 #include "network/file.h"
 #include "network/kinks.h"
@@ -38,12 +40,10 @@ struct Carried {
   std::optional<SurfaceFit> surface;
 };
 
-bool isGltf(const std::string& file) { return file.ends_with(".glb") || file.ends_with(".gltf"); }
-
 // A surface without a skeleton.
 Result<bool> isSurface(const Options& options) {
   if (!holdsSurfaces(options.from)) return false;
-  if (!isGltf(options.from)) return true;
+  if (!isGltfFile(options.from)) return true;
   const auto summary = checkGltf(options.from);
   if (!summary) return summary.error();
   return summary->skins == 0;
@@ -56,7 +56,7 @@ Result<TriangleMesh> readSurfaceOf(const Options& options) {
       unit > 0 ? readSurfaces(options.from, {{unit, up}, {}}) : readSurfacesInLikelyUnit(options.from, up);
   if (!sources) return sources.error();
   TriangleMesh mesh = meshOf(*sources);
-  if (unit > 0 && isGltf(options.from))  // read in metres, whatever their unit
+  if (unit > 0 && isGltfFile(options.from))  // read in metres, whatever their unit
     for (vec3& p : mesh.positions) p *= float(unit);
   return mesh;
 }
@@ -147,12 +147,20 @@ std::string strainText(const Report& report) {
   return text;
 }
 
+std::string limitText(const Report& limit) {
+  std::string text = fmt::format("uneven     {} pieces held to {} times what lies around them",
+                                 limit["pieces_held"].get<int>(), limit["times"].get<double>());
+  if (const int beyond = limit["pieces_beyond"].get<int>(); beyond > 0)
+    text += fmt::format("; {} could not be, the worst is {:.1f}", beyond, limit["worst"].get<double>());
+  return text + "\n";
+}
+
 std::string asText(const Report& report) {
   std::string text = matchText(report);
   text += fmt::format("network    {} vessels, {:.2f} m (before {:.2f} m), radii times {:.3f}\n",
                       report["vessels"].get<std::size_t>(), report["length_m"].get<double>(),
                       report["length_before_m"].get<double>(), report["radius_factor"].get<double>());
-  text += strainText(report);
+  text += strainText(report) + limitText(report["strain_limit"]);
   const Report& outside = report["outside_skin"];
   if (!outside["measured"].get<bool>()) return text + "outside    not known: the body has no skin\n";
   text += fmt::format(
@@ -178,6 +186,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   auto carrying = carry(options, *network, *to);
   if (!carrying) return carrying.error();
   CarriedNetwork* const carried = &carrying->network;
+  const StrainLimitReport limited = limitStrain(*network, network->points(), carried->points);
   KinkRelaxer(*network).run(carried->points);
   checkpoint();
   const auto fitted = reshapeNetwork(*network, carried->points, carried->bodyHeight);
@@ -201,7 +210,12 @@ Result<void> run(const Globals& globals, const Options& options) {
                 {"kinks_before", kinkCount(*network, network->points())},
                 {"outside_skin", outsideJson(parted, measureOutside(parted, parted.points(), *to))},
                 {"outside_skin_before", outsideJson(*network, carrying->outsideBefore)},
-                {"strained", strainJson(parted, network->points(), carried->radiusFactor)}};
+                {"strained", strainJson(parted, network->points(), carried->radiusFactor)},
+                {"strain_limit",
+                 {{"times", kMostUnevenStrain},
+                  {"pieces_held", limited.held},
+                  {"pieces_beyond", limited.beyond},
+                  {"worst", limited.worst}}}};
   if (carrying->surface) report["surface"] = surfaceJson(*carrying->surface);
   addRestRepair(report, repair);
   return globals.json ? printJson(report) : printText(restRepairText(repair) + asText(report));

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "edit/replay.h"
 #include "io/bvh.h"
+#include "io/foreign_files.h"
 #include "io/gltf.h"
 #include "network/file.h"
 #include "network/measure.h"
@@ -168,25 +169,79 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
   return std::filesystem::file_size(file, ignored);
 }
 
+// Of vessels as other programs wrote them: what there is before it is converted.
+template <class Vessels>
+void addExtent(Report& report, const Vessels& vessels, const std::filesystem::path& file) {
+  const vec3 extent = extentOf(vessels);
+  const double unit = isGltfFile(file) ? 1 : likelyUnit(extent);
+  report["extent_m"] = {extent.x * unit, extent.y * unit, extent.z * unit};
+  report["metres_a_unit"] = unit;
+  report["next"] = "vasa convert " + file.string() + " -o NET.vasa";
+}
+
+Result<Report> surfaceReport(const std::filesystem::path& file) {
+  const auto sources = readSurfaces(file);
+  if (!sources) return sources.error();
+  Report report{{"kind", "surfaces"}, {"elements", sources->size()}};
+  std::size_t triangles = 0;
+  Report list = Report::array();
+  for (const SourceElement& source : *sources) {
+    triangles += source.element.mesh.triangles.size();
+    list.push_back({{"name", source.label},
+                    {"kind", kindName(source.kind)},
+                    {"triangles", source.element.mesh.triangles.size()}});
+  }
+  report["triangles"] = triangles;
+  addExtent(report, *sources, file);
+  report["element"] = std::move(list);
+  return report;
+}
+
+Result<Report> lineReport(const std::filesystem::path& file) {
+  const auto lines = readCentrelines(file);
+  if (!lines) return lines.error();
+  Report report{{"kind", "centre lines"}, {"lines", lines->lines.size()}, {"samples", lines->sampleCount()}};
+  addExtent(report, *lines, file);
+  return report;
+}
+
+// A glTF file without a skeleton is one of vessels, or of anything else that is no body.
+Result<bool> hasSurfacesAlone(const std::filesystem::path& file) {
+  if (!holdsSurfaces(file)) return false;
+  if (!isGltfFile(file)) return true;
+  const auto summary = checkGltf(file);
+  if (!summary) return summary.error();
+  return summary->skins == 0;
+}
+
 Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool joints) {
   if (isMotionFile(file.string())) {
     const auto motion = readBvh(file);
     if (!motion) return motion.error();
     return motionReport(*motion, sizeOf(file), joints);
   }
-  if (file.extension() == ".vasa") {
+  if (const auto readable = readFile(file, 0); !readable && readable.error().fault == Fault::io)
+    return readable.error();
+  if (extensionOf(file) == ".vasa") {
     const auto network = readNetwork(file);
     if (!network) return network.error();
     return networkReport(*network, sizeOf(file), vessels);
   }
-  if (file.extension() == ".glb" || file.extension() == ".gltf" || file.extension() == ".vrm") {
+  const auto surfaces = hasSurfacesAlone(file);
+  if (!surfaces) return surfaces.error();
+  if (*surfaces) return surfaceReport(file);
+  if (holdsCentrelines(file)) return lineReport(file);
+  if (isGltfFile(file)) {
     const auto body = readBody(file);
     if (!body) return body.error();
     return bodyReport(*body, sizeOf(file), joints);
   }
-  return Error{Fault::usage,
-               file.string() +
-                   ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .bvh and scene .json files"};
+  return Error{
+      Fault::usage,
+      file.string() +
+          ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .obj, .stl, .vtp, .vtk, .swc, .bvh "
+          "and scene .json files" +
+          remedyFor(file, FileUse::vessels)};
 }
 
 // What would grow: nothing of it is stored.
@@ -305,12 +360,14 @@ void addInfo(CLI::App& app, Command& command) {
       "Examples:\n"
       "  vasa info body.vasa --json\n"
       "  vasa info body.glb --joints\n"
+      "  vasa info arteries.obj   (what vasa convert would read: elements, kinds, the likely unit)\n"
       "  vasa info walk.bvh   (what a motion file holds, and how its joints are understood)\n"
       "  vasa info            (the built-in human)\n"
       "  vasa info --vessels  (a table: sizes, stenoses, aneurysms, how they wind)\n"
       "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv");
-  sub->add_option("FILE", options->file,
-                  "A .vasa network, a glTF body, a .bvh motion or a scene; nothing: the built-in human");
+  sub->add_option(
+      "FILE", options->file,
+      "A network, a body, vessels to be converted, a motion or a scene; nothing: the built-in human");
   sub->add_flag("--vessels", options->vessels,
                 "List each vessel with its sizes, stenosis, aneurysm and course, and each fork");
   sub->add_flag(

@@ -9,6 +9,7 @@
 #include "endings.h"
 #include "frame_output.h"
 #include "gpu/error.h"
+#include "io/foreign_files.h"
 #include "io/gltf.h"
 #include "report.h"
 #include "scene/vessel_files.h"
@@ -32,17 +33,17 @@ struct Options {
 const auto kStart = std::chrono::steady_clock::now();  // before main()
 
 constexpr const char* kDroppable =
-    "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp), a body (.glb) or a motion (.bvh)";
+    "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
 
 // What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file
 // with a skeleton is a body, one without is vessels.
 Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
-  const std::string extension = path.extension().string();
+  const std::string extension = extensionOf(path);
   if (extension == ".json") return chooseScene({.scene = path.string()});
   SceneFile scene = now;
   if (isMotionFile(path.string())) {
     scene.clip = path.string();
-  } else if (extension == ".glb" || extension == ".gltf") {
+  } else if (isGltfFile(path)) {
     const auto summary = checkGltf(path);
     if (!summary) return summary.error();
     if (summary->skins == 0)
@@ -67,7 +68,7 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     view.height = size->height;
   }
   SceneOptions scene = options.scene;
-  if (const std::filesystem::path file = scene.scene; !file.empty() && file.extension() != ".json") {
+  if (const std::filesystem::path file = scene.scene; !file.empty() && extensionOf(file) != ".json") {
     view.dropped = {file};
     scene.scene.clear();
   }
@@ -100,7 +101,7 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   view.validation = {.core = options.validate, .synchronization = options.validate};
   view.record = options.record;
   view.open = sceneOf;
-  view.openable = {".json", ".vasa", ".glb", ".gltf", ".obj", ".stl", ".swc", ".vtp", ".vtk", ".bvh"};
+  view.openable = {".json", ".vasa", ".glb", ".gltf", ".vrm", ".obj", ".stl", ".swc", ".vtp", ".vtk", ".bvh"};
   view.stopped = [] { return stopRequested(); };
   view.start = kStart;
   return view;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "body/bone_field.h"
 #include "body/mesh_role.h"
@@ -59,6 +60,13 @@ bool liesInside(const SkinnedMesh& mesh, const WindingNumber& winding) {
   return float(inside) >= kInside * float(asked);
 }
 
+// Whether one's box is around the other's.
+bool holds(const SkinnedMesh& around, const SkinnedMesh& mesh) {
+  const Aabb outer = around.mesh.bounds(), inner = mesh.mesh.bounds();
+  return glm::all(glm::lessThanEqual(outer.low, inner.low)) &&
+         glm::all(glm::greaterThanEqual(outer.high, inner.high));
+}
+
 void append(SkinnedMesh& to, const SkinnedMesh& from) {
   const auto base = std::uint32_t(to.mesh.positions.size());
   to.mesh.positions.insert(to.mesh.positions.end(), from.mesh.positions.begin(), from.mesh.positions.end());
@@ -82,6 +90,29 @@ int strangeness(const SkinnedMesh& mesh) {
   return unnamed ? (rigid ? 1 : 0) : (rigid ? 3 : 2);
 }
 
+// A head, hair, a hat or a shoe may follow one joint, as bones and eyes do; but these lie in the skin.
+void addRigidParts(const Body& body, std::vector<std::size_t>& skin) {
+  const SkinnedMesh whole = merged(body, skin);
+  std::optional<WindingNumber> winding;
+  std::vector<std::size_t> parts;
+  for (std::size_t m = 0; m < body.meshes.size(); ++m) {
+    if (strangeness(body.meshes[m]) != 1 || std::ranges::find(skin, m) != skin.end()) continue;
+    if (!winding) winding.emplace(whole.mesh.positions, whole.mesh.triangles);
+    if (!liesInside(body.meshes[m], *winding)) parts.push_back(m);
+  }
+  // A part that lies in another one of them (eyes in a head) stays what it is.
+  std::vector<std::size_t> outer;
+  for (const std::size_t m : parts) {
+    const bool within = std::ranges::any_of(parts, [&](std::size_t other) {
+      if (other == m || !holds(body.meshes[other], body.meshes[m])) return false;
+      const TriangleMesh& around = body.meshes[other].mesh;
+      return liesInside(body.meshes[m], WindingNumber(around.positions, around.triangles));
+    });
+    if (!within) outer.push_back(m);
+  }
+  skin.insert(skin.end(), outer.begin(), outer.end());
+}
+
 }  // namespace
 
 void recogniseSkin(Body& body) {
@@ -91,7 +122,10 @@ void recogniseSkin(Body& body) {
       if (strangeness(body.meshes[m]) == rank) candidates.push_back(m);
   };
   take(0);
-  if (candidates.size() == 1 && roleNamed(body.meshes[candidates[0]].name) == MeshRole::skin) return;
+  const bool rigidParts =
+      std::ranges::any_of(body.meshes, [](const SkinnedMesh& mesh) { return strangeness(mesh) == 1; });
+  if (!rigidParts && candidates.size() == 1 && roleNamed(body.meshes[candidates[0]].name) == MeshRole::skin)
+    return;
   const std::vector<vec3> places = placesInFlesh(body.skeleton);
   float enclosed = enclosedShare(places, merged(body, candidates).mesh);
   for (const int rank : {1, 2})
@@ -106,6 +140,7 @@ void recogniseSkin(Body& body) {
   std::erase_if(candidates, [&](std::size_t m) { return m != first && liesInside(body.meshes[m], winding); });
   std::ranges::stable_sort(candidates, std::greater{},
                            [&](std::size_t m) { return m == first ? 2.0f : shares[m]; });
+  addRigidParts(body, candidates);
   if (candidates.size() == 1 && roleNamed(body.meshes[first].name) == MeshRole::skin &&
       !movesByRigidParts(body.meshes[first]))
     return;

@@ -44,7 +44,7 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
       break;
     }
   return badInput("no vessel could be made of the input (" + why +
-                  "); give surfaces of tubes as triangles, and their unit with --scale");
+                  "); give surfaces of tubes as triangles, and their unit with vasa convert --unit");
 }
 
 }  // namespace

@@ -25,12 +25,14 @@ enum class Channel : std::uint8_t { x, y, z, turnX, turnY, turnZ };
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name) : rest_(text), bytes_(text.size()) {
+  Parser(std::string_view text, const std::string& name)
+      : rest_(withoutByteOrderMark(text)), bytes_(text.size()) {
     motion_.name = name;
   }
 
   Motion run() {
-    expect("HIERARCHY");
+    if (const std::string_view found = next(); !sameLetters(found, "HIERARCHY"))
+      breaks("a motion in .bvh begins with HIERARCHY, found " + quoted(found) + "; export it as BVH");
     expect("ROOT");
     readJoint({}, 0);
     // Some write keywords in capitals, or in none.
@@ -79,10 +81,19 @@ class Parser {
     if (const std::string_view found = next(); !sameLetters(found, word))
       breaks("expected " + std::string(word) + ", found " + quoted(found));
   }
+  // A word that the next one may follow without a blank.
+  void expectMark(std::string_view word) {
+    skipBlanks();
+    if (!sameLetters(rest_.substr(0, word.size()), word)) return expect(word);
+    rest_.remove_prefix(word.size());
+  }
   double number(const char* what) {
     double value = 0;
     if (const std::string_view word = next(); !parseNumber(word, value) || std::abs(value) > kFarthest)
-      breaks(std::string(what) + " must be a finite number, found " + quoted(word));
+      breaks(std::string(what) + " must be a finite number, found " + quoted(word) +
+             (word.empty()                  ? "; copy or export the file again"
+              : word.find(',') != word.npos ? "; write decimal points, not commas"
+                                            : ""));
     return value;
   }
   std::int64_t whole(const char* what, std::int64_t most) {
@@ -141,11 +152,11 @@ class Parser {
 
   void readMotion() {
     expect("MOTION");
-    expect("Frames:");
+    expectMark("Frames:");
     motion_.frameCount = std::uint32_t(whole("the number of frames", 10'000'000));
-    if (motion_.frameCount == 0) breaks("there are no frames");
+    if (motion_.frameCount == 0) breaks("there are no frames; export the motion again");
     expect("Frame");
-    expect("Time:");
+    expectMark("Time:");
     const double seconds = number("the frame time");
     if (!(seconds > 1e-5 && seconds < 1e4))
       breaks("the frame time must be above zero seconds, found " + numberText(seconds));

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/atomic_file.h"
+#include "io/foreign_files.h"
 #include "io/gltf_asset.h"
 #include "io/gltf_body.h"
 #include "io/gltf_container.h"
@@ -45,6 +46,12 @@ Result<std::vector<std::byte>> bytesOf(const std::filesystem::path& path) {
   return bytes;
 }
 
+// Under another name.
+bool looksLikeGltf(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.starts_with("glTF") || text.substr(0, text.find_first_not_of(" \t\r\n") + 1).ends_with('{');
+}
+
 }  // namespace
 
 Result<Body> parseBody(std::vector<std::byte> bytes, const std::filesystem::path& path) {
@@ -53,7 +60,11 @@ Result<Body> parseBody(std::vector<std::byte> bytes, const std::filesystem::path
 
 Result<Body> readBody(const std::filesystem::path& path) {
   auto bytes = bytesOf(path);
-  return bytes ? parseBody(std::move(*bytes), path) : bytes.error();
+  if (!bytes) return bytes.error();
+  if (!isGltfFile(path) && !looksLikeGltf(*bytes))
+    return badInput(path.string() + ": a body is a glTF file (.glb, .gltf, .vrm), and this is none" +
+                    remedyFor(path, FileUse::body));
+  return parseBody(std::move(*bytes), path);
 }
 
 Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes,

@@ -1,5 +1,6 @@
 #include "io/gltf_body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -8,6 +9,7 @@
 #include "io/gltf_clips.h"
 #include "io/gltf_rule.h"
 #include "io/read_limits.h"
+#include "math/aabb.h"
 
 namespace vasa::gltf {
 namespace {
@@ -102,6 +104,36 @@ void addMeshesOfNode(const Source& from, int index, std::vector<SkinnedMesh>& me
   }
 }
 
+// glTF is in metres, but not in every exporter's hands: a skeleton of a person's size in centimetres or
+// millimetres is read as that. [metres a unit]
+float likelyUnitOf(const Asset& asset, const Skeleton& skeleton) {
+  constexpr float kLargest = 4, kSmallest = 0.4f;  // [m] of people's skeletons
+  constexpr float kLongestLink = 1;  // [m] of half the links: one joint that strays says nothing
+  Aabb box;
+  std::vector<float> links;
+  for (const auto& joint : skeleton.joints) {
+    box.add(vec3(joint.restWorld[3]));
+    if (!joint.parent.valid()) continue;
+    const vec3 above(skeleton.joints[joint.parent.value].restWorld[3]);
+    if (const float link = glm::distance(vec3(joint.restWorld[3]), above); link > 0) links.push_back(link);
+  }
+  if (links.empty()) return 1;
+  const vec3 extent = box.extent();
+  const float size = std::max({extent.x, extent.y, extent.z});
+  const auto middle = links.begin() + std::ptrdiff_t(links.size() / 2);
+  std::ranges::nth_element(links, middle);
+  if (!(size > kLargest && *middle > kLongestLink)) return 1;
+  for (const auto& [name, unit] : {std::pair("centimetres", 0.01f), std::pair("millimetres", 0.001f)})
+    if (size * unit >= kSmallest && size * unit < kLargest) {
+      logInfo(asset.name + ": read as " + name + ", as its skeleton would be " + std::to_string(int(size)) +
+              " m large in metres");
+      return unit;
+    }
+  logWarning(asset.name + ": its skeleton is " + std::to_string(int(std::min(size, 1e9f))) +
+             " m large, and glTF is in metres; export it at a person's size");
+  return 1;
+}
+
 }  // namespace
 
 void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t vertexBytes) {
@@ -157,9 +189,14 @@ SkinnedMesh onSkin(Geometry geometry, const BodySkeleton::Skin& skin) {
 Body bodyOf(const Asset& asset) {
   if (asset.model.skins.empty())
     breaks("/skins", "a body needs a skeleton, and the file has no skin",
-           "export the body with its armature");
-  const NodeTree tree = resolveNodes(asset.model);
+           "export the body with its armature; vessels are read by vasa convert, and the skin of a scan "
+           "without a skeleton by vasa fit --from");
+  NodeTree tree = resolveNodes(asset.model);
   BodySkeleton joints = buildSkeleton(asset, tree);
+  if (const float unit = likelyUnitOf(asset, joints.skeleton); unit != 1) {
+    tree = resolveNodes(asset.model, unit);
+    joints = buildSkeleton(asset, tree);
+  }
   const Source from{asset, tree, joints, carriers(tree, joints)};
   Body body;
   body.name = asset.name;

@@ -1,5 +1,7 @@
 #include "io/gltf_nodes.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "body/skeleton.h"
 
 namespace vasa::gltf {
@@ -37,8 +39,9 @@ std::vector<bool> sceneRoots(const Model& model) {
 
 }  // namespace
 
-NodeTree resolveNodes(const Model& model) {
+NodeTree resolveNodes(const Model& model, float unit) {
   NodeTree tree;
+  if (unit != 1) tree.space = glm::scale(mat4(1), vec3(unit));
   const std::size_t count = model.nodes.size();
   tree.parent.assign(count, -1);
   for (std::size_t i = 0; i < count; ++i)
@@ -51,7 +54,7 @@ NodeTree resolveNodes(const Model& model) {
     const auto i = std::size_t(node);
     const int parent = tree.parent[i];
     tree.local[i] = localMatrix(model.nodes[i]);
-    tree.world[i] = parent < 0 ? tree.local[i] : tree.world[std::size_t(parent)] * tree.local[i];
+    tree.world[i] = (parent < 0 ? tree.space : tree.world[std::size_t(parent)]) * tree.local[i];
     if (parent >= 0 && tree.inScene[std::size_t(parent)]) tree.inScene[i] = true;
   }
   return tree;

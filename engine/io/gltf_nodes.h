@@ -12,9 +12,11 @@ struct NodeTree {
   std::vector<int> order;   ///< every node, parents before children, depth first
   std::vector<mat4> local;  ///< at rest, as the file has it
   std::vector<mat4> world;
+  mat4 space{1};              ///< of the roots: scales a file that is not in metres
   std::vector<bool> inScene;  ///< below the default scene; everything where the file has no scene
 };
 
-NodeTree resolveNodes(const Model& model);
+/// @param unit  metres a unit of the file
+NodeTree resolveNodes(const Model& model, float unit = 1);
 
 }  // namespace vasa::gltf

@@ -56,7 +56,7 @@ class Members {
   mat4 above() const {
     for (const int node : tree_.order)
       if (has(node)) return worldAbove(node);
-    return mat4(1);
+    return tree_.space;
   }
 
  private:
@@ -65,7 +65,7 @@ class Members {
   }
   mat4 worldAbove(int node) const {
     const int parent = tree_.parent[std::size_t(node)];
-    return parent < 0 ? mat4(1) : tree_.world[std::size_t(parent)];
+    return parent < 0 ? tree_.space : tree_.world[std::size_t(parent)];
   }
   void fillGaps() {
     // For each node, whether a joint lies above it and below it.

@@ -34,6 +34,7 @@ class Reader {
       : path_(path), file_(path.string()), frame_(frame) {}
 
   Result<std::vector<MeshElement>> run(std::string_view text) {
+    text = withoutByteOrderMark(text);
     const std::size_t mostObjects = text.size() / kBytesAnObject + kFreeObjects;
     Checkpoints checkpoints;
     while (!text.empty()) {
@@ -55,8 +56,10 @@ class Reader {
       }
     }
     if (faces_.empty())
-      return badInput(file_ +
-                      ": the file has no faces; export the surface as polygons, not points or curves");
+      return badInput(
+          file_ +
+          ": the file has no faces; export the surface as polygons (centre lines are read from .swc, .vtp "
+          "and .vtk, with radii)");
     // A positive index may name a vertex that follows further down, so the upper bound is checked last.
     for (std::size_t i = 0; i < faces_.size(); ++i)
       for (const std::uint32_t corner : cornersOf(i))
@@ -81,8 +84,9 @@ class Reader {
         return fail(line_,
                     "a vertex needs three finite numbers, found '" + std::string(word.substr(0, 40)) + "'");
       if (std::abs(place[axis]) * frame_.metresPerUnit > kLargestImportedCoordinate)
-        return fail(line_, "coordinate " + std::string(word.substr(0, 40)) +
-                               " is farther than 1000 km away; give the file's unit with --scale");
+        return fail(line_,
+                    "coordinate " + std::string(word.substr(0, 40)) +
+                        " is farther than 1000 km away; give the file's unit with vasa convert --unit");
     }
     positions_.push_back(frame_.toHouse(place));
     return {};

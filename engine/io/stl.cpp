@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "io/words.h"
 
 namespace vasa {
 namespace {
@@ -56,7 +57,7 @@ class Welder {
 std::string coordinateFault(dvec3 p, const ImportFrame& frame) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return "a coordinate is not finite";
   if (glm::length(p) * frame.metresPerUnit > kLargestImportedCoordinate)
-    return "a coordinate is farther than 1000 km away; give the file's unit with --scale";
+    return "a coordinate is farther than 1000 km away; give the file's unit with vasa convert --unit";
   return {};
 }
 
@@ -132,18 +133,19 @@ class AsciiReader {
     Checkpoints checkpoints;
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       checkpoints.pass();
-      if (word == "solid") {
+      if (sameLetters(word, "solid")) {
         welder = {};
         title = words_.restOfLine();
-      } else if (word == "endsolid") {
+      } else if (sameLetters(word, "endsolid")) {
         words_.restOfLine();
         if (TriangleMesh mesh = welder.mesh(); !mesh.empty())
           elements.push_back({title.empty() ? name_ : title, {}, {}, std::move(mesh)});
         welder = {};
-      } else if (word == "facet") {
+      } else if (sameLetters(word, "facet")) {
         if (auto read = facet(welder); !read) return read.error();
       } else {
-        return fail("expected 'facet' or 'endsolid', found '" + std::string(word.substr(0, 40)) + "'");
+        return fail("expected 'facet' or 'endsolid', found '" + std::string(word.substr(0, 40)) +
+                    "'; export the surface again, as binary STL if need be");
       }
     }
     if (!welder.mesh().empty()) return fail("the file ends before 'endsolid'; copy or export it again");
@@ -156,10 +158,10 @@ class AsciiReader {
   }
   // normal x y z outer loop (vertex x y z) x 3 endloop endfacet
   Result<void> facet(Welder& welder) {
-    for (std::string_view word = words_.next(); word != "loop"; word = words_.next())
-      if (word.empty() || word == "endfacet") return fail("a facet without 'outer loop'");
+    for (std::string_view word = words_.next(); !sameLetters(word, "loop"); word = words_.next())
+      if (word.empty() || sameLetters(word, "endfacet")) return fail("a facet without 'outer loop'");
     for (int corner = 0; corner < 3; ++corner) {
-      if (const std::string_view word = words_.next(); word != "vertex")
+      if (const std::string_view word = words_.next(); !sameLetters(word, "vertex"))
         return fail("a facet needs three corners, found '" + std::string(word.substr(0, 40)) + "'");
       dvec3 p;
       for (int axis = 0; axis < 3; ++axis)
@@ -167,7 +169,7 @@ class AsciiReader {
       if (const std::string fault = coordinateFault(p, frame_); !fault.empty()) return fail(fault);
       welder.add(frame_.toHouse(p));
     }
-    if (words_.next() != "endloop" || words_.next() != "endfacet")
+    if (!sameLetters(words_.next(), "endloop") || !sameLetters(words_.next(), "endfacet"))
       return fail("a facet with more than three corners");
     return {};
   }
@@ -183,6 +185,16 @@ class AsciiReader {
   ImportFrame frame_;
 };
 
+// Binary files may begin with "solid", too, but no text holds a zero byte.
+bool beginsAsText(std::string_view text) {
+  const std::string_view line = text.substr(0, std::min(text.find('\n'), kHeaderBytes)),
+                         head = text.substr(0, 2 * kHeaderBytes);
+  if (head.find('\0') != head.npos) return false;
+  for (std::size_t i = 0; i + 5 <= line.size(); ++i)
+    if (sameLetters(line.substr(i, 5), "solid")) return true;
+  return false;
+}
+
 }  // namespace
 
 Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, const std::filesystem::path& path,
@@ -192,9 +204,10 @@ Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, cons
   const bool fitsBinary =
       bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
-  const bool ascii = !fitsBinary && text.substr(0, text.find('\n')).find("solid") != text.npos;
+  const bool ascii = !fitsBinary && beginsAsText(text);
   if (!ascii && bytes.size() < kHeaderBytes)
-    return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) + " bytes");
+    return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) +
+                    " bytes; copy or export it again");
   auto elements = ascii ? AsciiReader(file, name, text, frame).run() : readBinary(file, name, bytes, frame);
   if (!elements) return elements;
   if (elements->empty() || elements->front().mesh.empty())

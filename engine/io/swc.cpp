@@ -11,6 +11,8 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kMaximumBytes = std::size_t(1) << 30;
+constexpr const char* kLine =
+    "id type x y z radius parent, with blanks between and decimal points; # begins a comment";
 
 struct Row {
   SwcSample sample;
@@ -24,10 +26,10 @@ class Reader {
 
   Result<std::vector<SwcSample>> run(std::string_view text) {
     Checkpoints checkpoints;
+    text = withoutByteOrderMark(text);
     for (std::size_t line = 1; !text.empty(); ++line, checkpoints.pass())
       if (auto read = readLine(nextLine(text), line); !read) return read.error();
-    if (rows_.empty())
-      return badInput(name_ + ": the file has no samples; an SWC line is: id type x y z radius parent");
+    if (rows_.empty()) return badInput(name_ + ": the file has no samples; a line of it is: " + kLine);
     if (auto numbered = orderIds(); !numbered) return numbered.error();
     if (auto linked = linkParents(); !linked) return linked.error();
     if (auto checked = checkCircles(); !checked) return checked.error();
@@ -51,11 +53,10 @@ class Reader {
       const std::string_view word = nextWord(text);
       if (column == 0 && word.empty()) return {};
       if (word.empty())
-        return fail(line, std::string("the ") + kColumns[column] +
-                              " is missing; a line is: id type x y z radius parent");
+        return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);
       if (!parseNumber(word, value[column]))
         return fail(line, std::string("the ") + kColumns[column] + " must be a finite number, found '" +
-                              std::string(word.substr(0, 40)) + "'");
+                              std::string(word.substr(0, 40)) + "'; a line is: " + kLine);
     }
     for (const int column : {0, 1, 6})
       if (value[column] != std::floor(value[column]) || std::abs(value[column]) > 1e15)
@@ -63,7 +64,7 @@ class Reader {
                               numberText(value[column]));
     const dvec3 place(value[2], value[3], value[4]);
     if (std::max(glm::length(place), std::abs(value[5])) * frame_.metresPerUnit > kLargestImportedCoordinate)
-      return fail(line, "lies farther than 1000 km away; give the file's unit with --scale");
+      return fail(line, "lies farther than 1000 km away; give the file's unit with vasa convert --unit");
     if (value[5] < 0)
       return fail(line, "radius " + numberText(value[5]) + " must be positive; mend or remove the sample");
     Row row{{std::int64_t(value[0]), std::int64_t(value[1]), frame_.toHouse(place),
@@ -93,6 +94,7 @@ class Reader {
   Result<void> linkParents() {
     for (Row& row : rows_) {
       if (row.parentId < 0) continue;
+      if (row.parentId == 0 && rows_[byId_.front()].sample.id > 0) continue;  // some call that a root
       const auto found = std::ranges::lower_bound(byId_, row.parentId, {},
                                                   [this](std::uint32_t i) { return rows_[i].sample.id; });
       if (found == byId_.end() || rows_[*found].sample.id != row.parentId)

@@ -12,6 +12,7 @@
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/log.h"
+#include "io/radius_array.h"
 #include "io/vtp_data.h"
 #include "io/words.h"
 #include "mesh/polygon.h"
@@ -279,34 +280,62 @@ Sections sectionsOf(std::span<const std::byte> bytes) {
 
 vec3 placed(const dvec3& p, const ImportFrame& frame, std::size_t number) {
   if (!(glm::length(p) * frame.metresPerUnit <= kLargestImportedCoordinate))
-    breaks("POINTS", "point " + std::to_string(number) +
-                         " is not finite or farther than 1000 km away; give the file's unit with --scale");
+    breaks("POINTS",
+           "point " + std::to_string(number) +
+               " is not finite or farther than 1000 km away; give the file's unit with vasa convert --unit");
   return frame.toHouse(p);
 }
 
-VtpLines linesOf(const Sections& file, const ImportFrame& frame) {
+struct Radii {
+  std::string array;
+  std::vector<double> values;  // one a point
+  std::string remark;
+};
+
+// Of points, else of lines; `lines` are the file's cells `kept`, which are told behind `before` others.
+Radii radiiOf(const Sections& file, std::span<const std::vector<std::uint32_t>> lines,
+              std::span<const std::size_t> kept, std::size_t before) {
+  std::vector<std::string> names[2];
+  for (const auto& [name, values] : file.pointData)
+    if (values.size() == file.points.size()) names[0].push_back(name);
+  for (const auto& [name, values] : file.cellData)
+    if (kept.empty() || values.size() > before + kept.back()) names[1].push_back(name);
+  for (const bool ofLines : {false, true}) {
+    const auto choice = chooseRadius(names[ofLines]);
+    if (!choice) continue;
+    Radii radii{names[ofLines][choice->array], {}, {}};
+    radii.remark = radiusRemark(radii.array, *choice, ofLines);
+    if (ofLines) {
+      const std::vector<double>& all = file.cellData.at(radii.array);
+      std::vector<double> ofLine;
+      for (const std::size_t cell : kept) ofLine.push_back(all[before + cell]);
+      radii.values = radiiOfPoints(file.points.size(), lines, ofLine);
+    } else {
+      radii.values = file.pointData.at(radii.array);
+    }
+    for (double& value : radii.values) value *= choice->factor;
+    return radii;
+  }
+  breaks("POINT_DATA", missingRadius(names[0], names[1]));
+}
+
+VtpLines linesOf(const Sections& file, const ImportFrame& frame, std::string& remark) {
   VtpLines out;
   const auto lines = file.cells.find("LINES");
   if (lines == file.cells.end()) breaks("POLYDATA", "has no lines");
-  auto radius = file.pointData.find("MaximumInscribedSphereRadius");
-  for (const char* name : {"Radius", "radius"})
-    if (radius == file.pointData.end()) radius = file.pointData.find(name);
-  if (radius == file.pointData.end() || radius->second.size() != file.points.size())
-    breaks(
-        "POINT_DATA",
-        "has no array MaximumInscribedSphereRadius or Radius of a number a point; add one (vmtkcenterlines does)");
-  for (std::size_t i = 0; i < file.points.size(); ++i) {
-    if (!(radius->second[i] >= 0))
-      breaks(radius->first, "of point " + std::to_string(i) + " must be positive");
-    out.points.push_back(
-        vec4(placed(file.points[i], frame, i), float(radius->second[i] * frame.metresPerUnit)));
-  }
   const auto verts = file.cells.find("VERTICES");
   const std::size_t before = verts == file.cells.end() ? 0 : verts->second.size();
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < lines->second.size(); ++i)
     if (const auto line = lines->second[i]; line.size() > 1)
       kept.push_back(i), out.lines.emplace_back(line.begin(), line.end());
+  const Radii radii = radiiOf(file, out.lines, kept, before);
+  remark = radii.remark;
+  for (std::size_t i = 0; i < file.points.size(); ++i) {
+    if (!(radii.values[i] >= 0)) breaks(radii.array, "of point " + std::to_string(i) + " must be positive");
+    out.points.push_back(
+        vec4(placed(file.points[i], frame, i), float(radii.values[i] * frame.metresPerUnit)));
+  }
   for (const auto& [name, values] : file.cellData) {
     if (values.size() < before + lines->second.size()) continue;
     VtpLines::CellArray array{name, {}};
@@ -314,15 +343,12 @@ VtpLines linesOf(const Sections& file, const ImportFrame& frame) {
       array.values.push_back(std::int32_t(std::clamp(values[before + i], -2147483648.0, 2147483647.0)));
     out.cellArrays.push_back(std::move(array));
   }
-  // A radius of zero is a neighbour's, as in .vtp.
-  for (const auto& line : out.lines) {
-    for (std::size_t i = 1; i < line.size(); ++i)
-      if (!(out.points[line[i]].w > 0)) out.points[line[i]].w = out.points[line[i - 1]].w;
-    for (std::size_t i = line.size() - 1; i-- > 0;)
-      if (!(out.points[line[i]].w > 0)) out.points[line[i]].w = out.points[line[i + 1]].w;
-    if (!(out.points[line[0]].w > 0)) breaks(radius->first, "a line has no radius above zero");
-  }
   if (out.lines.empty()) breaks("LINES", "has no lines of two points or more; give centre lines");
+  const auto mended = mendRadii(out.lines, out.points);
+  if (!mended) breaks(radii.array, "has no radius above zero");
+  if (*mended > 0)
+    remark += (remark.empty() ? "" : "; ") + std::to_string(*mended) +
+              " points without a radius take a neighbour's";
   return out;
 }
 
@@ -390,7 +416,10 @@ VtkContent vtkContent(const std::filesystem::path& path) {
 Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name,
                                const ImportFrame& frame) {
   try {
-    return linesOf(sectionsOf(bytes), frame);
+    std::string remark;
+    VtpLines lines = linesOf(sectionsOf(bytes), frame, remark);
+    if (!remark.empty()) logInfo(name + ": " + remark);
+    return lines;
   } catch (const BrokenRule& broken) {
     return badInput(name + ": " + broken.place + ": " + broken.rule);
   }

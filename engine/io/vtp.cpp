@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/log.h"
 #include "io/base64.h"
+#include "io/radius_array.h"
 #include "io/read_limits.h"
 #include "io/vtp_data.h"
 #include "io/words.h"
@@ -111,7 +112,11 @@ class Reader {
       readPiece(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]");
     if (out_.lines.empty())
       breaks("/VTKFile/PolyData", "has no lines of two points or more; give centre lines");
-    mendRadii();
+    const auto mended = mendRadii(out_.lines, out_.points);
+    if (!mended) breaks("/VTKFile/PolyData", "has no radius above zero");
+    if (*mended > 0)
+      remark += (remark.empty() ? "" : "; ") + std::to_string(*mended) +
+                " points without a radius take a neighbour's";
     return std::move(out_);
   }
   TriangleMesh surface() {
@@ -123,7 +128,7 @@ class Reader {
       readFaces(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]", mesh);
     return mesh;
   }
-  std::size_t mended = 0;
+  std::string remark;  ///< on what was read
 
  private:
   const XMLElement& polyData() {
@@ -171,9 +176,10 @@ class Reader {
   vec3 placeOf(const Numbers& xyz, std::size_t i, const std::string& place) const {
     const dvec3 p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
     if (!(glm::length(p) * frame_.metresPerUnit <= kLargestImportedCoordinate))
-      breaks(place + "/Points",
-             "point " + std::to_string(i) +
-                 " is not finite or farther than 1000 km away; give the file's unit with --scale");
+      breaks(
+          place + "/Points",
+          "point " + std::to_string(i) +
+              " is not finite or farther than 1000 km away; give the file's unit with vasa convert --unit");
     return frame_.toHouse(p);
   }
 
@@ -330,31 +336,67 @@ class Reader {
     Amounts::check(place + "/NumberOfPoints", "points", base + std::size_t(points), most_.points);
     Amounts::check(place + "/NumberOfLines", "lines", out_.lines.size() + std::size_t(lines), most_.lines);
     readPoints(piece, std::size_t(points), place);
+    const std::size_t firstLine = out_.lines.size();
+    const auto verts = std::size_t(count(piece, "NumberOfVerts", place));
     const std::vector<bool> kept = readLines(piece, std::size_t(points), std::size_t(lines), base, place);
-    readCells(piece, kept, std::size_t(count(piece, "NumberOfVerts", place)), place);
+    readRadii(piece, base, firstLine, kept, verts, place);
+    readCells(piece, kept, verts, place);
   }
 
   void readPoints(const XMLElement& piece, std::size_t count, const std::string& place) {
     const Numbers xyz = coordinates(piece, count, place);
-    const XMLElement* data = piece.FirstChildElement("PointData");
-    const XMLElement* radiusArray = arrayNamed(data, "MaximumInscribedSphereRadius");
-    for (const char* name : {"Radius", "radius"})
-      if (!radiusArray) radiusArray = arrayNamed(data, name);
-    if (!radiusArray)
-      breaks(place + "/PointData",
-             "has no array MaximumInscribedSphereRadius or Radius; add one (vmtkcenterlines does)");
-    const std::string radiusPlace = place + "/PointData/" + std::string(attribute(*radiusArray, "Name"));
-    const Numbers radius = numbers(*radiusArray, radiusPlace);
-    if (radius.size() != count)
-      breaks(radiusPlace,
-             "holds " + std::to_string(radius.size()) + " numbers for " + std::to_string(count) + " points");
-    for (std::size_t i = 0; i < count; ++i) {
-      const vec3 p = placeOf(xyz, i, place);
-      if (!(radius[i] >= 0) || radius[i] * frame_.metresPerUnit > kLargestImportedCoordinate)
-        breaks(radiusPlace, "radius " + numberText(radius[i]) + " of point " + std::to_string(i) +
-                                " must be positive, and no more than 1000 km; --scale gives the file's unit");
-      out_.points.push_back(vec4(p, float(radius[i] * frame_.metresPerUnit)));
+    for (std::size_t i = 0; i < count; ++i) out_.points.push_back(vec4(placeOf(xyz, i, place), 0));
+  }
+
+  struct Named {
+    std::vector<std::string> names;
+    std::vector<const XMLElement*> arrays;
+  };
+  static Named scalarsOf(const XMLElement* parent) {
+    Named found;
+    for (const XMLElement* e = parent ? parent->FirstChildElement("DataArray") : nullptr; e;
+         e = e->NextSiblingElement("DataArray"))
+      if (const auto components = attribute(*e, "NumberOfComponents");
+          components.empty() || components == "1")
+        found.names.emplace_back(attribute(*e, "Name")), found.arrays.push_back(e);
+    return found;
+  }
+
+  // Of points, else of lines: those that the piece added from `firstLine` on, of which not all were kept.
+  void readRadii(const XMLElement& piece, std::uint32_t firstPoint, std::size_t firstLine,
+                 const std::vector<bool>& kept, std::size_t verts, const std::string& place) {
+    const Named ofPoints = scalarsOf(piece.FirstChildElement("PointData")),
+                ofLines = scalarsOf(piece.FirstChildElement("CellData"));
+    const auto byPoint = chooseRadius(ofPoints.names), byLine = chooseRadius(ofLines.names);
+    if (!byPoint && !byLine) breaks(place + "/PointData", missingRadius(ofPoints.names, ofLines.names));
+    const RadiusChoice choice = byPoint ? *byPoint : *byLine;
+    const std::string& name = (byPoint ? ofPoints : ofLines).names[choice.array];
+    const std::string own = place + (byPoint ? "/PointData/" : "/CellData/") + name;
+    const Numbers told = numbers(*(byPoint ? ofPoints : ofLines).arrays[choice.array], own);
+    const std::size_t points = out_.points.size() - firstPoint;
+    if (byPoint ? told.size() != points : told.size() < verts + kept.size())
+      breaks(own, "holds " + std::to_string(told.size()) + " numbers for " +
+                      (byPoint ? std::to_string(points) + " points"
+                               : std::to_string(verts + kept.size()) + " cells"));
+    std::vector<double> radii;
+    if (byPoint)
+      for (std::size_t i = 0; i < points; ++i) radii.push_back(told[i]);
+    else {
+      std::vector<double> ofLine;
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        if (kept[i]) ofLine.push_back(told[verts + i]);
+      radii = radiiOfPoints(out_.points.size(), std::span(out_.lines).subspan(firstLine), ofLine);
+      radii.erase(radii.begin(), radii.begin() + firstPoint);
     }
+    for (std::size_t i = 0; i < points; ++i) {
+      const double radius = choice.factor * radii[i] * frame_.metresPerUnit;
+      if (!(radius >= 0) || radius > kLargestImportedCoordinate)
+        breaks(own,
+               "radius " + numberText(radii[i]) + " of point " + std::to_string(i) +
+                   " must be positive, and no more than 1000 km; vasa convert --unit gives the file's unit");
+      out_.points[firstPoint + i].w = float(radius);
+    }
+    remark = radiusRemark(name, choice, !byPoint);
   }
 
   std::vector<bool> readLines(const XMLElement& piece, std::size_t points, std::size_t lines,
@@ -431,22 +473,6 @@ class Reader {
     for (auto& array : out_.cellArrays) array.values.resize(out_.lines.size(), 0);
   }
 
-  void mendRadii() {
-    for (const auto& line : out_.lines)
-      for (int pass = 0; pass < 2; ++pass)
-        for (std::size_t i = 1; i < line.size(); ++i) {
-          const std::size_t at = pass == 0 ? i : line.size() - 1 - i,
-                            from = pass == 0 ? i - 1 : line.size() - i;
-          float& radius = out_.points[line[at]].w;
-          if (radius > 0 || !(out_.points[line[from]].w > 0)) continue;
-          radius = out_.points[line[from]].w;
-          ++mended;
-        }
-    for (const auto& line : out_.lines)
-      for (const std::uint32_t point : line)
-        if (!(out_.points[point].w > 0)) breaks("/VTKFile/PolyData", "a line has no radius above zero");
-  }
-
   tinyxml2::XMLDocument document_;
   ImportFrame frame_;
   vtp::Encoding encoding_;
@@ -469,8 +495,7 @@ Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& n
   try {
     Reader reader(bytes, frame);
     VtpLines lines = reader.run();
-    if (reader.mended > 0)
-      logWarning(name + ": " + std::to_string(reader.mended) + " points without a radius take a neighbour's");
+    if (!reader.remark.empty()) logWarning(name + ": " + reader.remark);
     return lines;
   } catch (const BrokenRule& broken) {
     return badInput(name + ": " + broken.place + ": " + broken.rule);

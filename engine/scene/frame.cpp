@@ -18,6 +18,11 @@ constexpr float kLongestTurn = 8 * kPi / 180;
 // Of that. Quarters and eighths were measured, too: what passes through one another in the pose is caught
 // more often by them, and takes up to four times as long; whole steps alone leave more in one another's way.
 constexpr float kShortestStep = 0.5f;
+// Steps on end that leave vessels in one another, after which the rest of the way is made at once: in a pose
+// that no body takes (limbs through the trunk, by a wrong map of joints) small steps cost as much as large
+// ones bring, and what is caught starts anew in the end anyhow. 32 degrees without a gap between limbs are no
+// passing touch.
+constexpr int kCaught = 4;
 constexpr float kStepSeconds = 0.1f;  // of the way from rest to a clip's beginning
 // [m] and of an axis: a clip whose last pose is its first closes
 constexpr float kSamePlace = 1e-3f;
@@ -145,12 +150,15 @@ bool FrameMaker::step(const Stride& stride) {
 void FrameMaker::walk(const Pose& target, float fromTime, float time, float seconds) {
   const PosePath path(scene_->body.skeleton, pose_, target);
   const float longest = 1 / std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f);
+  int caught = 0;
   for (float done = 0; done < 1;) {
     checkpoint();
-    for (float length = std::min(longest, 1 - done);; length /= 2) {
+    const bool atOnce = caught >= kCaught;
+    for (float length = atOnce ? 1 - done : std::min(longest, 1 - done);; length /= 2) {
       const float next = done + length > 1 - 0.5f * kShortestStep * longest ? 1 : done + length;
       deform(path.at(next), glm::mix(fromTime, time, next));
-      if (!step({(next - done) * seconds, length <= kShortestStep * longest, next == 1})) continue;
+      if (!step({(next - done) * seconds, atOnce || length <= kShortestStep * longest, next == 1})) continue;
+      caught = report_.avoid.after.holds() ? 0 : caught + 1;
       done = next;
       break;
     }

@@ -10,6 +10,7 @@
 #include "core/stage_log.h"
 #include "edit/replay.h"
 #include "io/bvh.h"
+#include "io/foreign_files.h"
 #include "io/gltf.h"
 #include "network/measure.h"
 #include "network/merge.h"
@@ -147,9 +148,11 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
     return badInput(body.name + ": " + quoted +
                     " is the beginning of several names; write more of it: " + list);
   if (!found) {
-    const std::string near = didYouMean(std::string(name), names);
+    const std::string near = didYouMean(std::string(name), names),
+                      remedy = remedyFor(std::filesystem::path(name), FileUse::motion);
     return badInput(body.name + " has no " + quoted + "; " + near + (near.empty() ? "" : " ") +
-                    (list.empty() ? "it has no clips at all" : "It has " + list));
+                    (list.empty() ? "it has no clips at all" : "It has " + list) +
+                    (remedy.empty() ? "; --clip takes .bvh files, too" : remedy));
   }
   return found;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
+#include "io/foreign_files.h"
 
 namespace vasa {
 namespace {
@@ -195,7 +196,7 @@ void readPose(Reader& reader, const Json& value, const std::string& place, std::
 
 }  // namespace
 
-bool isMotionFile(std::string_view clip) { return clip.ends_with(".bvh") || clip.ends_with(".BVH"); }
+bool isMotionFile(std::string_view clip) { return extensionOf(clip) == ".bvh"; }
 
 Result<SceneFile> parseScene(const std::string& text, const std::filesystem::path& folder,
                              const std::string& name) {
@@ -206,6 +207,10 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
       return true;
     });
   } catch (const std::exception& error) {
+    if (extensionOf(name) != ".json")
+      return badInput(name +
+                      ": is no scene (.json); a body is given with --body, vessels with --network, a motion "
+                      "with --clip");
     return badInput(name + ": is not valid JSON: " + error.what());
   }
   SceneFile scene;

@@ -1,10 +1,11 @@
 #include "scene/vessel_files.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "convert/convert.h"
+#include "core/atomic_file.h"
 #include "core/log.h"
+#include "io/foreign_files.h"
 #include "io/gltf.h"
 #include "io/obj.h"
 #include "io/stl.h"
@@ -17,26 +18,7 @@
 namespace vasa {
 namespace {
 
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
 bool isVtk(const std::string& extension) { return extension == ".vtp" || extension == ".vtk"; }
-
-// What others' common files of vessels are made into.
-std::string remedyFor(const std::string& extension) {
-  if (extension == ".ply" || extension == ".off" || extension == ".dae" || extension == ".fbx" ||
-      extension == ".3ds" || extension == ".blend")
-    return "; open it in Blender or MeshLab and export it as .glb or .obj";
-  if (extension == ".vtu" || extension == ".vti" || extension == ".vtr" || extension == ".vts")
-    return "; extract its surface (ParaView: Extract Surface) and save it as .vtp";
-  if (extension == ".nrrd" || extension == ".nii" || extension == ".gz" || extension == ".mha" ||
-      extension == ".mhd" || extension == ".dcm")
-    return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
-  return "";
-}
 
 Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path, const ImportFrame& frame) {
   const std::string extension = extensionOf(path);
@@ -44,10 +26,15 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
   if (extension == ".obj") return readObj(path, frame);
   if (extension == ".stl") return readStl(path, frame);
   if (extension == ".vtp" || extension == ".vtk") return readVtkSurface(path, frame);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    auto missing = readFile(path);  // says what it is instead
+    if (!missing) return missing.error();
+  }
   return Error{Fault::usage,
                path.string() +
                    ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk and .swc" +
-                   remedyFor(extension)};
+                   remedyFor(path, FileUse::vessels)};
 }
 
 // What `read` gives, in the likely unit.

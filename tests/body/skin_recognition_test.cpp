@@ -55,6 +55,31 @@ TEST_CASE(
   CHECK(body.meshes[0].mesh.positions.size() == body.meshes[0].influences.size());
 }
 
+TEST_CASE("a head, hair and shoes that follow one joint belong to the skin; eyes and bones within do not") {
+  Body body = dollBody("vrm");
+  const vec3 head(body.skeleton.joints[body.skeleton.find("head").value].restWorld[3]);
+  const auto onHead = [&](const char* name, vec3 low, vec3 high) {
+    SkinnedMesh mesh = boxMesh(name, head + low, head + high);
+    for (SkinInfluence& influence : mesh.influences)
+      influence = {{std::uint16_t(body.skeleton.find("head").value), 0, 0, 0}, vec4(1, 0, 0, 0)};
+    return mesh;
+  };
+  const SkinnedMesh face = onHead("Object_9", vec3(-0.3f, 0.2f, -0.3f), vec3(0.3f, 0.6f, 0.3f)),
+                    eyes = onHead("Object_10", vec3(-0.1f, 0.4f, 0.1f), vec3(0.1f, 0.5f, 0.2f)),
+                    hair = onHead("Object_11", vec3(-0.31f, 0.55f, -0.31f), vec3(0.31f, 0.7f, 0.31f)),
+                    femur = onHead("Object_12", vec3(-0.02f, -0.9f, -0.02f), vec3(0.02f, -0.5f, 0.02f));
+  for (const char* skin : {"Object_7", "skin"}) {
+    body.meshes = {whole(body, skin, 0.1f), face, eyes, hair, femur};
+    recogniseSkin(body);
+    REQUIRE(body.meshes.size() == 3);
+    CHECK(roleNamed(body.meshes[0].name) == MeshRole::skin);
+    CHECK(body.meshes[0].name.find("Object_9") != std::string::npos);
+    CHECK(body.meshes[0].name.find("Object_11") != std::string::npos);
+    CHECK(body.meshes[1].name == "Object_10");
+    CHECK(body.meshes[2].name == "Object_12");
+  }
+}
+
 TEST_CASE("a skin in pieces is one") {
   Body body = dollBody("vrm");
   for (const auto& [name, parts] :

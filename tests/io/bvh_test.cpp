@@ -53,9 +53,18 @@ TEST_CASE("keywords and channels in any case") {
   CHECK(motion->joints[1].name == "LEFT LEG");
 }
 
+TEST_CASE("BVH of others: a byte order mark, no blank before the numbers") {
+  const auto motion =
+      parseBvh("\xEF\xBB\xBF" + kHierarchy + "MOTION\nFrames:1\nFrame Time:.1\n1 2 3 0 0 0 0 0 0\n", "a.bvh");
+  if (!motion.ok()) FAIL(motion.error().message);
+  CHECK(motion->frameCount == 1);
+  expectFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 0,1\n", "decimal points, not commas");
+  expectFault("; a motion of another kind", "begins with HIERARCHY");
+}
+
 TEST_CASE("what is wrong with a BVH file is told with its line") {
   const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
-  expectFault("", "a.bvh:1: expected HIERARCHY, found the file's end");
+  expectFault("", "a.bvh:1: begins with HIERARCHY, found the file's end");
   expectFault("HIERARCHY\nJOINT a\n", "a.bvh:2: expected ROOT, found 'JOINT'");
   expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 nan 0\n",
               "a.bvh:4: an offset must be a finite number, found 'nan'");

@@ -70,7 +70,7 @@ TEST_CASE("faults of an OBJ are named with file and line") {
   CHECK(
       contains(file.fault("v 0 0 nan\n"), "vessel.obj:1: a vertex needs three finite numbers, found 'nan'"));
   CHECK(contains(file.fault("v 0 0\n"), "needs three finite numbers"));
-  CHECK(contains(file.fault("v 0 0 1e9\n"), "--scale"));
+  CHECK(contains(file.fault("v 0 0 1e9\n"), "vasa convert --unit"));
   CHECK(contains(file.fault(std::string(kSquare) + "f 1 2\n"),
                  "vessel.obj:5: a face needs at least three corners"));
   CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 7\n"),

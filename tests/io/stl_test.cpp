@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cctype>
 #include <cstring>
 #include <limits>
 
@@ -69,6 +70,18 @@ TEST_CASE("ASCII STL: one element a solid, equal corners shared") {
   CHECK((*elements)[1].mesh.triangles.size() == 1);
 }
 
+TEST_CASE("STL of others: words in capitals; binary with bytes behind its triangles, or cut short") {
+  StlFile file;
+  std::string text = "solid a\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid a\n";
+  for (char& c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
+  CHECK(file.read(text).ok());
+  const std::string bytes = binary({{vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)}}, 1);
+  const auto longer = file.read(bytes + std::string(7, '\0'));
+  REQUIRE(longer.ok());
+  CHECK(longer->front().mesh.triangles.size() == 1);
+  CHECK(contains(file.fault(bytes.substr(0, bytes.size() - 9)), "cut short"));
+}
+
 TEST_CASE("a binary STL that begins with the word solid is read as binary") {
   StlFile file;
   const auto elements = file.read(binary(kTwo, 2), {0.001f, ImportFrame::Up::z});
@@ -87,7 +100,7 @@ TEST_CASE("faults of an STL are named with file and place") {
   bad[1][2].y = std::numeric_limits<float>::quiet_NaN();
   CHECK(contains(file.fault(binary(bad, 2)), "triangle 1: a coordinate is not finite"));
   bad[1][2].y = 1e9f;
-  CHECK(contains(file.fault(binary(bad, 2)), "--scale"));
+  CHECK(contains(file.fault(binary(bad, 2)), "vasa convert --unit"));
   CHECK(contains(file.fault("not an STL"), "neither ASCII nor binary STL"));
   CHECK(contains(file.fault(binary({}, 0)), "no triangles with an area"));
   CHECK(contains(file.fault("solid a\nendsolid a\n"), "no triangles with an area"));

@@ -22,6 +22,18 @@ void expectFault(const char* text, const char* message) {
 
 }  // namespace
 
+TEST_CASE("SWC of others: a byte order mark, and roots whose parent is 0") {
+  const auto samples = parseSwc("\xEF\xBB\xBF# made\n1 3 0 0 0 2 0\n2 3 0 10 0 2 1\n", "a.swc");
+  if (!samples.ok()) FAIL(samples.error().message);
+  CHECK((*samples)[0].parent == SwcSample::kRoot);
+  CHECK((*samples)[1].parent == 0);
+  // Where there is a sample 0 it is that one.
+  const auto counted = parseSwc("0 3 0 0 0 2 -1\n1 3 0 10 0 2 0\n", "a.swc");
+  REQUIRE(counted.ok());
+  CHECK((*counted)[1].parent == 0);
+  expectFault("1,3,0,0,0,2,-1\n", "with blanks between and decimal points");
+}
+
 TEST_CASE("an SWC tree: units, comments, a parent further down, a fork") {
   const auto samples =
       parseSwc("# a comment\n2 3 0 10 0 2 1\r\n1 1 0 0 0 2 -1 # root\n\n3 3 0 20 0 2 2\n4 3 5 15 0 1 2 99\n",
@@ -60,7 +72,7 @@ TEST_CASE("what is wrong with an SWC file is told with its line") {
   expectFault("1 1 0 0 0 1 2\n2 1 0 0 1 1 1\n", "lead back to itself");
   expectFault("1 1 0 0 0 1 1\n", "lead back to itself");
   expectFault("1.5 1 0 0 0 1 -1\n", "the id must be a whole number");
-  expectFault("1 1 1e12 0 0 1 -1\n", "--scale");
+  expectFault("1 1 1e12 0 0 1 -1\n", "vasa convert --unit");
   expectFault("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n", "a.swc:1: no sample of the file has a radius above 0");
   CHECK(readSwc("/nowhere/a.swc").error().fault == Fault::io);
 }

@@ -52,6 +52,25 @@ void expectFault(const std::string& text, const char* message) {
 
 }  // namespace
 
+TEST_CASE("legacy VTK: radii of points under any name, and of lines") {
+  const std::string lines = "LINES 2 6\n2 0 1\n2 2 1\n";
+  const auto read = [&](const std::string& data) {
+    auto parsed = parseVtkLines(bytesOf(head("ASCII") + kPoints + lines + data), "a.vtk");
+    if (!parsed.ok()) FAIL(parsed.error().message);
+    return parsed->points[1].w;
+  };
+  CHECK(read("POINT_DATA 6\nSCALARS RADIUS float 1\nLOOKUP_TABLE default\n1 2 3 1 1 1\n") == 2);
+  CHECK(read("POINT_DATA 6\nFIELD f 2\nflow 1 6 float\n7 7 7 7 7 7\nDiameter 1 6 float\n2 4 6 1 1 1\n") == 2);
+  CHECK(read("CELL_DATA 2\nSCALARS EdgeRadius float 1\nLOOKUP_TABLE default\n1 3\n") == 2);
+  CHECK(read("POINT_DATA 6\nSCALARS r float 1\nLOOKUP_TABLE default\n5 0 0 1 1 1\n") == 5);  // across lines
+  const auto none =
+      parseVtkLines(bytesOf(head("ASCII") + kPoints + lines +
+                            "POINT_DATA 6\nSCALARS flow float 1\nLOOKUP_TABLE default\n1 2 3 1 1 1\n"),
+                    "a.vtk");
+  REQUIRE(!none.ok());
+  CHECK_MESSAGE(none.error().message.find("it has flow") != std::string::npos, none.error().message);
+}
+
 TEST_CASE("surfaces of legacy VTK: ASCII and binary, cells as before version 5 and since") {
   expectSurface(
       head("ASCII") + kPoints +

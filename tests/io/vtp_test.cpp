@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include "io/base64.h"
+#include "io/radius_array.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -66,6 +67,38 @@ void expectFault(const std::string& text, const char* message) {
 
 }  // namespace
 
+TEST_CASE("VTP radii under other names, of lines, and diameters") {
+  const auto named = [](const std::string& name, const std::string& content) {
+    return "<DataArray type=\"Float64\" Name=\"" + name + "\" format=\"ascii\">" + content + "</DataArray>";
+  };
+  for (const char* name : {"Radius", "RADIUS", "radii", "r", "vessel_radius", "EdgeRadius"})
+    expectRead(file(kPoints, named(name, "1 2 3"), kLine));
+  for (const char* name : {"Diameter", "diameters", "MeanDiameter"})
+    expectRead(file(kPoints, named(name, "2 4 6"), kLine));
+  // The best of several, whatever their order.
+  expectRead(
+      file(kPoints, named("Diameter", "9 9 9") + named("r", "1 2 3") + named("Curvature", "7 7 7"), kLine));
+  std::string ofLines = file(kPoints, "", kLine);
+  ofLines.insert(ofLines.find("<PointData>"), "<CellData>" + named("Radius", "3") + "</CellData>");
+  const auto read = parseVtp(bytesOf(ofLines), "a.vtp");
+  if (!read.ok()) FAIL(read.error().message);
+  for (const vec4& point : read->points) CHECK(point.w == 3);
+}
+
+TEST_CASE("radii of nothing come along lines, also from other lines, else they are the mean") {
+  std::vector<vec4> points{{0, 0, 0, 0}, {1, 0, 0, 0}, {2, 0, 0, 4}, {3, 0, 0, 2},
+                           {9, 0, 0, 0}, {8, 0, 0, 0}, {7, 0, 0, 0}};
+  const std::vector<std::vector<std::uint32_t>> lines{{1, 0}, {2, 1}, {2, 3}, {4, 5}};
+  CHECK(mendRadii(lines, points) == 4);
+  CHECK(points[0].w == 4);
+  CHECK(points[1].w == 4);
+  CHECK(points[4].w == 3);
+  CHECK(points[5].w == 3);
+  CHECK(points[6].w == 0);  // of no line
+  std::vector<vec4> bare(7, vec4(0));
+  CHECK(!mendRadii(lines, bare));
+}
+
 TEST_CASE("VTP data in every encoding") {
   const std::vector<float> radii{1, 2, 3};
   const auto radius = [](const std::string& format, const std::string& content) {
@@ -113,7 +146,8 @@ TEST_CASE("what is wrong with a VTP file is told with its place") {
   expectFault("<VTKFile><PolyData><Piece NumberOfPoints=\"99999999999\"/></PolyData></VTKFile>",
               "must lie between");
   expectFault(file("", kRadius, kLine), "Points: is missing");
-  expectFault(file(kPoints, "", kLine), "has no array MaximumInscribedSphereRadius");
+  expectFault(file(kPoints, "", kLine), "has no array of radii: name one MaximumInscribedSphereRadius");
+  expectFault(file(kPoints, array("Float64", "Curvature", "1 2 3"), kLine), "(it has Curvature)");
   expectFault(file(kPoints, array("Float64", r, "1 2"), kLine), "holds 2 numbers for 3 points");
   expectFault(file(kPoints, array("Float64", r, "1 -2 3"), kLine), "radius -2 of point 1 must be positive");
   expectFault(file(kPoints, array("Float64", r, "1 nan 3"), kLine), "no finite number: 'nan'");

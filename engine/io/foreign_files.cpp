@@ -1,0 +1,80 @@
+#include "io/foreign_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace vasa {
+namespace {
+
+template <std::size_t N>
+bool isAny(std::string_view extension, const std::array<std::string_view, N>& of) {
+  return std::ranges::find(of, extension) != of.end();
+}
+
+constexpr std::array<std::string_view, 20> kModels{
+    ".ply", ".off", ".dae", ".fbx", ".3ds", ".blend", ".usd", ".usda", ".usdc", ".usdz",
+    ".abc", ".ma",  ".mb",  ".max", ".c4d", ".x",     ".pmx", ".3mf",  ".wrl",  ".x3d"};
+constexpr std::array<std::string_view, 4> kParts{".step", ".stp", ".iges", ".igs"};
+constexpr std::array<std::string_view, 5> kGrids{".vtu", ".vti", ".vtr", ".vts", ".vtm"};
+constexpr std::array<std::string_view, 6> kVolumes{".nrrd", ".nii", ".gz", ".mha", ".mhd", ".dcm"};
+constexpr std::array<std::string_view, 5> kTables{".csv", ".txt", ".xyz", ".tsv", ".xlsx"};
+constexpr std::array<std::string_view, 5> kCaptures{".c3d", ".trc", ".amc", ".asf", ".htr"};
+constexpr std::array<std::string_view, 5> kVessels{".obj", ".stl", ".vtp", ".vtk", ".swc"};
+
+std::string vesselRemedy(const std::string& extension) {
+  if (isAny(extension, kModels)) return "; open it in Blender or MeshLab and export it as .glb or .obj";
+  if (isAny(extension, kParts)) return "; open it in FreeCAD and export it as .obj or .stl";
+  if (isAny(extension, kGrids))
+    return "; extract its surface (ParaView: Extract Surface) and save it as .vtp";
+  if (isAny(extension, kVolumes))
+    return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
+  if (isAny(extension, kTables))
+    return "; write centre lines as .swc, a line `id type x y z radius parent` for each sample";
+  if (extension == ".bvh" || isAny(extension, kCaptures)) return "; it is a motion, and no vessels";
+  if (extension == ".vasa") return "; it is a network already: other commands take it with --network";
+  if (extension == ".vrm") return "; it is a body, and no vessels: other commands take it with --body";
+  return {};
+}
+
+std::string bodyRemedy(const std::string& extension) {
+  if (isAny(extension, kModels)) return "; open it in Blender and export it with its armature as .glb";
+  if (isAny(extension, kVessels))
+    return "; it has no skeleton: vasa convert reads vessels, and vasa fit --from the skin of a scan";
+  if (extension == ".bvh" || isAny(extension, kCaptures))
+    return "; it is a motion: give it with --clip, and a body with --body";
+  if (extension == ".vasa") return "; it is a network: give it with --network, and a body with --body";
+  return {};
+}
+
+std::string motionRemedy(const std::string& extension) {
+  if (isAny(extension, kCaptures))
+    return "; turn it into .bvh first (Blender imports .c3d, and exports an armature's motion as .bvh)";
+  if (isAny(extension, kModels) || extension == ".glb" || extension == ".gltf" || extension == ".vrm")
+    return "; open it in Blender and export the armature's motion as .bvh (clips of the body's own file go by "
+           "their names)";
+  return {};
+}
+
+}  // namespace
+
+std::string extensionOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+bool isGltfFile(const std::filesystem::path& path) {
+  const std::string extension = extensionOf(path);
+  return extension == ".glb" || extension == ".gltf" || extension == ".vrm";
+}
+
+std::string remedyFor(const std::filesystem::path& path, FileUse use) {
+  const std::string extension = extensionOf(path);
+  return use == FileUse::vessels ? vesselRemedy(extension)
+         : use == FileUse::body  ? bodyRemedy(extension)
+                                 : motionRemedy(extension);
+}
+
+}  // namespace vasa

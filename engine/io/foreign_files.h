@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+// Files that others' programs write and that are not read here, or not for this.
+namespace vasa {
+
+/// ".glb" of "Body.GLB".
+std::string extensionOf(const std::filesystem::path& path);
+/// .glb, .gltf, .vrm.
+bool isGltfFile(const std::filesystem::path& path);
+
+enum class FileUse { vessels, body, motion };
+
+/// What to do with such a file, by its extension: the end of a message, as "; open it in Blender ...". Empty
+/// where nothing is known of it.
+std::string remedyFor(const std::filesystem::path& path, FileUse use);
+
+}  // namespace vasa
