@@ -41,6 +41,15 @@ float meanRadius(const Assembly& assembly, std::uint32_t element, double area) {
   return length > 0 ? float(area / (2 * double(kPi) * length)) : 0.0f;
 }
 
+// Of what has no surface: as its points tell it.
+float toldRadius(const Assembly& assembly, std::uint32_t element) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const std::uint32_t v : assembly.vesselsOf[element])
+    for (const vec4& p : assembly.network.pointsOf(assembly.network.vessels()[v])) sum += p.w, ++count;
+  return count ? float(sum / double(count)) : 0.0f;
+}
+
 void doubt(ElementReport& report, float radius) {
   if (report.status == ElementStatus::failed || report.vessels == 0 ||
       (radius >= kThinnestVessel && radius <= kWidestVessel))
@@ -74,7 +83,10 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   report.error = statisticsOf(std::span(&error.forward, 1));
   report.backError = statisticsOf(std::span(&error.backward, 1));
   judge(report, roughRadius(source.element.mesh));
-  if (!source.element.mesh.empty()) doubt(report, meanRadius(assembly, index, error.area));
+  if (!source.element.mesh.empty())
+    doubt(report, meanRadius(assembly, index, error.area));
+  else  // told, and may be an arteriole's
+    doubt(report, std::max(toldRadius(assembly, index), kThinnestVessel));
   return report;
 }
 

@@ -9,8 +9,8 @@ namespace vasa {
 
 /// ok: at least kOkCoverage of the mesh's area is covered and 95 % of it lies within kOkError, or within half
 /// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest.
-/// doubtful: what would be ok or partial and is no human vessel by its size: wider than kWidestVessel, or
-/// thinner than any that a mesh shows (another unit, a solid, a heart's chamber).
+/// doubtful: what would be ok or partial and is no human vessel by its size: wider than kWidestVessel (centre
+/// lines, too), or thinner than any that a mesh shows (another unit, a solid, a heart's chamber).
 enum class ElementStatus { ok, partial, failed, doubtful };
 /// [m] mean radius: a large aneurysm of the aorta, an arteriole
 constexpr float kWidestVessel = 0.03f, kThinnestVessel = 2e-5f;

@@ -418,7 +418,7 @@ Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::stri
   try {
     std::string remark;
     VtpLines lines = linesOf(sectionsOf(bytes), frame, remark);
-    if (!remark.empty()) logInfo(name + ": " + remark);
+    if (!remark.empty()) logWarning(name + ": " + remark);
     return lines;
   } catch (const BrokenRule& broken) {
     return badInput(name + ": " + broken.place + ": " + broken.rule);

@@ -140,7 +140,12 @@ Body person() {
 }
 
 std::string personGlb(const PersonFile& odd) {
-  const Body body = person();
+  Body body = person();
+  for (auto& joint : body.skeleton.joints) {
+    joint.rest.translation *= odd.unitsAMetre;
+    joint.inverseBind[3] = vec4(odd.unitsAMetre * vec3(joint.inverseBind[3]), 1);
+  }
+  for (vec3& p : body.meshes[0].mesh.positions) p *= odd.unitsAMetre;
   const auto& joints = body.skeleton.joints;
   const auto still = std::uint8_t(joints.size());  // the joint that nothing moves, if there is one
   GltfBuilder file;
@@ -194,7 +199,7 @@ std::string personGlb(const PersonFile& odd) {
   for (int i = 0; i <= kFrames; ++i) {
     const float t = float(i) / kFrames, half = 0.3f * std::sin(kPi * t);
     moments.push_back(2 * t);
-    places.insert(places.end(), {hips.x, hips.y, hips.z + t});
+    places.insert(places.end(), {hips.x, hips.y, hips.z + odd.unitsAMetre * t});
     turns.insert(turns.end(), {std::sin(half), 0, 0, std::cos(half)});
   }
   const int times = file.floats(moments, "SCALAR");

@@ -25,6 +25,7 @@ Body person();
 struct PersonFile {
   bool eyes = false;   ///< a second primitive of 64 vertices, bound to neck and head
   bool stuck = false;  ///< all of the skin is bound to a joint that no clip moves, beside the hips
+  float unitsAMetre = 1;
   bool jumps = false;  ///< the nodes are saved in the middle of a jump, arms raised
 };
 

@@ -216,18 +216,6 @@ TEST_CASE("networks that have no vessel in common are said to be strangers") {
   CHECK_MESSAGE(outcome.out.find("no vessel is in both") != std::string::npos, outcome.out);
 }
 
-TEST_CASE("files of a kind that is not read say what to do") {
-  const TemporaryFolder folder;
-  for (const auto& [name, remedy] :
-       {std::pair("a.ply", "export it as .glb or .obj"), std::pair("a.vtu", "Extract Surface"),
-        std::pair("a.nii", "3D Slicer")}) {
-    const auto outcome =
-        runProgram({"convert", write(folder, name, "x"), "-o", (folder.path() / "a.vasa").string()});
-    CHECK(outcome.exit == 2);
-    CHECK_MESSAGE(outcome.err.find(remedy) != std::string::npos, outcome.err);
-  }
-}
-
 namespace {
 
 // A vein along the spine and an artery down to the knee, in metres.
@@ -270,6 +258,75 @@ std::vector<float> waysOf(const TemporaryFolder& folder, const std::string& body
 }
 
 }  // namespace
+
+TEST_CASE("centre lines whose radii are in another unit than their places are doubtful") {
+  const TemporaryFolder folder;
+  const auto swc = write(folder, "odd.swc", "1 0 0 0 0 1 -1\n2 0 0 0.1 0 1 1\n3 0 0 0.2 0 1 2\n");
+  const auto outcome = runProgram({"convert", swc, "-o", (folder.path() / "odd.vasa").string(), "--json"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(outcome.json()["summary"]["doubtful"] == 1);
+}
+
+TEST_CASE("a body in centimetres or millimetres is read as that, and that is said") {
+  const TemporaryFolder folder;
+  const auto net = (folder.path() / "net.vasa").string();
+  REQUIRE(runProgram({"convert", write(folder, "v.swc", personVessels()), "--unit", "m", "-o", net}).exit ==
+          0);
+  for (const auto& [scale, unit] : {std::pair(100.0f, "centimetres"), std::pair(1000.0f, "millimetres")}) {
+    const auto body = write(folder, "large.glb", personGlb({.unitsAMetre = scale}));
+    const auto told = runProgram({"info", body, "--json"});
+    REQUIRE_MESSAGE(told.exit == 0, told.err);
+    CHECK_MESSAGE(told.err.find(unit) != std::string::npos, told.err);
+    CHECK(told.json()["body_height_m"].get<double>() == doctest::Approx(1.75).epsilon(0.02));
+    std::string heard;
+    for (const float way : waysOf(folder, body, net, heard)) CHECK(way == doctest::Approx(1).epsilon(0.02));
+  }
+}
+
+TEST_CASE("info tells of vessels before they are converted") {
+  const TemporaryFolder folder;
+  const auto lines = runProgram({"info", write(folder, "vein.swc", personVessels()), "--json"});
+  REQUIRE_MESSAGE(lines.exit == 0, lines.err);
+  CHECK(lines.json()["kind"] == "centre lines");
+  CHECK(lines.json()["lines"] == 2);
+  const auto surface = runProgram({"info", write(folder, "trunk.obj", scannedTrunk()), "--json"});
+  REQUIRE_MESSAGE(surface.exit == 0, surface.err);
+  CHECK(surface.json()["kind"] == "surfaces");
+  CHECK(surface.json()["metres_a_unit"] == 0.001);
+  CHECK(surface.json()["next"].get<std::string>().starts_with("vasa convert"));
+  CHECK(runProgram({"info", (folder.path() / "none.swc").string()}).exit == 6);
+}
+
+TEST_CASE(
+    "bodies and motions of a kind that is not read say what to do; a file that is not there is no usage") {
+  const TemporaryFolder folder;
+  const auto expect = [&](std::vector<std::string> words, int exit, const char* remedy) {
+    const auto outcome = runProgram(words);
+    CHECK(outcome.exit == exit);
+    CHECK_MESSAGE(outcome.err.find(remedy) != std::string::npos, outcome.err);
+  };
+  const auto human = humanBody().string(), net = humanVessels().string();
+  const auto fbx = write(folder, "body.fbx", "Kaydara"), c3d = write(folder, "walk.c3d", "x");
+  expect({"map", fbx, human}, 3, "export it with its armature as .glb");
+  expect({"fit", net, "--from", fbx, "--to", human, "-o", "x.vasa"}, 3, "armature as .glb");
+  expect({"map", net, human}, 3, "give it with --network");
+  expect({"check", "--clip", c3d, "--frames", "0"}, 3, "turn it into .bvh first");
+  expect({"check", "--clip", fbx, "--frames", "0"}, 3, "export the armature's motion as .bvh");
+  expect({"render", human, "-o", "x.png"}, 3, "a body is given with --body");
+  expect({"convert", (folder.path() / "none.xyz").string(), "-o", "x.vasa"}, 6, "cannot open");
+}
+
+TEST_CASE("files of a kind that is not read say what to do") {
+  const TemporaryFolder folder;
+  for (const auto& [name, remedy] :
+       {std::pair("a.ply", "export it as .glb or .obj"), std::pair("a.vtu", "Extract Surface"),
+        std::pair("a.nii", "3D Slicer")}) {
+    const auto outcome =
+        runProgram({"convert", write(folder, name, "x"), "-o", (folder.path() / "a.vasa").string()});
+    CHECK(outcome.exit == 2);
+    CHECK_MESSAGE(outcome.err.find(remedy) != std::string::npos, outcome.err);
+  }
+}
 
 TEST_CASE(
     "vessels follow a body with a small odd second primitive, and those that a rig leaves behind are told") {

@@ -64,7 +64,7 @@ TEST_CASE("BVH of others: a byte order mark, no blank before the numbers") {
 
 TEST_CASE("what is wrong with a BVH file is told with its line") {
   const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
-  expectFault("", "a.bvh:1: begins with HIERARCHY, found the file's end");
+  expectFault("", "a.bvh:1: a motion in .bvh begins with HIERARCHY, found the file's end");
   expectFault("HIERARCHY\nJOINT a\n", "a.bvh:2: expected ROOT, found 'JOINT'");
   expectFault("HIERARCHY\nROOT a\n{\n OFFSET 0 nan 0\n",
               "a.bvh:4: an offset must be a finite number, found 'nan'");
