@@ -266,7 +266,7 @@ Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::s
   if (!exact.empty()) return exact;
   if (!bare.empty()) return bare;
   if (partly.empty())
-    return badInput("--labels: no vessel is named '" + name + "'; vasa info --vessels lists them");
+    return badInput("--labels: no vessel is named '" + name + "'; vasa info NET.vasa --vessels lists them");
   return partly;
 }
 

@@ -14,6 +14,7 @@
 #include "io/foreign_files.h"
 #include "network/file.h"
 #include "network/join_lines.h"
+#include "network_output.h"
 #include "rest_report.h"
 #include "scene/vessel_files.h"
 
@@ -23,6 +24,9 @@ namespace {
 
 // Rounding is taken for granted where it is this small beside the fit's least tolerance.
 constexpr float kRoundingShare = 0.5f;
+
+constexpr const char* kApart =
+    ": surfaces and centre lines are converted apart; write two networks and give both to --network";
 
 struct Options {
   std::vector<std::string> meshes;
@@ -51,6 +55,7 @@ VesselImport importOf(const Options& options, double metresPerUnit) {
 Result<std::vector<SourceElement>> readSources(const Options& options, double metresPerUnit) {
   std::vector<SourceElement> sources;
   for (const std::string& file : options.meshes) {
+    if (holdsCentrelines(file)) return Error{Fault::usage, file + kApart};
     auto read = readSurfaces(file, importOf(options, metresPerUnit));
     if (!read) return read.error();
     // Metres by definition, but not in every exporter's hands.
@@ -128,11 +133,7 @@ Result<PatchReport> addPatches(Conversion& conversion, std::span<const SourceEle
 Result<Centrelines> readLines(const Options& options, double metresPerUnit) {
   Centrelines all;
   for (const std::string& file : options.meshes) {
-    if (!holdsCentrelines(file))
-      return Error{
-          Fault::usage,
-          file +
-              ": surfaces and centre lines are converted apart; write two networks and give both to --network"};
+    if (!holdsCentrelines(file)) return Error{Fault::usage, file + kApart};
     auto lines = readCentrelines(file, importOf(options, metresPerUnit));
     if (!lines) return lines.error();
     if (lines->lines.empty()) return badInput(file + ": the file holds no line of two places or more");
@@ -154,6 +155,7 @@ Result<Conversion> convertCentrelines(const Options& options) {
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto start = std::chrono::steady_clock::now();
   ConvertOptions settings = convertOptions(options);
   const bool lines = holdsCentrelines(options.meshes.front());

@@ -11,6 +11,7 @@
 #include "edit/replay.h"
 #include "network/file.h"
 #include "network/measure.h"
+#include "network_output.h"
 #include "report.h"
 #include "rest_report.h"
 #include "scene_options.h"
@@ -116,6 +117,8 @@ Result<std::size_t> writeResult(const Options& options, const Inputs& inputs, co
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (!options.output.empty())
+    if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto inputs = readInputs(options);
   if (!inputs) return inputs.error();
   const auto network = readNetwork(inputs->network);

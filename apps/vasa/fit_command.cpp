@@ -18,6 +18,7 @@
 #include "network/kinks.h"
 #include "network/measure.h"
 #include "network/reshape.h"
+#include "network_output.h"
 #include "report.h"
 #include "rest_report.h"
 #include "scene/vessel_files.h"
@@ -179,6 +180,7 @@ std::string asText(const Report& report) {
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto network = readNetwork(options.network);
   if (!network) return network.error();
   const auto to = readBody(options.to);

@@ -174,7 +174,7 @@ template <class Vessels>
 void addExtent(Report& report, const Vessels& vessels, const std::filesystem::path& file) {
   const vec3 extent = extentOf(vessels);
   const double unit = isGltfFile(file) ? 1 : likelyUnit(extent);
-  report["extent_m"] = {extent.x * unit, extent.y * unit, extent.z * unit};
+  report["wide_m"] = extent.x * unit, report["high_m"] = extent.y * unit, report["deep_m"] = extent.z * unit;
   report["metres_a_unit"] = unit;
   report["next"] = "vasa convert " + file.string() + " -o NET.vasa";
 }

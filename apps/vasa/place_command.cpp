@@ -16,6 +16,7 @@
 #include "network/file.h"
 #include "network/measure.h"
 #include "network/reshape.h"
+#include "network_output.h"
 #include "report.h"
 #include "scene/vessel_files.h"
 
@@ -59,7 +60,11 @@ Result<vec3> placeOnVessel(const Network& network, std::span<const vec4> points,
     }
   }
   const auto vessel = findVessel(network, name);
-  if (!vessel) return badInput("--at \"" + text + "\": " + vessel.error().message);
+  if (!vessel)
+    return badInput("--at \"" + text + "\": " + vessel.error().message +
+                    (name == text && text.find(':') != text.npos
+                         ? "; behind a colon stands start, end or a share from 0 to 1"
+                         : ""));
   const Vessel& found = network.vessel(*vessel);
   return vec3(evaluate(Network::pointsOf(found, points), share * float(found.spanCount())));
 }
@@ -156,6 +161,7 @@ std::string asText(const Report& report) {
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   std::optional<Body> body;
   if (!options.body.empty()) {
     auto read = readBody(options.body);

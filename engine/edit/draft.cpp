@@ -100,7 +100,8 @@ Result<VesselId> Draft::find(const std::string& name) const {
   std::vector<std::string> names;
   for (const Line& line : lines)
     if (!line.gone) names.push_back(line.label.name);
-  return badInput("no vessel has this name; " + didYouMean(name, names, "vasa info --vessels lists all"));
+  return badInput("no vessel has this name; " +
+                  didYouMean(name, names, "vasa info NET.vasa --vessels lists all"));
 }
 
 const Draft::Joint* Draft::jointOf(VesselEnd end) const {

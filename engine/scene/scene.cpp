@@ -173,7 +173,7 @@ Result<Subject> findSubject(const Scene& scene, std::string_view name) {
   addNames(vessels, names);
   addNames(joints, names);
   return badInput("no vessel and no joint is named '" + std::string(name) + "'; " +
-                  didYouMean(std::string(name), names, "vasa info --vessels lists the vessels"));
+                  didYouMean(std::string(name), names, "vasa info NET.vasa --vessels lists the vessels"));
 }
 
 Aabb subjectBounds(const Scene& scene, const Subject& subject, const Pose& pose,

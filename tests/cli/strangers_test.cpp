@@ -313,6 +313,12 @@ TEST_CASE(
   expect({"check", "--clip", c3d, "--frames", "0"}, 3, "turn it into .bvh first");
   expect({"check", "--clip", fbx, "--frames", "0"}, 3, "export the armature's motion as .bvh");
   expect({"render", human, "-o", "x.png"}, 3, "a body is given with --body");
+  const auto lines = write(folder, "v.swc", personVessels()),
+             trunk = write(folder, "trunk.obj", scannedTrunk());
+  expect({"convert", trunk, lines, "-o", "x.vasa"}, 2, "converted apart");
+  expect({"convert", lines, "-o", (folder.path() / "x.glb").string()}, 2, "vasa export makes other files");
+  expect({"convert", lines, "-o", (folder.path() / "no" / "x.vasa").string()}, 6, "create it first");
+  expect({"place", lines, "--at", "v 1:middle=hips", "-o", "x.vasa"}, 3, "start, end or a share");
   expect({"convert", (folder.path() / "none.xyz").string(), "-o", "x.vasa"}, 6, "cannot open");
 }
 

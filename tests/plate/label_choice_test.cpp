@@ -125,7 +125,7 @@ TEST_CASE("names: with or without a side, a part of one, hidden ones told, unkno
   REQUIRE_FALSE(unknown.ok());
   CHECK(unknown.error().fault == Fault::badInput);
   CHECK(unknown.error().message ==
-        "--labels: no vessel is named 'facial artery'; vasa info --vessels lists them");
+        "--labels: no vessel is named 'facial artery'; vasa info NET.vasa --vessels lists them");
   const auto several = choose("gastric,right gastric");
   REQUIRE(several.ok());
   CHECK(textsOf(*several) == Texts{"Left gastric artery", "Right gastric artery"});

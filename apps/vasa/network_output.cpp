@@ -1,0 +1,24 @@
+#include "network_output.h"
+
+#include <array>
+
+#include "io/foreign_files.h"
+
+namespace vasa::cli {
+
+Result<void> checkNetworkOutput(const std::filesystem::path& file) {
+  constexpr std::array kOthers{".glb", ".gltf", ".vrm", ".obj", ".stl", ".vtp",  ".vtk",
+                               ".swc", ".bvh",  ".csv", ".png", ".ply", ".json", ".vedit"};
+  const std::string extension = extensionOf(file);
+  for (const char* other : kOthers)
+    if (extension == other)
+      return Error{Fault::usage,
+                   file.string() + ": a network is written as .vasa; vasa export makes other files of it"};
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code ignored;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+    return Error{Fault::io, file.string() + ": there is no folder " + folder.string() + "; create it first"};
+  return {};
+}
+
+}  // namespace vasa::cli
