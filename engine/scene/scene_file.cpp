@@ -194,6 +194,12 @@ void readPose(Reader& reader, const Json& value, const std::string& place, std::
   }
 }
 
+Error noScene(const std::string& name) {
+  return badInput(
+      name +
+      ": is no scene (.json); a body is given with --body, vessels with --network, a motion with --clip");
+}
+
 }  // namespace
 
 bool isMotionFile(std::string_view clip) { return extensionOf(clip) == ".bvh"; }
@@ -207,10 +213,7 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
       return true;
     });
   } catch (const std::exception& error) {
-    if (extensionOf(name) != ".json")
-      return badInput(name +
-                      ": is no scene (.json); a body is given with --body, vessels with --network, a motion "
-                      "with --clip");
+    if (extensionOf(name) != ".json") return noScene(name);
     return badInput(name + ": is not valid JSON: " + error.what());
   }
   SceneFile scene;
@@ -241,6 +244,8 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
 
 Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
   const auto bytes = readFile(path, kMaximumBytes);
+  if (!bytes && bytes.error().fault == Fault::badInput && extensionOf(path) != ".json")  // larger than any
+    return noScene(path.string());
   if (!bytes) return bytes.error();
   auto scene = parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(),
                           path.string());

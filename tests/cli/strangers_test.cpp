@@ -312,6 +312,7 @@ TEST_CASE(
   expect({"map", net, human}, 3, "give it with --network");
   expect({"check", "--clip", c3d, "--frames", "0"}, 3, "turn it into .bvh first");
   expect({"check", "--clip", fbx, "--frames", "0"}, 3, "export the armature's motion as .bvh");
+  expect({"info", write(folder, "notes.txt", "x")}, 2, "write centre lines as .swc");
   expect({"render", human, "-o", "x.png"}, 3, "a body is given with --body");
   const auto lines = write(folder, "v.swc", personVessels()),
              trunk = write(folder, "trunk.obj", scannedTrunk());

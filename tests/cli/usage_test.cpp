@@ -61,7 +61,6 @@ TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
         {"render", "--clip", "walk", "-o", "same.png"},
         {"render", "--clip", "walk", "--frames", "9:3", "-o", "{frame}.png"},
         {"profile", "--quads", "fine"},
-        {"info", "notes.txt"},
         {"info", "--threads", "0"},
         {"info", "--threads", "1025"},
         {"info", "--threads", "-1"},

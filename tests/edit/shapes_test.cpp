@@ -96,9 +96,8 @@ TEST_CASE("shapes that can not be are refused with line, vessel, place and rule"
   const Network tree = smallTree();
   CHECK(refusalOf(tree, "\nstenosis trnk 0.1 12 70") ==
         "t.vedit:2: stenosis of \"trnk\" at 0.1: no vessel has this name; did you mean trunk?");
-  CHECK(
-      refusalOf(tree, "occlude spleen 0.1").find("no vessel has this name; vasa info NET.vasa --vessels lists all") !=
-      std::string::npos);
+  CHECK(refusalOf(tree, "occlude spleen 0.1")
+            .find("no vessel has this name; vasa info NET.vasa --vessels lists all") != std::string::npos);
   CHECK(refusalOf(tree, "stenosis side 0.5 90 70")
             .find("length_mm 90.0 is more than the vessel's own 60.0 mm") != std::string::npos);
   CHECK(refusalOf(tree, "aneurysm side 0.5 90 70")
