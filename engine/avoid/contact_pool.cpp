@@ -106,10 +106,13 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
 
 // Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at
 // rest; where that is the less sure, the farther they were apart then, not quite to where it counts as
-// another side.
+// another side. Those that cross are left where they are: asked to go back, they would be pressed into one
+// another.
 bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                             Constraint& constraint) const {
   const auto [i, j, s, t, f, contactNormal] = contact;
+  if (crossOver(unitOr(vec3(shape[i].derivative(s)), vec3(0)), unitOr(vec3(shape[j].derivative(t)), vec3(0))))
+    return false;
   const vec3 side = sides_->carried({i, j, s, t}, shape, last.rotations);
   const float sure = glm::length(side);
   if (sure <= kUnsure) return false;

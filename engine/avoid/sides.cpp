@@ -44,6 +44,8 @@ vec3 sideways(vec3 c, vec3 u, vec3 v) {
   return c - share * share * glm::dot(c, difference / size) * (difference / size);
 }
 
+bool crossOver(vec3 u, vec3 v) { return std::min(glm::length(u - v), glm::length(u + v)) > kCrossing; }
+
 RestSides::RestSides(const Network& network, Interference& interference)
     : network_(&network), interference_(&interference), nearAtRest_(interference.findNearAtRest()) {}
 

@@ -10,6 +10,10 @@ namespace vasa {
 /// run about the same way.
 vec3 sideways(vec3 c, vec3 u, vec3 v);
 
+/// Whether two tubes that run along u and v (unit) cross, at 40 degrees or more. Such tubes cannot roll
+/// around one another: they change sides only by passing through.
+bool crossOver(vec3 u, vec3 v);
+
 /// Remembers on which side of one another vessels lie at rest, and tells where that is in a pose.
 class RestSides {
  public:

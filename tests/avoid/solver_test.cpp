@@ -159,6 +159,21 @@ TEST_CASE("a vessel that is swept across another never passes through it") {
     }
 }
 
+TEST_CASE("crossing vessels that lie on the other side than at rest stay there, and apart") {
+  const Network network = separateVessels({line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.001f, 12),
+                                           line({0, 0.003f, -0.1f}, {0, 0.003f, 0.1f}, 0.001f, 12)});
+  Avoider avoider(network);
+  const test::Posed below = test::unturned(lowered(network, 0.024f));
+  std::vector<vec4> points(network.points().size());
+  avoider.start({}, below, nullptr, points);
+  for (int step = 0; step < 40; ++step) {
+    const auto report = avoider.step(below, nullptr, {1 / 30.0f, true, true}, points);
+    REQUIRE(report);
+    CHECK(report->after.holds());
+    CHECK(report->movedMax == 0);
+  }
+}
+
 TEST_CASE("a vessel that is swept across a bundle passes none of its vessels") {
   // All stay in their order along the sweep's way where they cross it.
   std::vector<std::vector<vec4>> vessels;
