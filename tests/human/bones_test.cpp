@@ -88,8 +88,7 @@ std::vector<Contact> contacts() {
   }
   for (int i = 1; i <= 5; ++i) {
     const std::string ray = std::to_string(i);
-    // All toes turn about one joint, 3 cm beside the little one's.
-    all.push_back({"proximal phalanx of toe " + ray, "metatarsal " + ray, i == 5 ? 0.0085f : 0.0030f});
+    all.push_back({"proximal phalanx of toe " + ray, "metatarsal " + ray, 0.0030f});
   }
   // Discs that belong to another joint than the vertebra above: the spine bends there.
   all.push_back({"disc C4-C5", "C4 vertebra", 0.0030f});
