@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <queue>
 
 #include "body/skinning.h"
@@ -30,8 +31,7 @@ constexpr float kStayNear = 2e-5f, kBeSmooth = 5e-4f;  // [m²] price of a whole
 constexpr float kPushedCounts = 10;                    // times as much as a sheet's wish, where a bone pushes
 constexpr float kThinnest = 0.3e-3f;                   // [m] of skin, at least
 constexpr std::size_t kBoneStep = 3;                   // bones' vertices looked at
-constexpr float kFirst =
-    1;  // [m] more than any skin is pushed: what covered a bone at rest goes before what is near
+constexpr float kFirst = 1;  // [m] more than any push: what covers a bone at rest goes before what is near
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Floor = SkinSheet::Floor;

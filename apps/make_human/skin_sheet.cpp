@@ -1,6 +1,7 @@
 #include "make_human/skin_sheet.h"
 
 #include <algorithm>
+#include <cmath>
 
 // The turn that takes a vertex's edges at rest nearest to those it has: Müller et al. 2016, "A robust method
 // to extract the rotational part of deformations". It starts from the last step's, so that few rounds do.
