@@ -27,7 +27,7 @@ constexpr float kSkinReach = 0.05f;   // [m] bones deeper than this at rest neve
 constexpr float kPushReach = 0.05f;   // [m] from the skin to a bone that has come out of it
 constexpr float kJointReach = 0.10f;  // [m] along the skin from where a joint moves it
 constexpr float kMovesIt = 0.05f;     // weight from which on a joint moves the skin at first
-constexpr float kStayNear = 2e-5f, kBeSmooth = 5e-4f;  // [m²] price of a whole weight's change
+constexpr float kStayNear = 3e-4f, kBeSmooth = 5e-4f;  // [m²] price of a whole weight's change
 constexpr float kPushedCounts = 10;                    // times as much as a sheet's wish, where a bone pushes
 constexpr float kThinnest = 0.3e-3f;                   // [m] of skin, at least
 constexpr std::size_t kBoneStep = 3;                   // bones' vertices looked at
