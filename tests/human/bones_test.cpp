@@ -66,7 +66,7 @@ std::vector<Contact> contacts() {
                               {"upper arm bone", "shoulder blade", 0.0040f},
                               {"ulna", "upper arm bone", 0.0030f},
                               {"radius", "upper arm bone", 0.0030f},
-                              {"radius", "ulna", 0.0035f},
+                              {"radius", "ulna", 0.0038f},
                               {"scaphoid", "radius", 0.0030f},
                               {"lunate", "radius", 0.0030f},
                               {"metacarpal 1", "trapezium", 0.0030f},
