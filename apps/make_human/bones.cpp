@@ -20,7 +20,7 @@ struct Tissue {
   vec4 colour;
 };
 constexpr Tissue kTissues[] = {{"bone", "bones", {0.83f, 0.79f, 0.68f, 1}},
-                               {"cartilage", "cartilage", {0.72f, 0.79f, 0.80f, 1}},
+                               {"cartilage", "cartilage", {0.86f, 0.88f, 0.84f, 1}},
                                {"teeth", "teeth", {0.95f, 0.94f, 0.90f, 1}}};
 
 void append(SkinnedMesh& to, const FormSurface& from, int joint, bool mirror) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace vasa::human {
 namespace {
@@ -19,6 +20,14 @@ struct Motion {
   float seconds = 0, rightLag = 0;
   bool loops = true, keepFeet = false;
   std::map<int, std::vector<Key>> keys;  ///< by joint number
+};
+
+/// A joint's angle that grows with another joint's.
+struct Coupling {
+  int joint = 0, leader = 0;  ///< by joint number
+  int angle = 0, leads = 0;   ///< 0 flexion, 1 abduction, 2 twist
+  float share = 0;
+  float from = 0;  ///< [rad] the least that the leader's angle counts as
 };
 
 /// Cubic Hermite through the keys, slopes from the neighbours; a looping motion wraps around.
@@ -93,14 +102,31 @@ vec3 groundShift(const Rig& rig, const std::vector<vec3>& positions, bool keepFe
   return {drift.x, -lowest, drift.z};
 }
 
-Clip sample(const Motion& motion, const Rig& rig) {
+/// The joints' angles at a share of the clip, by joint number; what moves at no time is not there.
+std::map<int, vec4> anglesAt(const Motion& motion, const Rig& rig, std::span<const Coupling> couplings,
+                             float at) {
+  std::map<int, vec4> keyed;
+  for (const auto& [joint, keys] : motion.keys) {
+    const bool right = rig.points[std::size_t(rig.joints[std::size_t(joint)])].right;
+    keyed[joint] = valueAt(keys, right ? at - motion.rightLag : at, motion.loops);
+  }
+  std::map<int, vec4> angles = keyed;
+  for (const Coupling& coupling : couplings)
+    if (const auto leader = keyed.find(coupling.leader); leader != keyed.end())
+      angles.try_emplace(coupling.joint, 0).first->second[coupling.angle] +=
+          coupling.share * std::max(leader->second[coupling.leads], coupling.from);
+  return angles;
+}
+
+Clip sample(const Motion& motion, const Rig& rig, std::span<const Coupling> couplings) {
   Clip clip;
   clip.name = motion.name;
   clip.framesPerSecond = kFramesPerSecond;
   const int frames = int(std::lround(motion.seconds * kFramesPerSecond));
   std::map<int, std::size_t> trackOf;
+  const std::map<int, vec4> moving = anglesAt(motion, rig, couplings, 0);
   for (std::size_t k = 0; k < rig.joints.size(); ++k)
-    if (k == 0 || motion.keys.contains(int(k))) {
+    if (k == 0 || moving.contains(int(k))) {
       trackOf.emplace(int(k), clip.tracks.size());
       clip.tracks.emplace_back().joint = JointId{std::uint32_t(k)};
     }
@@ -108,11 +134,10 @@ Clip sample(const Motion& motion, const Rig& rig) {
     const float at = float(frame) / float(frames), time = float(frame) / kFramesPerSecond;
     std::vector<quat> rotations(rig.joints.size(), quat(1, 0, 0, 0));
     float lift = 0;
-    for (const auto& [joint, keys] : motion.keys) {
+    for (const auto& [joint, value] : anglesAt(motion, rig, couplings, at)) {
       const int point = rig.joints[std::size_t(joint)];
-      const RigPoint& rigJoint = rig.points[std::size_t(point)];
-      const vec4 value = valueAt(keys, rigJoint.right ? at - motion.rightLag : at, motion.loops);
-      rotations[std::size_t(joint)] = rotationOf(rigJoint, rig.linkDirection(point), value);
+      rotations[std::size_t(joint)] =
+          rotationOf(rig.points[std::size_t(point)], rig.linkDirection(point), value);
       lift += value.w;
     }
     vec3 shift = groundShift(rig, posed(rig, rotations), motion.keepFeet);
@@ -150,10 +175,44 @@ void readKeys(Table& table, const Rig& rig, std::vector<Motion>& motions) {
   }
 }
 
+int angleNamed(Table& table, std::size_t row, std::string_view column) {
+  constexpr std::string_view kNames[] = {"flex", "abduct", "twist"};
+  const auto found = std::ranges::find(kNames, table.text(row, column));
+  if (found != std::end(kNames)) return int(found - std::begin(kNames));
+  table.fault(row, "an angle is flex, abduct or twist");
+  return 0;
+}
+
+std::vector<Coupling> readCouplings(Table& table, const Rig& rig) {
+  std::vector<Coupling> couplings;
+  for (std::size_t r = 0; r < table.rowCount(); ++r)
+    for (const bool right : {false, true}) {
+      const auto jointNamed = [&](std::string_view column) {
+        const std::string_view name = table.text(r, column);
+        const int point = rig.find(right ? mirroredName(name) : std::string(name));
+        if (point >= 0 && !rig.points[std::size_t(point)].landmark)
+          return rig.points[std::size_t(point)].joint;
+        table.fault(r, "no joint " + quoted(name));
+        return 0;
+      };
+      Coupling coupling;
+      coupling.joint = jointNamed("joint");
+      coupling.leader = jointNamed("leader");
+      coupling.angle = angleNamed(table, r, "angle");
+      coupling.leads = angleNamed(table, r, "leads");
+      coupling.share = table.number(r, "share");
+      coupling.from = glm::radians(table.numberOr(r, "from_deg", -180));
+      if (!right || mirroredName(table.text(r, "joint")) != table.text(r, "joint"))
+        couplings.push_back(coupling);
+    }
+  return couplings;
+}
+
 }  // namespace
 
 Result<std::vector<Clip>> makeClips(const std::filesystem::path& clipsPath,
-                                    const std::filesystem::path& keysPath, const Rig& rig) {
+                                    const std::filesystem::path& keysPath,
+                                    const std::filesystem::path& couplingsPath, const Rig& rig) {
   Result<Table> clips = Table::read(clipsPath);
   if (!clips.ok()) return clips.error();
   Result<Table> keys = Table::read(keysPath);
@@ -171,8 +230,12 @@ Result<std::vector<Clip>> makeClips(const std::filesystem::path& clipsPath,
   if (!clips->state().ok()) return clips->state().error();
   readKeys(*keys, rig, motions);
   if (!keys->state().ok()) return keys->state().error();
+  Result<Table> couplingTable = Table::read(couplingsPath);
+  if (!couplingTable.ok()) return couplingTable.error();
+  const std::vector<Coupling> couplings = readCouplings(*couplingTable, rig);
+  if (!couplingTable->state().ok()) return couplingTable->state().error();
   std::vector<Clip> result;
-  for (const Motion& motion : motions) result.push_back(sample(motion, rig));
+  for (const Motion& motion : motions) result.push_back(sample(motion, rig, couplings));
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "make_human/clips.h"
 #include "make_human/organs.h"
 #include "make_human/skin.h"
+#include "make_human/skin_fit.h"
 #include "make_human/vessels.h"
 
 namespace vasa::human {
@@ -34,9 +35,13 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
                   std::move(bones[1]),
                   std::move(bones[2]),
                   makeSolid("organ: brain", {0.66f, 0.39f, 0.34f, 0.3f}, *brain, human.rig)};
-  Result<std::vector<Clip>> clips = makeClips(tables / "clips.csv", tables / "clip_keys.csv", human.rig);
+  Result<std::vector<Clip>> clips =
+      makeClips(tables / "clips.csv", tables / "clip_keys.csv", tables / "couplings.csv", human.rig);
   if (!clips.ok()) return clips.error();
   human.clips = std::move(clips).value();
+  Body posed = bodyOf(human.rig, {human.meshes.front(), skeleton}, human.clips);
+  fitSkin(posed);
+  human.meshes.front() = std::move(posed.meshes.front());
   const Aabb box = human.meshes.front().mesh.bounds();
   const Surroundings around{human.skinShape, Solid(skeleton.mesh), Solid(human.meshes[2].mesh)};
   std::vector<SkinnedMesh> probed = human.meshes;

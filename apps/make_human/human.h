@@ -17,8 +17,8 @@ struct Human {
   Network vessels;
 };
 
-/// Reads joints, parts, sections, bones, bone_forms, organs, organ_forms, clips, clip_keys, vessels and
-/// growth
+/// Reads joints, parts, sections, bones, bone_forms, organs, organ_forms, clips, clip_keys, couplings,
+/// vessels and growth
 /// (.csv) and makes the human of them.
 Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& options = {});
 

@@ -7,48 +7,13 @@
 #include "body/deform.h"
 #include "body/skinning.h"
 #include "core/parallel.h"
+#include "make_human/extreme_poses.h"
 #include "make_human/solid.h"
 
 namespace vasa::human {
 namespace {
 
 constexpr int kPosesPerClip = 5;
-constexpr std::uint32_t kFrameStep = 3;
-
-/// How much two poses differ: the turns of all joints between them, in terms of the chord.
-float difference(const Pose& a, const Pose& b) {
-  float total = 0;
-  for (std::size_t i = 1; i < a.world.size(); ++i) {
-    const mat3 da = glm::transpose(mat3(a.world[0])) * mat3(a.world[i]);
-    const mat3 db = glm::transpose(mat3(b.world[0])) * mat3(b.world[i]);
-    float sum = 0;
-    for (int k = 0; k < 3; ++k) sum += glm::dot(da[k] - db[k], da[k] - db[k]);
-    total += std::sqrt(sum);
-  }
-  return total;
-}
-
-/// Of each clip, from the rest pose on always the pose that differs most from those chosen.
-std::vector<Pose> extremePoses(const Body& body) {
-  std::vector<Pose> chosen;
-  const Pose rest = restPose(body.skeleton);
-  for (const Clip& clip : body.clips) {
-    std::vector<Pose> all;
-    std::vector<float> distance;
-    for (std::uint32_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
-      all.push_back(samplePose(body.skeleton, clip, clip.timeOfFrame(frame)));
-      distance.push_back(difference(all.back(), rest));
-    }
-    for (int k = 0; k < kPosesPerClip; ++k) {
-      const std::size_t next =
-          std::size_t(std::max_element(distance.begin(), distance.end()) - distance.begin());
-      chosen.push_back(all[next]);
-      for (std::size_t i = 0; i < all.size(); ++i)
-        distance[i] = std::min(distance[i], difference(all[i], all[next]));
-    }
-  }
-  return chosen;
-}
 
 }  // namespace
 
@@ -82,7 +47,7 @@ Body bodyOf(const Rig& rig, std::vector<SkinnedMesh> meshes, std::vector<Clip> c
   return body;
 }
 
-MotionProbe::MotionProbe(Body body) : body_(std::move(body)), poses_(extremePoses(body_)) {}
+MotionProbe::MotionProbe(Body body) : body_(std::move(body)), poses_(extremePoses(body_, kPosesPerClip)) {}
 
 template <class Visit>
 Result<void> MotionProbe::visitPoses(const Network& network, std::span<const Place> places, std::size_t mesh,

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kCoarseCell = 0.030f;
 constexpr int kSmoothingRounds = 6;
+constexpr float kBelow = 0.010f;  // [m] under the skin it is plainer whose flesh this is, as in an armpit
 
 Weights weightsAt(const Shape& shape, const Rig& rig, vec3 p) {
   std::vector<float> distances;
@@ -59,7 +60,7 @@ SkinnedMesh makeSkin(const Shape& shape, const Rig& rig) {
   std::vector<Weights> weights;
   for (vec3 p : skin.mesh.positions) {
     skin.normals.push_back(glm::normalize(shape.gradient(p)));
-    weights.push_back(weightsAt(shape, rig, p));
+    weights.push_back(weightsAt(shape, rig, p - kBelow * skin.normals.back()));
   }
   for (int round = 0; round < kSmoothingRounds; ++round) smooth(weights, skin.mesh);
   for (const Weights& w : weights) skin.influences.push_back(strongest(w));

@@ -35,7 +35,7 @@ bool isPlain(const SkinnedMesh& mesh) { return vec3(mesh.colour) == vec3(1); }
 std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
   const bool own = role == MeshRole::other || (role == MeshRole::organs && !isPlain(mesh));
   vec4 colour = own ? srgbColour(mesh.colour) : colourOf(role);
-  if (role == MeshRole::bones && mesh.name == "cartilage") colour = {0.72f, 0.80f, 0.82f, 1};
+  if (role == MeshRole::bones && mesh.name == "cartilage") colour = {0.84f, 0.86f, 0.82f, 1};
   if (role == MeshRole::bones && mesh.name == "teeth") colour = {0.97f, 0.95f, 0.90f, 1};
   return packColour(vec4(vec3(colour), 0)) | (shared::kMeshKind + std::uint32_t(role)) << 24;
 }
