@@ -10,8 +10,8 @@
 namespace vasa {
 namespace {
 
-// [pixels] of a bed's own stem: thinner trees are threads; where a body is 720 pixels tall, 0.2
-constexpr float kThread = 0.5f;
+// [pixels] of a bed's own stem: thinner trees are threads; where a body is 720 pixels tall, 0.6
+constexpr float kThread = 1.2f;
 // A stem comes from the bed beside its own: in sizes of the bed, as far as its curves reach.
 constexpr float kReach = 1.5f;
 

@@ -92,9 +92,16 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
       spec.depthWrite = false;
       spec.blend = gpu::Blend::add;
     }
-    draw_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
-    spec.constants.set(1, std::uint32_t(target.samples));
-    partial_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
+    for (auto& kind : draw_) {
+      Pipelines& own = kind[std::size_t(style)];
+      gpu::GraphicsSpec partial = spec;
+      partial.constants.set(1, std::uint32_t(target.samples));
+      own.whole = gpu::GraphicsPipeline(device, spec);
+      own.partial = gpu::GraphicsPipeline(device, partial);
+      // What is thinner than a pixel hides nothing, and its fading edges less than that: threads lie over one
+      // another, the farthest first, and would glitter if they did.
+      spec.depthWrite = false;
+    }
   }
   for (gpu::Buffer& ring : rings_) ring = ringBuffer(device);
   for (std::size_t i = 0; i < kEdges.size(); ++i) {
@@ -154,7 +161,8 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  (input.partial ? partial_ : draw_)[std::size_t(input.style)].bind(commands, input.draw);
+  const Pipelines& own = draw_[batch.edges == shared::kThreads][std::size_t(input.style)];
+  (input.partial ? own.partial : own.whole).bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);

@@ -240,7 +240,7 @@ TEST_CASE(
   RenderOptions options{.width = 120,
                         .height = 90,
                         .growth = &growth,
-                        .capillaries = {.levels = 3, .edges = 10, .smallest = 0}};
+                        .capillaries = {.levels = 6, .edges = 10, .smallest = 0}};
   options.timed = false;
   Renderer renderer(rig.device(), grown.network, {}, options);
   const RenderInput input{grown.points, grown.frames, {}, lookingAt(grown, 2, true), {}};
