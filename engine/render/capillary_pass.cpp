@@ -15,6 +15,7 @@ namespace vasa {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> kEdges{shared::kThreads, 3, 5, 8, shared::kMostCapillaryEdges};
+constexpr std::uint32_t kThinEdges = 3;  // most of curves that are thin in the picture (plan.cpp)
 constexpr vec4 kBedColour{0.62f, 0.15f, 0.36f, 1};
 
 std::size_t edgesIndex(std::uint32_t edges) {
@@ -98,8 +99,8 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
       partial.constants.set(1, std::uint32_t(target.samples));
       own.whole = gpu::GraphicsPipeline(device, spec);
       own.partial = gpu::GraphicsPipeline(device, partial);
-      // What is thinner than a pixel hides nothing, and its fading edges less than that: threads lie over one
-      // another, the farthest first, and would glitter if they did.
+      // What is thinner than a pixel hides little, and its fading edges less than that: thin curves lie over
+      // one another, the farthest first, and would glitter if they hid one another.
       spec.depthWrite = false;
     }
   }
@@ -161,7 +162,7 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  const Pipelines& own = draw_[batch.edges == shared::kThreads][std::size_t(input.style)];
+  const Pipelines& own = draw_[batch.edges <= kThinEdges][std::size_t(input.style)];
   (input.partial ? own.partial : own.whole).bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;

@@ -61,7 +61,7 @@ class CapillaryPass {
   struct Pipelines {
     gpu::GraphicsPipeline whole, partial;
   };
-  std::array<std::array<Pipelines, 3>, 2> draw_;  // of ribbons, of threads; one a LookStyle
+  std::array<std::array<Pipelines, 3>, 2> draw_;  // of wide curves, of thin ones; one a LookStyle
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 5> indices_;  // of threads, and of ribbons of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, bedBuffer_, spans_, colours_, host_, frame_;

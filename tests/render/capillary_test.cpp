@@ -275,7 +275,7 @@ TEST_CASE(
 TEST_CASE("threads look as ribbons do") {
   VASA_REQUIRE_GPU(rig);
   const test::GrownNetwork grown(test::windingNetwork(10, 5));
-  const Camera camera = lookingAt(grown, 25, true);
+  const Camera camera = lookingAt(grown, 6, true);
   const auto opacityOf = [](const Image& image) {
     double sum = 0;
     for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
@@ -287,7 +287,7 @@ TEST_CASE("threads look as ribbons do") {
   const double ribbons = opacityOf(pictureOf(rig, grown, camera, options).image) - none;
   options.capillaries.smallest = 1e-6f;
   const double threads = opacityOf(pictureOf(rig, grown, camera, options).image) - none;
-  REQUIRE(ribbons > 0.3 * none);
+  REQUIRE(ribbons > 0.1 * none);
   CHECK(threads != ribbons);
-  CHECK(threads / ribbons == doctest::Approx(1).epsilon(0.1));
+  CHECK(threads / ribbons == doctest::Approx(1).epsilon(0.2));
 }
