@@ -26,8 +26,9 @@ void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options) {
       ->check(CLI::IsMember({"3", "5", "8", "10", "auto"}));
   sub.add_option(
          "--capillary-budget", options.budget,
-         fmt::format("Most capillaries in a picture; beyond it trees lose generations, the deepest first (default {})",
-                     usual.budget))
+         fmt::format(
+             "Most capillaries in a picture; beyond it trees lose generations, the deepest first (default {})",
+             usual.budget))
       ->check(CLI::Range(1u, 64'000'000u));
   sub.add_option(
          "--capillary-detail", options.smallest,
