@@ -82,7 +82,7 @@ only='--clip stand --hide skin,bones,organs'
   row whole without with
 
   for level in 1 2 3; do
-    draw "level$level" 320x240 $only --capillaries "$level" --focus RightHand --distance 0.75
+    draw "level$level" 320x320 $only --capillaries "$level" --camera 0.5,1.68,0.25/0,1.66,0/20
   done
   row levels level1 level2 level3
 

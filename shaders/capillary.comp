@@ -21,7 +21,7 @@ GrowthJob jobOf(uint curve) {
 }
 
 // sectionOn of engine/surface/tessellate.cpp.
-Section rootSection(uint span, float t) {
+Section sectionOn(uint span, float t) {
   SweepRecord record = sweepAt(push.spans, span);
   Bezier bezier = bezierOf(spanClassAt(push.tables, record.spanClass), vec4Of(push.points.point[record.point]),
                            vec4Of(push.points.point[record.point + 1]), vec4Of(push.points.point[record.point + 2]),
@@ -30,75 +30,104 @@ Section rootSection(uint span, float t) {
   return sectionAt(bezier, chord, vec4Of(push.knots.knot[record.knot]), vec4Of(push.knots.knot[record.knot + 1]), t);
 }
 
-// Word by word: GPU-assisted validation takes a struct that is loaded whole for larger than it is.
-GrowthSite siteOf(uint span) {
-  GrowthSite site;
-  site.hub = push.sites.site[span].hub;
-  site.reach = push.sites.site[span].reach;
-  site.axis = push.sites.site[span].axis;
-  site.system = push.sites.site[span].system;
-  for (uint i = 0; i < kGrowthWalls; ++i) site.wall[i] = push.sites.site[span].wall[i];
-  site.stretch = push.sites.site[span].stretch;
-  site.key = push.sites.site[span].key;
-  site.sprouts = push.sites.site[span].sprouts;
-  site.partner = push.sites.site[span].partner;
-  return site;
+// Member by member, as the box: GPU-assisted validation takes a struct that is loaded whole for larger than it is.
+GrowthStem stemAt(uint bed, uint side) {
+  GrowthStem stem;
+  stem.leaving = push.beds.bed[bed].stem[side].leaving;
+  stem.radius = push.beds.bed[bed].stem[side].radius;
+  stem.end = push.beds.bed[bed].stem[side].end;
+  stem.last = push.beds.bed[bed].stem[side].last;
+  stem.through = push.beds.bed[bed].stem[side].through;
+  stem.own = push.beds.bed[bed].stem[side].own;
+  stem.from = push.beds.bed[bed].stem[side].from;
+  stem.span = push.beds.bed[bed].stem[side].span;
+  stem.t = push.beds.bed[bed].stem[side].t;
+  return stem;
 }
 
-float placeOnSpan(GrowthSite site, uint siteKey, uint sprout) {
-  if ((sprout & kTipSprout) != 0u) return (sprout & kLastSprout) != 0u ? 1.0 : 0.0;
-  precise float place = site.stretch.x + (site.stretch.y - site.stretch.x) * unitFloat(scramble(siteKey) + sprout * 0x9e3779b9u);
-  return place;
+BedBox boxAt(uint bed) {
+  BedBox box;
+  for (uint i = 0; i < 3; ++i) box.side[i] = push.beds.bed[bed].side[i];
+  for (uint i = 0; i < kGrowthWalls; ++i) box.wall[i] = push.beds.bed[bed].wall[i];
+  return box;
 }
 
-Capillary treeCurve(uint span, GrowthSite site, uint sprout, uint levels, uint number) {
-  uint key = keyOf(push.view.view.seed, site.key);
-  return grownAt(push.growth, site, rootSection(span, placeOnSpan(site, key, sprout)), sprout, keyOf(key, sprout), levels, number);
-}
-
-uint treeSize(GrowthSite site, uint levels) {
-  return push.growth.growth.symbol[push.growth.growth.system[site.system & 0xffu].axiom].treeSize[levels];
-}
-
-const uint kPartners = 8;
-
-// Ends a last curve where a curve of the partner's tree ends.
-void join(GrowthSite site, uint sprout, uint levels, inout Capillary capillary) {
-  GrowthSite other = siteOf(site.partner);
-  uint seed = push.view.view.seed, best = 0, size = treeSize(other, levels - 1);
-  float wanted = placeOnSpan(site, keyOf(seed, site.key), sprout), nearest = 2;
-  for (uint k = 0; k < min(other.sprouts, kPartners); ++k) {
-    float away = abs(placeOnSpan(other, keyOf(seed, other.key), k) - wanted);
-    if (away < nearest) {
-      nearest = away;
-      best = k;
-    }
+Bud rootOf(GrowthStem stem, uint side, mat3 axes, vec3 origin) {
+  bool leaves = stem.from == kFromVessel;
+  uint before = leaves ? 0 : stem.from;
+  Section root = sectionOn(leaves ? stem.span : push.beds.bed[before].span, leaves ? stem.t : push.beds.bed[before].t);
+  mat3 turn = axesOf(root);
+  vec3 place = root.centre, direction = stem.leaving;
+  if (!leaves) {
+    place += turned(turn, push.beds.bed[before].centre + push.beds.bed[before].stem[side].end);
+    direction = push.beds.bed[before].stem[side].through;
   }
-  if (size == 0u) return;
-  Capillary target = treeCurve(site.partner, other, best, levels - 1, scramble(capillary.key) % size);
-  if (!target.branches) return;
-  capillary.curve.b3.xyz = target.curve.b3.xyz;
-  capillary.curve.b2.xyz = 0.5 * (capillary.curve.b2.xyz + capillary.curve.b3.xyz);
-  capillary.joined = true;
-  capillary.farPhase = phaseAt(target.phase, 1);
+  return Bud(within(axes, place - origin), within(axes, turned(turn, direction)), stem.radius);
+}
+
+Capillary capillaryAt(uint number, GrowthStem stem, uint side, uint levels, uint curve) {
+  BedBox bed = boxAt(number);
+  Section section = sectionOn(push.beds.bed[number].span, push.beds.bed[number].t);
+  mat3 axes = axesOf(section);
+  vec3 centre = section.centre + turned(axes, push.beds.bed[number].centre);
+  uint symbolNumber = push.growth.growth.system[push.beds.bed[number].system].axiom;
+  Capillary capillary;
+  capillary.curve = stemOf(stem, rootOf(stem, side, axes, centre));
+  capillary.phase = 0;
+  uint key = keyOf(push.view.view.seed, number);
+  Part part = Part(push.beds.bed[number].middle, vec3(1));
+  vec3 entry = push.beds.bed[number].entry;
+  float radius = stem.own;
+  for (uint generation = 0; generation < kMostGrowthLevels; ++generation) {
+    uint firstChild = push.growth.growth.symbol[symbolNumber].firstChild,
+         childCount = push.growth.growth.symbol[symbolNumber].childCount;
+    --levels;
+    capillary.leaf = levels == 0 || childCount == 0;
+    if (curve == 0 || capillary.leaf) break;
+    --curve;
+    uint branch = 0;
+    for (; branch + 1 < childCount; ++branch) {
+      uint size = push.growth.growth.symbol[push.growth.growth.child[firstChild + branch].symbol].treeSize[levels];
+      if (curve < size) break;
+      curve -= size;
+    }
+    GrowthChild child = push.growth.growth.child[firstChild + branch];
+    vec3 before = part.centre;
+    part = partOf(bed, part, entry, childCount, branch);
+    entry = before;
+    key = keyOf(key, branch);
+    symbolNumber = child.symbol;
+    GrowthSymbol own = push.growth.growth.symbol[symbolNumber];
+    bool last = levels == 1 || own.childCount == 0;
+    Bud bud = Bud(pointAt(capillary.curve, child.at).xyz,
+                  unitOr(derivativeAt(capillary.curve, child.at).xyz, vec3(0, 0, 1)), radius * child.radius);
+    vec3 end = endIn(bed, part, key, last ? 0 : side == 1 ? -kApart : kApart);
+    capillary.phase += (1 - capillary.phase) * 0.5 * child.at;
+    capillary.curve = drawn(own, bed, bud, end, keyOf(key, 0x100u + side));
+    radius = bud.radius;
+  }
+  capillary.lastPhase = capillary.leaf ? 1 : capillary.phase + (1 - capillary.phase) * 0.5;
+  capillary.curve.b0.xyz = centre + turned(axes, capillary.curve.b0.xyz);
+  capillary.curve.b1.xyz = centre + turned(axes, capillary.curve.b1.xyz);
+  capillary.curve.b2.xyz = centre + turned(axes, capillary.curve.b2.xyz);
+  capillary.curve.b3.xyz = centre + turned(axes, capillary.curve.b3.xyz);
+  vec4 surface = push.beds.bed[number].surface;
+  vec3 outward = turned(axes, surface.xyz);
+  capillary.skin = vec4(-outward, surface.w + dotOf(outward, centre));
+  return capillary;
 }
 
 void main() {
   uint curve = gl_GlobalInvocationID.x;
   if (curve >= push.curveCount) return;
   GrowthJob job = jobOf(curve);
-  GrowthSite site = siteOf(job.span);
-  uint size = treeSize(site, job.levels);
+  GrowthStem stem = stemAt(job.bed, job.side);
   uint vertices = push.edges == kThreads ? kThreadVertices : 2 * (push.edges + 1);
-  uint target = curve * vertices, colour = push.colours.colour[job.span];
+  uint target = curve * vertices, colour = push.colours.colour[stem.span];
   if ((push.hiddenKinds >> (colour >> 24) & 1u) != 0u) {
     for (uint i = 0; i < vertices; ++i)
       writeVertex(target + i, vec4(2, 2, 2, 1), 0, 0);  // outside the picture
     return;
   }
-  uint within = curve - job.firstCurve, sprout = job.firstSprout + within / size;
-  Capillary capillary = treeCurve(job.span, site, sprout, job.levels, within % size);
-  bool joins = job.levels > 1 && job.levels == push.view.view.joinLevels && site.partner != kNoPartner;
-  if (capillary.leaf && joins) join(site, sprout, job.levels, capillary);
-  writeCurve(capillary, colour, capillary.joined ? push.colours.colour[site.partner] : colour, target);
+  writeCurve(capillaryAt(job.bed, stem, job.side, job.levels, curve - job.firstCurve), colour, target);
 }

@@ -26,8 +26,9 @@ void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options) {
       ->check(CLI::IsMember({"3", "5", "8", "10", "auto"}));
   sub.add_option(
          "--capillary-budget", options.budget,
-         fmt::format("Most capillaries in a picture; beyond it all vessels have fewer trees (default {})",
-                     usual.budget))
+         fmt::format(
+             "Most capillaries in a picture; beyond it trees lose generations, the deepest first (default {})",
+             usual.budget))
       ->check(CLI::Range(1u, 64'000'000u));
   sub.add_option(
          "--capillary-detail", options.smallest,
@@ -59,11 +60,11 @@ Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const Capillar
 }
 
 Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice,
-                                              const SweepTable& table, GrowthUse use) {
+                                              const SweepTable& table) {
   if (choice.levels == 0) return std::unique_ptr<SceneGrowth>();
   const auto folder = rulesFolder(choice);
   if (!folder) return folder.error();
-  auto growth = loadGrowth(scene, *folder, table, use);
+  auto growth = loadGrowth(scene, *folder, table);
   if (!growth) return growth.error();
   return std::make_unique<SceneGrowth>(std::move(*growth));
 }

@@ -27,6 +27,6 @@ CapillaryWish wishOf(const CapillaryChoice& choice);
 /// @param table  makeSweepTable() of the scene's network, made where it is left out
 Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice);
 Result<std::unique_ptr<SceneGrowth>> growthOf(const Scene& scene, const CapillaryChoice& choice,
-                                              const SweepTable& table, GrowthUse use = GrowthUse::drawn);
+                                              const SweepTable& table);
 
 }  // namespace vasa::cli

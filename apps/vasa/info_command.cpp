@@ -247,21 +247,18 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
 // What would grow: nothing of it is stored.
 Result<Report> capillaryReport(const Scene& scene, CapillaryChoice choice) {
   choice.levels = std::max(choice.levels, 3u);
-  const auto growth = growthOf(scene, choice, makeSweepTable(scene.network), GrowthUse::counted);
+  const auto growth = growthOf(scene, choice);
   if (!growth) return growth.error();
   const SceneGrowth& grown = **growth;
-  Report report{{"trees", curveCount(grown.rules.tables, grown.sites, 1)}};
+  Report report{{"trees", curveCount(grown.rules.tables, grown.beds, 1)}};
   for (std::uint32_t levels = 1; levels <= choice.levels; ++levels)
-    report[fmt::format("curves_{}_levels", levels)] = curveCount(grown.rules.tables, grown.sites, levels);
-  report["bytes_per_sweep"] = sizeof(shared::GrowthSite);
-  std::vector<std::uint64_t> trees(grown.regions.size());
-  for (std::size_t sweep = 0; sweep < grown.sites.region.size(); ++sweep)
-    if (grown.sites.region[sweep] < trees.size())
-      trees[grown.sites.region[sweep]] += grown.sites.sites[sweep].sprouts;
+    report[fmt::format("curves_{}_levels", levels)] = curveCount(grown.rules.tables, grown.beds, levels);
+  report["bytes_per_bed"] = sizeof(shared::GrowthBed);
+  std::vector<std::uint64_t> beds(grown.regions.size());
+  for (const std::uint8_t region : grown.beds.regionOfBed) ++beds[region];
   report["regions"] = Report::array();
-  for (std::size_t r = 0; r < trees.size(); ++r)
-    if (trees[r] > 0)
-      report["regions"].push_back({{"name", grown.regions[r].name}, {"trees_along_vessels", trees[r]}});
+  for (std::size_t r = 0; r < beds.size(); ++r)
+    if (beds[r] > 0) report["regions"].push_back({{"name", grown.regions[r].name}, {"beds", beds[r]}});
   return report;
 }
 

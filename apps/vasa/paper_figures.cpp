@@ -19,7 +19,7 @@ std::vector<char> everySpan(const Network& network) { return std::vector<char>(n
 std::vector<char> spansOfRegion(const PaperStudy& study, std::string_view name) {
   std::vector<char> spans(study.scene.network.sweepCount(), 0);
   for (std::size_t span = 0; span < spans.size(); ++span) {
-    const std::uint8_t region = study.growth.sites.region[span];
+    const std::uint8_t region = study.growth.beds.regionOfSpan[span];
     spans[span] = region != 255 && study.growth.regions[region].name == name;
   }
   return spans;

@@ -24,7 +24,7 @@ struct Options {
 Result<void> makeAll(const Scene& scene, CapillaryChoice capillaries) {
   StageLog stages("levels of detail");
   bodyLevels(scene.body.meshes);
-  stages.next("room of capillaries");
+  stages.next("beds of capillaries");
   capillaries.levels = 1;  // any
   if (const auto growth = growthOf(scene, capillaries); !growth) return growth.error();
   stages.next("distance fields of bones");
@@ -69,7 +69,7 @@ void addPrepare(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("prepare", "Make beforehand what takes long at a body's first use");
   sub->footer(
       "Levels of detail of skin, bones and organs, distance fields of the bones, how vessels hang on the body and where\n"
-      "they join, room for capillaries below the skin.\n"
+      "they join, beds of capillaries.\n"
       "Commands that need them make and keep them by themselves, in $XDG_CACHE_HOME/vasa (~/.cache/vasa), 512 MiB at\n"
       "most; --no-cache does without. Those of the built-in human come with the program.\n\n"
       "Examples:\n"

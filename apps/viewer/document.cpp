@@ -89,7 +89,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
     if (const auto clip = findClip(document->scene.body, file.clip); !clip) return clip.error();
   const std::filesystem::path folder =
       file.capillaries.rules.empty() ? furnishing.rules : file.capillaries.rules;
-  auto growth = folder.empty() ? Result<SceneGrowth>(SceneGrowth{}) : readGrowth(document->scene, folder);
+  auto growth = folder.empty() ? Result<SceneGrowth>(SceneGrowth{}) : readGrowth(folder);
   if (!growth) return growth.error();
   const auto ranges = furnishing.ranges.empty() ? Result<std::vector<JointRange>>(std::vector<JointRange>{})
                                                 : readJointRanges(furnishing.ranges);
@@ -156,7 +156,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   made->bounds = boundsOf(made->scene);
   made->groups = std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
   if (!made->rules.empty()) {
-    auto growth = readGrowth(made->scene, made->rules);
+    auto growth = readGrowth(made->rules);
     if (!growth) return growth.error();
     made->growth = GrowthBehind(std::move(*growth), made->scene, made->table, std::launch::deferred);
   }

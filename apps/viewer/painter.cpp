@@ -59,8 +59,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
   options.capillaries = {.levels = unsigned(detail_.capillaries),
                          .edges = choice.edges,
                          .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
-                         .smallest = choice.smallest,
-                         .fewerLevels = !shot.fine};
+                         .smallest = choice.smallest};
   brush.renderer =
       std::make_unique<Renderer>(device_, document_->scene.network, document_->scene.body.meshes, options);
   return brush;

@@ -8,218 +8,202 @@
 
 // The specification of shaders/lib/growth.glsl: same operations in the same order.
 //
-// A curve is a walk of three steps, which are the legs of its Bézier polygon. The first goes the way that the
-// branching asks for; before each of the others the direction strays (meander), turns (curl), and yields to
-// its surroundings: to the limb's axis, away from or around the hub, back from the skin. Every pull is
-// continuous in the curve's place, so that a moving vessel's capillaries move smoothly. Points of the polygon
-// that got beyond the ball or a wall all the same are drawn in towards the centre: ball and walls bound a
-// convex piece of the body, which holds the curve with them.
+// All happens in the axes of the section that the bed moves with, from the bed's centre. A curve leaves the
+// way its parent goes there, half turned to where it is bound, and comes there nearly straight; both strays
+// are random (meander) or along the bed (fibre). Points of its polygon beyond a wall are drawn in towards the
+// centre: walls bound a convex piece of the tissue, which holds the curve with them.
+//
+// Which part of the box a branch has is decided in the box' own measure, where no pose and no rounding of one
+// changes it.
 namespace vasa {
 namespace {
 
+using shared::GrowthBed;
 using shared::GrowthChild;
+using shared::GrowthStem;
 using shared::GrowthSymbol;
 
-constexpr float kRootDepth = 0.5f;      // in radii from the axis: inside of the coarsest tube of quads, too
-constexpr std::uint32_t kPartners = 8;  // sprouts of the partner that are looked at
 constexpr float kTiny2 = 1e-12f;
-
-// The surroundings of a tree, in the world.
-struct Surroundings {
-  vec3 hub, axis, centre;
-  float shell;  // [m] from the hub to the root
-  float reach;
-  std::array<vec4, shared::kGrowthWalls> walls;  // offsets count from the centre
-};
-
-Surroundings surroundingsOf(const shared::GrowthSite& site, const Section& section) {
-  const mat3 axes(section.frame.u, section.frame.v, section.frame.tangent);
-  Surroundings around{section.centre + axes * site.hub, axes * site.axis, section.centre, 0, site.reach, {}};
-  around.shell = glm::distance(around.hub, section.centre);
-  for (std::size_t i = 0; i < around.walls.size(); ++i)
-    around.walls[i] = vec4(axes * vec3(site.wall[i]), site.wall[i].w);
-  return around;
-}
-
-// A place drawn in towards the centre as far as ball and walls ask for.
-vec3 keptInside(const Surroundings& around, vec3 place) {
-  const vec3 arm = place - around.centre;
-  const float length = glm::length(arm);
-  float share = length > around.reach ? around.reach / length : 1;
-  for (const vec4& wall : around.walls) {
-    const float along = glm::dot(vec3(wall), arm);
-    if (along > wall.w) share = std::min(share, wall.w / along);
-  }
-  return share < 1 ? around.centre + share * arm : place;
-}
-
-// What a curve starts from.
-struct Bud {
-  vec3 place, direction;
-  float radius, stretch;
-};
+constexpr float kLead = 0.8f;    // of the parent's direction beside the way's, at a curve's begin
+constexpr float kJitter = 0.9f;  // of half a part: how far its middle strays
+constexpr float kApart = 0.4f;   // of half a part: from there to where artery and vein branch
 
 vec3 unitOr(vec3 v, vec3 otherwise) {
   const float length2 = glm::dot(v, v);
   return length2 > kTiny2 ? v / std::sqrt(length2) : otherwise;
 }
 
-// A unit vector at right angles to the unit vector `direction`, and to `outward` if that is another.
-vec3 sideways(vec3 outward, vec3 direction) {
-  const vec3 side = glm::cross(outward, direction);
-  const float length2 = glm::dot(side, side);
-  return length2 > 1e-6f ? side / std::sqrt(length2) : anyPerpendicular(direction);
+vec3 signedVector(std::uint32_t key, std::uint32_t first) {
+  return {signedOf(key, first), signedOf(key, first + 1), signedOf(key, first + 2)};
 }
 
-vec3 bent(const GrowthSymbol& symbol, const Surroundings& around, vec3 place, vec3 direction, float step,
-          std::uint32_t key, std::uint32_t leg) {
-  const vec3 arm = place - around.hub;
-  const vec3 outward = unitOr(arm, direction);
-  const float height = glm::dot(arm, outward);
-  const vec3 side = sideways(outward, direction), other = glm::cross(direction, side);
-  const float turn = symbol.curl * (key & 1u ? 1.0f : -1.0f) + symbol.meander * signedOf(key, 2 * leg);
-  vec3 v = direction + turn * side + (symbol.meander * signedOf(key, 2 * leg + 1)) * other;
-  v += (symbol.along + symbol.fibre * glm::dot(around.axis, direction)) * around.axis;
-  const float back = std::clamp((around.shell - height) / (3 * step), -1.0f, 1.0f);
-  v += (symbol.outward + symbol.hug * (back - glm::dot(v, outward))) * outward;
-  v = unitOr(v, direction);
-  for (const vec4& wall : around.walls) {
-    const float over = glm::dot(vec3(wall), place + step * v - around.centre) - wall.w;
-    if (over > 0) v = unitOr(v - std::min(over / step, 2.0f) * vec3(wall), direction);
+// A part of a bed's box, in half sides of the box.
+struct Part {
+  vec3 centre, size;
+};
+
+// The i-th of n equal parts, the first ones on the side of `entry`. Cut across the longest side, again and
+// again.
+Part partOf(const GrowthBed& bed, Part part, vec3 entry, std::uint32_t n, std::uint32_t i) {
+  while (n > 1) {
+    int longest = 0;
+    for (int a = 1; a < 3; ++a)
+      if (part.size[a] * bed.side[a].w > part.size[longest] * bed.side[longest].w) longest = a;
+    const std::uint32_t near = (n + 1) / 2;
+    const float share = float(near) / float(n), size = part.size[longest];
+    const float towards = entry[longest] < part.centre[longest] ? -size : size;
+    if (i < near) {
+      part.centre[longest] += towards * (1 - share);
+      part.size[longest] = size * share;
+      n = near;
+    } else {
+      part.centre[longest] -= towards * share;
+      part.size[longest] = size * (1 - share);
+      i -= near;
+      n -= near;
+    }
   }
-  return v;
+  return part;
 }
 
-// Draws a letter as a curve; `direction` comes out as the curve's last one.
-Bezier grown(const GrowthSymbol& symbol, const Surroundings& around, const Bud& bud, std::uint32_t key) {
-  const float length = symbol.reach * bud.stretch * bud.radius * (1 + symbol.reachSpread * signedOf(key, 0));
-  const float step = length / 3;
+// A place drawn in towards the centre as far as the walls ask for.
+vec3 keptInside(const GrowthBed& bed, vec3 place) {
+  float share = 1;
+  for (const vec4& wall : bed.wall) {
+    const float along = glm::dot(vec3(wall), place);
+    if (along > wall.w) share = std::min(share, wall.w / along);
+  }
+  return share * place;
+}
+
+vec3 inBox(const GrowthBed& bed, vec3 p) {
+  return p.x * bed.side[0].w * vec3(bed.side[0]) + p.y * bed.side[1].w * vec3(bed.side[1]) +
+         p.z * bed.side[2].w * vec3(bed.side[2]);
+}
+
+// Where the curve to a part ends: leaves of both trees at one place, others to one side of it or the other.
+vec3 endIn(const GrowthBed& bed, const Part& part, std::uint32_t key, float apart) {
+  return keptInside(bed, inBox(bed, part.centre + part.size * (kJitter * signedVector(key, 0) +
+                                                               apart * signedVector(key, 3))));
+}
+
+// What a curve starts from.
+struct Bud {
+  vec3 place, direction;
+  float radius;
+};
+
+vec3 strayed(const GrowthSymbol& symbol, const GrowthBed& bed, vec3 v, vec3 way, std::uint32_t key,
+             std::uint32_t first) {
+  const vec3 fibre(bed.side[0]);
+  return unitOr(v + symbol.meander * signedVector(key, first) + (symbol.fibre * glm::dot(fibre, way)) * fibre,
+                way);
+}
+
+Bezier drawn(const GrowthSymbol& symbol, const GrowthBed& bed, const Bud& bud, vec3 end, std::uint32_t key) {
+  const vec3 reach = end - bud.place;
+  const float third = std::sqrt(glm::dot(reach, reach)) / 3;
+  const vec3 way = unitOr(reach, bud.direction);
+  const vec3 from = strayed(symbol, bed, kLead * bud.direction + way, way, key, 6),
+             to = strayed(symbol, bed, way, way, key, 9);
+  const float thinner = symbol.taper - 1;
   Bezier curve;
-  vec3 place = bud.place, direction = bud.direction;
-  curve.b[0] = vec4(place, bud.radius);
-  for (std::uint32_t leg = 1; leg <= 3; ++leg) {
-    if (leg > 1) direction = bent(symbol, around, place, direction, step, key, leg);
-    place = keptInside(around, place + step * direction);
-    curve.b[leg] = vec4(place, bud.radius * (1 + (symbol.taper - 1) * (float(leg) / 3)));
-  }
+  curve.b[0] = vec4(bud.place, bud.radius);
+  curve.b[1] = vec4(keptInside(bed, bud.place + third * from), bud.radius * (1 + thinner * (1.0f / 3)));
+  curve.b[2] = vec4(keptInside(bed, end - third * to), bud.radius * (1 + thinner * (2.0f / 3)));
+  curve.b[3] = vec4(end, bud.radius * (1 + thinner));
   return curve;
 }
 
-Bud budOf(const GrowthChild& child, const Surroundings& around, const Bezier& parent, std::uint32_t key) {
-  const vec3 place(parent.at(child.at));
-  const vec3 tangent = unitOr(vec3(parent.derivative(child.at)), vec3(0, 0, 1));
-  const vec3 side = sideways(unitOr(place - around.hub, tangent), tangent), other = glm::cross(tangent, side);
-  const float pitch = child.pitch + child.pitchSpread * signedOf(key, 10);
-  const float roll = child.roll + child.rollSpread * signedOf(key, 11);
-  const vec3 out = std::cos(roll) * side + std::sin(roll) * other;
-  return {place, std::cos(pitch) * tangent + std::sin(pitch) * out, parent.b[0].w * child.radius,
-          child.stretch};
+mat3 axesOf(const Section& section) { return {section.frame.u, section.frame.v, section.frame.tangent}; }
+
+vec3 within(const mat3& axes, vec3 v) {
+  return {glm::dot(axes[0], v), glm::dot(axes[1], v), glm::dot(axes[2], v)};
 }
 
-std::uint32_t sproutKey(const GrowthScene& scene, Sprout sprout) {
-  return keyOf(keyOf(scene.seed, scene.sites[sprout.span].key), sprout.number);
-}
-
-// Sprouts of a span follow one another by the golden section, so that any first few of them are spread
-// evenly.
-float placeOnSpan(const GrowthScene& scene, Sprout sprout) {
-  if (sprout.number & shared::kTipSprout) return sprout.number & shared::kLastSprout ? 1.0f : 0.0f;
-  const shared::GrowthSite& site = scene.sites[sprout.span];
-  const float share = unitFloat(scramble(keyOf(scene.seed, site.key)) + sprout.number * 0x9e3779b9u);
-  return site.stretch.x + (site.stretch.y - site.stretch.x) * share;
-}
-
-Bud rootBud(const shared::GrowthSystem& system, const Section& section, const Sprout& sprout,
-            bool againstFlow, std::uint32_t key) {
-  const Frame& frame = section.frame;
-  const bool tip = sprout.number & shared::kTipSprout;
-  float turn = 2 * kPi * unitOf(key, 1), pitch = system.lean;
-  vec3 tangent = againstFlow ? -frame.tangent : frame.tangent;
-  if (tip) {
-    const std::uint32_t number = sprout.number & ~(shared::kTipSprout | shared::kLastSprout);
-    turn = 2 * kPi * ((float(number) + 0.6f * unitOf(key, 1)) / float(std::max(system.tips, 1u)));
-    pitch = system.tipSpread * (0.4f + 0.6f * unitOf(key, 2));
-    tangent = sprout.number & shared::kLastSprout ? frame.tangent : -frame.tangent;
+// Where the stem begins, in the bed's measure.
+Bud rootOf(const GrowthScene& scene, const GrowthStem& stem, std::uint32_t side, const mat3& axes,
+           vec3 origin) {
+  if (stem.from == shared::kFromVessel) {
+    const Section root = sectionOn(scene.network, scene.spans[stem.span], stem.t);
+    return {within(axes, root.centre - origin), within(axes, axesOf(root) * stem.leaving), stem.radius};
   }
-  const vec3 out = std::cos(turn) * frame.u + std::sin(turn) * frame.v;
-  const vec3 direction = std::cos(pitch) * tangent + std::sin(pitch) * out;
-  if (tip) return {section.centre, direction, section.radius * system.tipRadius, 1};
-  return {
-      section.centre + kRootDepth * section.radius * out, direction,
-      std::min(section.radius * system.share, system.mostRadius) * (1 - system.shareSpread * unitOf(key, 3)),
-      1};
+  const GrowthBed& before = scene.beds[stem.from];
+  const Section section = sectionOn(scene.network, scene.spans[before.span], before.t);
+  const mat3 turn = axesOf(section);
+  const vec3 place = section.centre + turn * (before.centre + before.stem[side].end);
+  return {within(axes, place - origin), within(axes, turn * before.stem[side].through), stem.radius};
 }
 
-// The sprout of the partner that stands as far on its way as this one, or nearly.
-Sprout partnerOf(const GrowthScene& scene, Sprout sprout) {
-  const std::uint32_t span = scene.sites[sprout.span].partner;
-  const float wanted = placeOnSpan(scene, sprout);
-  Sprout best{span, 0};
-  float nearest = 2;
-  for (std::uint32_t k = 0; k < std::min(scene.sites[span].sprouts, kPartners); ++k) {
-    const float away = std::abs(placeOnSpan(scene, {span, k}) - wanted);
-    if (away < nearest) nearest = away, best.number = k;
-  }
-  return best;
-}
-
-Capillary grownAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, std::uint32_t number) {
-  const shared::GrowthSite& site = scene.sites[sprout.span];
-  const shared::GrowthSystem& system = scene.tables.system[site.system & 0xffu];
-  const Section section = rootSection(scene, sprout);
-  Capillary capillary{.symbol = system.axiom, .key = sproutKey(scene, sprout)};
-  Bud bud = rootBud(system, section, sprout, (site.system & 0x100u) != 0, capillary.key);
-  const Surroundings around = surroundingsOf(site, section);
-  for (;;) {
-    const GrowthSymbol& symbol = scene.tables.symbol[capillary.symbol];
-    capillary.curve = grown(symbol, around, bud, capillary.key);
-    capillary.leaf = --levels == 0 || symbol.childCount == 0;
-    if (number == 0 || capillary.leaf) return capillary;
-    --number;
-    std::uint32_t branch = 0;
-    for (; branch + 1 < symbol.childCount; ++branch) {
-      const std::uint32_t size =
-          scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol].treeSize[levels];
-      if (number < size) break;
-      number -= size;
-    }
-    const GrowthChild& child = scene.tables.child[symbol.firstChild + branch];
-    capillary.key = keyOf(capillary.key, branch);
-    bud = budOf(child, around, capillary.curve, capillary.key);
-    capillary.phase = capillary.phaseAt(child.at);
-    capillary.symbol = child.symbol;
-    ++capillary.generation;
-  }
-}
-
-// Ends a last curve where a curve of the partner's tree of a generation less ends: one that has branches, so
-// that it stays as it is.
-void join(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, Capillary& capillary) {
-  const Sprout other = partnerOf(scene, sprout);
-  const shared::GrowthSystem& system = scene.tables.system[scene.sites[other.span].system & 0xffu];
-  const std::uint32_t size = scene.tables.symbol[system.axiom].treeSize[levels - 1];
-  if (size == 0) return;  // their trees are not that deep
-  const Capillary target = grownAt(scene, other, levels - 1, scramble(capillary.key) % size);
-  if (scene.tables.symbol[target.symbol].childCount == 0) return;
-  Bezier& curve = capillary.curve;
-  curve.b[3] = vec4(vec3(target.curve.b[3]), curve.b[3].w);
-  curve.b[2] = vec4(0.5f * (vec3(curve.b[2]) + vec3(curve.b[3])), curve.b[2].w);
-  capillary.joined = true;
-  capillary.farPhase = target.phaseAt(1);
+// From the root to the stem's end.
+Bezier stemOf(const GrowthStem& stem, const Bud& bud) {
+  const vec3 reach = stem.end - bud.place;
+  const float third = std::sqrt(glm::dot(reach, reach)) / 3, thinner = stem.last - stem.radius;
+  const vec3 from = unitOr(kLead * bud.direction + unitOr(reach, bud.direction), bud.direction);
+  Bezier curve;
+  curve.b[0] = vec4(bud.place, stem.radius);
+  curve.b[1] = vec4(bud.place + third * from, stem.radius + thinner * (1.0f / 3));
+  curve.b[2] = vec4(stem.end - third * stem.through, stem.radius + thinner * (2.0f / 3));
+  curve.b[3] = vec4(stem.end, stem.last);
+  return curve;
 }
 
 }  // namespace
 
-Section rootSection(const GrowthScene& scene, Sprout sprout) {
-  return sectionOn(scene.network, scene.spans[sprout.span], placeOnSpan(scene, sprout));
+vec3 bedCentre(const PosedNetwork& network, std::span<const shared::SweepRecord> spans,
+               const GrowthBed& bed) {
+  const Section section = sectionOn(network, spans[bed.span], bed.t);
+  return section.centre + axesOf(section) * bed.centre;
 }
 
-Capillary capillaryAt(const GrowthScene& scene, Sprout sprout, std::uint32_t levels, std::uint32_t number) {
+Capillary capillaryAt(const GrowthScene& scene, std::uint32_t number, BedSide bedSide, std::uint32_t levels,
+                      std::uint32_t curve) {
   assert(levels > 0);
-  Capillary capillary = grownAt(scene, sprout, levels, number);
-  const bool joins =
-      levels > 1 && levels == scene.joinLevels && scene.sites[sprout.span].partner != shared::kNoPartner;
-  if (capillary.leaf && joins) join(scene, sprout, levels, capillary);
+  const GrowthBed& bed = scene.beds[number];
+  const std::uint32_t side = bedSide == BedSide::vein;
+  const GrowthStem& stem = bed.stem[side];
+  const Section section = sectionOn(scene.network, scene.spans[bed.span], bed.t);
+  const mat3 axes = axesOf(section);
+  const vec3 centre = section.centre + axes * bed.centre;
+  Capillary capillary{.symbol = scene.tables.system[bed.system].axiom};
+  Bezier& drawnCurve = capillary.curve;
+  drawnCurve = stemOf(stem, rootOf(scene, stem, side, axes, centre));
+  std::uint32_t key = keyOf(scene.seed, number);  // of the part: the same for both trees
+  Part part{bed.middle, vec3(1)};
+  vec3 entry = bed.entry;
+  float radius = stem.own;
+  for (;;) {
+    const GrowthSymbol& symbol = scene.tables.symbol[capillary.symbol];
+    capillary.leaf = --levels == 0 || symbol.childCount == 0;
+    if (curve == 0 || capillary.leaf) break;
+    --curve;
+    std::uint32_t branch = 0;
+    for (; branch + 1 < symbol.childCount; ++branch) {
+      const std::uint32_t size =
+          scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol].treeSize[levels];
+      if (curve < size) break;
+      curve -= size;
+    }
+    const GrowthChild& child = scene.tables.child[symbol.firstChild + branch];
+    const vec3 before = part.centre;
+    part = partOf(bed, part, entry, symbol.childCount, branch);
+    entry = before;
+    key = keyOf(key, branch);
+    const GrowthSymbol& own = scene.tables.symbol[child.symbol];
+    const bool last = levels == 1 || own.childCount == 0;
+    const Bud bud{vec3(drawnCurve.at(child.at)), unitOr(vec3(drawnCurve.derivative(child.at)), vec3(0, 0, 1)),
+                  radius * child.radius};
+    const vec3 end = endIn(bed, part, key, last ? 0 : side ? -kApart : kApart);
+    capillary.phase += (1 - capillary.phase) * 0.5f * child.at;
+    drawnCurve = drawn(own, bed, bud, end, keyOf(key, 0x100u + side));
+    radius = bud.radius;
+    capillary.symbol = child.symbol;
+    ++capillary.generation;
+  }
+  capillary.lastPhase = capillary.leaf ? 1 : capillary.phase + (1 - capillary.phase) * 0.5f;
+  for (vec4& b : drawnCurve.b) b = vec4(centre + axes * vec3(b), b.w);
+  const vec3 outward = axes * vec3(bed.surface);
+  capillary.skin = vec4(-outward, bed.surface.w + glm::dot(outward, centre));
   return capillary;
 }
 

@@ -26,7 +26,6 @@ using shared::GrowthChild;
 using shared::GrowthSymbol;
 using shared::GrowthSystem;
 
-constexpr float kDegree = kPi / 180;
 constexpr std::size_t kMaximumBytes = 1 << 20;
 
 struct Branch {
@@ -67,8 +66,6 @@ std::string inQuotes(std::string_view word) {
 struct Setting {
   float* value = nullptr;
   float low = 0, high = 0;
-  float* spread = nullptr;  // where the value may stray
-  float unit = 1;
 };
 using Settings = std::map<std::string_view, Setting>;
 
@@ -107,17 +104,14 @@ class Parser {
       return {};
     }
     if (first == "root")
-      return readSettings(line, 1,
-                          {{"share", {&system.values.share, 0.01f, 1, &system.values.shareSpread}},
-                           {"thickest_mm", {&system.values.mostRadius, 0.001f, 10, nullptr, 1e-3f}},
-                           {"lean", {&system.values.lean, 0, 180, nullptr, kDegree}}});
-    if (first == "tips") return readTips(line, system);
+      return readSettings(
+          line, 1,
+          {{"radius", {&system.values.radius, 0.0001f, 0.2f}}, {"share", {&system.values.share, 0.01f, 1}}});
     if (first == "draw") return readLetter(line, system);
     if (line.words.size() > 1 && line.words[1] == "->") return readProduction(line, system);
-    return fault(
-        line.number,
-        inQuotes(first) +
-            " begins no line that is known; use system, axiom, root, tips, draw, or LETTER -> F [..]");
+    return fault(line.number,
+                 inQuotes(first) +
+                     " begins no line that is known; use system, axiom, root, draw, or LETTER -> F [..]");
   }
 
   Result<void> beginSystem(const RuleLine& line) {
@@ -130,14 +124,7 @@ class Parser {
       return fault(line.number,
                    "at most " + std::to_string(shared::kMostGrowthSystems) + " systems fit; leave out one");
     System system{.name = std::string(line.words[1]), .axiom = {}, .line = line.number, .letters = {}};
-    system.values = {.axiom = 0,
-                     .share = 0.3f,
-                     .shareSpread = 0,
-                     .mostRadius = 0.3e-3f,
-                     .lean = 60 * kDegree,
-                     .tips = 0,
-                     .tipRadius = 1,
-                     .tipSpread = 35 * kDegree};
+    system.values = {.axiom = 0, .radius = 0.01f, .share = 0.6f};
     systems_.push_back(std::move(system));
     return {};
   }
@@ -151,14 +138,11 @@ class Parser {
         return fault(line.number, inQuotes(line.words[i]) + " is not known here; use " + known);
       }
       const Setting& setting = found->second;
-      const auto read = i + 1 < line.words.size() ? strayedIn(line.words[i + 1]) : std::nullopt;
-      if (!read || read->value < setting.low || read->value > setting.high ||
-          (read->spread != 0 && !setting.spread))
+      const auto read = i + 1 < line.words.size() ? numberIn(line.words[i + 1]) : std::nullopt;
+      if (!read || *read < setting.low || *read > setting.high)
         return fault(line.number, inQuotes(line.words[i]) + " wants a number from " +
-                                      shortNumber(setting.low) + " to " + shortNumber(setting.high) +
-                                      (setting.spread ? " (how far it strays after a ~)" : ""));
-      *setting.value = read->value * setting.unit;
-      if (setting.spread) *setting.spread = read->spread * setting.unit;
+                                      shortNumber(setting.low) + " to " + shortNumber(setting.high));
+      *setting.value = *read;
     }
     return {};
   }
@@ -170,21 +154,9 @@ class Parser {
     return text;
   }
 
-  Result<void> readTips(const RuleLine& line, System& system) {
-    float count = 0;
-    if (auto read = readSettings(
-            line, 1,
-            {{"count", {&count, 0, 8}}, {"spread", {&system.values.tipSpread, 0, 90, nullptr, kDegree}}});
-        !read)
-      return read;
-    if (count != std::floor(count)) return fault(line.number, "'count' must be a whole number");
-    system.values.tips = std::uint32_t(count);
-    return {};
-  }
-
   Result<void> readLetter(const RuleLine& line, System& system) {
     if (line.words.size() < 2)
-      return fault(line.number, "say which letter is drawn, as in `draw S length 14 taper 0.6`");
+      return fault(line.number, "say which letter is drawn, as in `draw S taper 0.6`");
     Letter* const found = system.letter(line.words[1]);
     if (!found) return tooManyLetters(line.number);
     Letter& letter = *found;
@@ -193,17 +165,10 @@ class Parser {
                                     std::to_string(letter.drawn) + " already; leave out one of the lines");
     letter.drawn = line.number;
     GrowthSymbol& s = letter.symbol;
-    s.reach = 12;
     s.taper = 1;
-    return readSettings(line, 2,
-                        {{"length", {&s.reach, 0.5f, 400, &s.reachSpread}},
-                         {"taper", {&s.taper, 0.05f, 1}},
-                         {"meander", {&s.meander, 0, 3}},
-                         {"curl", {&s.curl, -3, 3}},
-                         {"hug", {&s.hug, 0, 1}},
-                         {"outward", {&s.outward, -3, 3}},
-                         {"along", {&s.along, -3, 3}},
-                         {"fibre", {&s.fibre, 0, 3}}});
+    return readSettings(
+        line, 2,
+        {{"taper", {&s.taper, 0.05f, 1}}, {"meander", {&s.meander, 0, 3}}, {"fibre", {&s.fibre, 0, 3}}});
   }
 
   Result<void> readProduction(const RuleLine& line, System& system) {
@@ -219,9 +184,8 @@ class Parser {
                    "a production draws one curve first: write " + std::string(line.words[0]) + " -> F [..]");
     for (std::size_t i = 3; i < line.words.size();) {
       if (line.words[i] != "[")
-        return fault(line.number,
-                     inQuotes(line.words[i]) +
-                         " stands outside of brackets; every branch is [@place &pitch /roll LETTER]");
+        return fault(line.number, inQuotes(line.words[i]) +
+                                      " stands outside of brackets; every branch is [@place LETTER]");
       const auto close = std::find(line.words.begin() + std::ptrdiff_t(i), line.words.end(), "]");
       if (close == line.words.end()) return fault(line.number, "a bracket is not closed; add ]");
       const std::size_t end = std::size_t(close - line.words.begin());
@@ -236,36 +200,21 @@ class Parser {
   Result<Branch> readBranch(const RuleLine& line, std::size_t first, std::size_t end) {
     Branch branch;
     branch.line = line.number;
-    branch.child = {.symbol = 0,
-                    .at = 1,
-                    .radius = 0,
-                    .stretch = 1,
-                    .pitch = 0,
-                    .pitchSpread = 0,
-                    .roll = 0,
-                    .rollSpread = 0};
-    if (first == end) return fault(line.number, "a branch is empty; write [@place &pitch /roll LETTER]");
+    branch.child = {.symbol = 0, .at = 1, .radius = 0};
+    if (first == end) return fault(line.number, "a branch is empty; write [@place LETTER]");
     for (std::size_t i = first; i + 1 < end; ++i) {
       const std::string_view word = line.words[i];
       GrowthChild& c = branch.child;
-      const std::map<char, Setting> modules{{'@', {&c.at, 0.02f, 1}},
-                                            {'&', {&c.pitch, 0, 180, &c.pitchSpread, kDegree}},
-                                            {'/', {&c.roll, -360, 360, &c.rollSpread, kDegree}},
-                                            {'"', {&c.stretch, 0.05f, 20}},
-                                            {'!', {&branch.weight, 0.01f, 100}}};
+      const std::map<char, Setting> modules{{'@', {&c.at, 0.02f, 1}}, {'!', {&branch.weight, 0.01f, 100}}};
       const auto module = modules.find(word[0]);
       if (module == modules.end())
-        return fault(
-            line.number,
-            inQuotes(word) + R"( is no module; use @place &pitch /roll "length !weight, then one letter)");
+        return fault(line.number, inQuotes(word) + " is no module; use @place !weight, then one letter");
       const Setting& setting = module->second;
-      const auto read = strayedIn(word.substr(1));
-      if (!read || read->value < setting.low || read->value > setting.high ||
-          (read->spread != 0 && !setting.spread))
+      const auto read = numberIn(word.substr(1));
+      if (!read || *read < setting.low || *read > setting.high)
         return fault(line.number, inQuotes(word) + " wants a number from " + shortNumber(setting.low) +
                                       " to " + shortNumber(setting.high));
-      *setting.value = read->value * setting.unit;
-      if (setting.spread) *setting.spread = read->spread * setting.unit;
+      *setting.value = *read;
     }
     branch.letter = line.words[end - 1];
     return branch;
@@ -321,13 +270,13 @@ class Parser {
                    "system " + inQuotes(system.name) + " has no axiom; add a line `axiom LETTER`");
     if (numberOf(system.axiom) < 0)
       return fault(system.line, "the axiom " + inQuotes(system.axiom) + " is never drawn; add a line `draw " +
-                                    system.axiom + " length 14`");
+                                    system.axiom + "`");
     if (firstSymbol + system.letters.size() > shared::kMostGrowthSymbols) return tooManyLetters(system.line);
     for (auto& [name, letter] : system.letters) {
       if (!letter.drawn)
         return fault(letter.produced, "letter " + inQuotes(name) +
                                           " has a production but is never drawn; add a line `draw " + name +
-                                          " length 14`");
+                                          "`");
       if (auto shared = shareFlow(name, letter); !shared) return shared;
       letter.symbol.firstChild = childCount_;
       letter.symbol.childCount = std::uint32_t(letter.branches.size());
@@ -339,7 +288,7 @@ class Parser {
         if (number < 0)
           return fault(branch.line, "letter " + inQuotes(branch.letter) +
                                         " is never drawn; add a line `draw " + branch.letter.substr(0, 40) +
-                                        " length 14`");
+                                        "`");
         branch.child.symbol = firstSymbol + std::uint32_t(number);
         rules_.tables.child[childCount_++] = branch.child;
       }
@@ -347,7 +296,6 @@ class Parser {
       rules_.symbols.push_back(name);
     }
     system.values.axiom = firstSymbol + std::uint32_t(numberOf(system.axiom));
-    if (system.values.tips > 0) system.values.tipRadius = std::cbrt(1.0f / float(system.values.tips));
     rules_.tables.system[rules_.systems.size()] = system.values;
     rules_.systems.push_back(system.name);
     countTrees(firstSymbol);

@@ -4,46 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "growth/capillary.h"
 #include "growth/random.h"
 
 namespace vasa {
 namespace {
 
-// [pixels] of the thickest stems: thinner trees are threads; where a body is 720 pixels tall, 0.5
-constexpr float kThread = 0.6f;
-
-// Lengths of a system's curves in first radii of the stem.
-struct Sizes {
-  std::array<float, shared::kMostGrowthLevels> longest{};  // curve of each generation
-  std::array<float, shared::kMostGrowthLevels> reach{};    // of a tree with so many generations more
-  float stem = 0;
-};
-
-void addGeneration(const shared::GrowthTables& tables, std::uint32_t symbol, float radius,
-                   std::uint32_t generation, float way, Sizes& sizes) {
-  const shared::GrowthSymbol& s = tables.symbol[symbol];
-  const float length = radius * s.reach * (1 + s.reachSpread);
-  sizes.longest[generation] = std::max(sizes.longest[generation], length);
-  sizes.reach[generation] = std::max(sizes.reach[generation], way + length);
-  if (generation + 1 == 3) return;  // deeper ones are taken to shrink alike
-  for (std::uint32_t c = 0; c < s.childCount; ++c) {
-    const shared::GrowthChild& child = tables.child[s.firstChild + c];
-    addGeneration(tables, child.symbol, radius * child.radius * child.stretch, generation + 1,
-                  way + length * child.at, sizes);
-  }
-}
-
-Sizes sizesOf(const shared::GrowthTables& tables, const shared::GrowthSystem& system) {
-  Sizes sizes;
-  addGeneration(tables, system.axiom, 1, 0, 0, sizes);
-  for (std::size_t g = 3; g < shared::kMostGrowthLevels; ++g) {
-    const float shrink =
-        sizes.longest[g - 2] > 0 ? std::min(sizes.longest[g - 1] / sizes.longest[g - 2], 1.0f) : 0;
-    sizes.longest[g] = sizes.longest[g - 1] * shrink;
-    sizes.reach[g] = sizes.reach[g - 1] + sizes.longest[g];
-  }
-  return sizes;
-}
+// [pixels] of a bed's own stem: thinner trees are threads; where a body is 720 pixels tall, 0.6
+constexpr float kThread = 1.2f;
+// A stem comes from the bed beside its own: in sizes of the bed, as far as its curves reach.
+constexpr float kReach = 1.5f;
 
 struct Plane {
   vec3 normal;
@@ -63,99 +33,94 @@ std::array<Plane, 5> planesOf(const mat4& m) {
   return planes;
 }
 
-// A span's trees as this picture sees them.
+// A bed's trees as this picture sees them.
 struct Seen {
   float distance;  // the farthest come first
-  std::uint32_t span, levels, edges, size, trees;
+  std::uint32_t bed, levels, edges;
 };
 
-// By the size of the longest stem of all systems, so that trees side by side share a batch.
+// By the size of a bed in the picture.
 std::uint32_t edgesFor(float pixels) { return pixels < 40 ? 3 : pixels < 80 ? 5 : pixels < 200 ? 8 : 10; }
 
-std::uint32_t endsIn(std::uint8_t bits) { return (bits & 1u) + (bits >> 1 & 1u); }
+std::uint32_t treesOf(const shared::GrowthBed& bed) {
+  return std::uint32_t(bed.stem[0].from != shared::kNoStem) +
+         std::uint32_t(bed.stem[1].from != shared::kNoStem);
+}
+
+// The side of a cube as large as the bed.
+float sizeOf(const shared::GrowthBed& bed) {
+  return 2 * std::cbrt(bed.side[0].w * bed.side[1].w * bed.side[2].w);
+}
 
 class Planner {
  public:
   Planner(const PlanInput& input, const CapillaryWish& wish)
-      : in_(input), wish_(wish), planes_(planesOf(input.view.viewProjection)) {
-    for (std::size_t s = 0; s < sizes_.size(); ++s) {
-      sizes_[s] = sizesOf(in_.tables, in_.tables.system[s]);
-      longestStem_ = std::max(longestStem_, in_.tables.system[s].mostRadius * sizes_[s].longest[0]);
-      thickestStem_ = std::max(thickestStem_, 2 * in_.tables.system[s].mostRadius);
-    }
-  }
+      : in_(input), wish_(wish), planes_(planesOf(input.view.viewProjection)) {}
 
-  bool see(std::uint32_t span, Seen& seen) const {
-    const std::uint32_t number = in_.sites.sites[span].system & 0xffu;
-    const shared::GrowthSystem& system = in_.tables.system[number];
-    const vec4* p = &in_.points[in_.sites.spans[span].point];
-    const vec3 centre = vec3(p[0] + p[1] + p[2] + p[3]) * 0.25f;
-    float wide = 0, thick = 0;
-    for (int i = 0; i < 4; ++i) {
-      wide = std::max(wide, glm::distance(centre, vec3(p[i])));
-      thick = std::max(thick, p[i].w);
-    }
-    const bool ends = in_.sites.freeEnds[span] != 0;
-    const float root =
-        std::max(std::min(thick * system.share, system.mostRadius), ends ? thick * system.tipRadius : 0.0f);
-    const Sizes& sizes = sizes_[number];
-    std::uint32_t levels = levelsOf(in_.tables, number, wish_.levels);
-    const float radius = wide + thick + root * sizes.reach[levels - 1];
+  bool see(std::uint32_t number, Seen& seen) const {
+    const shared::GrowthBed& bed = in_.beds.beds[number];
+    const vec3 centre = bedCentre(in_.network, in_.beds.spans, bed);
+    const float size = sizeOf(bed), radius = kReach * size + 2 * bed.side[0].w;
     for (const Plane& plane : planes_)
       if (glm::dot(plane.normal, centre) + plane.offset < -radius) return false;
     const float depth = glm::dot(vec3(in_.view.depth), centre) + in_.view.depth.w;
     const float pixels = in_.view.focal / std::max(depth - radius * in_.view.perspective, 0.01f);
-    while (levels > 1 && root * sizes.longest[levels - 1] * pixels < wish_.smallest) --levels;
-    if (root * sizes.longest[0] * pixels < wish_.smallest) return false;
+    std::uint32_t levels = levelsOf(in_.tables, bed.system, wish_.levels);
+    while (levels > 0 && pixels * size * shrunk(bed.system, levels) < wish_.smallest) --levels;
+    if (levels == 0) return false;
     const float distance = in_.view.perspective > 0 ? depth : -glm::dot(in_.view.eye, centre);
-    seen = {distance, span, levels, edgesAt(in_.view.focal / std::max(depth, 0.01f)), 0, treesOn(span)};
-    seen.size = sizeOf(seen);
+    const float here = in_.view.focal / std::max(depth, 0.01f);
+    seen = {distance, number, levels,
+            edgesAt(size * here, std::max(bed.stem[0].own, bed.stem[1].own) * 2 * here)};
     return true;
   }
 
-  // Curves of a tree.
-  std::uint32_t sizeOf(const Seen& seen) const {
-    return in_.tables.symbol[in_.tables.system[in_.sites.sites[seen.span].system & 0xffu].axiom]
-        .treeSize[seen.levels];
+  std::uint32_t treeSize(std::uint32_t bed, std::uint32_t levels) const {
+    return in_.tables.symbol[in_.tables.system[in_.beds.beds[bed].system].axiom].treeSize[levels];
   }
-
-  std::uint32_t tipsOf(std::uint32_t span) const {
-    return in_.tables.system[in_.sites.sites[span].system & 0xffu].tips;
-  }
-  std::uint32_t treesOn(std::uint32_t span) const {
-    return in_.sites.sites[span].sprouts + tipsOf(span) * endsIn(in_.sites.freeEnds[span]);
+  std::uint64_t curvesOf(const Seen& seen, std::uint32_t most) const {
+    return std::uint64_t(treesOf(in_.beds.beds[seen.bed])) * treeSize(seen.bed, std::min(seen.levels, most));
   }
 
  private:
-  // Where a metre is so many pixels.
-  std::uint32_t edgesAt(float pixels) const {
+  // Length of the last generation in sizes of the bed: that of a cube which as many as there are fill.
+  float shrunk(std::uint32_t system, std::uint32_t levels) const {
+    const auto& size = in_.tables.symbol[in_.tables.system[system].axiom].treeSize;
+    return 1 / std::cbrt(float(size[levels] - (levels > 1 ? size[levels - 1] : 0)));
+  }
+  std::uint32_t edgesAt(float size, float thickness) const {
     if (wish_.edges) return wish_.edges;
-    const std::uint32_t edges = edgesFor(longestStem_ * pixels);
-    const bool thin = wish_.smallest > 0 && thickestStem_ * pixels < kThread;
-    return thin && edges == shared::kThreadEdges ? shared::kThreads : edges;
+    const std::uint32_t edges = edgesFor(size);
+    return wish_.smallest > 0 && thickness < kThread && edges == 3 ? shared::kThreads : edges;
   }
 
   const PlanInput& in_;
   const CapillaryWish& wish_;
   std::array<Plane, 5> planes_;
-  std::array<Sizes, shared::kMostGrowthSystems> sizes_;
-  float longestStem_ = 0, thickestStem_ = 0;  // of all systems
 };
 
-// Takes generations from the deepest trees until all keep to the budget or are stems. Returns how many curves
-// that leaves.
-std::uint64_t curvesWithin(std::uint32_t budget, const Planner& planner, std::vector<Seen>& seen) {
-  std::uint64_t curves = 0;
-  for (std::uint32_t most = shared::kMostGrowthLevels; most > 0; --most) {
-    curves = 0;
-    for (Seen& one : seen) {
-      one.levels = std::min(one.levels, most);
-      one.size = planner.sizeOf(one);
-      curves += std::uint64_t(one.trees) * one.size;
-    }
-    if (curves <= budget) break;
+// Most generations that keep all trees to the budget, and the share of them that may have one more: the
+// deepest generation that all cannot have goes to beds by chance.
+struct Ration {
+  std::uint32_t whole = shared::kMostGrowthLevels;
+  double share = 0;
+
+  std::uint32_t levelsOf(const Seen& seen) const {
+    const bool more = unitFloat(scramble(seen.bed)) < share;
+    return std::min(seen.levels, whole + (more ? 1u : 0u));
   }
-  return curves;
+};
+
+Ration rationOf(std::uint32_t budget, const Planner& planner, std::span<const Seen> seen) {
+  std::uint64_t above = 0;
+  for (std::uint32_t most = shared::kMostGrowthLevels;; --most) {
+    std::uint64_t curves = 0;
+    if (most > 0)
+      for (const Seen& one : seen) curves += planner.curvesOf(one, most);
+    if (curves <= budget)
+      return {most, above > curves ? double(budget - curves) / double(above - curves) : 0.0};
+    above = curves;
+  }
 }
 
 // Fills batches with whole trees.
@@ -163,24 +128,19 @@ class BatchWriter {
  public:
   explicit BatchWriter(CapillaryPlan& plan) : plan_(plan) {}
 
-  void add(const Seen& seen, std::uint32_t firstSprout, std::uint32_t count) {
-    while (count > 0) {
-      if (plan_.batches.empty() || plan_.batches.back().edges != seen.edges || room() < seen.size)
-        plan_.batches.push_back({std::uint32_t(plan_.jobs.size()), 0, 0, seen.edges});
-      CapillaryBatch& batch = plan_.batches.back();
-      const std::uint32_t trees = std::min(count, room() / seen.size);
-      plan_.jobs.push_back({batch.curves, seen.span, firstSprout, seen.levels});
-      ++batch.jobCount;
-      batch.curves += trees * seen.size;
-      plan_.curves += std::uint64_t(trees) * seen.size;
-      plan_.trees += trees;
-      firstSprout += trees;
-      count -= trees;
-    }
+  void add(const Seen& seen, std::uint32_t side, std::uint32_t levels, std::uint32_t size) {
+    if (plan_.batches.empty() || plan_.batches.back().edges != seen.edges ||
+        shared::kRingCurves - plan_.batches.back().curves < size)
+      plan_.batches.push_back({std::uint32_t(plan_.jobs.size()), 0, 0, seen.edges});
+    CapillaryBatch& batch = plan_.batches.back();
+    plan_.jobs.push_back({batch.curves, seen.bed, side, levels});
+    ++batch.jobCount;
+    batch.curves += size;
+    plan_.curves += size;
+    ++plan_.trees;
   }
 
  private:
-  std::uint32_t room() const { return shared::kRingCurves - plan_.batches.back().curves; }
   CapillaryPlan& plan_;
 };
 
@@ -193,26 +153,17 @@ std::uint32_t levelsOf(const shared::GrowthTables& tables, std::uint32_t system,
   return levels;
 }
 
-std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites,
+std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillaryBeds& beds,
                          std::uint32_t levels) {
   if (levels == 0) return 0;
   std::uint64_t count = 0;
-  for (std::size_t span = 0; span < sites.sites.size(); ++span) {
-    const std::uint32_t system = sites.sites[span].system & 0xffu;
-    const std::uint32_t trees =
-        sites.sites[span].sprouts + tables.system[system].tips * endsIn(sites.freeEnds[span]);
-    if (trees > 0)
-      count += std::uint64_t(trees) *
-               tables.symbol[tables.system[system].axiom].treeSize[levelsOf(tables, system, levels)];
-  }
+  for (const shared::GrowthBed& bed : beds.beds)
+    count += std::uint64_t(treesOf(bed)) *
+             tables.symbol[tables.system[bed.system].axiom].treeSize[levelsOf(tables, bed.system, levels)];
   return count;
 }
 
-std::uint32_t mostJobs(const CapillarySites& sites, std::uint32_t budget) {
-  // A job a span and a free end; one more where a batch is full, and batches are at least half full or change
-  // edges.
-  return 3 * std::uint32_t(sites.spans.size()) + 2 * (budget / shared::kRingCurves + 2);
-}
+std::uint32_t mostJobs(const CapillaryBeds& beds) { return 2 * std::uint32_t(beds.beds.size()); }
 
 void planCapillaries(const PlanInput& input, const CapillaryWish& wish, CapillaryPlan& plan) {
   plan.jobs.clear();
@@ -221,32 +172,24 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
   if (wish.levels == 0) return;
   const Planner planner(input, wish);
   std::vector<Seen> seen;
-  for (std::uint32_t span = 0; span < input.sites.sites.size(); ++span) {
+  for (std::uint32_t bed = 0; bed < input.beds.beds.size(); ++bed) {
     Seen one;
-    if (input.sites.sites[span].sprouts + input.sites.freeEnds[span] == 0 || !planner.see(span, one))
-      continue;
+    if (!planner.see(bed, one)) continue;
     seen.push_back(one);
-    plan.wishedCurves += std::uint64_t(one.trees) * one.size;
+    plan.wishedCurves += planner.curvesOf(one, one.levels);
   }
-  const std::uint64_t curves =
-      wish.fewerLevels ? curvesWithin(wish.budget, planner, seen) : plan.wishedCurves;
+  const Ration ration = rationOf(wish.budget, planner, seen);
   std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
-    return a.distance != b.distance ? a.distance > b.distance : a.span < b.span;
+    return a.distance != b.distance ? a.distance > b.distance : a.bed < b.bed;
   });
-  const double share = curves > wish.budget ? double(wish.budget) / double(curves) : 1;
   BatchWriter writer(plan);
   for (const Seen& one : seen) {
-    const auto granted = [&](std::uint32_t wished) {
-      if (share >= 1) return wished;
-      const std::uint64_t left = (wish.budget - std::min<std::uint64_t>(plan.curves, wish.budget)) / one.size;
-      return std::uint32_t(
-          std::min<std::uint64_t>(std::uint64_t(wished * share + unitFloat(scramble(one.span))), left));
-    };
-    writer.add(one, 0, granted(input.sites.sites[one.span].sprouts));
-    for (const std::uint32_t end : {0u, 1u})
-      if (input.sites.freeEnds[one.span] >> end & 1u)
-        writer.add(one, shared::kTipSprout | (end ? shared::kLastSprout : 0u),
-                   granted(planner.tipsOf(one.span)));
+    const std::uint32_t levels = ration.levelsOf(one);
+    if (levels == 0) continue;
+    const std::uint32_t size = planner.treeSize(one.bed, levels);
+    for (const std::uint32_t side : {0u, 1u})
+      if (input.beds.beds[one.bed].stem[side].from != shared::kNoStem && plan.curves + size <= wish.budget)
+        writer.add(one, side, levels, size);
   }
 }
 

@@ -3,34 +3,33 @@
 #include <vector>
 
 #include "growth/growth_rules.h"
-#include "surface/sweep_table.h"
+#include "surface/tessellate.h"
 
 namespace vasa {
 
-/// Where on a network capillaries grow; constant over time, and the same however forks cut its tubes. All
-/// lists are as long as the network has spans.
-struct CapillarySites {
+/// Where in a network's shape capillaries grow; constant over time, and the same however forks cut its tubes.
+struct CapillaryBeds {
   std::vector<shared::SweepRecord> spans;  ///< wholeSpans() (surface/sweep_table.h)
-  std::vector<shared::GrowthSite> sites;
-  std::vector<std::uint8_t> freeEnds;  ///< bit 0: trees at the span's first section, bit 1: at its last
-  std::vector<std::uint8_t> region;    ///< number of the span's region, or 255
+  std::vector<shared::GrowthBed> beds;
+  std::vector<std::uint8_t> regionOfBed;
+  std::vector<std::uint8_t> regionOfSpan;  ///< whose rules its vessel stands under, or 255
 };
 
 /// What a network's capillaries grow from; constant over time.
 struct Growth {
   GrowthRules rules;
-  CapillarySites sites;
+  CapillaryBeds beds;
 };
 
 /// What of the capillaries is asked for.
 struct CapillaryWish {
   std::uint32_t levels = 0;  ///< generations of the trees; 0: none at all
   std::uint32_t edges = 0;   ///< of every curve's polyline: 3, 5, 8 or 10; 0: by its size in the picture
-  std::uint32_t budget = 4'000'000;  ///< most curves in a picture: beyond it every span has fewer trees
+  /// Most curves in a picture: beyond it trees lose generations, the deepest first, and stems go last.
+  std::uint32_t budget = 4'000'000;
   /// [pixels] generations with shorter curves are left out, and trees much thinner than a pixel are drawn as
   /// threads (ribbon.h) where `edges` is 0. 0: none is left out, all are ribbons.
   float smallest = 0.5f;
-  bool fewerLevels = false;  ///< beyond the budget all trees lose generations before there are fewer trees
 };
 
 /// Curves that are grown into the ring of vertices and drawn together.
@@ -50,21 +49,20 @@ struct CapillaryPlan {
 
 /// What planning looks at.
 struct PlanInput {
-  std::span<const vec4> points;  ///< de Boor points of the frame
+  PosedNetwork network;
   const shared::GrowthTables& tables;
-  const CapillarySites& sites;
+  const CapillaryBeds& beds;
   const shared::GrowthView& view;
 };
 
 /// Curves of all trees, wherever they are.
-std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillarySites& sites,
-                         std::uint32_t levels);
+std::uint64_t curveCount(const shared::GrowthTables& tables, const CapillaryBeds& beds, std::uint32_t levels);
 
 /// Most jobs that a plan has on a network: what its buffer must hold.
-std::uint32_t mostJobs(const CapillarySites& sites, std::uint32_t budget);
+std::uint32_t mostJobs(const CapillaryBeds& beds);
 
 /// Chooses what is drawn: trees that may be seen, as many generations as have some size in the picture,
-/// within the budget. The work and the memory grow with the spans, not with the curves. The result depends on
+/// within the budget. The work and the memory grow with the beds, not with the curves. The result depends on
 /// the input alone.
 void planCapillaries(const PlanInput& input, const CapillaryWish& wish, CapillaryPlan& plan);
 

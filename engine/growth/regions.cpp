@@ -10,8 +10,8 @@
 namespace vasa {
 namespace {
 
-constexpr std::array<std::string_view, 9> kColumns{
-    "region", "system", "joints", "vessels", "kinds", "thinnest_mm", "thickest_mm", "spacing_mm", "hub"};
+constexpr std::array<std::string_view, 9> kColumns{"region",      "system",      "joints", "vessels", "kinds",
+                                                   "thinnest_mm", "thickest_mm", "bed_mm", "surface"};
 constexpr std::size_t kMaximumBytes = 1 << 20;
 
 std::string_view trimmed(std::string_view text) {
@@ -101,29 +101,6 @@ std::vector<VesselKind> kindsIn(Row& row) {
   return kinds;
 }
 
-// Joint:(x y z) in millimetres.
-void readHub(Row& row, GrowthRegion& region) {
-  const std::string_view cell = row.text(8);
-  if (cell.empty()) return;
-  const std::size_t colon = cell.find(":(");
-  const bool closed = colon != std::string_view::npos && colon > 0 && cell.ends_with(')');
-  std::vector<std::string_view> numbers;
-  if (closed)
-    for (const std::string_view part : split(cell.substr(colon + 2, cell.size() - colon - 3), ' '))
-      if (!part.empty()) numbers.push_back(part);
-  if (numbers.size() != 3)
-    return row.fail("hub is '" + std::string(cell.substr(0, 40)) +
-                    "' but must be JOINT:(x y z), in millimetres, or empty");
-  region.hubJoint = cell.substr(0, colon);
-  for (int i = 0; i < 3; ++i) {
-    const auto value = numberIn(numbers[std::size_t(i)]);
-    if (!value || std::abs(*value) > 2000)
-      return row.fail("hub has '" + std::string(numbers[std::size_t(i)].substr(0, 40)) +
-                      "' where a number of millimetres belongs");
-    region.hubOffset[i] = *value * 1e-3f;
-  }
-}
-
 Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
   GrowthRegion region;
   region.name = row.text(0);
@@ -134,11 +111,12 @@ Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
   if (region.system != GrowthRegion::kNoSystem) {
     region.thinnest = row.millimetres(5, 0, 100);
     region.thickest = row.millimetres(6, 0, 100);
-    region.spacing = row.millimetres(7, 0, 1000);
-    if (region.spacing < 1e-4f) row.fail("spacing_mm must be at least 0.1");
+    region.bed = row.millimetres(7, 2, 1000);
     if (region.thickest < region.thinnest) row.fail("thickest_mm is less than thinnest_mm; exchange them");
   }
-  readHub(row, region);
+  region.inBone = row.text(8) == "bone";
+  if (!region.inBone && row.text(8) != "skin" && !row.text(8).empty())
+    row.fail("surface is '" + std::string(row.text(8).substr(0, 40)) + "' but must be skin, bone or empty");
   if (!row.state) return row.state.error();
   return region;
 }
@@ -192,7 +170,7 @@ Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std:
   if (regions.empty())
     return badInput(
         name +
-        ": has no regions; the least is a line of columns and a row for everything: default,SYSTEM,,,,0,3,8,");
+        ": has no regions; the least is a line of columns and a row for everything: default,SYSTEM,,,,0,3,20,");
   return regions;
 }
 

@@ -11,17 +11,16 @@ namespace vasa {
 
 /// A row of the table that says which rules grow where.
 struct GrowthRegion {
-  static constexpr std::uint32_t kNoSystem = 0xffu;  ///< nothing grows here
+  static constexpr std::uint32_t kNoSystem = 0xffu;  ///< nothing grows around its vessels
 
   std::string name;
   std::uint32_t system = kNoSystem;
   std::vector<std::string> joints;   ///< parts of joints' names; empty: all
   std::vector<std::string> vessels;  ///< parts of vessels' names, or whole ontology ids; empty: all
   std::vector<VesselKind> kinds;     ///< empty: all
-  float thinnest = 0, thickest = 0;  ///< [m] radii of vessels that sprout
-  float spacing = 0;                 ///< [m] of vessel for one tree
-  std::string hubJoint;              ///< empty: the hub is the nearest place on the limb's axis
-  vec3 hubOffset{0};                 ///< [m] from that joint, in the body's axes at rest
+  float thinnest = 0, thickest = 0;  ///< [m] radii of vessels that trees hang on
+  float bed = 0;                     ///< [m] side of a cube as large as a bed
+  bool inBone = false;               ///< bones are its surface, as the skull is the brain's; else the skin
 };
 
 struct RegionQuestion {

@@ -47,16 +47,6 @@ std::optional<float> numberIn(std::string_view word) {
   return value;
 }
 
-std::optional<Strayed> strayedIn(std::string_view word) {
-  const std::size_t tilde = word.find('~');
-  const auto value = numberIn(word.substr(0, tilde));
-  if (!value) return {};
-  if (tilde == std::string_view::npos) return Strayed{*value, 0};
-  const auto spread = numberIn(word.substr(tilde + 1));
-  if (!spread || *spread < 0) return {};
-  return Strayed{*value, *spread};
-}
-
 Error ruleFault(const std::string& file, std::size_t line, const std::string& what) {
   return badInput(file + ":" + std::to_string(line) + ": " + what);
 }

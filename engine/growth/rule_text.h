@@ -18,12 +18,7 @@ struct RuleLine {
 /// The lines that hold words. The text must outlive them.
 std::vector<RuleLine> ruleLines(std::string_view text);
 
-/// A number, or a number and how far it strays: `40` or `40~10`.
-struct Strayed {
-  float value = 0, spread = 0;
-};
 std::optional<float> numberIn(std::string_view word);
-std::optional<Strayed> strayedIn(std::string_view word);
 
 /// A message about a place in a file.
 Error ruleFault(const std::string& file, std::size_t line, const std::string& what);

@@ -15,7 +15,7 @@ namespace vasa {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> kEdges{shared::kThreads, 3, 5, 8, shared::kMostCapillaryEdges};
-constexpr float kThinnest = 0.85f;  // [pixels]
+constexpr std::uint32_t kThinEdges = 3;  // most of curves that are thin in the picture (plan.cpp)
 constexpr vec4 kBedColour{0.62f, 0.15f, 0.36f, 1};
 
 std::size_t edgesIndex(std::uint32_t edges) {
@@ -63,16 +63,15 @@ shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32
   view.up = axes[1];
   view.focal =
       perspective ? height / (2 * std::tan(camera.verticalAngle / 2)) : height / camera.orthographicHeight;
-  view.thinnest = kThinnest;
   view.seed = seed;
   view.capillary = packColour(kBedColour);
   return view;
 }
 
 CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes,
-                             const GrowthRules& rules, const CapillarySites& sites, const CapillaryWish& wish)
-    : tubes_(tubes), sites_(sites), rules_(rules), wish_(wish) {
-  assert(sites.sites.size() == tubes.table().spanCount);
+                             const GrowthRules& rules, const CapillaryBeds& beds, const CapillaryWish& wish)
+    : tubes_(tubes), beds_(beds), rules_(rules), wish_(wish) {
+  assert(beds.spans.size() == tubes.table().spanCount);
   if (wish.levels == 0) return;
   grow_ = gpu::ComputePipeline(device, {spirv::capillary_comp, sizeof(shared::CapillaryPush)});
   const RibbonLayout layout;
@@ -94,9 +93,16 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
       spec.depthWrite = false;
       spec.blend = gpu::Blend::add;
     }
-    draw_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
-    spec.constants.set(1, std::uint32_t(target.samples));
-    partial_[std::size_t(style)] = gpu::GraphicsPipeline(device, spec);
+    for (auto& kind : draw_) {
+      Pipelines& own = kind[std::size_t(style)];
+      gpu::GraphicsSpec partial = spec;
+      partial.constants.set(1, std::uint32_t(target.samples));
+      own.whole = gpu::GraphicsPipeline(device, spec);
+      own.partial = gpu::GraphicsPipeline(device, partial);
+      // What is thinner than a pixel hides little, and its fading edges less than that: thin curves lie over
+      // one another, the farthest first, and would glitter if they hid one another.
+      spec.depthWrite = false;
+    }
   }
   for (gpu::Buffer& ring : rings_) ring = ringBuffer(device);
   for (std::size_t i = 0; i < kEdges.size(); ++i) {
@@ -104,25 +110,24 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
     indices_[i] = gpu::makeBuffer(device, "capillary indices", std::span<const std::uint32_t>(indices));
   }
   tables_ = gpu::makeBuffer(device, "growth tables", std::span(&rules.tables, 1));
-  siteBuffer_ = gpu::makeBuffer(device, "growth sites", std::span<const shared::GrowthSite>(sites.sites));
-  spans_ = gpu::makeBuffer(device, "growth spans", std::span<const shared::SweepRecord>(sites.spans));
-  colours_ = gpu::Buffer(device, {"growth colours", 4 * VkDeviceSize(sites.spans.size())});
-  const VkDeviceSize frameBytes =
-      sizeof(shared::GrowthView) + mostJobs(sites, wish.budget) * sizeof(shared::GrowthJob);
+  bedBuffer_ = gpu::makeBuffer(device, "growth beds", std::span<const shared::GrowthBed>(beds.beds));
+  spans_ = gpu::makeBuffer(device, "growth spans", std::span<const shared::SweepRecord>(beds.spans));
+  colours_ = gpu::Buffer(device, {"growth colours", 4 * VkDeviceSize(beds.spans.size())});
+  const VkDeviceSize frameBytes = sizeof(shared::GrowthView) + mostJobs(beds) * sizeof(shared::GrowthJob);
   host_ = gpu::Buffer(device, {"capillary frame, host", frameBytes, gpu::MemoryRole::upload});
   frame_ = gpu::Buffer(device, {"capillary frame", frameBytes});
 }
 
 void CapillaryPass::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
-  assert(spanColours.size() == sites_.spans.size());
+  assert(spanColours.size() == beds_.spans.size());
   if (colours_.bytes() > 0) gpu::uploadBytes(device, colours_, std::as_bytes(spanColours));
 }
 
-void CapillaryPass::prepare(std::span<const vec4> points, shared::GrowthView view) {
-  view.joinLevels = wish_.levels;
-  planCapillaries({points, rules_.tables, sites_, view}, wish_, plan_);
+void CapillaryPass::prepare(std::span<const vec4> points, std::span<const quat> knots,
+                            const shared::GrowthView& view) {
+  planCapillaries({{tubes_.table(), points, knots}, rules_.tables, beds_, view}, wish_, plan_);
   if (plan_.jobs.empty()) return;
-  assert(plan_.jobs.size() <= mostJobs(sites_, wish_.budget));
+  assert(plan_.jobs.size() <= mostJobs(beds_));
   host_.write(std::span<const shared::GrowthView>(&view, 1));
   host_.write(std::span<const shared::GrowthJob>(plan_.jobs), sizeof view);
 }
@@ -142,7 +147,7 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
       .spans = spans_.address(),
       .tables = tubes_.tables(),
       .growth = tables_.address(),
-      .sites = siteBuffer_.address(),
+      .beds = bedBuffer_.address(),
       .colours = colours_.address(),
       .view = frame_.address(),
       .jobs = frame_.address() + sizeof(shared::GrowthView) + batch.firstJob * sizeof(shared::GrowthJob),
@@ -157,7 +162,8 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  (input.partial ? partial_ : draw_)[std::size_t(input.style)].bind(commands, input.draw);
+  const Pipelines& own = draw_[batch.edges <= kThinEdges][std::size_t(input.style)];
+  (input.partial ? own.partial : own.whole).bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
@@ -168,8 +174,8 @@ void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std
 std::uint64_t CapillaryPass::ringBytes() const { return rings_[0].bytes() + rings_[1].bytes(); }
 
 std::uint64_t CapillaryPass::bytes() const {
-  std::uint64_t sum = ringBytes() + tables_.bytes() + siteBuffer_.bytes() + spans_.bytes() +
-                      colours_.bytes() + host_.bytes() + frame_.bytes();
+  std::uint64_t sum = ringBytes() + tables_.bytes() + bedBuffer_.bytes() + spans_.bytes() + colours_.bytes() +
+                      host_.bytes() + frame_.bytes();
   for (const gpu::Buffer& indices : indices_) sum += indices.bytes();
   return sum;
 }

@@ -23,14 +23,14 @@ class CapillaryPass {
   /// @param wish  levels are the most that record() may be asked for, budget the most curves; 0 levels: takes
   /// no memory
   CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes,
-                const GrowthRules& rules, const CapillarySites& sites, const CapillaryWish& wish);
+                const GrowthRules& rules, const CapillaryBeds& beds, const CapillaryWish& wish);
 
   /// Before the first frame; waits for the device. @param spanColours  one a span of the network, kind in the
   /// highest 8 bits
   void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
 
   /// Plans a frame and writes the plan to host memory. The device must have finished the frame before.
-  void prepare(std::span<const vec4> points, shared::GrowthView view);
+  void prepare(std::span<const vec4> points, std::span<const quat> knots, const shared::GrowthView& view);
 
   struct Input {
     VkDeviceAddress points, knots;  ///< as tessellation reads them
@@ -48,21 +48,23 @@ class CapillaryPass {
 
   const CapillaryPlan& plan() const { return plan_; }
   const gpu::Buffer& ring(std::size_t batch) const { return rings_[batch % 2]; }
-  std::uint64_t bytes()
-      const;  ///< all device and upload memory: depends on the network's spans and the budget's jobs
+  std::uint64_t bytes() const;      ///< all device and upload memory: depends on the network's spans and beds
   std::uint64_t ringBytes() const;  ///< of vertices
 
  private:
   const TubeSet& tubes_;
-  const CapillarySites& sites_;
+  const CapillaryBeds& beds_;
   const GrowthRules& rules_;
   CapillaryWish wish_;
   CapillaryPlan plan_;
   gpu::ComputePipeline grow_;
-  std::array<gpu::GraphicsPipeline, 3> draw_, partial_;  // one a LookStyle
+  struct Pipelines {
+    gpu::GraphicsPipeline whole, partial;
+  };
+  std::array<std::array<Pipelines, 3>, 2> draw_;  // of wide curves, of thin ones; one a LookStyle
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 5> indices_;  // of threads, and of ribbons of 3, 5, 8 and 10 edges
-  gpu::Buffer tables_, siteBuffer_, spans_, colours_, host_, frame_;
+  gpu::Buffer tables_, bedBuffer_, spans_, colours_, host_, frame_;
 };
 
 }  // namespace vasa

@@ -183,7 +183,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
   if (!patches.empty()) patchPass.emplace(device, chosen.samples);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
-    capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->sites,
+    capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->beds,
                         options.capillaries);
   setColours({});
   forkPass = comingForkPass.get();
@@ -419,7 +419,8 @@ void Renderer::State::drawFirst(const RenderInput& input) {
   drawnBatches = 0;
   upload.write(input.points, input.knotFrames, input.jointMatrices);
   if (capillaries)
-    capillaries->prepare(input.points, growthView(input.camera, target.spec().size, options.seed));
+    capillaries->prepare(input.points, input.knotFrames,
+                         growthView(input.camera, target.spec().size, options.seed));
   times = {.upload = msSince(start)};
   transparent = input.look.transparent;
   do {

@@ -1,6 +1,7 @@
 // Read by C++ and GLSL (std430): what capillaries grow from, and how one frame draws them.
 #ifndef VASA_SHARED_GROWTH_H
 #define VASA_SHARED_GROWTH_H
+#include "shared/soft_edge.h"
 #include "shared/tubes.h"
 #ifdef __cplusplus
 #include <cstddef>
@@ -17,44 +18,30 @@ VASA_CONSTANT uint kMostGrowthSymbols = 48;  // of all systems
 VASA_CONSTANT uint kMostGrowthChildren = 256;
 VASA_CONSTANT uint kMostCapillaryEdges = 10;
 /// CapillaryPush::edges of curves that are drawn as threads, and what those have (engine/growth/ribbon.h).
-VASA_CONSTANT uint kThreads = 0, kThreadEdges = 3, kThreadVertices = 6;
+VASA_CONSTANT uint kThreads = 0, kThreadEdges = 2, kThreadVertices = 6;
 /// Curves drawn at a time: with kMostCapillaryEdges, what the ring of vertices holds.
 VASA_CONSTANT uint kRingCurves = 8192;
-/// GrowthJob::firstSprout of the sprouts at a vessel's free end; the second bit: at its last section.
-VASA_CONSTANT uint kTipSprout = 0x80000000u, kLastSprout = 0x40000000u;
-
 /// A bracket of a production: a branch of a curve.
 struct GrowthChild {
   uint symbol;
-  float at;                  // place along the parent, 0 to 1
-  float radius;              // first radius in first radii of the parent, by Murray's law
-  float stretch;             // factor of its length
-  float pitch, pitchSpread;  // [rad] angle to the parent's tangent, and how far it strays either way
-  float roll, rollSpread;    // [rad] about the tangent; 0 and π lie in the plane across the site's radius
+  float at;      // place along the parent, 0 to 1
+  float radius;  // first radius in first radii of the parent, by Murray's law
 };
 
 /// A letter of an L-system: the curve that it is drawn as, and its branches.
 struct GrowthSymbol {
   uint firstChild, childCount;
-  float reach, reachSpread;  // length in first radii; share that it strays either way
-  float taper;               // last radius in first radii
-  float meander;             // sideways step per unit of way
-  float curl;                // steady turn across the site's radius, to one side or the other
-  float hug;                 // 0 to 1: keeps to the sphere about the site's hub
-  float outward;             // pull away from the hub
-  float along, fibre;        // pull to the site's axis; to the axis or against it, whichever is nearer
+  float taper;                           // last radius in first radii
+  float meander;                         // how far both ends of a curve stray from the straight way
+  float fibre;                           // pull along the longest side of the bed, either way
   uint treeSize[kMostGrowthLevels + 1];  // curves of a tree of so many generations that begins here
 };
 
 /// An L-system.
 struct GrowthSystem {
   uint axiom;
-  float share, shareSpread;  // a sprout's first radius in radii of the vessel; share of it that some lack
-  float mostRadius;          // [m] and never more than this
-  float lean;                // [rad] between the vessel's downstream tangent and the sprout
-  uint tips;                 // sprouts at a free end
-  float tipRadius;           // their radius in radii of the vessel, by Murray's law
-  float tipSpread;           // [rad] most angle to the vessel's tangent
+  float radius;  // of a bed's own stem, in sizes of the bed (the cube root of its volume)
+  float share;   // most radius of a stem in radii of its vessel
 };
 
 struct GrowthTables {
@@ -63,31 +50,45 @@ struct GrowthTables {
   GrowthChild child[kMostGrowthChildren];
 };
 
-/// Planes that keep a site's capillaries below the skin.
+/// Planes that keep a bed's capillaries below the skin and out of bones.
 VASA_CONSTANT uint kGrowthWalls = 4;
-/// GrowthSite::partner of a site whose capillaries end freely.
-VASA_CONSTANT uint kNoPartner = 0xffffffffu;
+/// GrowthStem::from of a stem that leaves a vessel, and of a bed that no such vessel reaches.
+VASA_CONSTANT uint kFromVessel = 0xfffffffeu, kNoStem = 0xffffffffu;
 
-/// What capillaries know of their surroundings, one a span of the network, in the axes u, v, tangent of the
-/// span's section where they sprout, from its centre.
-struct GrowthSite {
-  vec3 hub;                 // [m] middle of the part of the body: the limb's axis, the brain
-  float reach;              // [m] no curve leaves the ball about the centre
-  vec3 axis;                // unit: direction of the limb
-  uint system;              // lowest 8 bits: number of the L-system; bit 8: blood flows against the tangent
-  vec4 wall[kGrowthWalls];  // nor does one cross dot(xyz, p) = w, w >= 0
-  vec2 stretch;  // of the span, in [0, 1], that trees stand along: not where it lies in a fork's collar
-  uint key;      // of the vessel and the place on it
-  uint sprouts;  // trees along the span
-  uint partner;  // span, vein beside artery and the other way round, whose trees the last curves run into
-  uint unused0, unused1, unused2;
+/// Where an artery's or a vein's tree comes into a bed.
+struct GrowthStem {
+  vec3 leaving;  // unit: first direction of a stem that leaves a vessel, in the axes u, v, tangent there
+  float radius;  // [m] first
+  vec3 end;      // [m] from the bed's centre, in the axes of the bed's section
+  float last;    // [m] radius there
+  vec3 through;  // unit, likewise: direction there
+  float own;     // [m] first radius of what goes on to the bed's own branches
+  uint from;     // bed whose stem it goes on from, or kFromVessel, kNoStem
+  uint span;     // of the vessel that all of it hangs on
+  float t;       // place on that span, in [0, 1], of a stem that leaves it
+  uint unused;
 };
 
-/// Trees of one span that are drawn one after another.
+/// A piece of the body that an artery's and a vein's tree fill together. It moves with the section of a
+/// vessel: lengths are in that section's axes u, v, tangent.
+struct GrowthBed {
+  vec3 centre;  // [m] from the section's; inside of the tissue
+  uint span;
+  vec3 middle;              // of the box that the tissue fills, from the centre, in half sides of the box
+  float t;                  // place of the section on its span
+  vec3 entry;               // of the artery's stem, as middle
+  uint system;              // number of the L-system
+  vec4 side[3];             // unit normals of the box' sides and half its lengths [m], the longest first
+  vec4 wall[kGrowthWalls];  // no curve of the bed crosses dot(xyz, p - centre) = w, w >= 0
+  vec4 surface;             // unit normal of the nearest skin, and how deep [m] the centre lies below it
+  GrowthStem stem[2];       // artery's, vein's
+};
+
+/// A tree that is drawn curve after curve.
 struct GrowthJob {
   uint firstCurve;  // of the batch's curves
-  uint span;
-  uint firstSprout;
+  uint bed;
+  uint side;  // 0: the artery's tree, 1: the vein's
   uint levels;
 };
 
@@ -100,11 +101,9 @@ struct GrowthView {
   vec3 right;   // the camera's axes
   float focal;  // pixels a metre at depth 1
   vec3 up;
-  float thinnest;  // [pixels] least width of what is drawn: thinner curves fade instead
   uint seed;
-  uint capillary;   // colour half way between artery and vein, sRGB, red lowest
-  uint joinLevels;  // trees of so many generations run into their partners', others end freely
-  uint unused;
+  uint capillary;  // colour half way between artery and vein, sRGB, red lowest
+  uint unused0, unused1, unused2;
 };
 
 /// A vertex of a ribbon: 24 bytes.
@@ -116,7 +115,7 @@ struct CapillaryVertex {
 
 #ifndef __cplusplus
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Growth { GrowthTables growth; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Sites { GrowthSite site[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Beds { GrowthBed bed[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Jobs { GrowthJob job[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Views { GrowthView view; };
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer SpanColours { uint colour[]; };
@@ -133,7 +132,7 @@ struct CapillaryPush {
   VASA_ADDRESS(Sweeps) spans;  // whole
   VASA_ADDRESS(Tables) tables;
   VASA_ADDRESS(Growth) growth;
-  VASA_ADDRESS(Sites) sites;
+  VASA_ADDRESS(Beds) beds;
   VASA_ADDRESS(SpanColours) colours;
   VASA_ADDRESS(Views) view;
   VASA_ADDRESS(Jobs) jobs;  // from the batch's first on
@@ -145,8 +144,9 @@ struct CapillaryPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GrowthChild) == 32 && sizeof(GrowthSymbol) == 72 && sizeof(GrowthSystem) == 32);
-static_assert(sizeof(GrowthSite) == 128 && sizeof(GrowthJob) == 16 && sizeof(CapillaryVertex) == 24);
+static_assert(sizeof(GrowthChild) == 12 && sizeof(GrowthSymbol) == 48 && sizeof(GrowthSystem) == 12);
+static_assert(sizeof(GrowthStem) == 64 && sizeof(GrowthBed) == 304 && sizeof(GrowthJob) == 16 &&
+              sizeof(CapillaryVertex) == 24);
 static_assert(sizeof(GrowthView) == 64 + 5 * 16 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared
 #endif

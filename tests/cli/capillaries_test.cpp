@@ -59,13 +59,13 @@ TEST_CASE("what is wrong with capillaries is told") {
   CHECK(renderTo(picture, {"--capillaries", "2", "--capillary-edges", "6"}).exit == 2);
   CHECK(renderTo(picture, {"--capillaries", "2", "--growth", (folder.path() / "nothing").string()}).exit ==
         6);
-  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S length 9\nS -> F [@3 S]\n");
+  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S\nS -> F [@3 S]\n");
   write(folder.path() / "regions.csv",
-        "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\nall,b,,,,0,3,8,\n");
+        "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,bed_mm,surface\nall,b,,,,0,3,20,\n");
   auto outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("capillaries.lsys:4: '@3' wants a number from 0.02 to 1") != std::string::npos);
-  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S length 9\nS -> F [@1 S]\n");
+  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S\nS -> F [@1 S]\n");
   outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("regions.csv:2: there is no system 'b'; use one of -, a") != std::string::npos);
@@ -76,6 +76,7 @@ TEST_CASE("info counts what would grow, without drawing it") {
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   const auto report = outcome.json()["capillaries"];
   CHECK(report["curves_1_levels"] == report["trees"]);
+  CHECK(report["bytes_per_bed"] == 304);
   CHECK(report["curves_3_levels"].get<std::int64_t>() > 200'000);
   CHECK(report["regions"].size() >= 5);
 }

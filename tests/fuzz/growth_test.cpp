@@ -427,7 +427,7 @@ TEST_CASE("scenes and rules of nasty shapes grow in proportion") {
   REQUIRE(rules.ok());
   checkGrowth({{"regions", 10'000,
                 [](std::size_t n) {
-                  return "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\n" +
+                  return "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,bed_mm,surface\n" +
                          times(n, "a,-,,,,,,,\n");
                 }}},
               [&](const std::string& file) { return messageOf(parseRegions(file, "f", *rules)); });

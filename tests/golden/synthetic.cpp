@@ -54,8 +54,8 @@ Camera cameraOf(const Shot& shot, const Aabb& box) {
 Image draw(gpu::Device& device, Shot shot) {
   test::GrownNetwork grown(shot.network());
   if (shot.system < 2)
-    for (shared::GrowthSite& site : grown.sites.sites) site.system = (site.system & ~0xffu) | shot.system;
-  const Growth growth{grown.rules, grown.sites};
+    for (shared::GrowthBed& bed : grown.beds.beds) bed.system = shot.system;
+  const Growth growth{grown.rules, grown.beds};
   shot.options.width = kWidth;
   shot.options.height = kHeight;
   if (shot.growLevels > 0) {

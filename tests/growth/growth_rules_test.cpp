@@ -37,22 +37,20 @@ std::pair<float, float> flows(const GrowthRules& rules, std::uint32_t letter) {
 
 TEST_CASE("a system worked by hand") {
   const auto rules = parseGrowthRules(
-      "system fork  # two legs\naxiom S\nroot share 0.25 thickest_mm 2 lean 90\ndraw S length 10~0.5 taper 1\n"
-      "S -> F [@1 &37.5 S] [@1 &37.5~5 /180~3 \"0.5 S]\n",
+      "system fork  # two legs\naxiom S\nroot radius 0.02 share 0.25\ndraw S taper 1 meander 0.5 fibre 2\n"
+      "S -> F [@1 S] [@1 S]\n",
       "g");
   REQUIRE(rules.ok());
   const auto& system = rules->tables.system[0];
   CHECK(rules->systems == std::vector<std::string>{"fork"});
-  CHECK(system.mostRadius == doctest::Approx(0.002f));
-  CHECK(system.lean == doctest::Approx(kPi / 2));
+  CHECK(system.radius == 0.02f);
+  CHECK(system.share == 0.25f);
+  CHECK(rules->tables.symbol[0].meander == 0.5f);
+  CHECK(rules->tables.symbol[0].fibre == 2);
   CHECK(rules->treeSize(0, 1) == 1);
   CHECK(rules->treeSize(0, 2) == 3);
   CHECK(rules->treeSize(0, 4) == 15);
-  const auto* child = &rules->tables.child[0];
-  CHECK(child[0].radius == doctest::Approx(0.7937f).epsilon(1e-4));  // Murray's symmetric fork
-  CHECK(child[0].pitch == doctest::Approx(37.5f * kPi / 180));
-  CHECK(child[1].roll == doctest::Approx(kPi));
-  CHECK(child[1].stretch == 0.5f);
+  CHECK(rules->tables.child[0].radius == doctest::Approx(0.7937f).epsilon(1e-4));  // Murray's symmetric fork
 }
 
 TEST_CASE("Murray's law holds at every branching of every letter: what the program ships, too") {
@@ -70,8 +68,7 @@ TEST_CASE("Murray's law holds at every branching of every letter: what the progr
 }
 
 TEST_CASE("side branches take what the taper gives away around them") {
-  const auto rules =
-      parseGrowthRules(kHead + "draw S length 9 taper 0.5\nS -> F [@0.25 &40 S] [@0.75 &40 S]\n", "g");
+  const auto rules = parseGrowthRules(kHead + "draw S taper 0.5\nS -> F [@0.25 S] [@0.75 S]\n", "g");
   REQUIRE(rules.ok());
   const float middle = 0.75f;  // radius half way, where the two stretches meet
   CHECK(rules->tables.child[0].radius == doctest::Approx(std::cbrt(1 - std::pow(middle, 3.0f))));
@@ -83,43 +80,38 @@ TEST_CASE("faults are told with file, line, cause and remedy") {
   CHECK(messageOf("axiom S\n").starts_with("g.lsys:1: 'axiom' stands before any system"));
   CHECK(messageOf("system a\n").find("has no axiom; add a line") != std::string::npos);
   CHECK(messageOf(kHead).find("the axiom 'S' is never drawn") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length ten\n") ==
-        "g.lsys:3: 'length' wants a number from 0.5 to 400 (how far it strays after a ~)");
-  CHECK(messageOf(kHead + "draw S length 10 length\n").starts_with("g.lsys:3: 'length' wants a number"));
+  CHECK(messageOf(kHead + "draw S taper ten\n") == "g.lsys:3: 'taper' wants a number from 0.05 to 1");
+  CHECK(messageOf(kHead + "draw S taper 1 taper\n").starts_with("g.lsys:3: 'taper' wants a number"));
   CHECK(messageOf(kHead + "draw S width 1\n")
-            .starts_with("g.lsys:3: 'width' is not known here; use along, curl"));
+            .starts_with("g.lsys:3: 'width' is not known here; use fibre, meander, taper"));
   CHECK(messageOf(kHead + "\n\nsprout 3\n").starts_with("g.lsys:5: 'sprout' begins no line that is known"));
-  CHECK(messageOf(kHead + "draw S length 9\ndraw S length 9\n").find("was drawn in line 3 already") !=
-        std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9 taper 0.5\nS -> F [@0.5 &30 T]\n")
+  CHECK(messageOf(kHead + "draw S\ndraw S\n").find("was drawn in line 3 already") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S taper 0.5\nS -> F [@0.5 T]\n")
             .starts_with("g.lsys:4: letter 'T' is never drawn"));
-  CHECK(messageOf(kHead + "draw S length 9\nS -> [@1 S]\n").find("draws one curve first") !=
+  CHECK(messageOf(kHead + "draw S\nS -> [@1 S]\n").find("draws one curve first") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S\nS -> F [@1 S\n").find("not closed") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S\nS -> F []\n").find("is empty") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S\nS -> F S\n").find("outside of brackets") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S\nS -> F [@2 S]\n").find("'@2' wants a number from 0.02 to 1") !=
         std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nS -> F [@1 S\n").find("not closed") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nS -> F []\n").find("is empty") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nS -> F S\n").find("outside of brackets") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nS -> F [@2 S]\n").find("'@2' wants a number from 0.02 to 1") !=
-        std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nS -> F [=1 S]\n").find("is no module") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9 taper 0.5\nS -> F [@1 S]\n")
+  CHECK(messageOf(kHead + "draw S\nS -> F [=1 S]\n").find("is no module") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S taper 0.5\nS -> F [@1 S]\n")
             .find("grows thinner but has no branch on its side") != std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9 taper 1\nS -> F [@0.5 S]\n").find("keeps its thickness") !=
+  CHECK(messageOf(kHead + "draw S taper 1\nS -> F [@0.5 S]\n").find("keeps its thickness") !=
         std::string::npos);
-  CHECK(messageOf(kHead + "draw S length 9\nsystem a\n").find("was described in line 1 already") !=
-        std::string::npos);
-  CHECK(messageOf(kHead + "tips count 2.5\n").find("whole number") != std::string::npos);
+  CHECK(messageOf(kHead + "draw S\nsystem a\n").find("was described in line 1 already") != std::string::npos);
 }
 
 TEST_CASE("trees and tables have a limit, which is told") {
-  std::string many = kHead + "draw S length 9 taper 0.5\nS -> F";
-  for (int i = 0; i < 95; ++i) many += " [@0.5 &30 S]";
+  std::string many = kHead + "draw S taper 0.5\nS -> F";
+  for (int i = 0; i < 95; ++i) many += " [@0.5 S]";
   CHECK(messageOf(many + "\n").find("has more than 8192 curves") != std::string::npos);
   std::string systems;
-  for (int i = 0; i < 17; ++i) systems += "system s" + std::to_string(i) + "\naxiom S\ndraw S length 9\n";
+  for (int i = 0; i < 17; ++i) systems += "system s" + std::to_string(i) + "\naxiom S\ndraw S\n";
   CHECK(messageOf(systems).find("at most 16 systems fit") != std::string::npos);
   std::string letters = kHead;
-  for (int i = 0; i < 60; ++i) letters += "draw S" + std::to_string(i) + " length 9\n";
-  CHECK(messageOf(letters + "draw S length 9\n").find("more than 48 letters") != std::string::npos);
+  for (int i = 0; i < 60; ++i) letters += "draw S" + std::to_string(i) + "\n";
+  CHECK(messageOf(letters + "draw S\n").find("more than 48 letters") != std::string::npos);
 }
 
 TEST_CASE("cut, doubled and scrambled files are read or refused, never more") {

@@ -8,7 +8,7 @@ using namespace vasa;
 
 namespace {
 
-const std::string kColumns = "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,spacing_mm,hub\n";
+const std::string kColumns = "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,bed_mm,surface\n";
 
 GrowthRules rules() {
   auto read = parseGrowthRules(test::growthText(), "g");
@@ -28,8 +28,8 @@ std::string messageOf(const std::string& text) {
 TEST_CASE("the first row that fits decides") {
   const auto regions = parseRegions("# where what grows\n" + kColumns +
                                         "none,-,,coronary|FMA12,,,,,\n"
-                                        "hand,reed,Hand|Thumb,,,0.1,2,3,\n"
-                                        "head,oak,head,,artery | vein,0.1,2,3,Head:(0 70 -5.5)\n"
+                                        "hand,reed,Hand|Thumb,,,0.1,2,3,skin\n"
+                                        "head,oak,head,,artery | vein,0.1,2,3,bone\n"
                                         "rest,oak,,,,0,3,8,\n",
                                     "r.csv", rules());
   REQUIRE_MESSAGE(regions.ok(), (regions.ok() ? "" : regions.error().message));
@@ -42,9 +42,10 @@ TEST_CASE("the first row that fits decides") {
   CHECK(nameOf({"facial duct", "", "Head", VesselKind::lymphatic}) == "rest");
   CHECK((*regions)[0].system == GrowthRegion::kNoSystem);
   CHECK((*regions)[1].system == 1);
-  CHECK((*regions)[2].hubJoint == "Head");
-  CHECK((*regions)[2].hubOffset.z == doctest::Approx(-0.0055f));
-  CHECK((*regions)[3].spacing == doctest::Approx(0.008f));
+  CHECK((*regions)[2].inBone);
+  CHECK(!(*regions)[1].inBone);
+  CHECK(!(*regions)[3].inBone);
+  CHECK((*regions)[3].bed == doctest::Approx(0.008f));
   CHECK(regionOf({}, {}) == nullptr);
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("what the program ships can be read") {
   CHECK(systemOf({"plantar arch left", "", "LeftFoot", VesselKind::artery}) == "foot");
   CHECK(systemOf({"ulnar palmar digital artery of ring finger left", "", "LeftHandFinger3",
                   VesselKind::artery}) == "hand");
-  CHECK(systemOf({"popliteal vein", "", "LeftLeg", VesselKind::vein}) == "limb");
+  CHECK(systemOf({"popliteal vein", "", "LeftLeg", VesselKind::vein}) == "muscle");
   CHECK(systemOf({"lumbar vein", "", "LowerBack", VesselKind::vein}) == "muscle");
 }
 
@@ -79,12 +80,9 @@ TEST_CASE("faults are told with file, line, cause and remedy") {
   CHECK(messageOf(kColumns + "a,oak,,,,0,three,8,\n") ==
         "r.csv:2: thickest_mm is 'three' but must be a number from 0 to 100");
   CHECK(messageOf(kColumns + "a,oak,,,,0,nan,8,\n").find("must be a number") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,0,\n").find("spacing_mm must be at least 0.1") !=
-        std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,0,\n") ==
+        "r.csv:2: bed_mm is '0' but must be a number from 2 to 1000");
   CHECK(messageOf(kColumns + "a,oak,,,,4,3,8,\n").find("exchange them") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head\n").find("must be JOINT:(x y z)") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2)\n").find("must be JOINT:(x y z)") !=
-        std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head:(1 2 x)\n").find("where a number of millimetres belongs") !=
-        std::string::npos);
+  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head\n") ==
+        "r.csv:2: surface is 'Head' but must be skin, bone or empty");
 }

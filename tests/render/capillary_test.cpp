@@ -31,7 +31,7 @@ struct Difference {
   float place = 0;   // in the picture's half widths
   int colour = 0;    // of 255
   float across = 0;  // [rad], times the sine between curve and sight
-  std::uint64_t curves = 0, joined = 0, threads = 0;
+  std::uint64_t curves = 0, threads = 0;
 };
 
 int byteDifference(std::uint32_t a, std::uint32_t b) {
@@ -66,14 +66,13 @@ void compare(Difference& worst, const shared::CapillaryVertex& found, const shar
 Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::GrownNetwork& grown,
                                       const Camera& camera, const CapillaryWish& wish, std::uint32_t seed) {
   const TubeSet tubes(rig.device(), grown.network, {.shape = {3, 2}}, 100);
-  CapillaryPass pass(rig.device(), kTarget, tubes, grown.rules, grown.sites, wish);
+  CapillaryPass pass(rig.device(), kTarget, tubes, grown.rules, grown.beds, wish);
   const gpu::Buffer points = rig.upload(grown.points), knots = rig.upload(grown.frames);
   const shared::GrowthView view = growthView(camera, kTarget.size, seed);
-  pass.prepare(grown.points, view);
+  pass.prepare(grown.points, grown.frames, view);
   pass.setSpanColours(rig.device(), kindColours(grown.network));
   const PosedNetwork posed = grown.posed();
-  GrowthScene scene = grown.scene(posed, seed);
-  scene.joinLevels = wish.levels;
+  const GrowthScene scene = grown.scene(posed, seed);
   Difference worst;
   for (std::size_t b = 0; b < pass.batches(); ++b) {
     rig.run([&](VkCommandBuffer commands) {
@@ -88,27 +87,22 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
       const shared::GrowthJob& job = pass.plan().jobs[batch.firstJob + j];
       const std::uint32_t end =
           j + 1 < batch.jobCount ? pass.plan().jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
-      const std::uint32_t size = grown.rules.treeSize(grown.sites.sites[job.span].system & 0xffu, job.levels);
-      const auto kind = grown.network.vessels()[grown.sites.spans[job.span].vessel].kind;
+      const shared::GrowthBed& bed = grown.beds.beds[job.bed];
+      CHECK(end - job.firstCurve == grown.rules.treeSize(bed.system, job.levels));
+      const auto kind = grown.network.vessels()[grown.beds.spans[bed.stem[job.side].span].vessel].kind;
       for (std::uint32_t curve = job.firstCurve; curve < end; ++curve) {
-        const std::uint32_t within = curve - job.firstCurve;
         const Capillary capillary =
-            capillaryAt(scene, {job.span, job.firstSprout + within / size}, job.levels, within % size);
-        const std::uint32_t partner = grown.sites.sites[job.span].partner;
-        const auto far = partner == shared::kNoPartner
-                             ? kind
-                             : grown.network.vessels()[grown.sites.spans[partner].vessel].kind;
-        const std::uint32_t root = packColour(colourOf(kind)), farRoot = packColour(colourOf(far));
+            capillaryAt(scene, job.bed, kBedSides[job.side], job.levels, curve - job.firstCurve);
+        const std::uint32_t root = packColour(colourOf(kind));
         if (batch.edges == shared::kThreads)
-          writeThread(capillary, view, root, farRoot, wanted);
+          writeThread(capillary, view, root, wanted);
         else
-          writeRibbon(capillary, view, root, farRoot, batch.edges, wanted);
+          writeRibbon(capillary, view, root, batch.edges, wanted);
         worst.threads += batch.edges == shared::kThreads;
-        worst.joined += capillary.joined;
         const bool thread = batch.edges == shared::kThreads;
-        const std::uint32_t edges = thread ? shared::kThreadEdges : batch.edges;
+        const std::uint32_t edges = !thread ? batch.edges : capillary.leaf ? 1 : shared::kThreadEdges;
         for (std::uint32_t v = 0; v < each; ++v) {
-          const std::uint32_t corner = thread ? std::clamp(v, 1u, edges + 1) - 1 : v / 2;
+          const std::uint32_t corner = std::min(v / 2, edges);
           compare(worst, found[std::size_t(curve) * each + v], wanted[v],
                   sineToSight(capillary, view, float(corner) / float(edges)));
         }
@@ -120,7 +114,7 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
   return worst;
 }
 
-Growth growthOf(const test::GrownNetwork& grown) { return {grown.rules, grown.sites}; }
+Growth growthOf(const test::GrownNetwork& grown) { return {grown.rules, grown.beds}; }
 
 struct Picture {
   Image image;
@@ -169,10 +163,8 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
         deviceAgainstSpecification(rig, grown, lookingAt(grown, c.distance, c.perspective), wish, c.seed);
     CHECK(worst.threads == (c.edges ? 0 : worst.curves));
     CHECK(worst.curves > 200);
-    CHECK((worst.joined > 0) == (c.levels > 1));
     CHECK(worst.place <= 1e-4f);
     CHECK(worst.colour <= 1);
-
     CHECK(worst.across <= 3e-3f);
   }
 }
@@ -184,8 +176,7 @@ TEST_CASE("the memory for capillaries does not depend on how many there are") {
   RenderOptions options;
   options.capillaries = {.levels = 1, .edges = 5, .budget = 1'000'000, .smallest = 0};
   const CapillaryCounts few = pictureOf(rig, grown, camera, options).counts;
-  for (shared::GrowthSite& site : grown.sites.sites) site.sprouts *= 8;
-  options.capillaries.levels = 4;
+  options.capillaries.levels = 6;
   const CapillaryCounts many = pictureOf(rig, grown, camera, options).counts;
   CHECK(many.curves > 20 * few.curves);
   CHECK(many.curves > 2 * shared::kRingCurves);
@@ -249,7 +240,7 @@ TEST_CASE(
   RenderOptions options{.width = 120,
                         .height = 90,
                         .growth = &growth,
-                        .capillaries = {.levels = 3, .edges = 10, .smallest = 0}};
+                        .capillaries = {.levels = 6, .edges = 10, .smallest = 0}};
   options.timed = false;
   Renderer renderer(rig.device(), grown.network, {}, options);
   const RenderInput input{grown.points, grown.frames, {}, lookingAt(grown, 2, true), {}};
@@ -284,7 +275,7 @@ TEST_CASE(
 TEST_CASE("threads look as ribbons do") {
   VASA_REQUIRE_GPU(rig);
   const test::GrownNetwork grown(test::windingNetwork(10, 5));
-  const Camera camera = lookingAt(grown, 25, true);
+  const Camera camera = lookingAt(grown, 6, true);
   const auto opacityOf = [](const Image& image) {
     double sum = 0;
     for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
@@ -296,7 +287,7 @@ TEST_CASE("threads look as ribbons do") {
   const double ribbons = opacityOf(pictureOf(rig, grown, camera, options).image) - none;
   options.capillaries.smallest = 1e-6f;
   const double threads = opacityOf(pictureOf(rig, grown, camera, options).image) - none;
-  REQUIRE(ribbons > 0.3 * none);
+  REQUIRE(ribbons > 0.1 * none);
   CHECK(threads != ribbons);
-  CHECK(threads / ribbons == doctest::Approx(1).epsilon(0.1));
+  CHECK(threads / ribbons == doctest::Approx(1).epsilon(0.2));
 }

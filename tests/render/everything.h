@@ -14,7 +14,7 @@ namespace vasa::test {
 struct Everything {
   explicit Everything(std::uint32_t vessels = 25) : grown(windingNetwork(vessels, 3)) {
     growth.rules = grown.rules;
-    growth.sites = grown.sites;
+    growth.beds = grown.beds;
     meshes = {boxMesh("skin", {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f}),
               boxMesh("bones", {-0.1f, 0, -0.1f}, {0.1f, 1, 0.1f}),
               boxMesh("heart", {0.1f, 0.5f, 0.1f}, {0.2f, 0.6f, 0.2f})};

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "growth/random.h"
+#include <glm/gtc/quaternion.hpp>
 
 namespace vasa::test {
 
@@ -10,17 +10,16 @@ const std::string& growthText() {
   static const std::string text = R"(# two systems
 system oak
 axiom S
-root share 0.3 thickest_mm 5 lean 60
-tips count 3 spread 40
-draw S length 20~0.3 taper 0.6 meander 0.4 hug 0.3 outward 0.1 along 0.1 fibre 0.2 curl 0.2
-S -> F [@0.3 &45~10 /0~30 T] [@0.6 &40 /137.5 "0.8 T] [@1 &20 /90~90 !2 S] [@1 &30 /270~90 T]
-draw T length 15 taper 0.7 curl 0.5
-T -> F [@0.5 &50 /180 T] [@1 &10 /0 T]
+root radius 0.02 share 0.5
+draw S taper 0.6 meander 0.2
+S -> F [@0.3 T] [@0.6 T] [@1 !2 S] [@1 T]
+draw T taper 0.7 fibre 0.5
+T -> F [@0.5 T] [@1 T]
 system reed
 axiom A
-root share 0.5 thickest_mm 8 lean 30
-draw A length 10 taper 1
-A -> F [@1 &25 /0 A] [@1 &25 /180 A]
+root radius 0.03
+draw A taper 1
+A -> F [@1 A] [@1 A]
 )";
   return text;
 }
@@ -36,28 +35,42 @@ GrownNetwork::GrownNetwork(Network chosen)
         return std::move(*read);
       }()) {
   pose();
-  sites.spans = wholeSpans(network);
-  const std::size_t count = sites.spans.size();
-  for (std::uint32_t span = 0; span < count; ++span) {
-    const float way = 0.02f * float(1 + span % 5);
-    sites.sites.push_back({.hub = vec3(way, -0.03f, 0.01f),
-                           .reach = 1 + way,
-                           .axis = glm::normalize(vec3(0.2f, way, 1)),
-                           .system = span % 2 | (span % 3 == 0 ? 0x100u : 0u),
-                           .wall = {},
-                           .stretch = {span % 4 == 1 ? 0.25f : 0, 1},
-                           .key = keyOf(3, span),
-                           .sprouts = span % 4 == 0 ? 0 : 3 + span % 7,
-                           .partner = shared::kNoPartner});
-    if (span % 3 == 1) sites.sites.back().wall[2] = vec4(glm::normalize(vec3(1, 2, way)), 0.05f + way);
-    if (span % 5 == 2) sites.sites.back().partner = span - 1;
+  beds.spans = wholeSpans(network);
+  for (std::uint32_t span = 0; span < beds.spans.size(); ++span) {
+    const float way = 0.01f * float(1 + span % 5);
+    const quat turn = glm::angleAxis(0.7f * float(span % 9), glm::normalize(vec3(1, way, 0.5f)));
+    shared::GrowthBed bed{};
+    bed.centre = vec3(2 * way, -0.03f, way);
+    bed.span = span;
+    bed.t = 0.3f + 0.1f * float(span % 4);
+    bed.middle = vec3(0.1f, -0.2f, 0);
+    bed.entry = vec3(-1.5f, 0.5f, way);
+    bed.system = span % 2;
+    for (int a = 0; a < 3; ++a) {
+      vec3 axis(0);
+      axis[a] = 1;
+      bed.side[a] = vec4(turn * axis, 0.02f - 0.004f * float(a));
+    }
+    if (span % 3 == 1) bed.wall[2] = vec4(glm::normalize(vec3(1, 2, way)), 0.005f);
+    if (span % 2) bed.surface = vec4(glm::normalize(vec3(way, 1, 0.3f)), 0.01f);
+    for (const std::uint32_t side : {0u, 1u}) {
+      shared::GrowthStem& stem = bed.stem[side];
+      stem.span = span;
+      stem.t = 0.2f + 0.5f * float(side);
+      stem.leaving = glm::normalize(vec3(0.5f, -0.2f, side ? 1 : -1));
+      stem.radius = 0.001f;
+      stem.last = 0.0007f;
+      stem.own = 0.0006f;
+      stem.end = vec3(side ? 0.003f : -0.003f, 0.001f, 0);
+      stem.through = glm::normalize(vec3(0.3f, 1, way));
+      stem.from = span % 7 == 6 && side ? shared::kNoStem : shared::kFromVessel;
+      if (span % 4 == 3 && beds.beds.back().stem[side].from != shared::kNoStem)
+        stem.from = span - 1, stem.span = beds.beds.back().stem[side].span;
+    }
+    beds.beds.push_back(bed);
   }
-  sites.freeEnds.resize(count);
-  sites.region.assign(count, 0);
-  for (const CapEnd& cap : table.caps) {
-    std::uint8_t& ends = sites.freeEnds[table.spanOfSweep[cap.sweep]];
-    ends = std::uint8_t(ends | (cap.last ? 2u : 1u));
-  }
+  beds.regionOfBed.assign(beds.beds.size(), 0);
+  beds.regionOfSpan.assign(beds.spans.size(), 0);
 }
 
 void GrownNetwork::pose() { networkFrames(network, points, restReferences(network), frames); }

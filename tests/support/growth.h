@@ -4,15 +4,16 @@
 
 namespace vasa::test {
 
-/// Every vessel of a network with capillaries of two systems on it, by turns: what growing and drawing them
-/// need.
+/// Every span of a network with a bed beside it, of two systems by turns: what growing and drawing need.
+/// Stems leave vessels or, in every fourth bed, go on from the one before; some beds lack a side, some have
+/// walls.
 struct GrownNetwork {
   explicit GrownNetwork(Network chosen);
   GrownNetwork(const GrownNetwork&) = delete;
 
   PosedNetwork posed() const { return {table, points, frames}; }
   GrowthScene scene(const PosedNetwork& shape, std::uint32_t seed = 1) const {
-    return {shape, rules.tables, sites.spans, sites.sites, seed, joinLevels};
+    return {shape, rules.tables, beds.spans, beds.beds, seed};
   }
   /// Frames for points that were moved.
   void pose();
@@ -22,8 +23,7 @@ struct GrownNetwork {
   std::vector<vec4> points;
   std::vector<quat> frames;
   GrowthRules rules;
-  CapillarySites sites;
-  std::uint32_t joinLevels = 0;
+  CapillaryBeds beds;
 };
 
 /// Text with two systems: `oak` uses every kind of module and pull, `reed` only few.

@@ -1,0 +1,83 @@
+#include <doctest/doctest.h>
+
+#include "capillary_filling.h"
+#include "growth/capillary.h"
+#include "scene/growth.h"
+#include "scene_human.h"
+
+using namespace vasa;
+
+namespace {
+
+struct Grown {
+  Grown()
+      : table(makeSweepTable(human().network)),
+        growth([&] {
+          auto loaded = loadGrowth(human(), VASA_GROWTH_DATA, table);
+          REQUIRE_MESSAGE(loaded.ok(), (loaded.ok() ? "" : loaded.error().message));
+          return std::move(*loaded);
+        }()),
+        frames(table.knotCount) {
+    const Network& network = human().network;
+    networkFrames(network, network.points(), restReferences(network), frames);
+  }
+  PosedNetwork rest() const { return {table, human().network.points(), frames}; }
+
+  SweepTable table;
+  SceneGrowth growth;
+  std::vector<quat> frames;
+};
+
+const Grown& grown() {
+  static const Grown one;
+  return one;
+}
+
+}  // namespace
+
+TEST_CASE("nearly every end of the human's capillaries meets one of the other kind") {
+  const CapillaryBeds& beds = grown().growth.beds;
+  const PosedNetwork rest = grown().rest();
+  const GrowthScene scene{rest, grown().growth.rules.tables, beds.spans, beds.beds};
+  constexpr std::uint32_t kLevels = 3;
+  std::size_t ends = 0, open = 0;
+  for (std::uint32_t bed = 0; bed < beds.beds.size(); ++bed)
+    for (const BedSide side : kBedSides) {
+      const auto& other = beds.beds[bed].stem[1 - std::size_t(side)];
+      if (beds.beds[bed].stem[std::size_t(side)].from == shared::kNoStem) continue;
+      const std::uint32_t size = grown().growth.rules.treeSize(beds.beds[bed].system, kLevels);
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const Capillary curve = capillaryAt(scene, bed, side, kLevels, k);
+        if (!curve.leaf) continue;
+        ++ends;
+        open += other.from == shared::kNoStem ||
+                vec3(curve.curve.b[3]) !=
+                    vec3(capillaryAt(scene, bed, kBedSides[1 - std::size_t(side)], kLevels, k).curve.b[3]);
+      }
+    }
+  MESSAGE(beds.beds.size() << " beds, " << ends << " ends, open: " << open);
+  CHECK(ends > 200'000);
+  CHECK(double(open) < 0.02 * double(ends));
+}
+
+TEST_CASE("the human's capillaries stay inside the skin and out of bones, and fill thigh, scalp and brain") {
+  const CapillaryBeds& beds = grown().growth.beds;
+  const PosedNetwork rest = grown().rest();
+  const GrowthScene scene{rest, grown().growth.rules.tables, beds.spans, beds.beds};
+  std::vector<Bezier> curves;
+  for (std::uint32_t bed = 0; bed < beds.beds.size(); ++bed)
+    for (const BedSide side : kBedSides) {
+      if (beds.beds[bed].stem[std::size_t(side)].from == shared::kNoStem) continue;
+      const std::uint32_t size = grown().growth.rules.treeSize(beds.beds[bed].system, 3);
+      for (std::uint32_t k = 0; k < size; ++k) curves.push_back(capillaryAt(scene, bed, side, 3, k).curve);
+    }
+  const test::Filling filling = test::FillingMeter(human()).measure(curves);
+  MESSAGE(curves.size() << " curves, of " << filling.places << " places out of the skin: " << filling.outside
+                        << ", in bone: " << filling.inBone << ", filled of thigh: " << filling.thigh
+                        << ", scalp: " << filling.scalp << ", brain: " << filling.brain);
+  CHECK(double(filling.outside) < 0.0005 * double(filling.places));
+  CHECK(double(filling.inBone) < 0.005 * double(filling.places));
+  CHECK(filling.thigh > 0.95);
+  CHECK(filling.scalp > 0.85);
+  CHECK(filling.brain > 0.9);
+}
