@@ -90,7 +90,7 @@ TEST_CASE("a pose that no body takes ends after a few steps, and the same way ea
   FrameMaker maker(human(), {.avoid = true});
   maker.make(wild, 0);
   MESSAGE(maker.report().steps << " steps, " << maker.report().avoid.after.contacts << " pairs left");
-  CHECK(maker.report().steps < 14);  // 132 degrees in steps of 8 are 17 at least
+  CHECK(maker.report().steps < 30);  // 45 and more where every step is made in halves to the end
   CHECK(std::ranges::all_of(maker.points(),
                             [](const vec4& p) { return std::isfinite(p.x + p.y + p.z + p.w); }));
 }
