@@ -15,7 +15,8 @@ void main() {
   if (cutOff(gl_FragCoord)) discard;
   vec3 eye = eyeAt(gl_FragCoord.xy);
   vec3 outward = normalize(normal);
-  float graze = 1 - clamp(dot(outward, eye), 0.0, 1.0);
+  // Where a pose stretches a fold, smooth normals lean away from a surface that is seen: that is no outline.
+  float graze = 1 - min(abs(dot(outward, eye)), 1.0);
   float alpha = clamp(push.opacity * (0.45 + 2.6 * graze * graze * graze), 0.0, 1.0);
   vec3 gloss = kStyles[kStyle].key * (3.0 * highlight(outward, eye, kKey));
   vec3 light = ambientLight(outward, worldUp()) + kStyles[kStyle].key * (0.5 * wrapped(dot(outward, kKey)));
