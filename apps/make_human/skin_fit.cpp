@@ -36,6 +36,11 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Floor = SkinSheet::Floor;
 
+bool canMove(const SoughtWeights& sought, std::uint16_t joint) {
+  const auto end = sought.joints.begin() + sought.count;
+  return std::find(sought.joints.begin(), end, joint) != end;
+}
+
 /// The joints that may move each vertex, nearest along the skin first.
 std::vector<SoughtWeights> candidates(const SkinnedMesh& skin, const SkinSheet& sheet, std::size_t joints) {
   const std::size_t count = skin.influences.size();
@@ -66,9 +71,7 @@ std::vector<SoughtWeights> candidates(const SkinnedMesh& skin, const SkinSheet& 
     SoughtWeights& sought = result[i];
     for (const auto& [length, joint] : found[i]) {
       if (sought.count == SoughtWeights::kMost) break;
-      if (sought.count && sought.joints[std::size_t(sought.count - 1)] == joint) continue;
-      const auto end = sought.joints.begin() + sought.count;
-      if (std::find(sought.joints.begin(), end, joint) != end) continue;
+      if (canMove(sought, joint)) continue;
       sought.joints[std::size_t(sought.count++)] = joint;
     }
     float total = 0;
@@ -95,11 +98,6 @@ quat mainTurn(const SoughtWeights& sought, const std::vector<mat4>& matrices) {
   for (int c = 1; c < sought.count; ++c)
     if (sought.weights[std::size_t(c)] > sought.weights[std::size_t(best)]) best = c;
   return glm::normalize(glm::quat_cast(mat3(matrices[sought.joints[std::size_t(best)]])));
-}
-
-bool canMove(const SoughtWeights& sought, std::uint16_t joint) {
-  const auto end = sought.joints.begin() + sought.count;
-  return std::find(sought.joints.begin(), end, joint) != end;
 }
 
 class Fit {

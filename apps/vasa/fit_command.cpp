@@ -41,15 +41,6 @@ struct Carried {
   std::optional<SurfaceFit> surface;
 };
 
-// A surface without a skeleton.
-Result<bool> isSurface(const Options& options) {
-  if (!holdsSurfaces(options.from)) return false;
-  if (!isGltfFile(options.from)) return true;
-  const auto summary = checkGltf(options.from);
-  if (!summary) return summary.error();
-  return summary->skins == 0;
-}
-
 Result<TriangleMesh> readSurfaceOf(const Options& options) {
   const auto up = options.up == "z" ? ImportFrame::Up::z : ImportFrame::Up::y;
   const double unit = options.unit.empty() ? 0 : metresOfUnit(options.unit);
@@ -63,7 +54,7 @@ Result<TriangleMesh> readSurfaceOf(const Options& options) {
 }
 
 Result<Carried> carry(const Options& options, const Network& network, const Body& to) {
-  const auto surface = isSurface(options);
+  const auto surface = holdsSurfacesAlone(options.from);
   if (!surface) return surface.error();
   if (*surface) {
     if (!options.jointMap.empty())

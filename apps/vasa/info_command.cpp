@@ -205,15 +205,6 @@ Result<Report> lineReport(const std::filesystem::path& file) {
   return report;
 }
 
-// A glTF file without a skeleton is one of vessels, or of anything else that is no body.
-Result<bool> hasSurfacesAlone(const std::filesystem::path& file) {
-  if (!holdsSurfaces(file)) return false;
-  if (!isGltfFile(file)) return true;
-  const auto summary = checkGltf(file);
-  if (!summary) return summary.error();
-  return summary->skins == 0;
-}
-
 Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool joints) {
   if (isMotionFile(file.string())) {
     const auto motion = readBvh(file);
@@ -227,7 +218,7 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
     if (!network) return network.error();
     return networkReport(*network, sizeOf(file), vessels);
   }
-  const auto surfaces = hasSurfacesAlone(file);
+  const auto surfaces = holdsSurfacesAlone(file);
   if (!surfaces) return surfaces.error();
   if (*surfaces) return surfaceReport(file);
   if (holdsCentrelines(file)) return lineReport(file);

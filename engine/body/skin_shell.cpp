@@ -7,12 +7,15 @@
 
 namespace vasa {
 
+TriangleMesh meshAtRest(const Body& body, const SkinnedMesh& skinned) {
+  TriangleMesh mesh = skinned.mesh;
+  skinPositions(skinned, skinMatrices(body.skeleton, restPose(body.skeleton)), mesh.positions);
+  return mesh;
+}
+
 TriangleMesh skinAtRest(const Body& body) {
   const SkinnedMesh* skin = skinOf(body);
-  if (!skin) return {};
-  TriangleMesh mesh = skin->mesh;
-  skinPositions(*skin, skinMatrices(body.skeleton, restPose(body.skeleton)), mesh.positions);
-  return mesh;
+  return skin ? meshAtRest(body, *skin) : TriangleMesh{};
 }
 
 SkinShell::SkinShell(TriangleMesh mesh)

@@ -32,6 +32,9 @@ class SkinShell {
   WindingNumber winding_;
 };
 
+/// A body's mesh at rest in model space.
+TriangleMesh meshAtRest(const Body& body, const SkinnedMesh& skinned);
+
 /// The skin's mesh at rest in model space; empty where the body has none.
 TriangleMesh skinAtRest(const Body& body);
 

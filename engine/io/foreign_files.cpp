@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
+
+#include "io/words.h"
 
 namespace vasa {
 namespace {
@@ -59,11 +60,7 @@ std::string motionRemedy(const std::string& extension) {
 
 }  // namespace
 
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
+std::string extensionOf(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }
 
 bool isGltfFile(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);

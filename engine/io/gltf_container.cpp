@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/log.h"
+#include "io/foreign_files.h"
 #include "io/gltf_rule.h"
 #include "io/read_limits.h"
 
@@ -130,10 +131,7 @@ std::size_t checkNesting(std::string_view json) {
 }
 
 bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) {
-  if (bytes.size() >= 4 && word(bytes, 0) == kMagic) return true;
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".glb";
+  return (bytes.size() >= 4 && word(bytes, 0) == kMagic) || extensionOf(path) == ".glb";
 }
 
 }  // namespace

@@ -1,19 +1,14 @@
 #include "io/radius_array.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "io/words.h"
 
 namespace vasa {
 namespace {
 
 constexpr std::size_t kMostListed = 8;  // arrays in a message
 constexpr const char* kVmtk = "MaximumInscribedSphereRadius";
-
-std::string lowerCase(std::string_view name) {
-  std::string lower(name);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return lower;
-}
 
 // How likely an array tells radii, 0 the likeliest; the last ones tell diameters.
 constexpr int kNotAtAll = 5, kDiameters = 3;

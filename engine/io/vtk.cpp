@@ -73,11 +73,6 @@ std::string upper(std::string_view word) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::toupper(c)); });
   return text;
 }
-std::string lower(std::string_view word) {
-  std::string text(word);
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 class Reader {
  public:
@@ -126,7 +121,7 @@ class Reader {
     return std::size_t(value);
   }
   vtp::Scalar type(const std::string& place) {
-    const std::string name = lower(word());
+    const std::string name = lowerCase(word());
     const auto scalar = scalarOf(name);
     if (!scalar)
       breaks(place,
@@ -230,7 +225,7 @@ class Reader {
         continue;
       }
       const std::size_t components = count(name), rows = count(name);
-      const std::string told = lower(word());
+      const std::string told = lowerCase(word());
       if (told == "string") breaks(name, "is of strings, which are not read; leave the array out");
       const auto scalar = scalarOf(told);
       if (!scalar) breaks(name, "is of the type '" + told.substr(0, 40) + "', which is not read");

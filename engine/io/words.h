@@ -33,6 +33,13 @@ inline std::string_view nextLine(std::string_view& text) {
   return line;
 }
 
+/// The same without capitals.
+inline std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return lower;
+}
+
 /// Whether two words are the same but for capitals.
 inline bool sameLetters(std::string_view a, std::string_view b) {
   return std::ranges::equal(

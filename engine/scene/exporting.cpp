@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "collide/network_tubes.h"
 #include "collide/tube_list.h"
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "io/foreign_files.h"
 #include "io/swc.h"
 #include "io/vtp.h"
 #include "scene/bake.h"
@@ -185,10 +185,8 @@ Result<Facts> exportTubes(const Job& job) {
 }  // namespace
 
 std::optional<ExportKind> exportKindOf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   constexpr std::array kExtensions{".glb", ".obj", ".stl", ".vtp", ".swc", ".csv", ".tubes"};
-  const auto found = std::ranges::find(kExtensions, extension);
+  const auto found = std::ranges::find(kExtensions, extensionOf(file));
   if (found == kExtensions.end()) return std::nullopt;
   return ExportKind(found - kExtensions.begin());
 }

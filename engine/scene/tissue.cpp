@@ -6,7 +6,7 @@
 
 #include "body/mesh_role.h"
 #include "body/skin_field.h"
-#include "body/skinning.h"
+#include "body/skin_shell.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
 
@@ -89,12 +89,6 @@ std::vector<std::uint8_t> insideVotes(const Tissue& tissue, const TriangleMesh& 
   return votes;
 }
 
-TriangleMesh atRest(const Body& body, const SkinnedMesh& skinned) {
-  TriangleMesh mesh = skinned.mesh;
-  skinPositions(skinned, skinMatrices(body.skeleton, restPose(body.skeleton)), mesh.positions);
-  return mesh;
-}
-
 // Calls visit(index in the grid) for all cubes whose middles lie within `reach` of p.
 template <class Visit>
 void forCubesAround(const Tissue& tissue, vec3 p, float reach, const Visit& visit) {
@@ -128,7 +122,7 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
   TriangleMesh surface;
   Aabb bounds;
   if (skin) {
-    surface = atRest(body, *skin);
+    surface = meshAtRest(body, *skin);
     for (const vec3& p : surface.positions) bounds.add(p);
   } else {
     for (const vec3& p : near) bounds.add(p, reach);
@@ -146,7 +140,7 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
   std::vector<std::uint8_t> solid(tissue.at.size());
   for (const SkinnedMesh& mesh : body.meshes) {
     if (&mesh == skin || !isSolid(mesh)) continue;
-    const std::vector<std::uint8_t> votes = insideVotes(tissue, atRest(body, mesh));
+    const std::vector<std::uint8_t> votes = insideVotes(tissue, meshAtRest(body, mesh));
     for (std::size_t i = 0; i < votes.size(); ++i) solid[i] = std::max(solid[i], votes[i]);
   }
   std::size_t i = 0;

@@ -114,6 +114,14 @@ bool holdsSurfaces(const std::filesystem::path& path) {
          (isVtk(extension) && vtkContent(path) != VtkContent::lines);
 }
 
+Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
+  if (!holdsSurfaces(path)) return false;
+  if (!isGltfFile(path)) return true;
+  const auto summary = checkGltf(path);
+  if (!summary) return summary.error();
+  return summary->skins == 0;
+}
+
 bool holdsCentrelines(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
   return extension == ".swc" || (isVtk(extension) && vtkContent(path) == VtkContent::lines);

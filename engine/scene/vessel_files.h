@@ -27,6 +27,8 @@ struct VesselImport {
 
 /// By the file's extension: .glb, .gltf, .obj, .stl; .vtp and .vtk without lines.
 bool holdsSurfaces(const std::filesystem::path& path);
+/// The same without a skeleton: vessels, or a skin. Looks into glTF files, and fails where these are damaged.
+Result<bool> holdsSurfacesAlone(const std::filesystem::path& path);
 /// .swc; .vtp and .vtk with lines.
 bool holdsCentrelines(const std::filesystem::path& path);
 
