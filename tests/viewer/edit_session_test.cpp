@@ -67,8 +67,8 @@ TEST_CASE(
   const auto scene = sceneIn(folder.path(), "abdominal aorta"), journal = folder.path() / "scene.vedit";
   const std::string out = folder.path().string();
   const std::string pick = "settle\nkey e\nmove 320 315\npress left\nrelease left\nsettle\n";
-  const std::string drag =
-      "press left\nmove 331 315\nframes 1\nmove 348 319\nframes 2\nrelease left\nsettle\n";
+  const std::string drag =  // from the ring's middle on the centre line
+      "move 316 320\npress left\nmove 332 320\nframes 1\nmove 354 325\nframes 2\nrelease left\nsettle\n";
   const ViewReport first =
       session(scene, pick + "window " + out + "/picked.png\n" + drag + "window " + out + "/dragged.png\n" +
                          control("z") + "window " + out + "/undone.png\n" + control("y") + control("s"));
