@@ -133,7 +133,7 @@ folders=$preset
 preset=${preset%-all}
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
-  readers=(swc vtk vtp bvh obj stl gltf map rules scene vasa vedit)
+  readers=(swc vtk vtp bvh obj stl gltf map rules scene vasa vedit replay)
   cmake --build --preset fuzz --target "${readers[@]/#/fuzz_}"
   mkdir -p build/fuzz/found
   # As many at a time as there are cores.
