@@ -143,8 +143,10 @@ TEST_CASE("the validator's corpus: valid files pass, broken ones are refused wit
   }
   CHECK(refused + tolerated == 125);
   CHECK(refused == 100);
-  for (const auto& [code, why] : kTolerated)
-    CHECK_MESSAGE(acceptedBy.contains(code), code << " is tolerated for no file (" << why << ")");
+  for (const auto& tolerates : kTolerated) {
+    CAPTURE(tolerates.first);
+    CHECK(acceptedBy.contains(tolerates.first));  // else it has no reason to stand there
+  }
   std::string told;
   for (const auto& [code, count] : acceptedBy) told += "\n  " + std::to_string(count) + " " + code;
   MESSAGE(refused << " of 125 files with errors are refused, " << tolerated << " tolerated:" << told);
