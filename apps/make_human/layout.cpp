@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "body/bowing.h"
 #include "make_human/taper.h"
 #include "make_human/through.h"
 
@@ -20,6 +21,8 @@ float toleranceOf(const VesselRow& row) {
   const float radius = 0.5f * (row.startRadius + row.endRadius);
   return radius < kThin ? kFitOfThin : std::min(kFitOfRadius * radius, kCoarsestFit);
 }
+
+constexpr float kBowSpan = kBowWave / 4;  // [m] the longest of vessels that bow out of a bend
 
 constexpr float kSinkReach = 0.025f;  // of the course, to either side, that goes down along with a place
 
@@ -203,9 +206,11 @@ std::vector<vec4> fitCourse(std::span<const vec3> points, std::span<const float>
   const ThroughPoints curve(points);
   const std::size_t count = points.size();
   const float length = curve.lengthAt(count - 1);
-  const int most = std::max(2, int(length / (12 * tolerance)));
+  const bool bows = *std::ranges::max_element(radii) >= kBowRadius;
+  const int least = bows ? std::max(2, int(std::ceil(length / kBowSpan))) : 2;
+  const int most = std::max(least, int(length / (12 * tolerance)));
   std::vector<vec4> result;
-  for (int spans = 2; spans <= most; ++spans) {
+  for (int spans = least; spans <= most; ++spans) {
     std::vector<vec3> knots;
     for (int k = 0; k <= spans; ++k) knots.push_back(curve.position(length * float(k) / float(spans)));
     const std::vector<vec3> fitted = interpolateAtKnots(knots, startTangent, endTangent);

@@ -43,7 +43,7 @@ class VesselLayout {
 
 /// The spline with the fewest spans, knots at equal distances, that keeps to a polyline within a tolerance
 /// and an eighth of its radius, or half the tolerance; no span is shorter than 12 tolerances. Tangents at its
-/// ends are those given.
+/// ends are those given. What bows out of a bend (body/bowing.h) has as many spans as that takes.
 std::vector<vec4> fitCourse(std::span<const vec3> points, std::span<const float> radii, vec3 startTangent,
                             vec3 endTangent, float tolerance);
 

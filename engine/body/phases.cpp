@@ -27,7 +27,10 @@ constexpr float kUndecided = 0.4f;  // above which they do not
 constexpr float kSkinTells = 0.3f;  // share of the skin from which limbs at a fork are told apart by it
 constexpr float kLeastShare = 0.02f;  // of the nearest limb, whatever the skin says
 constexpr float kSkinMargin = 0.08f;  // shares of the skin below this and above 1 - this are whole
-constexpr float kTwistTilt = 8;       // largest ratio by which nearness to one bone tilts the spread of twist
+// Of the link before a joint, or its arc: so far back a bone that hangs over from behind the joint begins to
+// lose its say, and has lost it.
+constexpr float kOverhangFrom = 0.25f, kOverhangTo = 0.75f;
+constexpr float kTwistTilt = 8;  // largest ratio by which nearness to one bone tilts the spread of twist
 constexpr float kSlope = 1.5f * 1.25f;  // over an arc
 constexpr float kTwistSlope = 6;        // over a link
 constexpr std::size_t kBlock = 64;
@@ -98,7 +101,8 @@ class PhaseMeter {
       const std::size_t at = phases.at(j, point);
       phases.bend[at] = bend(j, p);
       phases.twist[at] = twist(j, p);
-      phases.nearness[at] = nearness(j);
+      // A bone that leads nowhere, as the knee cap, takes no part in what lies before its own joint.
+      phases.nearness[at] = nearness(j) * (spines_.joints[j].next.valid() ? 1 : phases.bend[at]);
     }
   }
 
@@ -119,8 +123,9 @@ class PhaseMeter {
     const float near = smoothstep(2 - behind_[j] / (kFavourReach * joint.arc));
     const float flesh = skinDistance_ >= BoneField::kFar ? 1.0f : smoothstep(2 * skinShares_[j]);
     const float favour = joint.spreadsTwist ? 1.0f : 1 + kLimbFavour * alongside * onward * near * flesh;
-    const float measured =
+    float measured =
         smoothstep(0.5f + beyond(favour * before_[j], behind_[j]) / glm::mix(joint.arc, narrow, alongside));
+    measured *= 1 - overhang(j, p);
     const float told = std::clamp((skinShares_[j] - kSkinMargin) / (1 - 2 * kSkinMargin), 0.0f, 1.0f);
     return glm::mix(measured, told, trustInSkin(j, p));
   }
@@ -130,15 +135,30 @@ class PhaseMeter {
     return spines_.joints[j].next.valid() || skin_.follows({std::uint32_t(j)});
   }
 
+  /// 0 where one of the bones before and behind the joint is much nearer, 1 where they are about equally
+  /// near.
+  float undecided(std::size_t j) const {
+    const auto [bone, other] = std::minmax(before_[j], behind_[j]);
+    return smoothstep((bone / std::max(other, 1e-6f) - kDecided) / (kUndecided - kDecided));
+  }
+
+  /// How much a bone that reaches back over the link before its joint has no say at a place beside that link:
+  /// a jaw does not turn what lies deep in the neck.
+  float overhang(std::size_t j, vec3 p) const {
+    const SpineJoint& joint = spines_.joints[j];
+    const SpineJoint& before = spines_.joints[joint.parent.value];
+    const float back = glm::dot(joint.centre - p, before.axis) / std::max(before.link, joint.arc);
+    return smoothstep((back - kOverhangFrom) / (kOverhangTo - kOverhangFrom)) * undecided(j);
+  }
+
   /// What the skin tells counts where it is nearer than the bones before and behind the joint, and these are
   /// about equally near.
   float trustInSkin(std::size_t j, vec3 p) const {
     if (skinDistance_ >= BoneField::kFar || spines_.joints[j].spreadsTwist || !skinFollows(j)) return 0;
-    const auto [bone, other] = std::minmax(before_[j], behind_[j]);
-    const float undecided = smoothstep((bone / std::max(other, 1e-6f) - kDecided) / (kUndecided - kDecided));
+    const float bone = std::min(before_[j], behind_[j]);
     const float around = smoothstep(2 - glm::distance(p, spines_.joints[j].centre) /
                                             std::max(kSkinReach * spines_.joints[j].arc, 1e-6f));
-    return around * undecided * bone * bone /
+    return around * undecided(j) * bone * bone /
            std::max(bone * bone + kSkinDoubt * skinDistance_ * skinDistance_, 1e-12f);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/bowing.h"
 #include "core/parallel.h"
 
 // Control points are shifted by what the curve at their Greville abscissae is. These are all thirds of a
@@ -74,7 +75,8 @@ vec3 placeAt(const Sampled& course, float along, std::size_t from) {
 
 float VesselSlider::slidingLength(float radius) { return kSlidingLength * std::sqrt(radius / kOfRadius); }
 
-VesselSlider::VesselSlider(const Network& network) : network_(&network) {
+VesselSlider::VesselSlider(const Network& network, const Binding* binding) : network_(&network) {
+  if (binding) outwards_ = outwardsOf(*binding, network.points());
   const auto nodeOf = [&](VesselEnd end) {
     const Vessel& vessel = network.vessel(end.vessel);
     return end.last ? vessel.end : vessel.start;
@@ -174,8 +176,8 @@ void VesselSlider::settleOrder() {
   courses_ = std::move(sorted);
 }
 
-void VesselSlider::run(std::span<vec4> points) const {
-  parallelFor(courses_.size(), 16, [&](std::size_t c) { slide(courses_[c], points); });
+void VesselSlider::run(std::span<vec4> points, std::span<const quat> turned) const {
+  parallelFor(courses_.size(), 16, [&](std::size_t c) { slide(courses_[c], points, turned); });
   for (const Course& course : courses_) carry(course, points);
   pinEnds(*network_, points);
 }
@@ -184,7 +186,7 @@ void VesselSlider::run(std::span<vec4> points) const {
 // tridiagonal system solved by elimination; a = 0 at an end that holds. A free end draws back where its
 // course is stretched and stays where it is squeezed: beyond it there is no course to follow. Where vessels
 // join, their common point is there twice, h = 0 between: it counts once.
-void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
+void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const {
   if (isUnstrained(course, points)) return;
   const Sampled posed = sample(*network_, course.pieces, points);
   std::vector<std::uint32_t> row{0};  // of points that count
@@ -228,6 +230,20 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
     return along[std::min(k + 1, n - 1)] - along[k > 0 ? k - 1 : 0];
   };
   std::vector<vec3> moved(n);
+  std::vector<vec3> bowed(n, vec3(0));
+  if (!outwards_.empty() && !turned.empty()) {
+    std::vector<float> along(n), left(n, 1.0f);
+    std::vector<vec4> rest(n);
+    std::vector<vec3> outwards(n);
+    std::vector<quat> turns(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint32_t point = course.points[row[k]];
+      along[k] = course.along[row[k]];
+      if (k > 0) left[k] = float(stretch[k] + (shift[k] - shift[k - 1]) / step[k]);
+      rest[k] = network_->points()[point], outwards[k] = outwards_[point], turns[k] = turned[point];
+    }
+    bow({along, left, rest, outwards, turns, course.start.holds, course.finish.holds}, bowed);
+  }
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t j = std::min(k, n - 2);
     while (j > 0 && was[j] > is[k]) --j;
@@ -239,7 +255,7 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points) const {
     const std::uint32_t own = posed.own[row[k]];
     const vec3 along = posed.places[std::min<std::size_t>(own + 1, posed.places.size() - 1)] -
                        posed.places[own > 0 ? own - 1 : 0];
-    vec3 aside = wider * wider * glm::mix(off[j], off[j + 1], share) - off[k];
+    vec3 aside = wider * wider * glm::mix(off[j], off[j + 1], share) - off[k] + bowed[k];
     if (const float square = glm::dot(along, along); square > 0)
       aside -= along * (glm::dot(aside, along) / square);
     moved[k] = placeAt(posed, is[k], own) - posed.places[own] + aside;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "body/binding.h"
 #include "network/network.h"
 
 namespace vasa {
@@ -15,14 +16,18 @@ namespace vasa {
 /// strain becomes its mean over some ℓ to both sides, lengths between what holds stay, and nothing is shifted
 /// where nothing is strained. A free end draws back where its vessel is stretched. Points move along the
 /// posed course alone; what branches off goes along. Continuous in the pose.
+///
+/// What is squeezed even so bows out of its bed (body/bowing.h), if the bed is known.
 class VesselSlider {
  public:
   /// @param network  at rest; must outlive this
-  explicit VesselSlider(const Network& network);
+  /// @param binding  of its points; without it nothing bows out
+  explicit VesselSlider(const Network& network, const Binding* binding = nullptr);
 
   /// @param points  a posed network's points, ends on their nodes; radii stay. O(points), parallel over
   /// courses
-  void run(std::span<vec4> points) const;
+  /// @param turned  how the bed of each point has turned since rest; for bowing
+  void run(std::span<vec4> points, std::span<const quat> turned = {}) const;
 
   /// ℓ of a vessel of this radius [m].
   static float slidingLength(float radius);
@@ -46,12 +51,13 @@ class VesselSlider {
     std::vector<float> tether;  // 1/ℓ², of each
     Hold start, finish;
   };
-  void slide(const Course& course, std::span<vec4> points) const;
+  void slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const;
   bool isUnstrained(const Course& course, std::span<const vec4> points) const;
   void carry(const Course& course, std::span<vec4> points) const;
   void settleOrder();
 
   const Network* network_;
+  std::vector<vec3> outwards_;   // of each point, from its limb's axis; empty: nothing bows
   std::vector<Course> courses_;  // in an order in which what others hang on comes first
 };
 

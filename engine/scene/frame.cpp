@@ -42,7 +42,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
     : scene_(&scene),
       options_(options),
       deformer_(scene.binding),
-      slider_(scene.network),
+      slider_(scene.network, &scene.binding),
       kinks_(scene.network),
       volume_(scene.network),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
@@ -120,9 +120,9 @@ void FrameMaker::deform(const Pose& pose, float time) {
   {
     StageClock clock(report_.deformMs);
     deformer_.run(scene_->network, pose, posedPoints_);
-    if (options_.slide) slider_.run(posedPoints_);
-    beat_.apply(heartScale_, jointMatrices_, posedPoints_);
     deformer_.rotations(rotations_);
+    if (options_.slide) slider_.run(posedPoints_, rotations_);
+    beat_.apply(heartScale_, jointMatrices_, posedPoints_);
   }
   StageClock clock(report_.kinksMs);
   report_.kinks = kinks_.run(posedPoints_);

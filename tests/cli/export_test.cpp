@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -172,7 +174,7 @@ TEST_CASE("export: a tube list in which bench collide finds the pairs that check
     const auto pairsBy = [&](const std::string& method) {
       const auto bench =
           runProgram({"bench", "collide", "--tubes", file, "--pose", std::to_string(pose), "--runs", "1",
-                      "--method", method, "--tolerance", std::to_string(1e-3 * height), "--json"})
+                      "--method", method, "--tolerance", fmt::format("{}", 1e-3 * height), "--json"})
               .json();
       CHECK(bench["tubes"] == report["tubes"]);
       CHECK(bench["excluded"] == report["excluded"]);
