@@ -113,7 +113,9 @@ if [ "$preset" = same ]; then
   for each in gcc-release clang-release gcc-debug; do
     preset=${each#*-}
     cmake --preset "$preset" -B "build/compilers/$each" -DCMAKE_C_COMPILER="${each%-*}" -DCMAKE_CXX_COMPILER="$([ "${each%-*}" = gcc ] && echo g++ || echo clang++)" > /dev/null
-    cmake --build "build/compilers/$each" --target vasa human
+    targets=(vasa)
+    [ "$each" = gcc-release ] && targets+=(human)
+    cmake --build "build/compilers/$each" --target "${targets[@]}"
     programs+=("build/compilers/$each/bin/vasa")
   done
   tests/soak/same.sh build/compilers/gcc-release/data/human.glb build/compilers/gcc-release/data/human.vasa "${programs[@]}"
@@ -133,7 +135,7 @@ folders=$preset
 preset=${preset%-all}
 cmake --preset "$preset" -DVASA_BUILD_TESTS=ON > /dev/null
 if [ "$preset" = fuzz ]; then
-  readers=(swc vtk vtp bvh obj stl gltf map rules scene vasa vedit)
+  readers=(swc vtk vtp bvh obj stl gltf map rules scene vasa vedit replay)
   cmake --build --preset fuzz --target "${readers[@]/#/fuzz_}"
   mkdir -p build/fuzz/found
   # As many at a time as there are cores.

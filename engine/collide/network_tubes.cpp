@@ -8,10 +8,11 @@
 #include "math/quadrature.h"
 
 // Neighbours come from a graph whose places are the spans' ends and the points where side branches sit, and
-// whose edges are the stretches between places of one span, as long as the arc. A node's ends are one place.
-// From the places of each tube a shortest-path search runs as far as it and tubes no wider than it may reach;
-// each of these that has a place within reach is linked. So many narrow tubes cost no more for a wide one
-// somewhere.
+// whose edges are the stretches from each place of a span to the next along it, as long as the arc (from each
+// to every other they would grow with the square of the branches that leave one span). A node's ends are one
+// place. From the places of each tube a shortest-path search runs as far as it and tubes no wider than it may
+// reach; each of these that has a place within reach is linked. So many narrow tubes cost no more for a wide
+// one somewhere.
 namespace vasa {
 namespace {
 
@@ -29,8 +30,7 @@ struct Place {
 struct Graph {
   std::vector<std::vector<Place>> placesOf;  // tube -> places, by t
   struct Visit {
-    std::uint32_t tube;
-    float t;
+    std::uint32_t tube, index;  // of placesOf[tube]
   };
   std::vector<std::vector<Visit>> tubesAt;  // place -> tubes
 };
@@ -61,7 +61,7 @@ Graph buildGraph(const Network& network, const NetworkTubes& tubes) {
     auto& places = graph.placesOf[tube];
     std::sort(places.begin(), places.end(),
               [](Place a, Place b) { return std::tie(a.t, a.id) < std::tie(b.t, b.id); });
-    for (const Place& place : places) graph.tubesAt[place.id].push_back({tube, place.t});
+    for (std::uint32_t i = 0; i < places.size(); ++i) graph.tubesAt[places[i].id].push_back({tube, i});
   }
   return graph;
 }
@@ -79,7 +79,8 @@ class LinkSearch {
     for (const Place& start : graph_.placesOf[tube]) {
       search(start.id, reach_ * 2 * radii_[tube]);
       for (const auto& [gap, place] : settled_)
-        for (const auto& [other, t] : graph_.tubesAt[place]) {
+        for (const auto& [other, index] : graph_.tubesAt[place]) {
+          const float t = graph_.placesOf[other][index].t;
           if (std::tie(radii_[other], other) >= std::tie(radii_[tube], tube)) continue;
           if (gap >= reach_ * (radii_[tube] + radii_[other])) continue;
           if (other > tube)
@@ -104,10 +105,14 @@ class LinkSearch {
       if (distance >= limit) return;
       if (std::exchange(searched_[place], searches_) == searches_) continue;
       settled_.emplace_back(distance, place);
-      for (const auto& [tube, t] : graph_.tubesAt[place])
-        for (const Place& next : graph_.placesOf[tube])
-          if (searched_[next.id] != searches_)
-            open.push({distance + std::abs(next.t - t) * lengths_[tube], next.id});
+      for (const Graph::Visit& visit : graph_.tubesAt[place]) {
+        const auto& along = graph_.placesOf[visit.tube];
+        for (const std::uint32_t next :
+             {visit.index - 1, visit.index + 1})  // one before the first is past the last
+          if (next < along.size() && searched_[along[next].id] != searches_)
+            open.push({distance + std::abs(along[next].t - along[visit.index].t) * lengths_[visit.tube],
+                       along[next].id});
+      }
     }
   }
 

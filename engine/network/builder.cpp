@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <deque>
+#include <tuple>
 
 namespace vasa {
 namespace {
@@ -79,6 +81,46 @@ std::uint64_t keyOf(const Host& host) {
          std::bit_cast<std::uint32_t>(host.parameter + 0.0f);  // -0 as 0
 }
 
+Error crowded(const Network& network, std::uint32_t node, const std::string& where, VesselEnd last) {
+  return badInput("node " + std::to_string(node) + ": more than " + std::to_string(kMostEndsAtNode) +
+                  " vessels would meet " + where + ", among them " +
+                  place(network.vessel(last.vessel), last.vessel.value) +
+                  "; let them leave another vessel one after the other, or farther apart");
+}
+
+// Nodes on one host within its radius count together: their vessels are neighbours all the same.
+Result<void> checkSides(const Network& network) {
+  std::vector<std::uint32_t> onSides;
+  for (std::uint32_t n = 0; n < network.nodes().size(); ++n)
+    if (network.nodes()[n].host) onSides.push_back(n);
+  const auto hostOf = [&](std::uint32_t n) { return *network.nodes()[n].host; };
+  std::ranges::sort(onSides, {}, [&](std::uint32_t n) {
+    return std::tuple(hostOf(n).vessel.value, hostOf(n).parameter, n);
+  });
+  struct Met {
+    std::uint32_t node;
+    float along;  // the host, from its first node
+  };
+  std::deque<Met> met;  // within a radius behind the place that is looked at
+  std::size_t ends = 0;
+  vec3 before{};
+  for (const std::uint32_t n : onSides) {
+    const VesselId host = hostOf(n).vessel;
+    const vec4 at = evaluate(network.pointsOf(network.vessel(host)), hostOf(n).parameter);
+    if (!met.empty() && hostOf(met.back().node).vessel != host) met.clear(), ends = 0;
+    const float along = met.empty() ? 0 : met.back().along + glm::distance(vec3(at), before);
+    before = vec3(at);
+    met.push_back({n, along});
+    ends += network.nodes()[n].endCount;
+    for (; met.front().along < along - at.w; met.pop_front())
+      ends -= network.nodes()[met.front().node].endCount;
+    if (ends > kMostEndsAtNode)
+      return crowded(network, n, "within a radius of " + place(network.vessel(host), host.value),
+                     network.ends(network.nodes()[n]).back());
+  }
+  return {};
+}
+
 }  // namespace
 
 VesselId NetworkBuilder::addVessel(Label label, std::vector<vec4> points) {
@@ -126,7 +168,6 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
     network.points_.insert(network.points_.end(), points_[i].begin(), points_[i].end());
     network.vessels_.push_back(std::move(vessel));
   }
-  std::map<std::uint64_t, std::size_t> atHost;  // ends by place
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const PendingNode& pending = nodes_[n];
     const std::string where = "node " + std::to_string(n);
@@ -155,14 +196,8 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
                         " already");
       slot = {n};
     }
-    // Nodes of one place count together: their vessels are neighbours all the same.
-    const std::size_t meeting =
-        pending.host ? atHost[keyOf(*pending.host)] += pending.ends.size() : pending.ends.size();
-    if (meeting > kMostEndsAtNode)
-      return badInput(where + ": more than " + std::to_string(kMostEndsAtNode) +
-                      " vessels would meet in one place, among them " +
-                      place(network.vessel(pending.ends.back().vessel), pending.ends.back().vessel.value) +
-                      "; let them leave another vessel one after the other");
+    if (pending.ends.size() > kMostEndsAtNode)
+      return crowded(network, n, "in one place", pending.ends.back());
     network.nodes_.push_back(
         {pending.host, std::uint32_t(network.ends_.size()), std::uint32_t(pending.ends.size())});
     network.ends_.insert(network.ends_.end(), pending.ends.begin(), pending.ends.end());
@@ -173,6 +208,7 @@ Result<Network> NetworkBuilder::build(float bodyHeight) const {
                     ": side branches hang on one another in a circle; split one of the vessels there");
   const std::vector<vec4> before = network.points_;
   pinEnds(network, network.points_);
+  if (auto checked = checkSides(network); !checked) return checked.error();
   for (std::uint32_t i = 0; i < network.vessels_.size(); ++i) {
     const Vessel& vessel = network.vessels_[i];
     for (const std::uint32_t p : {vessel.firstPoint, vessel.firstPoint + vessel.pointCount - 1})

@@ -6,9 +6,9 @@
 
 namespace vasa {
 
-/// Ends that may meet in one place. Each is the neighbour of every other, so that what detection keeps
-/// grows with the square; a confluence of living vessels has under ten, the soma of a traced cell under a
-/// hundred.
+/// Ends that may meet in one place, or on one vessel's side within its radius. Each is the neighbour of every
+/// other, so that what detection keeps grows with the square; a confluence of living vessels has under ten,
+/// the soma of a traced cell under a hundred.
 inline constexpr std::size_t kMostEndsAtNode = 256;
 
 /// Collects vessels and the nodes they share, then builds the immutable network.
@@ -50,7 +50,7 @@ class NetworkBuilder {
   /// Fails with badInput that names the vessel: fewer than 4 points, a value that is not finite, a radius
   /// that is not positive, a length of zero, an end in two nodes, a host parameter outside the vessel, an end
   /// that hangs on its own vessel, hosts that depend on one another in a circle, an end more than 5 % of the
-  /// body height from its node, a place where more than kMostEndsAtNode ends meet.
+  /// body height from its node, a place or a radius of a vessel where more than kMostEndsAtNode ends meet.
   /// @param bodyHeight  [m] > 0
   Result<Network> build(float bodyHeight) const;
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <functional>
 
+#include "collide/network_tubes.h"
 #include "core/hash.h"
 #include "core/log.h"
 #include "fuzz/live_memory.h"
@@ -23,6 +24,7 @@
 #include "io/swc.h"
 #include "io/vtk.h"
 #include "io/vtp.h"
+#include "network/centrelines.h"
 #include "network/file.h"
 #include "scene/scene_file.h"
 
@@ -284,6 +286,31 @@ TEST_CASE("SWC of nasty shapes grows in proportion") {
         if (samples) (void)centrelinesOfSwc(*samples, "f", VesselKind::artery);
         return messageOf(samples);
       });
+}
+
+TEST_CASE("combs of branches and who is whose neighbour in them grow in proportion") {
+  // Along x, one tooth every step [mm]; the host is 5 mm thick.
+  const auto comb = [](std::size_t teeth, double step) {
+    std::string text = "1 2 -20 0 0 5 -1\n";
+    const auto id = [](std::size_t tooth) { return of(4 * tooth + 2); };
+    for (std::size_t i = 0; i < teeth; ++i) {
+      const std::string x = std::to_string(step * double(i));
+      text += id(i) + " 2 " + x + " 0 0 5 " + (i ? id(i - 1) : "1") + "\n";
+      for (std::size_t k = 1; k < 4; ++k)
+        text += of(4 * i + 2 + k) + " 2 " + x + " " + of(20 * k) + " 0 1 " + of(4 * i + 1 + k) + "\n";
+    }
+    return text + of(4 * teeth + 2) + " 2 " + std::to_string(step * double(teeth) + 20) + " 0 0 5 " +
+           id(teeth - 1) + "\n";
+  };
+  checkGrowth({{"teeth", 200, [&](std::size_t n) { return comb(n, 0.1); }},
+               {"teeth at almost one place", 300, [&](std::size_t n) { return comb(n, 1e-3); }}},
+              [](const std::string& file) -> std::string {
+                const auto samples = parseSwc(file, "f");
+                REQUIRE(samples.ok());
+                const auto made = networkOfCentrelines(centrelinesOfSwc(*samples, "f", VesselKind::artery));
+                if (made) CHECK(NetworkTubes(made->network).neighbours().pairs().size() > 200);
+                return messageOf(made);
+              });
 }
 
 TEST_CASE("OBJ of nasty shapes grows in proportion") {

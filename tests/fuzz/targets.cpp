@@ -242,16 +242,21 @@ void vedit(Bytes bytes) {
   must(again.ok() && again->size() == edits->size());
   for (std::size_t i = 0; i < edits->size(); ++i)
     must(journalLine((*again)[i].operation) == journalLine((*edits)[i].operation));
-  if (edits->size() > 3) return;
+}
+
+void replay(Bytes bytes) {
+  const auto edits = parseJournal(textOf(bytes), "f");
+  if (!edits || edits->size() > 3) return;
   const Replay replay = replayEdits(limb(), *edits);
   for (const vec4& p : replay.network.points()) must(p.w > 0);
   must(replay.rows.size() == edits->size());
 }
 
 std::span<const Target> targets() {
-  static constexpr Target all[] = {{"swc", swc},     {"vtp", vtp},     {"vtk", vtk},   {"bvh", bvh},
-                                   {"obj", obj},     {"stl", stl},     {"gltf", gltf}, {"map", map},
-                                   {"rules", rules}, {"scene", scene}, {"vasa", vasa}, {"vedit", vedit}};
+  static constexpr Target all[] = {{"swc", swc},      {"vtp", vtp},     {"vtk", vtk},   {"bvh", bvh},
+                                   {"obj", obj},      {"stl", stl},     {"gltf", gltf}, {"map", map},
+                                   {"rules", rules},  {"scene", scene}, {"vasa", vasa}, {"vedit", vedit},
+                                   {"replay", replay}};
   return all;
 }
 

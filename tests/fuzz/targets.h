@@ -21,6 +21,8 @@ void rules(Bytes bytes);  ///< of growth; behind a line `---` their regions
 void scene(Bytes bytes);  ///< a scene's JSON
 void vasa(Bytes bytes);   ///< a network's chunks: header and checksum are made to fit
 void vedit(Bytes bytes);  ///< a journal of edits
+void replay(
+    Bytes bytes);  ///< one of at most three, made on two vessels: thousands of times slower than its reading
 
 struct Target {
   const char* name;  ///< also of its folder in corpus/

@@ -1,14 +1,21 @@
 #include <doctest/doctest.h>
 
-#include <chrono>
+#include <time.h>
+
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "fuzz/live_memory.h"
 #include "io/gltf.h"
+#include "io/read_limits.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
+using namespace vasa::test;
 
 namespace {
 
@@ -56,14 +63,61 @@ const std::map<std::string, const char*> kTolerated = {
     {"ONE_OF_MISMATCH", "of a camera, which is not read (of a picture it is refused)"},
     {"SKIN_SKELETON_INVALID", "the named node is not used: the joints' own tree is"},
     {"UNDECLARED_EXTENSION",
-     "no extension's properties are read; KHR_mesh_quantization counts only where it is declared"},
+     "an extension that is known counts only where it is declared; of all others no property is read"},
     {"UNSATISFIED_DEPENDENCY", "a picture's missing MIME type: it is never opened (all others are refused)"},
 };
 
+/// What reading a file takes of this thread's processor.
+struct Cost {
+  std::string file;
+  double seconds = 1e9;
+  std::size_t memory = 0;
+};
+
+void readAll(const std::filesystem::path& file) {
+  (void)checkGltf(file);
+  (void)readBody(file);
+  (void)readGltfElements(file);
+}
+
+double processorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 }  // namespace
 
-TEST_CASE(
-    "the validator's corpus: valid files pass, broken ones are refused with a place, all of them quickly") {
+TEST_CASE("the validator's corpus: no file costs out of all proportion to the others") {
+  VASA_REQUIRE_SHARED_DATA(data);
+  const auto corpus = data / "gltf_corpus";
+  std::vector<Cost> costs;
+  for (const Verdict& verdict : readManifest(corpus / "manifest.csv")) {
+    Cost cost{verdict.file};
+    const std::size_t before = restartPeak();
+    for (int run = 0; run < 3; ++run) {  // what else the machine does only adds
+      const double start = processorSeconds();
+      readAll(corpus / verdict.file);
+      cost.seconds = std::min(cost.seconds, processorSeconds() - start);
+    }
+    cost.memory = peakMemory() - before;
+    costs.push_back(cost);
+  }
+  std::ranges::sort(costs, {}, &Cost::seconds);
+  const Cost &median = costs[costs.size() / 2], &most = costs.back();
+  // The largest file has 3 kB: on any machine a file that asks for millions of steps is beyond that.
+  INFO(most.file);
+  CHECK(most.seconds < 1000 * median.seconds);
+  if (countsMemory())
+    for (const Cost& cost : costs) {
+      CAPTURE(cost.file);
+      CHECK(cost.memory < kMemoryFree);
+    }
+  MESSAGE("most: " << most.seconds / median.seconds << " times the median's processor time, "
+                   << std::ranges::max(costs, {}, &Cost::memory).memory / 1000 << " kB");
+}
+
+TEST_CASE("the validator's corpus: valid files pass, broken ones are refused with a place") {
   VASA_REQUIRE_SHARED_DATA(data);
   const auto corpus = data / "gltf_corpus";
   const auto verdicts = readManifest(corpus / "manifest.csv");
@@ -72,11 +126,7 @@ TEST_CASE(
   std::map<std::string, int> acceptedBy;
   for (const Verdict& verdict : verdicts) {
     CAPTURE(verdict.file);
-    const auto begin = std::chrono::steady_clock::now();
     const auto result = checkGltf(corpus / verdict.file);
-    (void)readBody(corpus / verdict.file);
-    (void)readGltfElements(corpus / verdict.file);
-    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
     if (verdict.errors == 0) CHECK_MESSAGE(result.ok(), (result ? "" : result.error().message));
     bool all = true;
     for (const std::string& code : verdict.codes) all = all && kTolerated.contains(code);
@@ -93,6 +143,10 @@ TEST_CASE(
   }
   CHECK(refused + tolerated == 125);
   CHECK(refused == 100);
+  for (const auto& tolerates : kTolerated) {
+    CAPTURE(tolerates.first);
+    CHECK(acceptedBy.contains(tolerates.first));  // else it has no reason to stand there
+  }
   std::string told;
   for (const auto& [code, count] : acceptedBy) told += "\n  " + std::to_string(count) + " " + code;
   MESSAGE(refused << " of 125 files with errors are refused, " << tolerated << " tolerated:" << told);

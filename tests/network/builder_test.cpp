@@ -124,24 +124,42 @@ TEST_CASE("what cannot be a network is refused by name and cause") {
     CHECK(messageOf(builder).find("hang on one another in a circle") != std::string::npos);
   }
   SUBCASE("too many in one place") {
-    const auto star = [](std::size_t rays, bool oneNode) {
+    enum class Joined { atTheirEnds, atOnePlace, withinARadius };
+    const auto star = [](std::size_t rays, Joined joined) {
       NetworkBuilder made;
       const VesselId host = made.addVessel({"host"}, straightVessel({0, -1, 0}, {0, 1, 0}, 0.01f, 2));
       std::vector<VesselEnd> ends;
       for (std::size_t i = 0; i < rays; ++i) {
         ends.push_back({made.addVessel({"ray"}, straightVessel({0, 0, 0}, {1, 1, 0}, 0.01f, 1)), false});
-        if (!oneNode) made.addNode(Host{host, 1.0f}, {ends.back()});
+        // A span is a metre long, so that all of them lie within 9 mm.
+        const float aside = joined == Joined::withinARadius ? 0.009f * float(i) / float(rays) : 0;
+        if (joined != Joined::atTheirEnds) made.addNode(Host{host, 1 - aside}, {ends.back()});
       }
-      if (oneNode) made.addNode(std::nullopt, ends);
+      if (joined == Joined::atTheirEnds) made.addNode(std::nullopt, ends);
       return made;
     };
-    for (const bool oneNode : {true, false}) {
-      builder = star(kMostEndsAtNode + 1, oneNode);
-      CHECK(messageOf(builder).find(
-                "more than 256 vessels would meet in one place, among them vessel 257 'ray'") !=
-            std::string::npos);
-      CHECK(star(kMostEndsAtNode, oneNode).build(1.75f).ok());
+    for (const Joined joined : {Joined::atTheirEnds, Joined::atOnePlace, Joined::withinARadius}) {
+      builder = star(kMostEndsAtNode + 1, joined);
+      const std::string message = messageOf(builder);
+      CHECK(message.find("more than 256 vessels would meet ") != std::string::npos);
+      CHECK(message.find(joined == Joined::atTheirEnds
+                             ? "in one place"
+                             : "within a radius of vessel 0 'host'") != std::string::npos);
+      CHECK(message.find(", among them vessel ") != std::string::npos);
+      CHECK(star(kMostEndsAtNode, joined).build(1.75f).ok());
     }
+  }
+  SUBCASE("many on one vessel, apart from one another") {
+    builder = NetworkBuilder();
+    const VesselId host = builder.addVessel({"host"}, straightVessel({0, -1, 0}, {0, 1, 0}, 0.001f, 2));
+    for (std::size_t i = 0; i < 4 * kMostEndsAtNode; ++i) {
+      const float at = 2 * float(i) / float(4 * kMostEndsAtNode);
+      const VesselId tooth =
+          builder.addVessel({"tooth"}, straightVessel({0, at - 1, 0}, {1, at - 1, 0}, 0.001f, 1));
+      builder.joinToSide({tooth, false}, {host, at});
+    }
+    CHECK(builder.build(1.75f).ok());
+    return;
   }
   SUBCASE("body height") { CHECK(!builder.build(0).ok()); }
 }

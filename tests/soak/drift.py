@@ -1,12 +1,46 @@
 #!/usr/bin/env python3
 """Memory and file descriptors of vasa over a long time: a session of the app that resizes its window and opens files, and, with
---pictures, a long film. Samples what the process holds beyond files ("Private_Dirty" of /proc/PID/smaps_rollup) and its descriptors; the
+--pictures, a long film of a swaying body's leg artery, 64 pixels wide (of all vessels a hundred thousand pictures would take hours).
+Samples what the process holds beyond files ("Private_Dirty" of /proc/PID/smaps_rollup) and its descriptors; the
 median of the last quarter may be 2 MiB above that of the second quarter (an opening holds two scenes for a while), and
 descriptors none.
-  tests/soak/drift.py PROGRAM BODY.glb NETWORK.vasa [--frames 20000] [--resizes 500] [--openings 20] [--validate] [--pictures 0 --clip NAME|FILE.bvh]"""
-import argparse, os, statistics, subprocess, sys, tempfile, time
+  tests/soak/drift.py PROGRAM BODY.glb NETWORK.vasa [--frames 20000] [--resizes 500] [--openings 20] [--validate] [--clip NAME] [--pictures 0]"""
+import argparse, math, os, statistics, subprocess, sys, tempfile, time
 
 ALLOWED_KIB = 2048
+ARTERY = """1 2 0.09 0.85 0.02 0.005 -1
+2 2 0.09 0.7 0.02 0.0045 1
+3 2 0.09 0.6 0.02 0.004 2
+4 2 0.10 0.5 0.01 0.003 3
+5 2 0.10 0.4 0.0 0.003 4
+6 2 0.08 0.5 0.01 0.002 3
+7 2 0.08 0.42 0.0 0.002 6
+"""
+# Joint, the one that it hangs on, its place there [m].
+JOINTS = (("Hips", None, "0 0.95 0"), ("Spine", "Hips", "0 0.2 0"), ("Head", "Spine", "0 0.4 0"),
+          ("LeftArm", "Spine", "0.18 0.3 0"), ("LeftForeArm", "LeftArm", "0.28 0 0"), ("LeftHand", "LeftForeArm", "0.25 0 0"),
+          ("RightArm", "Spine", "-0.18 0.3 0"), ("RightForeArm", "RightArm", "-0.28 0 0"), ("RightHand", "RightForeArm", "-0.25 0 0"),
+          ("LeftUpLeg", "Hips", "0.1 0 0"), ("LeftLeg", "LeftUpLeg", "0 -0.42 0"), ("LeftFoot", "LeftLeg", "0 -0.42 0"),
+          ("RightUpLeg", "Hips", "-0.1 0 0"), ("RightLeg", "RightUpLeg", "0 -0.42 0"), ("RightFoot", "RightLeg", "0 -0.42 0"))
+
+
+def sway(frames):
+    """A motion of so many frames, as BVH: knee, elbow and back bend by up to 20 degrees, in four seconds."""
+    order = []
+
+    def tree(name, at):
+        order.append(name)
+        text = f"{'JOINT' if len(order) > 1 else 'ROOT'} {name}\n{{\nOFFSET {at}\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+        below = "".join(tree(child, place) for child, parent, place in JOINTS if parent == name)
+        return text + (below or "End Site\n{\nOFFSET 0 0.1 0\n}\n") + "}\n"
+
+    text = "HIERARCHY\n" + tree(*JOINTS[0][::2])
+    bending = {"LeftLeg", "LeftForeArm", "Spine"}
+    lines = []
+    for frame in range(frames):
+        angle = f"0 {20 * math.sin(2 * math.pi * frame / 120):.3f} 0"
+        lines.append(" ".join(angle if name in bending else "0 0 0" for name in order))
+    return text + f"MOTION\nFrames: {frames}\nFrame Time: 0.0333333\n" + "\n".join(lines) + "\n"
 
 
 def dirty(pid):
@@ -14,8 +48,8 @@ def dirty(pid):
         return next(int(line.split()[1]) for line in rollup if line.startswith("Private_Dirty"))
 
 
-def watch(name, command, expected, **more):
-    """Runs it and samples ten times a second, until it ends."""
+def watch(name, command, expected, pictures=None, **more):
+    """Runs it and samples ten times a second, until it ends; takes the pictures away from their folder."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **more)
     samples = []
     while process.poll() is None:
@@ -23,6 +57,8 @@ def watch(name, command, expected, **more):
             samples.append((dirty(process.pid), len(os.listdir(f"/proc/{process.pid}/fd"))))
         except (FileNotFoundError, ProcessLookupError, StopIteration, PermissionError):
             pass
+        for picture in os.scandir(pictures) if pictures else ():
+            os.remove(picture.path)
         time.sleep(0.1)
     if process.returncode != 0:
         sys.exit(f"{name}: exit {process.returncode}\n{process.stderr.read()}")
@@ -46,8 +82,8 @@ def main():
     parse.add_argument("--frames", type=int, default=20000)
     parse.add_argument("--resizes", type=int, default=500)
     parse.add_argument("--openings", type=int, default=20)
-    parse.add_argument("--pictures", type=int, default=0, help="of render; the clip must have as many frames")
-    parse.add_argument("--clip", default="")
+    parse.add_argument("--pictures", type=int, default=0, help="of render")
+    parse.add_argument("--clip", default="", help="of the app")
     parse.add_argument("--validate", action="store_true", help="the app under Vulkan's validation layer: a message fails it")
     wish = parse.parse_args()
     program, scene = os.path.abspath(wish.program), ["--body", os.path.abspath(wish.body), "--network", os.path.abspath(wish.network)]
@@ -77,9 +113,16 @@ def main():
                 server.terminate()
                 server.wait()
         if wish.pictures:
-            good &= watch("render", [program, "render", *scene, *clip, "--quiet", "--size", "64x64", "--quads", "4x2", "--frames",
-                                     f"0:{wish.pictures - 1}", "-o", os.path.join(folder, "picture.png")],
-                          f"{wish.pictures} pictures", env=environment, cwd=folder)
+            artery, motion, pictures = (os.path.join(folder, name) for name in ("leg.swc", "sway.bvh", "pictures"))
+            os.mkdir(pictures)
+            for path, text in (artery, ARTERY), (motion, sway(wish.pictures)):
+                with open(path, "w") as file:
+                    file.write(text)
+            network = os.path.join(folder, "leg.vasa")
+            subprocess.run([program, "convert", artery, "--kind", "artery", "-o", network], check=True, stdout=subprocess.DEVNULL)
+            good &= watch("render", [program, "render", *scene[:2], "--network", network, "--quiet", "--size", "64x64", "--quads", "4x2", "--samples", "1",
+                                     "--hide", "skin,bones,organs", "--clip", motion, "-o", os.path.join(pictures, "{frame}.png")],
+                          f"{wish.pictures} pictures", pictures, env=environment, cwd=folder)
     sys.exit(0 if good else 1)
 
 
