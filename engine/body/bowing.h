@@ -7,8 +7,9 @@
 namespace vasa {
 
 /// How long a wave vessels bow out in [m]. A tube of 3 mm radius and 0.7 mm wall of 1 MPa in tissue of 5 to
-/// 10 kPa buckles in waves of 2π (EI / k)^¼ = 31 mm; 60 mm is the shortest that sweeps of 15 mm can draw, and
-/// waves this long agree with the curvature and twist of bent legs' arteries (`vasa realism`, P006 to P013).
+/// 10 kPa buckles in waves of 2π (EI / k)^¼ = 31 mm; sweeps would have to be
+/// half as long as the 15 mm that draw waves of 60 mm, which agree with the curvature and twist of bent legs'
+/// arteries (`vasa realism`, P006 to P013).
 constexpr float kBowWave = 0.06f;
 /// Thinner vessels [m] are part of their bed; from half of this on they begin to bow.
 constexpr float kBowRadius = 1.5e-3f;

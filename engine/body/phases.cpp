@@ -123,9 +123,9 @@ class PhaseMeter {
     const float near = smoothstep(2 - behind_[j] / (kFavourReach * joint.arc));
     const float flesh = skinDistance_ >= BoneField::kFar ? 1.0f : smoothstep(2 * skinShares_[j]);
     const float favour = joint.spreadsTwist ? 1.0f : 1 + kLimbFavour * alongside * onward * near * flesh;
-    float measured =
+    const float measured =
+        (1 - overhang(j, p)) *
         smoothstep(0.5f + beyond(favour * before_[j], behind_[j]) / glm::mix(joint.arc, narrow, alongside));
-    measured *= 1 - overhang(j, p);
     const float told = std::clamp((skinShares_[j] - kSkinMargin) / (1 - 2 * kSkinMargin), 0.0f, 1.0f);
     return glm::mix(measured, told, trustInSkin(j, p));
   }

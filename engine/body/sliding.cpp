@@ -1,6 +1,7 @@
 #include "body/sliding.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "body/bowing.h"
@@ -177,6 +178,7 @@ void VesselSlider::settleOrder() {
 }
 
 void VesselSlider::run(std::span<vec4> points, std::span<const quat> turned) const {
+  assert(outwards_.empty() || turned.size() == points.size());
   parallelFor(courses_.size(), 16, [&](std::size_t c) { slide(courses_[c], points, turned); });
   for (const Course& course : courses_) carry(course, points);
   pinEnds(*network_, points);
@@ -230,20 +232,9 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
     return along[std::min(k + 1, n - 1)] - along[k > 0 ? k - 1 : 0];
   };
   std::vector<vec3> moved(n);
-  std::vector<vec3> bowed(n, vec3(0));
-  if (!outwards_.empty() && !turned.empty()) {
-    std::vector<float> along(n), left(n, 1.0f);
-    std::vector<vec4> rest(n);
-    std::vector<vec3> outwards(n);
-    std::vector<quat> turns(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::uint32_t point = course.points[row[k]];
-      along[k] = course.along[row[k]];
-      if (k > 0) left[k] = float(stretch[k] + (shift[k] - shift[k - 1]) / step[k]);
-      rest[k] = network_->points()[point], outwards[k] = outwards_[point], turns[k] = turned[point];
-    }
-    bow({along, left, rest, outwards, turns, course.start.holds, course.finish.holds}, bowed);
-  }
+  std::vector<float> left(n, 1.0f);  // of the stretch before each row
+  for (std::size_t k = 1; k < n; ++k) left[k] = float(stretch[k] + (shift[k] - shift[k - 1]) / step[k]);
+  const std::vector<vec3> bowed = bow(course, row, left, turned);
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t j = std::min(k, n - 2);
     while (j > 0 && was[j] > is[k]) --j;
@@ -265,6 +256,26 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
     vec4& point = points[course.points[i]];
     point = vec4(vec3(point) + moved[k], point.w);
   }
+}
+
+// What each row is moved aside by, as its course bows out; nothing where the bed is not known.
+std::vector<vec3> VesselSlider::bow(const Course& course, std::span<const std::uint32_t> rows,
+                                    std::span<const float> stretch, std::span<const quat> turned) const {
+  std::vector<vec3> aside(rows.size(), vec3(0));
+  if (outwards_.empty()) return aside;
+  std::vector<float> along;
+  std::vector<vec4> rest;
+  std::vector<vec3> outwards;
+  std::vector<quat> turns;
+  for (const std::uint32_t row : rows) {
+    const std::uint32_t point = course.points[row];
+    along.push_back(course.along[row]);
+    rest.push_back(network_->points()[point]);
+    outwards.push_back(outwards_[point]);
+    turns.push_back(turned[point]);
+  }
+  vasa::bow({along, stretch, rest, outwards, turns, course.start.holds, course.finish.holds}, aside);
+  return aside;
 }
 
 // Whether its control polygon is as long as at rest, leg by leg: most courses in most poses, and much cheaper

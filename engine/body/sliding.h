@@ -26,7 +26,7 @@ class VesselSlider {
 
   /// @param points  a posed network's points, ends on their nodes; radii stay. O(points), parallel over
   /// courses
-  /// @param turned  how the bed of each point has turned since rest; for bowing
+  /// @param turned  how the bed of each point has turned since rest; asked for where a binding was given
   void run(std::span<vec4> points, std::span<const quat> turned = {}) const;
 
   /// ℓ of a vessel of this radius [m].
@@ -52,6 +52,8 @@ class VesselSlider {
     Hold start, finish;
   };
   void slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const;
+  std::vector<vec3> bow(const Course& course, std::span<const std::uint32_t> rows,
+                        std::span<const float> stretch, std::span<const quat> turned) const;
   bool isUnstrained(const Course& course, std::span<const vec4> points) const;
   void carry(const Course& course, std::span<vec4> points) const;
   void settleOrder();

@@ -4,7 +4,7 @@
 
 #include "body/sliding.h"
 #include "curve/arc_length.h"
-#include "network/builder.h"
+#include "network/sample_network.h"
 
 using namespace vasa;
 
@@ -16,21 +16,13 @@ constexpr std::uint32_t kSpans = 40;
 // A vessel that hangs down on one side of the body, held by one across at either end.
 Network hanging(float side, float radius) {
   NetworkBuilder builder;
-  const auto straight = [&](vec3 from, vec3 to, std::uint32_t spans, float r) {
-    std::vector<vec4> points;
-    for (std::uint32_t j = 0; j < spans + 3; ++j) {
-      const auto knot = [&](int k) { return std::clamp(float(k), 0.0f, float(spans)); };
-      const float u = (knot(int(j) - 2) + knot(int(j) - 1) + knot(int(j))) / 3 / float(spans);
-      points.emplace_back(glm::mix(from, to, u), r);
-    }
-    return builder.addVessel({"", "", VesselKind::artery}, points);
-  };
   const vec3 top(0.1f * side, 1.0f, 0.04f), bottom = top - vec3(0, kSpan * kSpans, 0);
-  const VesselId vessel = straight(top, bottom, kSpans, radius);
+  const VesselId vessel = builder.addVessel({"vessel"}, test::straightVessel(top, bottom, radius, kSpans));
   for (const bool last : {false, true}) {
     const vec3 middle = last ? bottom : top;
     const VesselId host =
-        straight(middle - vec3(0.05f * side, 0, 0), middle + vec3(0.05f * side, 0, 0), 4, 0.004f);
+        builder.addVessel({"host"}, test::straightVessel(middle - vec3(0.05f * side, 0, 0),
+                                                         middle + vec3(0.05f * side, 0, 0), 0.004f, 4));
     builder.joinToSide({vessel, last}, {host, 2});
   }
   auto network = builder.build(1.75f);
@@ -57,7 +49,7 @@ std::vector<vec4> posed(const Network& network, const Binding& binding, float sh
   for (vec4& p : points) p.y = 1 - (1 - p.y) * share;
   pinEnds(network, points);
   const std::vector<quat> turned(points.size(), quat(1, 0, 0, 0));
-  VesselSlider(network, &binding).run(points, bows ? std::span<const quat>(turned) : std::span<const quat>());
+  VesselSlider(network, bows ? &binding : nullptr).run(points, turned);
   return points;
 }
 

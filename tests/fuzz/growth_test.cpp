@@ -1,7 +1,6 @@
 // Shapes that once took time or memory in the square of a file's size, or a thousand times its size: each is
 // made n, 2n and 4n large, and read or refused within the limits of io/read_limits.h.
 #include <doctest/doctest.h>
-#include <time.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "core/hash.h"
 #include "core/log.h"
 #include "fuzz/live_memory.h"
+#include "fuzz/processor_time.h"
 #include "growth/growth_rules.h"
 #include "growth/regions.h"
 #include "io/base64.h"
@@ -48,12 +48,6 @@ std::string times(std::size_t n, const std::string& part) {
   return times(n, [&](std::size_t) { return part; });
 }
 std::string of(std::size_t i) { return std::to_string(i); }
-
-double processorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 /// The least of three runs: what else the machine does only adds. @param read  gives the message of a refusal
 double secondsFor(const std::string& file, const std::function<std::string(const std::string&)>& read,

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <time.h>
-
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "fuzz/live_memory.h"
+#include "fuzz/processor_time.h"
 #include "io/gltf.h"
 #include "io/read_limits.h"
 #include "support/shared_data.h"
@@ -78,12 +77,6 @@ void readAll(const std::filesystem::path& file) {
   (void)checkGltf(file);
   (void)readBody(file);
   (void)readGltfElements(file);
-}
-
-double processorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
 }  // namespace
