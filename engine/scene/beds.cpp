@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "growth/random.h"
 
@@ -99,6 +100,7 @@ Box boxOf(const Tissue& tissue, const Cubes& cubes) {
 
 // Halves a group's tissue until its pieces are beds.
 void cut(const Tissue& tissue, Cubes cubes, std::size_t most, std::vector<Cubes>& pieces) {
+  checkpoint();
   const Box box = boxOf(tissue, cubes);
   if (cubes.size() <= most && (box.filled >= kLeastFilled || cubes.size() < most / kLeastShare)) {
     pieces.push_back(std::move(cubes));
@@ -152,6 +154,7 @@ class Sharing {
     for (const std::size_t side : {0u, 1u}) joinUp(side);
     beds.beds.clear(), beds.regionOfBed.clear();
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (i % 256 == 0) checkpoint();
       beds.beds.push_back(bedOf(i));
       beds.regionOfBed.push_back(pieces_[i].region);
     }
@@ -181,7 +184,9 @@ class Sharing {
     const std::vector<char> all(tissue_.count(), 1);
     for (const bool bone : {false, true}) {
       std::vector<TissueWays::Source> rim;
+      Checkpoints checkpoints;
       for (std::size_t i = 0; i < tissue_.count(); ++i) {
+        checkpoints.pass();
         bool outermost = false;
         for (const ivec3 step : {ivec3(1, 0, 0), ivec3(-1, 0, 0), ivec3(0, 1, 0), ivec3(0, -1, 0),
                                  ivec3(0, 0, 1), ivec3(0, 0, -1)}) {
@@ -286,7 +291,9 @@ class Sharing {
     const auto wayOf = [&](std::size_t i) { return ways_[side].length[std::size_t(pieces_[i].centre)]; };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t l, std::size_t r) { return wayOf(l) < wayOf(r); });
+    Checkpoints checkpoints;
     for (const std::size_t i : order) {
+      checkpoints.pass();
       Piece& piece = pieces_[i];
       piece.from[side] = std::int32_t(i);
       for (std::int32_t cube = piece.centre;; cube = ways_[side].before[std::size_t(cube)]) {

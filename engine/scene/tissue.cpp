@@ -7,6 +7,7 @@
 #include "body/mesh_role.h"
 #include "body/skin_field.h"
 #include "body/skin_shell.h"
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
 
@@ -33,7 +34,9 @@ std::size_t indexOf(const ivec3& size, ivec3 place) {
 std::vector<Crossing> crossingsOf(const Tissue& tissue, const TriangleMesh& mesh, int axis) {
   const int a = (axis + 1) % 3, b = (axis + 2) % 3;
   std::vector<Crossing> crossings;
+  Checkpoints checkpoints;
   for (const uvec3& t : mesh.triangles) {
+    checkpoints.pass();
     std::array<vec3, 3> p;
     for (int i = 0; i < 3; ++i) p[std::size_t(i)] = (mesh.positions[t[i]] - tissue.low) / tissue.cell;
     const auto cross = [&](const vec3& o, const vec3& u, float x, float y) {
@@ -68,6 +71,7 @@ std::vector<std::uint8_t> insideVotes(const Tissue& tissue, const TriangleMesh& 
   parallelFor(3, 1, [&](std::size_t axis) { all[axis] = crossingsOf(tissue, mesh, int(axis)); });
   std::vector<std::uint8_t> votes(tissue.at.size());
   for (int axis = 0; axis < 3; ++axis) {
+    checkpoint();
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
     const std::vector<Crossing>& crossings = all[std::size_t(axis)];
     for (std::size_t first = 0; first < crossings.size();) {
@@ -144,7 +148,8 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
     for (std::size_t i = 0; i < votes.size(); ++i) solid[i] = std::max(solid[i], votes[i]);
   }
   std::size_t i = 0;
-  for (int z = 0; z < tissue.size.z; ++z)
+  for (int z = 0; z < tissue.size.z; ++z) {
+    checkpoint();
     for (int y = 0; y < tissue.size.y; ++y)
       for (int x = 0; x < tissue.size.x; ++x, ++i) {
         tissue.at[i] = inside[i] >= 2 ? std::int32_t(tissue.places.size()) : -1;
@@ -152,6 +157,7 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
         tissue.places.emplace_back(x, y, z);
         tissue.kinds.push_back(solid[i] >= 2 ? Tissue::Kind::solid : Tissue::Kind::flesh);
       }
+  }
   return tissue;
 }
 
@@ -173,6 +179,7 @@ TissueWays waysFrom(const Tissue& tissue, const std::vector<TissueWays::Source>&
     ++waiting;
   }
   for (std::uint32_t length = 0; waiting > 0; ++length) {
+    checkpoint();
     std::vector<std::int32_t> front;
     front.swap(buckets[length % buckets.size()]);
     waiting -= front.size();
