@@ -5,10 +5,30 @@
 #include <limits>
 
 #include "body/mesh_role.h"
+#include "body/skin_shell.h"
 #include "body/skinning.h"
 #include "math/closest_point.h"
 
 namespace vasa {
+namespace {
+
+// How far [m] from a joint its own bone begins, at rest: a knee turns about an axis in the thigh's bone,
+// above the line between the bones, from which levels are given.
+float boneBegins(const Body& body, JointId joint) {
+  const vec3 centre(body.skeleton.joints[joint.value].restWorld[3]);
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const SkinnedMesh& mesh : body.meshes) {
+    if (roleNamed(mesh.name) != MeshRole::bones) continue;
+    const TriangleMesh rest = meshAtRest(body, mesh);
+    for (std::size_t v = 0; v < rest.positions.size(); ++v)
+      for (int i = 0; i < 4; ++i)
+        if (mesh.influences[v].joints[std::size_t(i)] == joint.value && mesh.influences[v].weights[i] > 0.5f)
+          nearest = std::min(nearest, glm::distance(rest.positions[v], centre));
+  }
+  return std::isfinite(nearest) ? nearest : 0;
+}
+
+}  // namespace
 
 float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<float> level,
               const Network& network, const VesselPath& path, std::span<const vec4> points) {
@@ -18,7 +38,7 @@ float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<f
   if (level) {
     const Skeleton::Joint& limb = body.skeleton.joints[joint.value];
     const mat4 toRest = limb.restWorld * glm::inverse(pose.world[joint.value]);
-    const float height = limb.restWorld[3].y + *level;
+    const float height = limb.restWorld[3].y - boneBegins(body, joint) + *level;
     places = {*std::ranges::min_element(
         places, {}, [&](const vec4& place) { return std::abs((toRest * vec4(vec3(place), 1)).y - height); })};
   }
