@@ -12,6 +12,7 @@
 #include "collide/distance_field.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
+#include "math/direction.h"
 
 namespace vasa {
 namespace {
@@ -27,11 +28,6 @@ constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
 constexpr float kWorthKeeping = 1.05f;  // that many times what was kept is kept instead
 constexpr float kMovedFar = 0.002f;     // [m] less brings no tube from beyond a field's band into a part
-
-vec3 unitOr(vec3 v, vec3 otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-9f ? v / length : otherwise;
-}
 
 vec3 placed(const mat4& matrix, vec3 p) { return vec3(matrix * vec4(p, 1)); }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "math/direction.h"
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
@@ -28,11 +29,6 @@ constexpr float kLeastDiagonal = 1e-4f;        // below it nothing that may move
 // How far a multiplier may push on its own: times what is lacking and the radii.
 constexpr float kReach = 10;
 constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
-
-vec3 unitOr(vec3 v, vec3 otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-9f ? v / length : otherwise;
-}
 
 float widestOf(const Bezier& tube) { return std::max({tube.b[0].w, tube.b[1].w, tube.b[2].w, tube.b[3].w}); }
 

@@ -5,6 +5,7 @@
 
 #include "collide/contact_search.h"
 #include "core/parallel.h"
+#include "math/direction.h"
 
 namespace vasa {
 namespace {
@@ -19,11 +20,6 @@ constexpr int kMostSteps = 4;      // from tube to tube
 constexpr float kInto = 0.01f;     // of a tube, where the search goes on in the next
 constexpr float kNearer = 1e-6f;   // [m]
 constexpr std::size_t kGrain = 1024;
-
-vec3 unitOr(vec3 v, vec3 otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-9f ? v / length : otherwise;
-}
 
 float fadeOut(float x, float from, float to) {
   const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);

@@ -1,0 +1,140 @@
+#include "body/rest_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kNone = Rig::kNone;
+constexpr float kLeastBend = 0.1f;  // sine of an elbow's bend
+constexpr float kMostHingeTurn = 1.0f;
+// Cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant.
+constexpr float kFacingDoubt = 0.87f;
+const quat kIdentity(1, 0, 0, 0);
+
+std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<mat3>& to) {
+  if (!from || !to) return std::nullopt;
+  return glm::normalize(glm::quat_cast(*to * glm::transpose(*from)));
+}
+
+// Direction of a limb's bone: to the joint that is the next part.
+vec3 boneOf(const Rig& rig, std::uint32_t joint, std::string_view part) {
+  const std::uint32_t end = rig.limbEnd(part);
+  return end == kNone ? vec3(0) : rig.centres[end] - rig.centres[joint];
+}
+
+std::uint32_t toesOf(const Rig& rig, std::uint32_t foot) {
+  return rig.partNamed(std::string(rig.parts.of[foot].starts_with("left") ? "left" : "right") + "Toes");
+}
+
+// Along the fingers and towards the thumb; nothing where a hand has neither.
+std::optional<mat3> handOf(const Rig& rig, std::uint32_t hand) {
+  vec3 fingers(0), thumb(0);
+  const std::string side(rig.parts.of[hand].starts_with("left") ? "left" : "right");
+  const std::uint32_t root = rig.partNamed(side + "ThumbProximal");
+  for (std::uint32_t j = hand + 1; j < rig.names.size(); ++j) {
+    bool inHand = false, inThumb = false;
+    for (std::uint32_t at = j; at != kNone && at >= hand; at = rig.parents[at])
+      inHand = inHand || at == hand, inThumb = inThumb || at == root;
+    if (inHand) (inThumb ? thumb : fingers) += rig.tips[j] - rig.centres[hand];
+  }
+  const vec3 along = directionOf(fingers), aside = directionOf(thumb - glm::dot(thumb, along) * along);
+  if (along == vec3(0) || aside == vec3(0)) return std::nullopt;
+  return mat3(along, aside, glm::cross(along, aside));
+}
+
+class Alignment {
+ public:
+  Alignment(const Motion& motion, std::uint32_t standing, std::span<const quat> turns, const Rig& from,
+            const Rig& to, std::span<const std::uint32_t> source)
+      : motion_(motion), standing_(standing), standingTurns_(turns), from_(from), to_(to), source_(source) {
+    const auto hips =
+        turnOf(trunkOf(to_, {"UpperLeg", "UpperArm"}), trunkOf(from_, {"UpperLeg", "UpperArm"}));
+    const auto chest = turnOf(trunkOf(to_, {"UpperArm"}), trunkOf(from_, {"UpperArm"}));
+    if (!hips || (standing_ == MotionPose::kZero && hips->w > 0 && 2 * hips->w * hips->w - 1 > kFacingDoubt))
+      return;
+    hipsTurn_ = *hips;
+    chestTurn_ = standing_ != MotionPose::kZero && chest ? *chest : *hips;
+  }
+
+  std::vector<quat> run() const {
+    std::vector<quat> alignment(source_.size(), kIdentity);
+    for (std::uint32_t j = 0; j < source_.size(); ++j)
+      alignment[j] = alignmentOf(j, to_.parents[j] == kNone ? hipsTurn_ : alignment[to_.parents[j]]);
+    return alignment;
+  }
+
+ private:
+  quat alignmentOf(std::uint32_t j, const quat& above) const {
+    const std::uint32_t s = source_[j];
+    const std::string_view part = to_.parts.of[j];
+    if (s == kNone || part.empty()) return above;
+    const quat trunk = part == "hips" || part == "spine" ? hipsTurn_ : chestTurn_;
+    if (part.ends_with("Hand")) {
+      const auto own = handOf(to_, j), wanted = handOf(from_, s);
+      return own && wanted ? glm::normalize(glm::quat_cast(*wanted * glm::transpose(*own))) : above;
+    }
+    const vec3 own = boneOf(to_, j, part), wanted = boneOf(from_, s, part);
+    if (own != vec3(0) && wanted != vec3(0)) {
+      const quat turn = turnBetween(above * own, wanted) * above;
+      return part.ends_with("UpperArm") ? hingeTurn(j, turn) * turn : turn;
+    }
+    const bool finger = part.find("Proximal") != part.npos || part.ends_with("Toes");
+    if (finger) return above;
+    if (standing_ == MotionPose::kZero) return trunk;
+    // In a frame of the motion feet need not be flat: they are as their toes tell, else as the shin has them.
+    if (!part.ends_with("Foot")) return trunk;
+    const std::uint32_t ownToes = toesOf(to_, j), toes = toesOf(from_, s);
+    if (ownToes == kNone || toes == kNone) return above;
+    return turnBetween(above * (to_.centres[ownToes] - to_.centres[j]),
+                       from_.centres[toes] - from_.centres[s]) *
+           above;
+  }
+
+  // The turn about an upper arm that makes the elbow bend about the axis it is bent about at rest: no
+  // direction of a bone tells how an arm is turned. None where the body's arm is straight at rest or the
+  // motion never bends.
+  quat hingeTurn(std::uint32_t upper, const quat& turn) const {
+    const std::string side(to_.parts.of[upper].starts_with("left") ? "left" : "right");
+    const std::uint32_t lower = to_.partNamed(side + "LowerArm");
+    if (lower == kNone || source_[lower] == kNone || from_.parents[source_[lower]] != source_[upper])
+      return kIdentity;
+    const vec3 along = directionOf(boneOf(to_, upper, side + "UpperArm")),
+               on = directionOf(boneOf(to_, lower, side + "LowerArm"));
+    const vec3 sourceAlong = directionOf(boneOf(from_, source_[upper], side + "UpperArm")),
+               sourceOn = directionOf(boneOf(from_, source_[lower], side + "LowerArm"));
+    vec3 bends(0);
+    const std::uint32_t foreArm = source_[lower], arm = source_[upper];
+    const quat toForeArm = glm::conjugate(standingTurns_[arm]) * standingTurns_[foreArm];
+    for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame) {
+      // The forearm's turn beyond its standing one, seen from the arm as it stands.
+      const quat bend = standingTurns_[arm] * motion_.rotation(frame, foreArm) * glm::conjugate(toForeArm) *
+                        glm::conjugate(standingTurns_[arm]);
+      bends += glm::cross(sourceAlong, bend * sourceOn);
+    }
+    const vec3 own = glm::cross(along, on), wanted = bends / float(motion_.frameCount);
+    if (glm::length(own) < kLeastBend || glm::length(wanted) < kLeastBend) return kIdentity;
+    const vec3 a = directionOf(turn * own),
+               b = directionOf(wanted - glm::dot(wanted, sourceAlong) * sourceAlong);
+    const float angle = std::atan2(glm::dot(glm::cross(a, b), sourceAlong), glm::dot(a, b));
+    return glm::angleAxis(std::clamp(angle, -kMostHingeTurn, kMostHingeTurn), sourceAlong);
+  }
+
+  const Motion& motion_;
+  std::uint32_t standing_;
+  std::span<const quat> standingTurns_;
+  const Rig &from_, &to_;
+  std::span<const std::uint32_t> source_;
+  quat hipsTurn_ = kIdentity, chestTurn_ = kIdentity;  // from the body's trunk to the motion's
+};
+
+}  // namespace
+
+std::vector<quat> alignRest(const Motion& motion, std::uint32_t standing, std::span<const quat> turns,
+                            const Rig& from, const Rig& to, std::span<const std::uint32_t> source) {
+  return Alignment(motion, standing, turns, from, to, source).run();
+}
+
+}  // namespace vasa

@@ -1,0 +1,181 @@
+#include "body/rig.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "body/humanoid_shape.h"
+
+namespace vasa {
+namespace {
+
+constexpr std::uint32_t kNone = Rig::kNone;
+constexpr float kLongBone = 2.5f;                   // times the other bone of a limb: no person's
+constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand and foot
+constexpr int kGross = 8;                           // what no person has counts as much as this many doubts
+constexpr float kAlike = 0.25f;                     // the share by which the bones of both sides may differ
+
+// The joint that two lead back to; none where they share none.
+std::uint32_t whereMeet(const Rig& rig, std::uint32_t left, std::uint32_t right) {
+  for (std::uint32_t a = left; a != kNone; a = rig.parents[a])
+    for (std::uint32_t b = right; b != kNone; b = rig.parents[b])
+      if (a == b) return a;
+  return kNone;
+}
+
+// Where both legs leave the trunk, in rigs that call the hips a spine.
+void findHips(Rig& rig) {
+  const std::uint32_t left = rig.partNamed("leftUpperLeg"), right = rig.partNamed("rightUpperLeg");
+  if (rig.partNamed("hips") != kNone || left == kNone || right == kNone) return;
+  if (const std::uint32_t hips = whereMeet(rig, rig.parents[left], rig.parents[right]); hips != kNone)
+    rig.parts.of[hips] = humanoidPart("hips");
+}
+
+// What goes on beyond the shoulders, in rigs that call neck and head a spine, too.
+void findHead(Rig& rig) {
+  const std::uint32_t left = rig.partNamed("leftUpperArm"), right = rig.partNamed("rightUpperArm");
+  if (rig.partNamed("neck") != kNone || rig.partNamed("head") != kNone || left == kNone || right == kNone)
+    return;
+  const std::uint32_t chest = whereMeet(rig, left, right);
+  if (chest == kNone) return;
+  for (auto top = std::uint32_t(rig.names.size()); top-- > 0;) {
+    const std::string_view own = rig.parts.of[top];
+    if (own != "spine" && own != "chest" && own != "upperChest") continue;
+    std::uint32_t first = top;
+    while (first != kNone && rig.parents[first] != chest) first = rig.parents[first];
+    if (first == kNone) continue;
+    rig.parts.of[top] = humanoidPart("head");
+    if (first != top) rig.parts.of[first] = humanoidPart("neck");
+    return;
+  }
+}
+
+// Names first; where these tell little, the skeleton's shape.
+void nameParts(Rig& rig) {
+  rig.parts = humanoidNames(rig.names);
+  findHips(rig);
+  findHead(rig);
+  if (humanoidKeys(rig.parts.of) >= kHumanoidKeys / 2) return;
+  auto shape = humanoidShape(rig.parents, rig.centres, rig.tips);
+  if (humanoidKeys(shape) > humanoidKeys(rig.parts.of)) rig.parts = {"shape", std::move(shape)};
+}
+
+}  // namespace
+
+std::uint32_t Rig::partNamed(std::string_view part) const {
+  const auto found = std::ranges::find(parts.of, part);
+  return found == parts.of.end() ? kNone : std::uint32_t(found - parts.of.begin());
+}
+
+std::uint32_t Rig::limbEnd(std::string_view part) const {
+  for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"},
+                                    {"LowerArm", "Hand"},
+                                    {"UpperLeg", "LowerLeg"},
+                                    {"LowerLeg", "Foot"}})
+    if (part.ends_with(own))
+      return partNamed(std::string(part.starts_with("left") ? "left" : "right") + behind);
+  return kNone;
+}
+
+void placeIn(Rig& rig, const MotionPose& pose) { rig.centres = pose.places, rig.tips = pose.tips; }
+
+Rig rigOf(const Motion& motion) {
+  Rig rig;
+  for (const Motion::Joint& joint : motion.joints)
+    rig.names.push_back(joint.name), rig.parents.push_back(joint.parent.value);
+  placeIn(rig, motionPose(motion, 0));
+  nameParts(rig);
+  return rig;
+}
+
+Rig rigOf(const Skeleton& skeleton) {
+  Rig rig;
+  for (const auto& joint : skeleton.joints) {
+    rig.names.push_back(joint.name);
+    rig.parents.push_back(joint.parent.value);
+    rig.centres.push_back(vec3(joint.restWorld[3]));
+  }
+  rig.tips = rig.centres;
+  nameParts(rig);
+  return rig;
+}
+
+std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_view> pairs) {
+  const std::uint32_t from = rig.partNamed("hips");
+  std::uint32_t to = kNone;
+  for (const char* part : {"neck", "head", "upperChest", "chest"})
+    if (to == kNone) to = rig.partNamed(part);
+  vec3 left(0);
+  for (const std::string_view pair : pairs) {
+    const std::uint32_t a = rig.partNamed("left" + std::string(pair)),
+                        b = rig.partNamed("right" + std::string(pair));
+    if (a != kNone && b != kNone) left += rig.centres[a] - rig.centres[b];
+  }
+  if (from == kNone || to == kNone) return std::nullopt;
+  const vec3 up = directionOf(rig.centres[to] - rig.centres[from]),
+             side = directionOf(left - glm::dot(left, up) * up);
+  if (up == vec3(0) || side == vec3(0)) return std::nullopt;
+  return mat3(side, up, glm::cross(side, up));
+}
+
+float legsOf(const Rig& rig) {
+  float length = 0;
+  for (const std::string side : {"left", "right"}) {
+    const std::uint32_t thigh = rig.partNamed(side + "UpperLeg"), knee = rig.partNamed(side + "LowerLeg"),
+                        foot = rig.partNamed(side + "Foot");
+    if (thigh == kNone || knee == kNone || foot == kNone) return 0;
+    length += glm::distance(rig.centres[thigh], rig.centres[knee]) +
+              glm::distance(rig.centres[knee], rig.centres[foot]);
+  }
+  return length;
+}
+
+float extentOf(const Rig& rig) {
+  float low = rig.tips[0].y, high = low;
+  for (const vec3& p : rig.tips) low = std::min(low, p.y), high = std::max(high, p.y);
+  return high - low;
+}
+
+float plausibility(const Rig& rig) {
+  int held = 0, asked = 0;
+  float arm = 0, leg = 0;
+  const auto ask = [&](bool holds, int weight = 1) { asked += weight, held += holds ? weight : 0; };
+  const auto below = [&](std::uint32_t joint, std::uint32_t above) {
+    while (joint != kNone && joint != above) joint = rig.parents[joint];
+    return joint == above;
+  };
+  const auto part = [&](const char* side, const char* name) {
+    return rig.partNamed(std::string(side) + name);
+  };
+  const std::uint32_t hips = rig.partNamed("hips"),
+                      top = rig.partNamed(rig.partNamed("neck") == kNone ? "head" : "neck");
+  for (const auto& limb :
+       {std::array{"UpperArm", "LowerArm", "Hand"}, std::array{"UpperLeg", "LowerLeg", "Foot"}}) {
+    std::array<float, 2> lengths[2] = {{0, 0}, {0, 0}};
+    for (int s = 0; s < 2; ++s)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const char* side = s ? "right" : "left";
+        const std::uint32_t a = part(side, limb[k]), b = part(side, limb[k + 1]);
+        if (a == kNone || b == kNone) continue;
+        ask(below(b, a) && a != b);
+        const vec3 bone = rig.centres[b] - rig.centres[a];
+        lengths[k][std::size_t(s)] = glm::length(bone);
+        if (limb[0] == std::string_view("UpperLeg") && hips != kNone && top != kNone)
+          ask(glm::dot(bone, rig.centres[top] - rig.centres[hips]) < 0);
+      }
+    for (int s = 0; s < 2; ++s) {
+      const float upper = lengths[0][std::size_t(s)], lower = lengths[1][std::size_t(s)];
+      if (upper > 0 && lower > 0) ask(upper < kLongBone * lower && lower < kLongBone * upper, kGross);
+      (limb[0] == std::string_view("UpperArm") ? arm : leg) += upper > 0 && lower > 0 ? upper + lower : 0;
+    }
+    for (const auto& [left, right] :
+         {std::pair(lengths[0][0], lengths[0][1]), std::pair(lengths[1][0], lengths[1][1])})
+      if (left > 0 && right > 0) ask(std::abs(left - right) < kAlike * std::max(left, right));
+    const std::uint32_t l = part("left", limb[0]), r = part("right", limb[0]);
+    if (l != kNone && r != kNone) ask(!below(l, r) && !below(r, l));
+  }
+  if (arm > 0 && leg > 0) ask(arm > kShortArm * leg && arm < kLongArm * leg, kGross);
+  return asked > 0 ? float(held) / float(asked) : 1.0f;
+}
+
+}  // namespace vasa

@@ -1,0 +1,52 @@
+#pragma once
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "body/humanoid.h"
+#include "body/motion_rest.h"
+#include "body/skeleton.h"
+#include "math/direction.h"
+
+namespace vasa {
+
+/// The unit vector along v, zero where there is none.
+inline vec3 directionOf(vec3 v) { return unitOr(v, vec3(0)); }
+
+/// What a body's skeleton and a motion's have in common: joints with names, parents and places, and what part
+/// of a person each is.
+struct Rig {
+  static constexpr std::uint32_t kNone = JointId::kNone;
+  std::vector<std::string> names;
+  std::vector<std::uint32_t> parents;  ///< kNone at a root
+  std::vector<vec3> centres, tips;     ///< a tip's end where the file has one, else the centre
+  HumanoidNames parts;                 ///< by name; where names tell little, by the skeleton's shape
+
+  /// kNone where there is none.
+  std::uint32_t partNamed(std::string_view part) const;
+  /// The joint at which the bone of an arm's or a leg's part ends; kNone for other parts.
+  std::uint32_t limbEnd(std::string_view part) const;
+};
+
+Rig rigOf(const Skeleton& skeleton);  ///< at rest
+/// In the first frame: a zero pose may have all bones along one line.
+Rig rigOf(const Motion& motion);
+/// Moves a motion's rig to one of its poses.
+void placeIn(Rig& rig, const MotionPose& pose);
+
+/// Left, up and forward of a trunk: up from the hips, left as these pairs of joints lie. Nothing where joints
+/// are missing.
+/// @param pairs  parts without their side, as "UpperArm"
+std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_view> pairs);
+
+/// Thighs and shins of both legs together [m], or in the motion's unit; 0 where one is missing.
+float legsOf(const Rig& rig);
+/// Height of all joints and tips.
+float extentOf(const Rig& rig);
+
+/// The share of what must hold between the parts of a person that does: lower bones behind upper ones, both
+/// sides alike, legs away from the trunk. Names alone may mean anything.
+float plausibility(const Rig& rig);
+
+}  // namespace vasa
