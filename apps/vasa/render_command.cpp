@@ -2,32 +2,23 @@
 
 #include <chrono>
 #include <cmath>
-#include <future>
-#include <iostream>
-#include <set>
 
 #include "atlas/colouring.h"
 #include "camera_choice.h"
 #include "capillary_options.h"
 #include "commands.h"
-#include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/files_read.h"
 #include "core/hash.h"
 #include "core/log.h"
-#include "core/parallel.h"
 #include "core/stage_log.h"
 #include "endings.h"
-#include "frame_output.h"
+#include "film.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
-#include "io/png.h"
-#include "io/video.h"
 #include "loading_line.h"
 #include "look_options.h"
 #include "output_folder.h"
-#include "plate/plate.h"
-#include "render/renderer.h"
 #include "report.h"
 #include "scene_options.h"
 #include "track_option.h"
@@ -50,28 +41,6 @@ struct Options {
   bool beat = false;
   bool resume = false, transparent = false, noVolume = false, noSlide = false, avoid = true,
        highlightContacts = false, skinWall = false;
-};
-
-// What is to be drawn, settled before the first frame.
-struct Job {
-  SceneFile choice;
-  Scene scene;
-  const Clip* clip = nullptr;
-  CameraMan camera;
-  Look look;
-  RenderOptions render;
-  SweepTable table;
-  std::unique_ptr<SceneGrowth> growth;  // none without capillaries
-  FrameRange range;
-  Shard shard;
-  std::optional<FramePattern> pattern;  // none: raw PNG to standard output
-  std::uint64_t runHash = 0;            // tells this run's pictures from another's
-  PictureSize size;                     // of what is written
-  std::optional<plate::PlateStyle>
-      page;                 // labels beside the picture, which is smaller then than what is written
-  std::vector<char> shown;  // one a vessel
-  atlas::Colouring colouring = atlas::Colouring::kind;
-  atlas::VesselGroups groups;
 };
 
 constexpr float kScreenDpi = 96;  // of a picture of 1280 by 720 with labels: letters of 11 pixels
@@ -128,7 +97,8 @@ std::string settingsOf(const CLI::App& sub) {
 
 // Everything that decides a picture but the frame's number. The points tell in which order networks were
 // given.
-std::uint64_t hashOfRun(const Job& job, const Options& options, std::uint64_t seed, const FilesRead& files) {
+std::uint64_t hashOfRun(const FilmJob& job, const Options& options, std::uint64_t seed,
+                        const FilesRead& files) {
   const std::uint64_t scene =
       job.clip ? trackKey(job.scene, *job.clip, frameOptions(options)) : hashOf(job.scene.network.points());
   const std::string run = fmt::format("{}|{:016x}|{:016x}|{}", options.settings, files.hash(), scene, seed);
@@ -152,8 +122,8 @@ atlas::Colouring colouringOf(const Options& options, const SceneFile& choice) {
   return *atlas::colouringNamed(options.colour.empty() ? choice.look.colour : options.colour);
 }
 
-Result<Job> prepare(const Globals& globals, const Options& options) {
-  Job job;
+Result<FilmJob> prepare(const Globals& globals, const Options& options) {
+  FilmJob job;
   // What is wrong with the words themselves is told before anything is loaded.
   if (const auto pattern = FramePattern::parse(options.output, false); !pattern) return pattern.error();
   const auto size = parseSize(options.size);
@@ -226,6 +196,10 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
                 .supersample = options.supersample,
                 .occlusion = true,
                 .timed = false};
+  job.printed = options.output == "-";
+  job.video = options.video;
+  job.resume = options.resume;
+  job.highlightContacts = options.highlightContacts;
   job.range = *range;
   job.shard = *shard;
   job.render.growth = job.growth.get();
@@ -234,190 +208,6 @@ Result<Job> prepare(const Globals& globals, const Options& options) {
   job.runHash = hashOfRun(job, options, globals.seed, files);
   return job;
 }
-
-// Draws frames and hands each picture on; encoding and writing go on beside the next frame's drawing.
-class Film {
- public:
-  Film(const Job& job, const Options& options, const FrameOptions& frame, gpu::Device& device)
-      : job_(job),
-        options_(options),
-        making_(makerBeside(job, frame)),
-        renderer_(rendererOf(job, device)),
-        maker_(making_.get()) {}
-
-  Result<void> run() {
-    ProgressLine progress("rendering");
-    if (!options_.video.empty()) {
-      auto video = VideoWriter::create(options_.video, job_.render.width, job_.render.height,
-                                       job_.clip ? job_.clip->framesPerSecond : 30);
-      if (!video) return video.error();
-      video_.emplace(std::move(*video));
-    }
-    for (std::uint32_t frame = job_.range.first; frame <= job_.range.last; ++frame) {
-      checkpoint();
-      if (frame % job_.shard.count != job_.shard.index) continue;
-      if (auto done = makeFrame(frame); !done) return done;
-      progress.update(frame - job_.range.first + 1, job_.range.last - job_.range.first + 1);
-    }
-    if (auto written = finishWriting(); !written) return written;
-    return video_ ? video_->finish() : Result<void>();
-  }
-
-  CapillaryCounts capillaries() const { return renderer_.capillaryCounts(); }
-
-  std::uint32_t drawn = 0, kept = 0, steps = 0;
-  float largestStep = 0;       // [m] of a control point between consecutive frames
-  float largestJointStep = 0;  // [m] of a joint: what the motion itself asks for
-  std::uint32_t largestStepFrame = 0;
-
- private:
-  Result<void> makeFrame(std::uint32_t frame) {
-    if (options_.resume && job_.pattern) {
-      const auto present = isPresent(frame);
-      if (!present) return present.error();
-      if (*present) {
-        ++kept;
-        if (!video_) return {};
-        auto picture = readPng(job_.pattern->of(frame));
-        if (!picture) return picture.error();
-        return video_->write(*picture);
-      }
-    }
-    maker_->make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
-    noteStep(frame);
-    if (options_.highlightContacts)
-      highlightContacts();
-    else if (job_.colouring != atlas::Colouring::kind || !job_.choice.hidden.empty())
-      renderer_.setSweepColours(withoutHidden(
-          atlas::spanColours(job_.scene.network, job_.groups, maker_->points(), job_.colouring)));
-    const Camera camera = job_.camera.at(job_.scene, maker_->pose(), maker_->points());
-    renderer_.draw({.points = maker_->points(),
-                    .knotFrames = maker_->knotFrames(),
-                    .jointMatrices = maker_->jointMatrices(),
-                    .camera = camera,
-                    .look = job_.look,
-                    .heartScale = maker_->heartScale()});
-    ++drawn;
-    if (auto written = finishWriting(); !written) return written;
-    Image picture = renderer_.readBack();
-    if (job_.page) {
-      auto labelled = withLabels(std::move(picture), camera);
-      if (!labelled) return labelled.error();
-      picture = std::move(*labelled);
-    }
-    writing_ = std::async(std::launch::async,
-                          [this, frame, done = std::move(picture)] { return write(frame, done); });
-    return {};
-  }
-
-  Result<Image> withLabels(Image picture, const Camera& camera) const {
-    const auto type = plate::Typesetter::load();
-    if (!type) return type.error();
-    const plate::PlateStyle& page = *job_.page;
-    const auto plan = plate::planPlate(
-        {job_.scene, *maker_, job_.table, job_.scene.body.meshes, job_.shown, job_.shown, job_.look}, page,
-        *type, camera, float(picture.width) / float(picture.height));
-    if (!plan) return plan.error();
-    for (const std::string& name : plan->unseen)
-      logWarning("'" + name + "' is not seen in this picture and gets no label");
-    const auto keys = atlas::legendOf(job_.scene.network, job_.groups, job_.colouring, plan->seen);
-    const plate::Sheet sheet =
-        plate::plateSheet(*plan, page, *type, std::make_shared<const Image>(std::move(picture)), keys);
-    return plate::sheetImage(sheet, uvec2(job_.size.width, job_.size.height));
-  }
-
-  // What the scene hides has no colour.
-  std::vector<std::uint32_t> withoutHidden(std::vector<std::uint32_t> colours) const {
-    atlas::leaveOut(job_.scene.network, job_.shown, colours);
-    return colours;
-  }
-
-  // Grey vessels; yellow where they ran through one another, red where they still do.
-  void highlightContacts() {
-    maker_->lookAtPosed();
-    const Avoider& avoider = *maker_->avoider();
-    std::vector<std::uint32_t> colours(job_.scene.network.sweepCount(), packColour({0.5f, 0.5f, 0.55f, 1}));
-    const auto paint = [&](std::span<const Interference::Place> places, vec4 colour) {
-      for (const Interference::Place& place : places)
-        colours[place.contact.i] = colours[place.contact.j] = packColour(colour);
-    };
-    paint(avoider.found(), {1, 0.75f, 0, 1});
-    paint(avoider.remaining(), {1, 0, 0, 1});
-    renderer_.setSweepColours(withoutHidden(std::move(colours)));
-  }
-
-  // Whether this frame's picture is there already, from the same run.
-  Result<bool> isPresent(std::uint32_t frame) const {
-    const auto path = job_.pattern->of(frame);
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) return false;
-    const auto comment = readPngComment(path);
-    if (comment && *comment == stamp()) return true;
-    return Error{Fault::resumeMismatch,
-                 path.string() +
-                     ": was made by another run (other scene, clip or settings), so --resume "
-                     "cannot go on from it; choose another output or leave out --resume"};
-  }
-
-  std::string stamp() const { return fmt::format("vasa run {:016x}", job_.runHash); }
-
-  Result<void> write(std::uint32_t frame, const Image& picture) {
-    if (video_)
-      if (auto written = video_->write(picture); !written) return written;
-    if (options_.output.empty()) return {};
-    const auto bytes = encodePng(picture, {.alpha = job_.look.transparent, .comment = stamp()});
-    if (!bytes) return bytes.error();
-    if (job_.pattern) return writeFileAtomically(job_.pattern->of(frame), *bytes);
-    return printBytes(*bytes);
-  }
-
-  Result<void> finishWriting() { return writing_.valid() ? writing_.get() : Result<void>(); }
-
-  void noteStep(std::uint32_t frame) {
-    const auto points = maker_->points();
-    if (!previous_.empty() && frame == previousFrame_ + 1) {
-      ++steps;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const float step = glm::distance(vec3(points[i]), vec3(previous_[i]));
-        if (step > largestStep) largestStep = step, largestStepFrame = frame;
-      }
-      for (std::size_t j = 0; j < previousPose_.world.size(); ++j)
-        largestJointStep = std::max(largestJointStep, glm::distance(vec3(maker_->pose().world[j][3]),
-                                                                    vec3(previousPose_.world[j][3])));
-    }
-    previous_.assign(points.begin(), points.end());
-    previousPose_ = maker_->pose();
-    previousFrame_ = frame;
-  }
-
-  // Made on a thread of its own, unless one is to do everything.
-  static std::future<std::unique_ptr<FrameMaker>> makerBeside(const Job& job, const FrameOptions& frame) {
-    return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred,
-                      [&job, frame, asked = CancellationScope::current()] {
-                        const CancellationScope scope(asked);
-                        const StageLog stage("preparing how vessels move");
-                        return std::make_unique<FrameMaker>(job.scene, frame);
-                      });
-  }
-
-  static Renderer rendererOf(const Job& job, gpu::Device& device) {
-    const StageLog stage("preparing to draw");
-    RenderOptions options = job.render;
-    options.table = &job.table;
-    return Renderer(device, job.scene.network, job.scene.body.meshes, options);
-  }
-
-  const Job& job_;
-  const Options& options_;
-  std::future<std::unique_ptr<FrameMaker>> making_;
-  Renderer renderer_;
-  std::unique_ptr<FrameMaker> maker_;
-  std::optional<VideoWriter> video_;
-  std::future<Result<void>> writing_;
-  std::vector<vec4> previous_;
-  Pose previousPose_;
-  std::uint32_t previousFrame_ = 0;
-};
 
 // Folders are made when there is something to put into them.
 Result<void> makeFolders(const Options& options) {
@@ -430,7 +220,7 @@ Result<void> makeFolders(const Options& options) {
 }
 
 // Without pictures or a video: the motion alone is solved and kept, which takes no Vulkan device.
-Result<void> makeTrack(const Globals& globals, const Options& options, const Job& job) {
+Result<void> makeTrack(const Globals& globals, const Options& options, const FilmJob& job) {
   FrameOptions frame = frameOptions(options);
   const auto track = TrackFile::open(options.track, job.scene, job.clip, frame);
   if (!track) return track.error();
@@ -451,7 +241,7 @@ Result<void> makeTrack(const Globals& globals, const Options& options, const Job
 }
 
 // "a.png", "f/000.png to f/033.png and film.mp4"
-std::string filesOf(const Job& job, const Options& options) {
+std::string filesOf(const FilmJob& job, const Options& options) {
   std::string files = options.output == "-" ? "standard output" : "";
   if (job.pattern) {
     files = job.pattern->of(job.range.first).string();
@@ -500,7 +290,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (!track) return track.error();
     std::optional<LoadingLine> line(std::in_place);
     (*line)("preparing to draw");
-    Film work(*job, options, frame, device);
+    Film work(*job, frame, device);
     line.reset();
     const auto done = work.run();
     // A run that is stopped keeps what it solved, too.

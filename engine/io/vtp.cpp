@@ -9,67 +9,32 @@
 
 #include "core/atomic_file.h"
 #include "core/log.h"
-#include "io/base64.h"
 #include "io/radius_array.h"
-#include "io/read_limits.h"
-#include "io/vtp_data.h"
+#include "io/vtk_xml.h"
 #include "io/words.h"
 
 namespace vasa {
 namespace {
 
 using tinyxml2::XMLElement;
+using vtk::arrayNamed;
+using vtk::attribute;
+using vtk::breaks;
+using vtk::BrokenRule;
+using vtk::Numbers;
 
 constexpr std::size_t kMaximumBytes = std::size_t(1) << 28;
-constexpr std::int64_t kMostItems = 1 << 26;
 constexpr std::size_t kMostCellArrays = 100, kMostCorners = 512;
-constexpr const char* kExportAgain = "; write the file again";
 
-// The first rule that reading finds broken.
-struct BrokenRule {
-  std::string place, rule;
-};
-[[noreturn]] void breaks(std::string place, std::string rule) {
-  throw BrokenRule{std::move(place), std::move(rule)};
-}
-
-std::string_view attribute(const XMLElement& element, const char* name) {
-  const char* value = element.Attribute(name);
-  return value ? value : "";
-}
-
-// The numbers of an array: as its bytes, or as the text gave them.
-class Numbers {
- public:
-  Numbers(std::vector<std::byte> content, vtp::Scalar scalar, bool bigEndian)
-      : content_(std::move(content)), scalar_(scalar), bigEndian_(bigEndian) {}
-  explicit Numbers(std::vector<double> values) : values_(std::move(values)) {}
-  std::size_t size() const {
-    return content_.empty() ? values_.size() : content_.size() / vtp::sizeOf(scalar_);
-  }
-  double operator[](std::size_t i) const {
-    return content_.empty() ? values_[i]
-                            : vtp::numberAt(content_.data() + i * vtp::sizeOf(scalar_), scalar_, bigEndian_);
-  }
-
- private:
-  std::vector<std::byte> content_;
-  std::vector<double> values_;
-  vtp::Scalar scalar_ = vtp::Scalar::float64;
-  bool bigEndian_ = false;
-};
-
-// What a file of so many bytes may hold, packed data unpacked. Points, lines and names take 16, 100 and 80
-// bytes of memory.
+// What a file of so many bytes may hold. Points, lines and names take 16, 100 and 80 bytes of memory.
 struct Amounts {
   explicit Amounts(std::size_t bytes)
-      : content(partOfMemory(bytes, 6, 16)),
-        points(bytes / 4 + 500'000),
+      : points(bytes / 4 + 500'000),
         lines(bytes / 16 + 100'000),
         corners(bytes / 2 + 1'000'000),
         names(bytes / 16 + 100'000),
         cellNumbers(bytes + 4'000'000) {}
-  std::size_t content, points, lines, corners, names, cellNumbers;
+  std::size_t points, lines, corners, names, cellNumbers;
 
   static void check(const std::string& place, const char* things, std::size_t found, std::size_t most) {
     if (found > most)
@@ -79,32 +44,13 @@ struct Amounts {
   }
 };
 
-// Memory that the parsed XML takes [bytes], rather too much than too little.
-std::size_t xmlMemory(std::string_view text) {
-  constexpr std::size_t kANode = 128, kAnAttribute = 80;
-  std::size_t memory = 0;
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    if (text[i] == '<' && text[i + 1] != '/') memory += kANode;
-    if (text[i] == '>' && text[i + 1] != '<') memory += kANode;
-    if (text[i] == '=') memory += kAnAttribute;
-  }
-  return memory;
-}
-
 class Reader {
  public:
-  Reader(std::span<const std::byte> bytes, const ImportFrame& frame) : frame_(frame), most_(bytes.size()) {
-    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::string xml(takeAppended(text));
-    if (const std::size_t memory = xmlMemory(xml), most = partOfMemory(bytes.size(), 10, 24); memory > most)
-      breaks("/", "the XML " + beyondMemory(memory, most) + "; split or reduce it");
-    if (document_.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
-      breaks("line " + std::to_string(document_.ErrorLineNum()),
-             std::string("is not valid XML: ") + document_.ErrorName());
-  }
+  Reader(std::span<const std::byte> bytes, const ImportFrame& frame)
+      : frame_(frame), most_(bytes.size()), file_(bytes) {}
 
   VtpLines run() {
-    const XMLElement& data = polyData();
+    const XMLElement& data = file_.polyData();
     if (const XMLElement* fields = data.FirstChildElement("FieldData")) readNames(*fields);
     int number = 0;
     for (const XMLElement* piece = data.FirstChildElement("Piece"); piece;
@@ -122,7 +68,7 @@ class Reader {
   TriangleMesh surface() {
     TriangleMesh mesh;
     int number = 0;
-    const XMLElement& data = polyData();
+    const XMLElement& data = file_.polyData();
     for (const XMLElement* piece = data.FirstChildElement("Piece"); piece;
          piece = piece->NextSiblingElement("Piece"))
       readFaces(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]", mesh);
@@ -131,26 +77,15 @@ class Reader {
   std::string remark;  ///< on what was read
 
  private:
-  const XMLElement& polyData() {
-    const XMLElement* root = document_.RootElement();
-    if (!root || std::strcmp(root->Name(), "VTKFile") != 0) breaks("/", "is no VTK XML file");
-    readEncoding(*root);
-    const XMLElement* data = root->FirstChildElement("PolyData");
-    if (!data)
-      breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) +
-                             ", not PolyData; extract its surface or lines and save them as .vtp");
-    return *data;
-  }
-
   void readFaces(const XMLElement& piece, const std::string& place, TriangleMesh& mesh) {
-    const auto points = std::size_t(count(piece, "NumberOfPoints", place));
+    const auto points = std::size_t(vtk::countOf(piece, "NumberOfPoints", place));
     const auto base = std::uint32_t(mesh.positions.size());
     Amounts::check(place + "/NumberOfPoints", "points", base + points, most_.points);
     const Numbers xyz = coordinates(piece, points, place);
     for (std::size_t i = 0; i < points; ++i) mesh.positions.push_back(placeOf(xyz, i, place));
     for (const auto& [name, amount] :
          {std::pair("Polys", "NumberOfPolys"), std::pair("Strips", "NumberOfStrips")}) {
-      const auto cells = std::size_t(count(piece, amount, place));
+      const auto cells = std::size_t(vtk::countOf(piece, amount, place));
       if (cells == 0) continue;
       Amounts::check(place + "/" + amount, "faces", mesh.triangles.size() + cells, most_.corners);
       const bool polygons = name == std::string_view("Polys");
@@ -167,7 +102,7 @@ class Reader {
     const XMLElement* points = piece.FirstChildElement("Points");
     const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
     if (!array) breaks(place + "/Points", "is missing");
-    Numbers xyz = numbers(*array, place + "/Points");
+    Numbers xyz = file_.numbers(*array, place + "/Points");
     if (xyz.size() != 3 * count)
       breaks(place + "/Points", "holds " + std::to_string(xyz.size()) + " numbers, not three for each of " +
                                     std::to_string(count) + " points");
@@ -183,140 +118,13 @@ class Reader {
     return frame_.toHouse(p);
   }
 
-  // Appended data may be raw bytes, which no XML parser takes: cut out before it sees the file.
-  std::string takeAppended(std::string_view text) {
-    const std::size_t tag = text.rfind("<AppendedData");
-    if (tag == text.npos) return std::string(text);
-    const std::size_t start = text.find('_', tag), stop = text.rfind("</AppendedData>");
-    if (start == text.npos || stop == text.npos || stop <= start)
-      breaks("/VTKFile/AppendedData", "is cut short");
-    appendedRaw_ = text.substr(tag, start - tag).find("raw") != text.npos;
-    appended_ = text.substr(start + 1, stop - start - 1);
-    return std::string(text.substr(0, start)) + std::string(text.substr(stop));
-  }
-
-  void readEncoding(const XMLElement& root) {
-    encoding_.bigEndian = attribute(root, "byte_order") == "BigEndian";
-    encoding_.wideHeader = attribute(root, "header_type") == "UInt64";
-    const std::string_view compressor = attribute(root, "compressor");
-    encoding_.zlib = compressor == "vtkZLibDataCompressor";
-    if (!compressor.empty() && !encoding_.zlib)
-      breaks("/VTKFile/compressor",
-             "is " + std::string(compressor) + "; save the file with zlib or without compression");
-  }
-
-  std::int64_t count(const XMLElement& piece, const char* name, const std::string& place) {
-    std::int64_t value = 0;
-    const std::string_view text = attribute(piece, name);
-    if (!text.empty() && !parseInteger(text, value)) breaks(place + "/" + name, "must be a whole number");
-    if (value < 0 || value > kMostItems)
-      breaks(place + "/" + name, "must lie between 0 and " + std::to_string(kMostItems));
-    return value;
-  }
-
-  Numbers numbers(const XMLElement& array, const std::string& place) {
-    const auto scalar = vtp::scalarNamed(attribute(array, "type"));
-    if (!scalar) breaks(place + "/type", "is not a number type that VTK has");
-    if (attribute(array, "format") == "ascii")
-      return Numbers(asciiNumbers(array.GetText() ? array.GetText() : "", place));
-    std::vector<std::byte> content = bytesOf(array, place);
-    if (content.size() % vtp::sizeOf(*scalar) != 0) breaks(place, "is no whole number of values");
-    return Numbers(std::move(content), *scalar, encoding_.bigEndian);
-  }
-
-  std::vector<std::byte> bytesOf(const XMLElement& array, const std::string& place) {
-    const std::string_view format = attribute(array, "format");
-    if (format == "appended") return appendedBlock(array, place);
-    if (format != "binary") breaks(place + "/format", "must be ascii, binary or appended");
-    return block(array.GetText() ? array.GetText() : "", place);
-  }
-
-  static std::vector<double> asciiNumbers(std::string_view text, const std::string& place) {
-    std::vector<double> values;
-    values.reserve(text.size() / 2 + 1);
-    for (std::string_view word = nextWord(text, " \t\r\n"); !word.empty(); word = nextWord(text, " \t\r\n"))
-      if (!parseNumber(word, values.emplace_back()))
-        breaks(place, "value " + std::to_string(values.size() - 1) + " is no finite number: '" +
-                          std::string(word.substr(0, 40)) + "'");
-    return values;
-  }
-
-  std::vector<std::byte> block(std::string_view text, const std::string& place) {
-    charge(text.size() / 4 * 3, place);
-    const auto bytes = decodeBase64(text);
-    if (!bytes) breaks(place, std::string("is not base64") + kExportAgain);
-    return unpacked(*bytes, place);
-  }
-  // Arrays may share their data, so it counts as often as it is read.
-  void charge(std::size_t bytes, const std::string& place) {
-    contentRead_ += bytes;
-    if (contentRead_ > most_.content)
-      breaks(place,
-             "all data up to this " + beyondMemory(contentRead_, most_.content) + "; split or reduce it");
-  }
-  std::vector<std::byte> unpacked(std::span<const std::byte> bytes, const std::string& place) {
-    std::string fault;
-    const auto size = vtp::contentBytes(bytes, encoding_, fault);
-    if (!size) breaks(place, fault + kExportAgain);
-    charge(*size, place);
-    auto content = vtp::unpack(bytes, encoding_, fault);
-    if (!content) breaks(place, fault + kExportAgain);
-    return std::move(*content);
-  }
-  std::vector<std::byte> appendedBlock(const XMLElement& array, const std::string& place) {
-    std::int64_t offset = -1;
-    if (!parseInteger(attribute(array, "offset"), offset) || offset < 0 ||
-        std::size_t(offset) > appended_.size())
-      breaks(place + "/offset", "must lie inside the appended data");
-    const std::string_view from = appended_.substr(std::size_t(offset));
-    if (appendedRaw_) return unpacked(std::as_bytes(std::span(from)), place);
-    return block(firstBlock(from), place);
-  }
-  // Blocks of base64 follow one another without a mark: as much of it as the block needs, read from its own
-  // header.
-  std::string_view firstBlock(std::string_view text) const {
-    const std::size_t word = encoding_.wideHeader ? 8 : 4;
-    const auto lengths = [&](std::size_t count) -> std::vector<double> {
-      const auto bytes = decodeBase64(text.substr(0, std::min(text.size(), (count * word + 2) / 3 * 4)));
-      if (!bytes || bytes->size() < count * word) return {};
-      std::vector<double> values;
-      for (std::size_t i = 0; i < count; ++i)
-        values.push_back(vtp::numberAt(bytes->data() + i * word,
-                                       encoding_.wideHeader ? vtp::Scalar::uint64 : vtp::Scalar::uint32,
-                                       encoding_.bigEndian));
-      return values;
-    };
-    const auto letters = [](double bytes) { return std::ceil(bytes / 3) * 4; };
-    double length = 0;
-    if (const auto first = lengths(1); first.empty() || first[0] > double(text.size()))
-      return text;
-    else if (!encoding_.zlib)
-      length = letters(double(word) + first[0]);
-    else if (const auto all = lengths(3 + std::size_t(first[0])); !all.empty()) {
-      double packed = 0;
-      for (std::size_t i = 3; i < all.size(); ++i) packed += all[i];
-      length = letters(double(all.size() * word)) + letters(packed);
-    }
-    return length > 0 && length < double(text.size()) ? text.substr(0, std::size_t(length)) : text;
-  }
-
-  static const XMLElement* arrayNamed(const XMLElement* parent, std::string_view name) {
-    if (!parent) return nullptr;
-    for (const XMLElement* e = parent->FirstChildElement("DataArray"); e;
-         e = e->NextSiblingElement("DataArray"))
-      if (attribute(*e, "Name") == name) return e;
-    return nullptr;
-  }
-
   void readNames(const XMLElement& fields) {
     const std::string place = "/VTKFile/PolyData/FieldData/VesselNames";
     // What VTK calls arrays of anything but numbers.
     const XMLElement* array = fields.FirstChildElement("Array");
     while (array && attribute(*array, "Name") != "VesselNames") array = array->NextSiblingElement("Array");
     if (!array || attribute(*array, "type") != "String") return;
-    const Numbers letters = attribute(*array, "format") == "ascii"
-                                ? Numbers(asciiNumbers(array->GetText() ? array->GetText() : "", place))
-                                : Numbers(bytesOf(*array, place), vtp::Scalar::uint8, false);
+    const Numbers letters = file_.letters(*array, place);
     std::string text;
     for (std::size_t i = 0; i < letters.size(); ++i) {
       const double letter = letters[i];
@@ -329,15 +137,15 @@ class Reader {
   }
 
   void readPiece(const XMLElement& piece, const std::string& place) {
-    const std::int64_t points = count(piece, "NumberOfPoints", place),
-                       lines = count(piece, "NumberOfLines", place);
+    const std::int64_t points = vtk::countOf(piece, "NumberOfPoints", place),
+                       lines = vtk::countOf(piece, "NumberOfLines", place);
     if (lines == 0) return;
     const auto base = std::uint32_t(out_.points.size());
     Amounts::check(place + "/NumberOfPoints", "points", base + std::size_t(points), most_.points);
     Amounts::check(place + "/NumberOfLines", "lines", out_.lines.size() + std::size_t(lines), most_.lines);
     readPoints(piece, std::size_t(points), place);
     const std::size_t firstLine = out_.lines.size();
-    const auto verts = std::size_t(count(piece, "NumberOfVerts", place));
+    const auto verts = std::size_t(vtk::countOf(piece, "NumberOfVerts", place));
     const std::vector<bool> kept = readLines(piece, std::size_t(points), std::size_t(lines), base, place);
     readRadii(piece, base, firstLine, kept, verts, place);
     readCells(piece, kept, verts, place);
@@ -372,7 +180,7 @@ class Reader {
     const RadiusChoice choice = byPoint ? *byPoint : *byLine;
     const std::string& name = (byPoint ? ofPoints : ofLines).names[choice.array];
     const std::string own = place + (byPoint ? "/PointData/" : "/CellData/") + name;
-    const Numbers told = numbers(*(byPoint ? ofPoints : ofLines).arrays[choice.array], own);
+    const Numbers told = file_.numbers(*(byPoint ? ofPoints : ofLines).arrays[choice.array], own);
     const std::size_t points = out_.points.size() - firstPoint;
     if (byPoint ? told.size() != points : told.size() < verts + kept.size())
       breaks(own, "holds " + std::to_string(told.size()) + " numbers for " +
@@ -417,8 +225,8 @@ class Reader {
     const XMLElement *connectivity = arrayNamed(element, "connectivity"),
                      *offsets = arrayNamed(element, "offsets");
     if (!connectivity || !offsets) breaks(place, "needs the arrays connectivity and offsets");
-    const Numbers numbersOfPoints = numbers(*connectivity, place + "/connectivity");
-    const Numbers ends = numbers(*offsets, place + "/offsets");
+    const Numbers numbersOfPoints = file_.numbers(*connectivity, place + "/connectivity");
+    const Numbers ends = file_.numbers(*offsets, place + "/offsets");
     if (ends.size() != cells)
       breaks(place + "/offsets", "holds " + std::to_string(ends.size()) + " numbers for " +
                                      std::to_string(cells) +
@@ -457,7 +265,7 @@ class Reader {
       if (!scalar || *scalar >= vtp::Scalar::float32 || name.empty() ||
           !(components.empty() || components == "1"))
         continue;
-      const Numbers values = numbers(*e, place + "/CellData/" + name);
+      const Numbers values = file_.numbers(*e, place + "/CellData/" + name);
       if (values.size() < verts + kept.size())
         breaks(place + "/CellData/" + name, "has fewer numbers than there are cells");
       auto array = std::ranges::find(out_.cellArrays, name, &VtpLines::CellArray::name);
@@ -473,13 +281,10 @@ class Reader {
     for (auto& array : out_.cellArrays) array.values.resize(out_.lines.size(), 0);
   }
 
-  tinyxml2::XMLDocument document_;
   ImportFrame frame_;
-  vtp::Encoding encoding_;
-  std::string_view appended_;
-  bool appendedRaw_ = false;
   Amounts most_;
-  std::size_t contentRead_ = 0, corners_ = 0;
+  vtk::XmlFile file_;
+  std::size_t corners_ = 0;
   VtpLines out_;
 };
 
