@@ -50,12 +50,28 @@ float toldRadius(const Assembly& assembly, std::uint32_t element) {
   return count ? float(sum / double(count)) : 0.0f;
 }
 
-void doubt(ElementReport& report, float radius) {
+// How much alike a surface's directions are, either side counting the same: 1 in a plane, 0.64 around a tube.
+double flatness(const TriangleMesh& mesh) {
+  dvec3 sum(0), first(0);
+  double area = 0;
+  for (const uvec3& t : mesh.triangles) {
+    const dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    const dvec3 across = glm::cross(b - a, c - a);
+    if (first == dvec3(0)) first = across;
+    sum += glm::dot(across, first) < 0 ? -across : across;
+    area += glm::length(across);
+  }
+  return area > 0 ? glm::length(sum) / area : 0;
+}
+
+void doubt(ElementReport& report, float radius, const TriangleMesh& mesh) {
+  const bool flat = flatness(mesh) > kFlat;
   if (report.status == ElementStatus::failed || report.vessels == 0 ||
-      (radius >= kThinnestVessel && radius <= kWidestVessel))
+      (!flat && radius >= kThinnestVessel && radius <= kWidestVessel))
     return;
   report.status = ElementStatus::doubtful;
-  append(report.reason, radius > kWidestVessel
+  append(report.reason, flat ? "its surface is flat, as no vessel's is: a sheet, or a vessel's cut end"
+                        : radius > kWidestVessel
                             ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) +
                                   " mm is that of no vessel: a solid or a chamber, or another unit (--scale)"
                             : "it is thinner than any vessel that a mesh shows: another unit? (--scale)");
@@ -84,9 +100,9 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   report.backError = statisticsOf(std::span(&error.backward, 1));
   judge(report, roughRadius(source.element.mesh));
   if (!source.element.mesh.empty())
-    doubt(report, meanRadius(assembly, index, error.area));
+    doubt(report, meanRadius(assembly, index, error.area), source.element.mesh);
   else  // told, and may be an arteriole's
-    doubt(report, std::max(toldRadius(assembly, index), kThinnestVessel));
+    doubt(report, std::max(toldRadius(assembly, index), kThinnestVessel), source.element.mesh);
   return report;
 }
 

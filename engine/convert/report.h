@@ -9,11 +9,14 @@ namespace vasa {
 
 /// ok: at least kOkCoverage of the mesh's area is covered and 95 % of it lies within kOkError, or within half
 /// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest.
-/// doubtful: what would be ok or partial and is no human vessel by its size: wider than kWidestVessel (centre
-/// lines, too), or thinner than any that a mesh shows (another unit, a solid, a heart's chamber).
+/// doubtful: what would be ok or partial and is no human vessel: wider than kWidestVessel (centre lines,
+/// too), or thinner than any that a mesh shows (another unit, a solid, a heart's chamber), or a flat sheet.
 enum class ElementStatus { ok, partial, failed, doubtful };
 /// [m] mean radius: a large aneurysm of the aorta, an arteriole
 constexpr float kWidestVessel = 0.03f, kThinnestVessel = 2e-5f;
+/// Of a mesh's surface, either side counting the same: the length of the mean normal. Around a tube it is 2 /
+/// π, in a plane 1; half way between.
+constexpr double kFlat = 0.82;
 constexpr double kOkCoverage = 0.9, kPartialCoverage = 0.25;
 constexpr float kOkError = 0.002f;  ///< [m]
 std::string_view statusName(ElementStatus status);

@@ -86,6 +86,18 @@ TEST_CASE("input without a vessel is refused with a remedy, a stop is obeyed") {
   CHECK_THROWS_AS((void)convertElements(smallBody()), Cancelled);
 }
 
+TEST_CASE("a flat sheet is doubtful, whichever way its triangles are turned") {
+  TriangleMesh sheet;
+  for (int i = 0; i < 12; ++i)
+    for (const float z : {0.0f, 0.004f}) sheet.positions.emplace_back(0.004f * float(i), 1.2f, z);
+  for (std::uint32_t i = 0; i + 2 < sheet.positions.size(); ++i)
+    sheet.triangles.emplace_back(i, i + 1, i + 2);  // a strip: every second one the other way round
+  const auto made = convertElements(std::vector<SourceElement>{source("sheet", sheet)});
+  REQUIRE(made.ok());
+  CHECK(made->report.elements[0].status == ElementStatus::doubtful);
+  CHECK(made->report.elements[0].reason.find("flat") != std::string::npos);
+}
+
 TEST_CASE("what is too wide for any vessel is doubtful, with what may be the matter") {
   // A vessel in millimetres that is read as metres, beside one that is right.
   std::vector<SourceElement> elements{source("aorta", tubeBetween({0, 0, 0}, {0, 0.3f, 0}, 0.012f)),
