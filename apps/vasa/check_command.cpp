@@ -300,7 +300,8 @@ Result<void> run(const Globals& globals, const Options& options) {
                             .slide = !options.noSlide,
                             .avoid = true,
                             .avoidance = {.skinWall = options.skinWall}};
-  const auto track = TrackFile::open(options.track, setting->scene, setting->clip, frameOptions);
+  const auto track =
+      TrackFile::open(options.track, setting->scene, setting->clip, frameOptions, MotionTrack::Keeps::latest);
   if (!track) return track.error();
   FrameMaker maker(setting->scene, frameOptions);
   Report report{{"clip", setting->clip ? setting->clip->name : "rest"}, {"frames", Report::array()}};

@@ -286,7 +286,8 @@ Result<void> run(const Globals& globals, const Options& options) {
     stages.end();
     logDetail("device: " + device.adapter().name);
     FrameOptions frame = frameOptions(options);
-    const auto track = TrackFile::open(options.track, job->scene, job->clip, frame);
+    const auto track =
+        TrackFile::open(options.track, job->scene, job->clip, frame, MotionTrack::Keeps::latest);
     if (!track) return track.error();
     std::optional<LoadingLine> line(std::in_place);
     (*line)("preparing to draw");

@@ -10,10 +10,11 @@ void addTrackOption(CLI::App& sub, std::string& file) {
 }
 
 Result<TrackFile> TrackFile::open(const std::string& file, const Scene& scene, const Clip* clip,
-                                  FrameOptions& options) {
+                                  FrameOptions& options, MotionTrack::Keeps without) {
   TrackFile track;
   track.file_ = file;
-  track.track_ = options.track = std::make_shared<MotionTrack>();
+  track.track_ = options.track =
+      std::make_shared<MotionTrack>(file.empty() ? without : MotionTrack::Keeps::all);
   if (file.empty()) return track;
   if (!clip) return Error{Fault::usage, "--track " + file + ": a track is of a motion; name one with --clip"};
   if (!options.avoid)
@@ -25,12 +26,12 @@ Result<TrackFile> TrackFile::open(const std::string& file, const Scene& scene, c
   auto read = readTrack(file, scene, *clip, track.key_);
   if (!read) return read.error();
   *track.track_ = std::move(*read);
-  track.known_ = track.track_->frames.size();
+  track.known_ = track.track_->end();
   return track;
 }
 
 Result<void> TrackFile::save() const {
-  if (file_.empty() || track_->frames.size() <= known_) return {};
+  if (file_.empty() || track_->end() <= known_) return {};
   return writeTrack(file_, *track_, key_);
 }
 

@@ -13,9 +13,11 @@ void addTrackOption(CLI::App& sub, std::string& file);
 class TrackFile {
  public:
   /// Gives the options a track, filled from the file if it exists. The scene and the clip must outlive it.
-  /// @param file  empty: the track is not kept  @param clip  null: no motion, which is usage with a file
+  /// @param file     empty: the track is not kept  @param clip  null: no motion, which is usage with a file
+  /// @param without  what is kept meanwhile where there is no file: who makes frames in their order needs the
+  /// latest
   static Result<TrackFile> open(const std::string& file, const Scene& scene, const Clip* clip,
-                                FrameOptions& options);
+                                FrameOptions& options, MotionTrack::Keeps without = MotionTrack::Keeps::all);
   /// Writes the file if there are more frames than it had.
   Result<void> save() const;
 

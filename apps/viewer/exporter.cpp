@@ -157,9 +157,11 @@ void Exporter::orderFrame(Job& job) const {
                             std::shared_ptr<PosedBody> made;
                             try {
                               const Subject& of = job.subject;
-                              if (!job.maker)
-                                job.maker = std::make_unique<FrameMaker>(
-                                    of.document->scene, frameOptions(of.state.forces, of.state.contacts));
+                              if (!job.maker) {
+                                FrameOptions options = frameOptions(of.state.forces, of.state.contacts);
+                                options.track = std::make_shared<MotionTrack>(MotionTrack::Keeps::latest);
+                                job.maker = std::make_unique<FrameMaker>(of.document->scene, options);
+                              }
                               FrameMaker& maker = *job.maker;
                               maker.make(job.clip, job.clip ? job.clip->timeOfFrame(frame) : 0);
                               made = std::make_shared<PosedBody>();

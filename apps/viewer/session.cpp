@@ -54,9 +54,14 @@ Result<void> Session::keepScript() {
   return options_.record.empty() ? Result<void>() : writeFileAtomically(options_.record, recorder_.text());
 }
 
-// Of a session that cannot go on: what was done in it, how it looked, and the film so far.
+// Of a session that cannot go on: what was not saved, under a new name, what was done in it, how it looked,
+// and the film so far.
 Error Session::keepWhatIsThere(Error error) {
   if (!document_) return error;
+  if (history_.unsaved(state_)) {
+    const auto kept = keeper_.save(*document_, state_, {}, freeName(options_.out, "json"));
+    error.message += kept ? "; what was not saved is in " + kept->string() : "; " + kept.error().message;
+  }
   const auto path = options_.record;
   if (const auto kept = keepScript(); !kept)
     error.message += "; " + kept.error().message;

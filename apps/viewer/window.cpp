@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gpu/error.h"
+#include "viewer/server_refusals.h"
 
 // GLFW's keys are ours where they are printable; the others are listed.
 namespace vasa::viewer {
@@ -18,6 +19,7 @@ struct Window::State {
   std::array<GLFWcursor*, 5> pointers{};
   Pointer pointer = Pointer::arrow;
   glm::ivec2 corner{0}, size{0};  // before it filled the screen
+  ServerRefusals refusals;
 };
 
 namespace {
@@ -163,6 +165,7 @@ Window::Window(Window&& other) noexcept : state_(std::exchange(other.state_, nul
 
 Window::~Window() {
   if (!state_) return;
+  state_->refusals.hush();
   for (GLFWcursor* pointer : state_->pointers)
     if (pointer) glfwDestroyCursor(pointer);
   glfwDestroyWindow(state_->window);

@@ -15,12 +15,36 @@
 #include "core/cancellation.h"
 #include "core/isolated.h"
 
+#ifdef VASA_THREAD_SANITIZER
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace vasa {
 namespace {
 
 std::unique_ptr<tbb::global_control> limit;
 
 thread_local bool wayGiven = false;  // by this thread
+
+// ThreadSanitizer does not see how TBB, which is not built for it, hands work on: it is told here that a
+// loop's rounds come after its beginning, and its end after all of them, and nothing about one round and
+// another.
+struct Order {
+#ifdef VASA_THREAD_SANITIZER
+  char begun = 0, done = 0;
+  Order() { __tsan_release(&begun); }
+  ~Order() { __tsan_acquire(&done); }
+#endif
+};
+struct Round {
+#ifdef VASA_THREAD_SANITIZER
+  Order& order;
+  explicit Round(Order& own) : order(own) { __tsan_acquire(&order.begun); }
+  ~Round() { __tsan_release(&order.done); }
+#else
+  explicit Round(Order&) {}
+#endif
+};
 
 }  // namespace
 
@@ -38,7 +62,9 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
   const std::atomic<bool>* const asked = CancellationScope::current();
   const bool behindOthers = wayGiven;
   tbb::task_group_context context;
+  Order order;
   const auto rounds = [&](const auto& range) {
+    const Round round(order);
     const CancellationScope scope(asked);
     if (behindOthers) giveWay();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {

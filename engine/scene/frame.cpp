@@ -191,27 +191,27 @@ void FrameMaker::begin(const Clip& clip) {
     const float time = clip.timeOfFrame(frame < last ? frame : 0);
     walk(samplePose(skeleton, clip, time), clip.timeOfFrame(frame - 1), time, 1 / clip.framesPerSecond);
   }
-  *track_ = {&clip, {avoider_->correction()}};
+  track_->restart(clip, avoider_->correction());
   at_ = 0;
 }
 
 // Stands where a frame's correction was found before.
 void FrameMaker::resume(const Clip& clip, std::uint32_t frame) {
   deform(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
-  start(track_->frames[frame]);
+  start(track_->at(frame));
   at_ = frame;
 }
 
 void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
-  if (track_->clip != &clip || track_->frames.empty()) begin(clip);
-  const auto known = std::uint32_t(track_->frames.size() - 1);
+  if (!track_->isOf(clip) || frame < track_->first()) begin(clip);
+  const std::uint32_t known = track_->end() - 1;
   if (at_ != std::min(known, frame)) resume(clip, std::min(known, frame));
   for (std::uint32_t next = known + 1; next <= frame; ++next) {
     report_ = {};
     at_.reset();
     walk(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(next)), clip.timeOfFrame(next - 1),
          clip.timeOfFrame(next), 1 / clip.framesPerSecond);
-    track_->frames.push_back(avoider_->correction());
+    track_->add(avoider_->correction());
     at_ = next;
   }
 }

@@ -44,7 +44,7 @@ struct FrameOptions {
 /// frame by frame, in steps whose length follows from the motion and what it brings into one another's way;
 /// each starts from the correction of the one before. A time between two frames is one step on from the
 /// earlier one. A pose without a clip is reached from the rest pose in the same way. Frames that were made
-/// once are kept (scene/motion_track.h), so that only what is ahead has to be solved.
+/// once are kept (scene/motion_track.h, all or the latest), so that only what is ahead has to be solved.
 class FrameMaker {
  public:
   explicit FrameMaker(const Scene& scene, FrameOptions options = {});

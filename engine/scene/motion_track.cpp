@@ -1,6 +1,8 @@
 #include "scene/motion_track.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -20,29 +22,39 @@ struct Header {
   std::uint64_t key, hash;  // hash: of all, itself as 0
   std::uint32_t variables, points, frames, reserved;
 };
-struct Moved {
-  std::uint32_t variable;
-  std::array<float, 3> by;
-};
-struct Narrowed {
-  std::uint32_t point;
-  float widest;
-};
+using Frame = MotionTrack::Frame;
+using Moved = MotionTrack::Moved;
+using Narrowed = MotionTrack::Narrowed;
+static_assert(sizeof(Moved) == 16 && sizeof(Narrowed) == 8);  // as they are in a file
 
-bool takeFrame(ByteReader& reader, Correction& frame) {
+// To the bit: a negative zero moves something, too.
+bool moves(const vec3& by) {
+  return std::bit_cast<std::array<std::uint32_t, 3>>(by) != std::array<std::uint32_t, 3>{};
+}
+
+Frame frameOf(const Correction& correction) {
+  Frame frame;
+  frame.moved.reserve(std::size_t(std::ranges::count_if(correction.motions, moves)));
+  for (std::uint32_t v = 0; v < correction.motions.size(); ++v)
+    if (moves(correction.motions[v])) frame.moved.push_back({v, correction.motions[v]});
+  for (std::uint32_t p = 0; p < correction.widest.size(); ++p)
+    if (std::isfinite(correction.widest[p])) frame.narrowed.push_back({p, correction.widest[p]});
+  return frame;
+}
+
+bool takeFrame(ByteReader& reader, const Header& header, Frame& frame) {
   std::uint32_t moved = 0, narrowed = 0;
   if (!reader.take(moved) || !reader.take(narrowed)) return false;
   for (std::uint32_t k = 0; k < moved; ++k) {
     Moved own;
-    if (!reader.take(own) || own.variable >= frame.motions.size()) return false;
-    const vec3 by(own.by[0], own.by[1], own.by[2]);
-    if (!std::isfinite(glm::dot(by, by))) return false;
-    frame.motions[own.variable] = by;
+    if (!reader.take(own) || own.variable >= header.variables || !std::isfinite(glm::dot(own.by, own.by)))
+      return false;
+    frame.moved.push_back(own);
   }
   for (std::uint32_t k = 0; k < narrowed; ++k) {
     Narrowed own;
-    if (!reader.take(own) || own.point >= frame.widest.size() || !(own.widest >= 0)) return false;
-    frame.widest[own.point] = own.widest;
+    if (!reader.take(own) || own.point >= header.points || !(own.widest >= 0)) return false;
+    frame.narrowed.push_back(own);
   }
   return true;
 }
@@ -88,27 +100,49 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
                 hash);
 }
 
+void MotionTrack::restart(const Clip& clip, std::size_t variables, std::size_t points,
+                          std::vector<Frame> frames) {
+  clip_ = &clip;
+  first_ = 0;
+  variables_ = variables;
+  points_ = points;
+  frames_ = std::move(frames);
+}
+
+void MotionTrack::restart(const Clip& clip, const Correction& first) {
+  restart(clip, first.motions.size(), first.widest.size(), {frameOf(first)});
+}
+
+void MotionTrack::add(const Correction& correction) {
+  if (keeps_ == Keeps::latest) {
+    first_ = end();
+    frames_.clear();
+  }
+  frames_.push_back(frameOf(correction));
+}
+
+Correction MotionTrack::at(std::uint32_t frame) const {
+  Correction correction{std::vector<vec3>(variables_, vec3(0)),
+                        std::vector<float>(points_, std::numeric_limits<float>::infinity())};
+  const Frame& kept = frames_[frame - first_];
+  for (const Moved& own : kept.moved) correction.motions[own.variable] = own.by;
+  for (const Narrowed& own : kept.narrowed) correction.widest[own.point] = own.widest;
+  return correction;
+}
+
 Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& track, std::uint64_t key) {
   ByteWriter frames;
-  std::vector<Moved> moved;
-  std::vector<Narrowed> narrowed;
-  for (const Correction& frame : track.frames) {
-    moved.clear(), narrowed.clear();
-    for (std::uint32_t v = 0; v < frame.motions.size(); ++v)
-      if (const vec3 by = frame.motions[v]; by != vec3(0)) moved.push_back({v, {by.x, by.y, by.z}});
-    for (std::uint32_t p = 0; p < frame.widest.size(); ++p)
-      if (std::isfinite(frame.widest[p])) narrowed.push_back({p, frame.widest[p]});
-    frames.add(std::uint32_t(moved.size())), frames.add(std::uint32_t(narrowed.size()));
-    for (const Moved& own : moved) frames.add(own);
-    for (const Narrowed& own : narrowed) frames.add(own);
+  for (const Frame& frame : track.frames()) {
+    frames.add(std::uint32_t(frame.moved.size())), frames.add(std::uint32_t(frame.narrowed.size()));
+    frames.addRaw(std::as_bytes(std::span(frame.moved)));
+    frames.addRaw(std::as_bytes(std::span(frame.narrowed)));
   }
-  const bool any = !track.frames.empty();
   Header header{kMagic,
                 key,
                 0,
-                any ? std::uint32_t(track.frames[0].motions.size()) : 0,
-                any ? std::uint32_t(track.frames[0].widest.size()) : 0,
-                std::uint32_t(track.frames.size()),
+                std::uint32_t(track.variables()),
+                std::uint32_t(track.points()),
+                std::uint32_t(track.frames().size()),
                 0};
   header.hash = hashOfFile(header, frames.bytes());
   ByteWriter file;
@@ -137,14 +171,12 @@ Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& sc
   if (header.frames > clip.frameCount() ||
       (header.frames > 0 && (header.points != points || header.variables != variables)))
     return damaged;
-  MotionTrack track{&clip, {}};
-  for (std::uint32_t k = 0; k < header.frames; ++k) {
-    Correction frame{std::vector<vec3>(variables, vec3(0)),
-                     std::vector<float>(points, std::numeric_limits<float>::infinity())};
-    if (!takeFrame(reader, frame)) return damaged;
-    track.frames.push_back(std::move(frame));
-  }
+  std::vector<Frame> frames(header.frames);
+  for (Frame& frame : frames)
+    if (!takeFrame(reader, header, frame)) return damaged;
   if (!reader.rest().empty()) return damaged;
+  MotionTrack track;
+  track.restart(clip, variables, points, std::move(frames));
   return track;
 }
 

@@ -69,6 +69,12 @@ TEST_CASE("every command answers SIGINT and SIGTERM whatever it is doing, and le
       {"export", "--clip", "run", "-o", at("a.glb")},
       {"bench", "collide", "--tubes", tubes, "--runs", "1000"},
       {"render", "--clip", "run", "--size", "2000x2000", "--video", at("a.mp4")},
+      {"profile", "--clip", "walk", "--quads", "8x5"},
+      {"plate", "front", "-o", at("a.pdf")},
+      {"poses", "-o", (in.path() / "poses").string()},  // these keep what is done, for the next run
+      {"realism", "-o", (in.path() / "realism").string()},
+      {"paper", "-o", (in.path() / "paper").string()},
+      {"prepare"},
   };
   int turn = 0;
   for (const auto& command : commands)

@@ -44,10 +44,10 @@ TEST_CASE("a track that was written and read gives the same frames to the byte")
   REQUIRE(writeTrack(file, *solved.options.track, key).ok());
   auto read = readTrack(file, human(), clip, key);
   REQUIRE(read.ok());
-  REQUIRE(read->frames.size() == kFrames);
+  REQUIRE(read->end() == kFrames);
   for (std::uint32_t k = 0; k < kFrames; ++k) {
-    CHECK(read->frames[k].motions == solved.options.track->frames[k].motions);
-    CHECK(read->frames[k].widest == solved.options.track->frames[k].widest);
+    CHECK(read->at(k).motions == solved.options.track->at(k).motions);
+    CHECK(read->at(k).widest == solved.options.track->at(k).widest);
   }
   // A frame alone, which is not solved again, and the one after the track's last.
   FrameMaker maker(human(), {.avoid = true, .track = std::make_shared<MotionTrack>(std::move(*read))}),
@@ -61,6 +61,30 @@ TEST_CASE("a track that was written and read gives the same frames to the byte")
   maker.make(&clip, clip.timeOfFrame(kFrames));
   other.make(&clip, clip.timeOfFrame(kFrames));
   CHECK(std::ranges::equal(maker.points(), other.points()));
+}
+
+TEST_CASE("a track holds what moves, and only the latest frame where that is asked for") {
+  const Clip& clip = clipNamed("walk");
+  const auto latest = std::make_shared<MotionTrack>(MotionTrack::Keeps::latest);
+  FrameMaker all(human(), {.avoid = true}), film(human(), {.avoid = true, .track = latest});
+  std::vector<vec4> early;
+  for (const std::uint32_t frame : {0u, 1u, 3u, 4u}) {
+    CAPTURE(frame);
+    all.make(&clip, clip.timeOfFrame(frame));
+    film.make(&clip, clip.timeOfFrame(frame));
+    CHECK(std::ranges::equal(film.points(), all.points()));
+    CHECK(latest->frames().size() == 1);
+    CHECK(latest->end() == frame + 1);
+    if (frame == 1) early.assign(film.points().begin(), film.points().end());
+  }
+  const MotionTrack::Frame& kept = latest->frames()[0];
+  CHECK(!kept.moved.empty());
+  CHECK(4 * kept.moved.size() < latest->variables());  // most of a body lies where the pose has it
+  CHECK(std::ranges::none_of(kept.moved, [](const MotionTrack::Moved& own) { return own.by == vec3(0); }));
+  // Back to what is not kept any more: from the clip's beginning anew.
+  film.make(&clip, clip.timeOfFrame(1));
+  CHECK(std::ranges::equal(film.points(), early));
+  CHECK(latest->end() == 2);
 }
 
 TEST_CASE("the first frame of a clip that closes is the same whichever frame is made first") {

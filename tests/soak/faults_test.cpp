@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -182,7 +183,7 @@ struct Bench {
       CHECK(filesOf(folder.path() / "out").size() == wanted.size());
       return;
     }
-    CHECK(outcome.err.starts_with("error: "));
+    CHECK(("\n" + outcome.err).find("\nerror: ") != std::string::npos);  // after warnings
     if (site.result == VK_ERROR_DEVICE_LOST)
       CHECK(outcome.exit == 5);
     else
@@ -216,4 +217,29 @@ TEST_CASE("view: whatever Vulkan call fails, the run ends in good order") {
       "settle\nframes 2\nresize 420 300\nframes 2\nwindow window.png\npicture picture.png\nclose\n");
   bench.tryAll({"view", "--script", script.string(), "--size", "400x320"});
   MESSAGE("view: " << bench.runs << " sites, " << bench.struck << " struck");
+}
+
+TEST_CASE("view: a device that is lost leaves what was not saved in a scene of its own") {
+  const VirtualDisplay display;
+  Bench bench;
+  bench.environment.push_back(display.variable());
+  const auto script = writeBytes(
+      bench.folder.path() / "script.txt",
+      "settle\nhold control\nhold shift\nkey 4\nlet shift\nlet control\nframes 2\nwindow window.png\n");
+  const std::vector<std::string> arguments{"view", "--script", script.string(), "--size", "400x320"};
+  std::string log;
+  const Outcome whole = bench.run(arguments, "", log);
+  REQUIRE_MESSAGE(whole.exit == 0, whole.err);
+  CHECK(listOf(bench.folder.path() / "out") == std::vector<std::string>{"window.png"});
+  const unsigned last = calledOf(log).at("vkQueueSubmit2").calls;
+  const Outcome lost =
+      bench.run(arguments, Site{"vkQueueSubmit2", last, VK_ERROR_DEVICE_LOST, true}.text(), log);
+  INFO(lost.err);
+  CHECK(lost.exit == 5);
+  CHECK(lost.err.find("what was not saved is in ./vasa_001.json") != std::string::npos);
+  const auto scene = bench.folder.path() / "out" / "vasa_001.json";
+  const auto kept = nlohmann::json::parse(contentOf(scene), nullptr, false);
+  REQUIRE(kept.is_object());
+  CHECK(kept["views"].contains("4"));
+  CHECK(runProgram({"info", scene.string()}).exit == 0);
 }
