@@ -6,6 +6,7 @@
 #include "core/stage_log.h"
 #include "edit/replay.h"
 #include "network/measure.h"
+#include "surface/fork_memory.h"
 
 namespace vasa::viewer {
 namespace {
@@ -27,6 +28,24 @@ Aabb boundsOf(const Scene& scene) {
 
 bool sameLayout(const Network& a, const Network& b) {
   return std::ranges::equal(a.vessels(), b.vessels(), {}, &Vessel::pointCount, &Vessel::pointCount);
+}
+
+// Vessels keep their numbers, and some may have been appended.
+bool continues(const Network& before, const Network& after) {
+  const auto old = before.vessels(), all = after.vessels();
+  return all.size() >= old.size() &&
+         std::ranges::equal(old, all.first(old.size()), {}, &Vessel::name, &Vessel::name);
+}
+
+SweepTable tableOf(const Network& network, const Document& before, bool live) {
+  if (live && sameLayout(network, before.scene.network)) return before.table;
+  ForkPlan plan = live && continues(before.scene.network, network)
+                      ? planForksAs(network, before.table.ways, *before.forks)
+                      : planForks(network, *before.forks);
+  PatchTable patches = takePatches(network, plan);
+  SweepTable table = makeSweepTable(network, std::move(plan));
+  table.patches = std::move(patches);
+  return table;
 }
 
 // What each vessel was in the base, for Rebinder.
@@ -111,6 +130,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   document->rebinder = std::make_shared<const Rebinder>(document->scene.body, document->scene.binding.spines);
   document->baseBinding = std::make_shared<const Binding>(document->scene.binding);
   document->rules = folder;
+  document->forks = std::make_shared<ForkMemory>();
   if (!journal.empty()) return editedDocument(*document, std::move(journal), false);
   if (!folder.empty()) document->growth = GrowthBehind(std::move(*growth), document->scene, document->table);
   return std::shared_ptr<const Document>(std::move(document));
@@ -145,14 +165,10 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
                                                   keptOf(*document.base, replay));
   made->scene.network = std::move(replay.network);
   checkpoint();
-  if (live && sameLayout(made->scene.network, document.scene.network)) {
-    made->table = document.table;
-  } else {
-    ForkPlan plan = planForks(made->scene.network);
-    PatchTable patches = takePatches(made->scene.network, plan);
-    made->table = makeSweepTable(made->scene.network, std::move(plan));
-    made->table.patches = std::move(patches);
-  }
+  made->live = live;
+  made->forks = document.forks;
+  made->origins = std::move(replay.origins);
+  made->table = tableOf(made->scene.network, document, live);
   made->bounds = boundsOf(made->scene);
   made->groups = std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
   if (!made->rules.empty()) {

@@ -50,6 +50,10 @@ struct Document {
   std::shared_ptr<const Network> base;
   std::shared_ptr<const Binding> baseBinding;
   std::vector<std::string> journal;  ///< lines that were replayed
+  bool live = false;                 ///< editedDocument()
+  /// Of each vessel, its number in the base; invalid: an edit added it. Empty: they are the base's.
+  std::vector<VesselId> origins;
+  std::shared_ptr<ForkMemory> forks;  ///< of the base and all that is made of it, by one thread at a time
   std::shared_ptr<const Rebinder> rebinder;
   std::filesystem::path rules;  ///< of the capillaries; empty: none
   GrowthBehind growth;          ///< of its capillaries; none where there are no rules for them
@@ -73,7 +77,7 @@ std::filesystem::path ownJournal(const std::filesystem::path& scene);
 
 /// The same document with another own journal: only vessels that changed are bound anew. badInput with the
 /// refusal of the first line that is refused.
-/// @param live  to be replaced at once: forks stay planned as they are where the network has as many points
+/// @param live  to be replaced at once: forks leave as they did (planForksAs)
 Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
                                                        std::vector<std::string> journal, bool live);
 

@@ -1,6 +1,8 @@
 #include "viewer/pose_worker.h"
 
 #include <algorithm>
+#include <future>
+#include <utility>
 
 #include "core/clock.h"
 #include "core/parallel.h"
@@ -52,13 +54,13 @@ void takeShapeOf(FrameMaker& maker, bool contacts, PosedBody& body) {
   body.touching = spansOf(maker.avoider()->remaining());
 }
 
-// Setting up avoidance takes a while, so the ways of making shapes that were used last are kept.
+// A way of making shapes of a document.
 struct PoseWorker::Maker {
   explicit Maker(const PoseOrder& like)
       : order(like), maker(like.document->scene, frameOptions(like.forces, like.contacts)) {}
 
-  std::shared_ptr<PosedBody> make(const PoseOrder& wanted) {
-    const auto start = Clock::now();
+  // The vessels in the order's pose, and nothing beside.
+  void pose(const PoseOrder& wanted) {
     const Body& body = wanted.document->scene.body;
     const Clip* clip = wanted.clip >= 0 ? &body.clips[std::size_t(wanted.clip)] : nullptr;
     if (wanted.turns.empty()) {
@@ -72,6 +74,11 @@ struct PoseWorker::Maker {
         maker.make(pose, wanted.time);
     }
     live = true;
+  }
+
+  std::shared_ptr<PosedBody> make(const PoseOrder& wanted) {
+    const auto start = Clock::now();
+    pose(wanted);
     auto done = std::make_shared<PosedBody>();
     done->order = wanted;
     takeShapeOf(maker, wanted.contacts, *done);
@@ -83,25 +90,24 @@ struct PoseWorker::Maker {
     return done;
   }
 
-  // What takes little to set up.
-  static std::shared_ptr<const PosedBody> provisional(const PoseOrder& order) {
-    PoseOrder quick = order;
-    quick.forces.avoid = quick.contacts = quick.measures = false;
-    auto made = Maker(quick).make(quick);
-    made->order = order;
-    made->provisional = true;
-    return made;
-  }
-
   PoseOrder order;    // keeps the document alive
   bool live = false;  // something is on the screen: what is posed by hand goes on from there
   FrameMaker maker;
   std::optional<VesselMeter> meter;
 };
 
+// Setting up a way that keeps vessels apart.
+struct PoseWorker::Preparation {
+  PoseOrder like;
+  Cancellation cancellation;
+  std::unique_ptr<Maker> made;  // null once done: it was cancelled
+  bool done = false;            // under the worker's mutex
+  std::future<void> thread;     // goes first
+};
+
 PoseWorker::PoseWorker(std::function<void()> done, bool besidePicture)
-    : done_(std::move(done)), thread_([this, besidePicture] {
-        if (besidePicture) giveWay();
+    : done_(std::move(done)), besidePicture_(besidePicture), thread_([this] {
+        if (besidePicture_) giveWay();
         work();
       }) {}
 
@@ -113,6 +119,7 @@ PoseWorker::~PoseWorker() {
   }
   changed_.notify_all();
   thread_.join();
+  if (preparation_) preparation_->cancellation.ask();
 }
 
 void PoseWorker::order(PoseOrder order) {
@@ -135,37 +142,105 @@ std::shared_ptr<const PosedBody> PoseWorker::latest() const {
 
 bool PoseWorker::busy() const {
   const std::lock_guard lock(mutex_);
-  return working_ || next_;
+  return working_ || next_ || unprepared_;
+}
+
+bool PoseWorker::isFree() const {
+  const std::lock_guard lock(mutex_);
+  return !working_ && !next_;
 }
 
 void PoseWorker::wait() const {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return !working_ && !next_; });
+  changed_.wait(lock, [&] { return !working_ && !next_ && !unprepared_; });
+}
+
+PoseWorker::Maker* PoseWorker::makerFor(const PoseOrder& order) {
+  const auto found =
+      std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, order); });
+  if (found == makers_.end()) return nullptr;
+  std::rotate(found, found + 1, makers_.end());
+  return makers_.back().get();
+}
+
+// The ways that were used last, of one document.
+PoseWorker::Maker& PoseWorker::keep(std::unique_ptr<Maker> maker) {
+  constexpr std::size_t kMostMakers = 3;
+  std::erase_if(makers_, [&](const auto& other) { return other->order.document != maker->order.document; });
+  if (makers_.size() == kMostMakers) makers_.erase(makers_.begin());
+  makers_.push_back(std::move(maker));
+  return *makers_.back();
+}
+
+// One at a time, on a thread of its own.
+void PoseWorker::prepare(const PoseOrder& order) {
+  if (preparation_) {  // for something else that is no longer wanted
+    if (!sameOptions(preparation_->like, order)) preparation_->cancellation.ask();
+    return;
+  }
+  preparation_ = std::make_unique<Preparation>();
+  preparation_->like = order;
+  preparation_->thread = std::async(std::launch::async, [this, own = preparation_.get()] {
+    if (besidePicture_) giveWay();
+    std::unique_ptr<Maker> made;
+    try {
+      const CancellationScope scope(own->cancellation);
+      const StageLog stage("behind the picture: preparing how vessels move");
+      made = std::make_unique<Maker>(own->like);
+    } catch (const Cancelled&) {
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      own->made = std::move(made);
+      own->done = true;
+    }
+    changed_.notify_all();
+  });
+}
+
+bool PoseWorker::isPrepared() const { return preparation_ && preparation_->done; }
+
+void PoseWorker::takePrepared(const PoseOrder& order) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!isPrepared()) return;
+  }
+  const auto taken = std::exchange(preparation_, nullptr);
+  if (taken->made && taken->like.document == order.document) keep(std::move(taken->made));
+}
+
+std::shared_ptr<const PosedBody> PoseWorker::makeQuickly(const PoseOrder& order) {
+  const auto start = Clock::now();
+  PoseOrder alone = order;
+  const bool carries = carried_ && carriedBy_ == order.forces && carried_->suits(*order.document);
+  alone.forces.avoid = alone.contacts = alone.measures = false;
+  if (carries) alone.forces.volume = false;  // radii are carried, too
+  if (!quick_ || !sameOptions(quick_->order, alone)) quick_ = std::make_unique<Maker>(alone);
+  FrameMaker& maker = quick_->maker;
+  quick_->pose(alone);
+  if (carries) maker.put(carried_->laidOn(*order.document, maker));
+  auto made = std::make_shared<PosedBody>();
+  made->order = order;
+  takeShapeOf(maker, false, *made);
+  made->ms = msSince(start);
+  made->provisional = !order.document->live;
+  return made;
 }
 
 std::shared_ptr<const PosedBody> PoseWorker::make(const PoseOrder& order) {
-  constexpr std::size_t kMostMakers = 3;
-  const auto found =
-      std::ranges::find_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, order); });
-  if (found != makers_.end()) {
-    std::rotate(found, found + 1, makers_.end());
-  } else {
-    std::erase_if(makers_, [&](const auto& maker) { return maker->order.document != order.document; });
-    if (makers_.empty() && (order.forces.avoid || order.contacts)) show(Maker::provisional(order));
-    const StageLog stage("behind the picture: preparing how vessels move");
-    if (makers_.size() == kMostMakers) makers_.erase(makers_.begin());
-    makers_.push_back(std::make_unique<Maker>(order));
+  takePrepared(order);
+  Maker* maker = makerFor(order);
+  if (!maker && (order.forces.avoid || order.contacts)) {
+    if (!order.document->live) prepare(order);
+    return makeQuickly(order);
   }
-  return makers_.back()->make(order);
-}
-
-void PoseWorker::show(std::shared_ptr<const PosedBody> made) {
-  {
-    const std::lock_guard lock(mutex_);
-    latest_ = std::move(made);
-  }
-  changed_.notify_all();
-  done_();
+  if (!maker) maker = &keep(std::make_unique<Maker>(order));
+  auto made = maker->make(order);
+  quick_.reset();
+  carried_.reset();
+  if (order.forces.avoid) carried_.emplace(order.document, maker->maker);
+  carriedBy_ = order.forces;
+  return made;
 }
 
 void PoseWorker::work() {
@@ -174,9 +249,10 @@ void PoseWorker::work() {
     Cancellation cancellation;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return ending_ || next_; });
+      changed_.wait(lock, [&] { return ending_ || next_ || (unprepared_ && isPrepared()); });
       if (ending_) return;
-      order = std::move(next_);
+      order = std::move(next_ ? next_ : unprepared_);
+      unprepared_.reset();
       cancellation = cancellation_;
       working_ = true;
     }
@@ -186,9 +262,11 @@ void PoseWorker::work() {
       made = make(*order);
     } catch (const Cancelled&) {  // a way of making shapes that was left halfway is not gone on with
       std::erase_if(makers_, [&](const auto& maker) { return sameOptions(maker->order, *order); });
+      quick_.reset();
     }
     {
       const std::lock_guard lock(mutex_);
+      if (made && made->provisional && !next_) unprepared_ = std::move(order);
       if (made) latest_ = std::move(made);
       working_ = false;
     }

@@ -2,6 +2,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/cancellation.h"
 #include "scene/frame.h"
 #include "scene/measurements.h"
+#include "viewer/carried_shape.h"
 #include "viewer/document.h"
 #include "viewer/forces.h"
 
@@ -41,15 +43,17 @@ struct PosedBody {
   std::uint32_t contactsBefore = 0;
   std::vector<VesselMeasures> measures;  ///< one a vessel; empty unless ordered
   double ms = 0;                         ///< all of it but the measures
-  /// As the pose alone has it, for a document's first pictures: the order is being made.
+  /// For a document's first pictures: what keeps vessels apart is being set up, and the order is not done.
   bool provisional = false;
 };
 
 /// What a maker has made. @param contacts  places where vessels touch, too; the maker must look for them
 void takeShapeOf(FrameMaker& maker, bool contacts, PosedBody& body);
 
-/// Makes shapes on a thread of its own while earlier ones are drawn. Before a document's first, for which
-/// more has to be set up, comes a provisional one. Of orders that come in faster than they are done only the
+/// Makes shapes on a thread of its own while earlier ones are drawn. What keeps a document's vessels apart
+/// takes a second or more to set up, on another thread: until then shapes are provisional, as the pose alone
+/// has them, and moved aside as those of the document before were (CarriedShape). Those of a document that is
+/// to be replaced at once (Document::live) stay so. Of orders that come in faster than they are done only the
 /// latest is; one for another document cancels what is being done, and so does the end.
 class PoseWorker {
  public:
@@ -64,16 +68,25 @@ class PoseWorker {
   /// The latest shape; null before the first one.
   std::shared_ptr<const PosedBody> latest() const;
   bool busy() const;
-  /// Until nothing is being done.
+  /// Whether no order is being done, though one may wait for what is being set up.
+  bool isFree() const;
+  /// Until nothing is being done, or set up for it.
   void wait() const;
 
  private:
   struct Maker;
+  struct Preparation;
   void work();
   std::shared_ptr<const PosedBody> make(const PoseOrder& order);
-  void show(std::shared_ptr<const PosedBody> made);
+  std::shared_ptr<const PosedBody> makeQuickly(const PoseOrder& order);
+  Maker* makerFor(const PoseOrder& order);
+  Maker& keep(std::unique_ptr<Maker> maker);
+  void prepare(const PoseOrder& order);
+  void takePrepared(const PoseOrder& order);
+  bool isPrepared() const;
 
   std::function<void()> done_;
+  bool besidePicture_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::unique_ptr<PoseOrder> next_;
@@ -81,7 +94,12 @@ class PoseWorker {
   Cancellation cancellation_;                       // of orders for it
   bool working_ = false, ending_ = false;
   std::shared_ptr<const PosedBody> latest_;
-  std::vector<std::unique_ptr<Maker>> makers_;  // the worker's alone
+  std::unique_ptr<PoseOrder> unprepared_;       // of which only a provisional shape was made
+  std::unique_ptr<Preparation> preparation_;    // made, and taken, by the worker alone
+  std::vector<std::unique_ptr<Maker>> makers_;  // the worker's alone, as all that follows
+  std::unique_ptr<Maker> quick_;
+  std::optional<CarriedShape> carried_;
+  Forces carriedBy_;
   std::thread thread_;
 };
 

@@ -133,9 +133,11 @@ void Session::orderShape() {
                   .contacts = state_.contacts,
                   .measures = state_.selected && !state_.playback.playing};
   const bool done = body_ && !body_->provisional && body_->order == order;
+  const bool underWay = worker_.busy() && ordered_ && *ordered_ == order;
   // While a shape is being made only a person's wishes go before it, not the next moment of a clip.
-  if (!done && (!worker_.busy() || (coming_ && ordered_ != coming_))) {
-    ordered_ = order.document;
+  const bool goesFirst = coming_ && (!ordered_ || ordered_->document != coming_);
+  if (!done && !underWay && (worker_.isFree() || goesFirst)) {
+    ordered_ = order;
     worker_.order(std::move(order));
   }
   if (steady() && (recording_.running() || body_ || settling_)) worker_.wait();

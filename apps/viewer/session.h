@@ -149,8 +149,8 @@ class Session {
   Loader& loader_;
   PoseWorker worker_;
   std::shared_ptr<const Document> document_;
-  std::shared_ptr<const Document> coming_;   // edited, until it has a shape
-  std::shared_ptr<const Document> ordered_;  // whose shape was ordered last
+  std::shared_ptr<const Document> coming_;  // edited, until it has a shape
+  std::optional<PoseOrder> ordered_;        // last
   Reshaper reshaper_;
   std::vector<std::string> wanted_;  // journal of the latest wish
   bool wantedLive_ = false;

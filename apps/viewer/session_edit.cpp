@@ -85,7 +85,7 @@ void Session::changeTo(std::shared_ptr<const Document> edited) {
 }
 
 void Session::noteEdit() {
-  if (coming_ || !editedAt_) return;
+  if (coming_ || !editedAt_ || !shown_ || shown_->body->order.document != document_) return;
   timings_.addEdit(std::chrono::duration<double, std::milli>(Clock::now() - *editedAt_).count());
   editedAt_.reset();
 }

@@ -144,7 +144,6 @@ bool Session::drawScene() {
   if (lastShown_ && state_.playback.playing) timings_.addShown(msBetween(*lastShown_, end));
   lastShown_ = end;
   shown_ = std::move(shot);
-  noteEdit();
   return true;
 }
 
@@ -243,6 +242,7 @@ void Session::drawWindow() {
   if (panelFrames_ > 0) --panelFrames_;
   ++report_.frames;
   noteFirst();
+  noteEdit();
 }
 
 // How long a person waited.

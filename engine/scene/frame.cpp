@@ -216,6 +216,11 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
   }
 }
 
+void FrameMaker::put(std::span<const vec4> points) {
+  points_.assign(points.begin(), points.end());
+  finish();
+}
+
 PosedLook FrameMaker::lookAtPosed() {
   std::vector<vec4> points(posedPoints_);
   if (options_.keepVolume) volume_.run(points);

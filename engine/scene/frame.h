@@ -56,6 +56,9 @@ class FrameMaker {
   /// On to a pose from where the body is now, whatever led there: for live posing. @param seconds  since then
   void moveTo(const Pose& pose, float time, float seconds);
 
+  /// Another shape in the same pose, as one that was found for the network before it was edited.
+  void put(std::span<const vec4> points);
+
   const Pose& pose() const { return pose_; }
   std::span<const vec4> points() const { return points_; }
   std::span<const quat> knotFrames() const { return knotFrames_; }

@@ -14,6 +14,7 @@ struct ForkExit {
   float ringFoot = 0;  ///< way along the host beside `ring`
   float radius = 0;    ///< of the branch at `ring`
   float lean = 0;      ///< cosine between branch and host there
+  bool operator==(const ForkExit&) const = default;
 };
 
 /// @param last     the branch is the line's last end, so that ways count from there

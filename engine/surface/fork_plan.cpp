@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
-#include "surface/fork_exit.h"
+#include "core/hash.h"
+#include "surface/fork_memory.h"
 #include "surface/fork_record.h"
 #include "surface/fork_room.h"
 #include "surface/fork_trials.h"
@@ -36,9 +39,11 @@ constexpr float kBesideJoin = 0.15f;   // of the radius: the least a join takes
 // A branch that leaves a line.
 struct Leaving {
   std::uint32_t child = 0;  // 2 * line + end
-  float centre = 0;         // way along the host
-  vec3 direction{0};        // unit, from the host's axis
+  ForkExit exit;
+  float centre = 0;   // way along the host
+  vec3 direction{0};  // unit, from the host's axis
   float hole = 0, around = 0, radius = 0, cornerAround = 0, cornerAlong = 0;
+  bool operator==(const Leaving&) const = default;
 };
 
 // One or two branches, or a join, or both, on a line.
@@ -48,6 +53,7 @@ struct Item {
   float radius = 0, shiftLimit = 0;
   float mustLow = 1e30f, mustHigh = -1e30f;  // a join within
 
+  bool operator==(const Item&) const = default;
   bool branch() const { return !branches.empty(); }
   const Leaving& thinnest() const {
     return *std::min_element(branches.begin(), branches.end(),
@@ -60,62 +66,171 @@ enum class Fate { none, forked, hidden, tooShort, crowded, folded };
 class Planner {
  public:
   using Pair = std::array<VesselId, 2>;
-  Planner(const Network& network, std::span<const Pair> apart, ForkTrials& shapes)
-      : network_(network), lines_(makeVesselLines(network, apart)), shapes_(shapes) {
+  Planner(const Network& network, std::span<const Pair> apart, ForkMemory& memory)
+      : network_(network), lines_(makeVesselLines(network, apart)), memory_(memory) {
     exits_.resize(2 * lines_.lines.size());
     fates_.resize(exits_.size(), Fate::none);
     children_.resize(lines_.lines.size());
     items_.resize(lines_.lines.size());
+    pieces_.resize(lines_.lines.size());
+    unsettled_.resize(lines_.lines.size(), true);
+    old_.resize(lines_.lines.size(), true);
+    for (const VesselLine& line : lines_.lines) keys_.push_back(line.key());
+    trials_.resize(exits_.size());
+    for (std::uint32_t end = 0; end < exits_.size(); ++end)
+      if (const LineEnd& lineEnd = lines_.ends[end / 2][end % 2]; lineEnd.kind == LineEnd::Kind::branch)
+        children_[lineEnd.host].push_back(end);
   }
 
-  ForkPlan run() {
-    trials_.resize(exits_.size());
-    for (std::uint32_t end = 0; end < exits_.size(); ++end) {
-      const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
-      if (lineEnd.kind == LineEnd::Kind::branch) children_[lineEnd.host].push_back(end);
-      findExit(end);
-    }
+  ForkPlan run(ForkTrials& shapes) {
+    for (std::uint32_t end = 0; end < exits_.size(); ++end) findExit(end);
     do {
       giveRoom();
-      plan_ = {};
-      branchesOf_.clear();
-      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) emit(line);
+      emitOld();
+      tryForks(shapes);
     } while (mendFolds());
-    std::sort(plan_.tubes.begin(), plan_.tubes.end(), [](const TubeStretch& a, const TubeStretch& b) {
-      return a.vessel != b.vessel ? a.vessel < b.vessel : a.from < b.from;
-    });
-    count();
-    return std::move(plan_);
+    return gathered();
+  }
+
+  ForkPlan runAs(const ForkWays& before) {
+    for (std::uint32_t end = 0; end < exits_.size(); ++end) {
+      const std::size_t own = vesselEnd(end);
+      const std::uint8_t way = own < before.of.size() ? before.of[own] : std::uint8_t(0);
+      trials_[end].manner = way == ForkWays::kTube ? 0 : way;
+      findExit(end);
+      if (way == ForkWays::kTube && forked(end)) fates_[end] = Fate::folded;
+    }
+    giveRoom();
+    emitOld();
+    return gathered();
   }
 
   /// Vessels whose join folds at rest in the plan of run().
-  std::span<const Pair> bent() const { return bent_; }
+  std::vector<Pair> bent() const {
+    std::vector<Pair> pairs;
+    for (const Piece& piece : pieces_)
+      for (std::size_t i = 0; i < piece.forks.size(); ++i)
+        if (!piece.items[i].branch() && piece.folds[i]->rest > 0)
+          pairs.push_back({VesselId{piece.forks[i].vesselA}, VesselId{piece.forks[i].vesselB}});
+    return pairs;
+  }
 
  private:
   struct Range {
     float low, high;
   };
 
+  // What a line has come to, along it. Numbers of branches count within.
+  struct Piece {
+    std::vector<TubeStretch> tubes;
+    std::vector<Item> items;  // one a fork
+    std::vector<shared::ForkRecord> forks;
+    std::vector<shared::ForkBranch> branches;
+    std::vector<std::optional<ForkFolds>> folds;  // of each fork; nothing before it was tried
+  };
+
+  // How a branch leaves is another: that concerns its own line and its host, and no others.
+  void touch(std::uint32_t end) {
+    const std::uint32_t own = end / 2, host = lines_.ends[own][end % 2].host;
+    unsettled_[own] = unsettled_[host] = old_[own] = old_[host] = true;
+  }
+
+  void drop(std::uint32_t end, Fate fate) {
+    fates_[end] = fate;
+    touch(end);
+  }
+
   void findExit(std::uint32_t end) {
     const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
     if (lineEnd.kind != LineEnd::Kind::branch) return;
-    exits_[end] =
-        findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host], lineEnd.hostWay,
-                     kManners[trials_[end].manner].clearance, kManners[trials_[end].manner].longest);
+    exits_[end] = exitOf(end, lineEnd);
     fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
     clearJoin(end);
+    touch(end);
   }
 
+  ForkExit exitOf(std::uint32_t end, const LineEnd& lineEnd) {
+    const Manner& manner = kManners[trials_[end].manner];
+    const struct {
+      std::uint64_t branch, host;
+      float hostWay, clearance, longest;
+      std::uint32_t last;
+    } asked{keys_[end / 2], keys_[lineEnd.host], lineEnd.hostWay, manner.clearance, manner.longest, end % 2};
+    static_assert(sizeof asked == 32);
+    const auto [found, isNew] = memory_.exits.try_emplace(hashOf(std::span(&asked, 1)));
+    if (isNew)
+      found->second = findForkExit(lines_.lines[end / 2], end % 2 == 1, lines_.lines[lineEnd.host],
+                                   lineEnd.hostWay, manner.clearance, manner.longest);
+    return found->second;
+  }
+
+  // Lines of which nothing has changed since they were settled have it.
   void giveRoom() {
     for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) {
-      if (!forked(2 * line) || !forked(2 * line + 1)) continue;
+      if (!unsettled_[line] || !forked(2 * line) || !forked(2 * line + 1)) continue;
       const float room = lines_.lines[line].length() - exits_[2 * line].ring - exits_[2 * line + 1].ring;
-      if (room < kSliver * exits_[2 * line].radius) fates_[2 * line + 1] = Fate::tooShort;
+      if (room < kSliver * exits_[2 * line].radius) drop(2 * line + 1, Fate::tooShort);
     }
     for (bool dropped = true; dropped;) {
       dropped = false;
-      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) dropped = !settle(line) || dropped;
+      for (std::uint32_t line = 0; line < lines_.lines.size(); ++line)
+        if (std::exchange(unsettled_[line], false)) dropped = !settle(line) || dropped;
     }
+  }
+
+  // What lines have come to, where that is another.
+  void emitOld() {
+    emitted_.clear();
+    for (std::uint32_t line = 0; line < lines_.lines.size(); ++line)
+      if (std::exchange(old_[line], false)) emit(line), emitted_.push_back(line);
+  }
+
+  // Whether what is new folds.
+  void tryForks(ForkTrials& shapes) {
+    std::vector<shared::ForkRecord> forks;
+    std::vector<shared::ForkBranch> branches;
+    std::vector<std::optional<ForkFolds>*> answers;
+    for (const std::uint32_t line : emitted_) {
+      Piece& piece = pieces_[line];
+      for (std::size_t i = 0; i < piece.forks.size(); ++i) {
+        if (piece.folds[i]) continue;
+        addFork(piece, i, forks, branches);
+        answers.push_back(&piece.folds[i]);
+      }
+    }
+    const std::vector<ForkFolds> folds = shapes.foldsOf(forks, branches);
+    for (std::size_t i = 0; i < folds.size(); ++i) *answers[i] = folds[i];
+  }
+
+  static void addFork(const Piece& piece, std::size_t index, std::vector<shared::ForkRecord>& forks,
+                      std::vector<shared::ForkBranch>& branches) {
+    shared::ForkRecord fork = piece.forks[index];
+    const auto own = std::span(piece.branches).subspan(fork.firstBranch, fork.branchCount);
+    fork.firstBranch = std::uint32_t(branches.size());
+    branches.insert(branches.end(), own.begin(), own.end());
+    forks.push_back(fork);
+  }
+
+  ForkPlan gathered() const {
+    ForkPlan plan;
+    for (const Piece& piece : pieces_) {
+      plan.tubes.insert(plan.tubes.end(), piece.tubes.begin(), piece.tubes.end());
+      for (std::size_t i = 0; i < piece.forks.size(); ++i) {
+        addFork(piece, i, plan.forks, plan.branches);
+        plan.vesselOfFork.push_back(piece.forks[i].vesselA);
+        for (const Leaving& leaving : piece.items[i].branches) plan.report.leaning += !leaving.exit.clear;
+        plan.report.joins += piece.items[i].mustLow < 1e30f;
+      }
+    }
+    std::sort(plan.tubes.begin(), plan.tubes.end(), [](const TubeStretch& a, const TubeStretch& b) {
+      return a.vessel != b.vessel ? a.vessel < b.vessel : a.from < b.from;
+    });
+    count(plan.report);
+    plan.ways.of.assign(2 * network_.vessels().size(), 0);
+    for (std::uint32_t end = 0; end < exits_.size(); ++end)
+      if (lines_.ends[end / 2][end % 2].kind == LineEnd::Kind::branch)
+        plan.ways.of[vesselEnd(end)] = forked(end) ? std::uint8_t(trials_[end].manner) : ForkWays::kTube;
+    return plan;
   }
 
   // How a branch is made, and what became of other ways to make it.
@@ -128,22 +243,19 @@ class Planner {
   // Branches of forks that fold are made in another manner; in the best of all, where each of them folds
   // somewhere; as tubes of their own where that is at rest. @return whether anything changed
   bool mendFolds() {
-    bent_.clear();
-    const std::vector<ForkFolds> folds = shapes_.foldsOf(plan_.forks, plan_.branches);
     bool changed = false;
-    for (std::size_t i = 0; i < plan_.forks.size(); ++i) {
-      if (branchesOf_[i].empty() && folds[i].rest > 0)
-        bent_.push_back({VesselId{plan_.forks[i].vesselA}, VesselId{plan_.forks[i].vesselB}});
-      for (const std::uint32_t end : branchesOf_[i])
-        if (!folds[i].none()) changed = tryOtherwise(end, folds[i]) || changed;
-    }
+    for (const std::uint32_t line : emitted_)
+      for (std::size_t i = 0; i < pieces_[line].forks.size(); ++i)
+        for (const Leaving& leaving : pieces_[line].items[i].branches)
+          if (const ForkFolds& folds = *pieces_[line].folds[i]; !folds.none())
+            changed = tryOtherwise(leaving.child, folds) || changed;
     return changed;
   }
 
   bool tryOtherwise(std::uint32_t end, const ForkFolds& folds) {
     Trial& trial = trials_[end];
     if (trial.settled) {
-      if (folds.rest > 0) fates_[end] = Fate::folded;
+      if (folds.rest > 0) drop(end, Fate::folded);
       return folds.rest > 0;
     }
     if (folds < trial.least) trial.least = folds, trial.best = trial.manner;
@@ -152,6 +264,13 @@ class Planner {
     findExit(end);
     if (trial.settled && trial.least.rest > 0) fates_[end] = Fate::folded;
     return true;
+  }
+
+  // 2 * vessel, and one more for its last end.
+  std::size_t vesselEnd(std::uint32_t end) const {
+    const auto parts = lines_.lines[end / 2].parts();
+    const VesselLine::Part& part = end % 2 ? parts.back() : parts.front();
+    return 2 * part.vessel.value + ((end % 2 == 1) != part.reversed);
   }
 
   bool forked(std::uint32_t end) const { return fates_[end] == Fate::forked; }
@@ -195,6 +314,7 @@ class Planner {
     const float stretched = 1 / std::sqrt(std::max(1 - exit.lean * exit.lean, 1.0f / 9));
     Leaving leaving;
     leaving.child = end;
+    leaving.exit = exit;
     leaving.centre = exit.foot;
     leaving.radius = exit.radius;
     // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the
@@ -333,7 +453,7 @@ class Planner {
       }
     }
     if (worst) {
-      fates_[worst->thinnest().child] = Fate::crowded;
+      drop(worst->thinnest().child, Fate::crowded);
       return false;
     }
     for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
@@ -350,21 +470,23 @@ class Planner {
   }
 
   void emit(std::uint32_t index) {
+    const Piece before = std::exchange(pieces_[index], {});
+    Piece& piece = pieces_[index];
     const VesselLine& line = lines_.lines[index];
     const bool fromBranch = forked(2 * index), toBranch = forked(2 * index + 1);
     float from = fromBranch ? exits_[2 * index].ring : 0;
     bool cap = !fromBranch;
     for (const Item& item : items_[index]) {
-      emitTube(line, from, item.room.low, cap, false);
-      emitFork(index, item);
+      emitTube(piece, line, from, item.room.low, cap, false);
+      emitFork(piece, before, line, item);
       from = item.room.high;
       cap = false;
     }
-    emitTube(line, from, toBranch ? line.length() - exits_[2 * index + 1].ring : line.length(), cap,
+    emitTube(piece, line, from, toBranch ? line.length() - exits_[2 * index + 1].ring : line.length(), cap,
              !toBranch);
   }
 
-  void emitTube(const VesselLine& line, float from, float to, bool capFrom, bool capTo) {
+  void emitTube(Piece& piece, const VesselLine& line, float from, float to, bool capFrom, bool capTo) const {
     if (to <= from) return;
     const VesselPlace a = line.place(from), b = line.place(to);
     TubeStretch tube{b.vessel, a.vessel == b.vessel ? a.u : (b.reversed ? spansOf(b) : 0), b.u, capFrom,
@@ -373,57 +495,60 @@ class Planner {
       std::swap(tube.from, tube.to);
       std::swap(tube.capFrom, tube.capTo);
     }
-    if (tube.to > tube.from) plan_.tubes.push_back(tube);
+    if (tube.to > tube.from) piece.tubes.push_back(tube);
   }
   float spansOf(const VesselPlace& place) const {
     return float(network_.vessels()[place.vessel].spanCount());
   }
 
-  void emitFork(std::uint32_t index, const Item& item) {
-    const VesselLine& line = lines_.lines[index];
+  void emitFork(Piece& piece, const Piece& before, const VesselLine& line, const Item& item) const {
+    const auto same = std::ranges::find(before.items, item);
+    piece.items.push_back(item);
+    if (same != before.items.end()) {
+      const auto index = std::size_t(same - before.items.begin());
+      addFork(before, index, piece.forks, piece.branches);
+      piece.folds.push_back(before.folds[index]);
+      return;
+    }
     ForkCourse course{.low = line.place(item.room.low),
                       .high = line.place(item.room.high),
                       .length = item.room.high - item.room.low};
     for (const Leaving& leaving : item.branches) {
-      const ForkExit& exit = exits_[leaving.child];
       const VesselLine& branch = lines_.lines[leaving.child / 2];
       const bool last = leaving.child % 2 == 1;
       const auto way = [&](float fromEnd) { return last ? branch.length() - fromEnd : fromEnd; };
-      course.branches.push_back({branch.place(way(exit.ring)), branch.place(way(exit.cross)), last,
-                                 vec3(line.point(leaving.centre + item.room.shift)), leaving.hole,
+      course.branches.push_back({branch.place(way(leaving.exit.ring)), branch.place(way(leaving.exit.cross)),
+                                 last, vec3(line.point(leaving.centre + item.room.shift)), leaving.hole,
                                  leaving.around, leaving.cornerAround, leaving.cornerAlong});
-      plan_.report.leaning += !exit.clear;
     }
-    plan_.report.joins += item.mustLow < 1e30f;
-    plan_.forks.push_back(makeForkRecord(network_, course, plan_.branches));
-    plan_.vesselOfFork.push_back(course.low.vessel);
-    branchesOf_.emplace_back();
-    for (const Leaving& leaving : item.branches) branchesOf_.back().push_back(leaving.child);
+    piece.forks.push_back(makeForkRecord(network_, course, piece.branches));
+    piece.folds.emplace_back();
   }
 
-  void count() {
-    plan_.report.doubles = lines_.doubles;
+  void count(ForkPlan::Report& report) const {
+    report.doubles = lines_.doubles;
     for (const Fate fate : fates_) {
-      plan_.report.branches += fate != Fate::none;
-      plan_.report.forked += fate == Fate::forked;
-      plan_.report.hidden += fate == Fate::hidden;
-      plan_.report.tooShort += fate == Fate::tooShort;
-      plan_.report.crowded += fate == Fate::crowded;
-      plan_.report.folded += fate == Fate::folded;
+      report.branches += fate != Fate::none;
+      report.forked += fate == Fate::forked;
+      report.hidden += fate == Fate::hidden;
+      report.tooShort += fate == Fate::tooShort;
+      report.crowded += fate == Fate::crowded;
+      report.folded += fate == Fate::folded;
     }
   }
 
   const Network& network_;
   VesselLines lines_;
-  ForkTrials& shapes_;
-  std::vector<ForkExit> exits_;  // 2 * line + end
+  ForkMemory& memory_;
+  std::vector<std::uint64_t> keys_;  // of the lines
+  std::vector<ForkExit> exits_;      // 2 * line + end
   std::vector<Fate> fates_;
   std::vector<Trial> trials_;
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<Item>> items_;
-  ForkPlan plan_;
-  std::vector<Pair> bent_;
-  std::vector<std::vector<std::uint32_t>> branchesOf_;  // of each fork, as in exits_
+  std::vector<char> unsettled_, old_;  // lines of which something is another since they were settled, emitted
+  std::vector<Piece> pieces_;
+  std::vector<std::uint32_t> emitted_;  // lines, by the last emitOld()
 };
 
 }  // namespace
@@ -435,13 +560,30 @@ ForkPlan planWithoutForks(const Network& network) {
   return plan;
 }
 
-ForkPlan planForks(const Network& network) {
+ForkPlan planForksAs(const Network& network, const ForkWays& before, ForkMemory& memory) {
+  memory.trim();
   std::vector<Planner::Pair> apart;
-  ForkTrials shapes(network);
+  for (const auto& [one, other] : before.apart) apart.push_back({VesselId{one}, VesselId{other}});
+  ForkPlan plan = Planner(network, apart, memory).runAs(before);
+  plan.report.bentJoins = std::uint32_t(apart.size());
+  plan.ways = before;
+  return plan;
+}
+
+ForkPlan planForks(const Network& network) {
+  ForkMemory memory;
+  return planForks(network, memory);
+}
+
+ForkPlan planForks(const Network& network, ForkMemory& memory) {
+  memory.trim();
+  std::vector<Planner::Pair> apart;
+  ForkTrials shapes(network, memory);
   for (;;) {
-    Planner planner(network, apart, shapes);
-    ForkPlan plan = planner.run();
+    Planner planner(network, apart, memory);
+    ForkPlan plan = planner.run(shapes);
     plan.report.bentJoins = std::uint32_t(apart.size());
+    for (const Planner::Pair& pair : apart) plan.ways.apart.push_back({pair[0].value, pair[1].value});
     const std::size_t before = apart.size();
     for (const Planner::Pair& pair : planner.bent())
       if (pair[0] != pair[1]) apart.push_back(pair);

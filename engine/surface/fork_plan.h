@@ -1,14 +1,26 @@
 #pragma once
+#include <array>
+
 #include "network/network.h"
 #include "shared/fork.h"
 
 namespace vasa {
+
+struct ForkMemory;
 
 /// A stretch of a vessel that keeps its own tube, in the vessel's parameter.
 struct TubeStretch {
   std::uint32_t vessel = 0;
   float from = 0, to = 0;
   bool capFrom = false, capTo = false;  ///< ends of the tube that nothing carries on
+};
+
+/// How the ends of a network's vessels leave others: what planForks() has tried out.
+struct ForkWays {
+  static constexpr std::uint8_t kTube = 255;  ///< no fork: a tube of its own
+  std::vector<std::uint8_t> of;               ///< two a vessel, that of its start first
+  std::vector<std::array<std::uint32_t, 2>>
+      apart;  ///< vessels that would fold where one runs on into the other
 };
 
 /// How the surface of a network is cut into tubes and forks. Settled once, at rest: from then on a fork is a
@@ -43,8 +55,16 @@ struct ForkPlan {
     std::uint32_t bentJoins = 0;
   };
   Report report;
+  ForkWays ways;
 };
 ForkPlan planForks(const Network& network);
+/// The same plan, sooner where much of the network is as in those that were planned with this memory before.
+ForkPlan planForks(const Network& network, ForkMemory& memory);
+
+/// A plan for a network that will soon be replaced: all leaves as it did in an earlier plan, of a network
+/// whose vessels were the same but for their shapes. Nothing is tried out, so that forks which have changed
+/// may fold. Vessels that were appended since leave in the first way there is.
+ForkPlan planForksAs(const Network& network, const ForkWays& before, ForkMemory& memory);
 
 /// No forks: every vessel is a tube with two caps that ends inside its host. For comparison.
 ForkPlan planWithoutForks(const Network& network);

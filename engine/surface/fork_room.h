@@ -10,6 +10,7 @@ struct ForkRoom {
   float want = 0;               ///< what it likes to have to either side
   float low = 0, high = 0;      ///< given: its rings' ways
   float shift = 0;              ///< given: how far `centre` was moved
+  bool operator==(const ForkRoom&) const = default;
 };
 
 /// Moves forks apart that need the same room, as little as possible in the sense of least squares, and grants

@@ -1,28 +1,20 @@
 #pragma once
-#include <unordered_map>
 #include <vector>
 
 #include "surface/fork.h"
+#include "surface/fork_memory.h"
 
 namespace vasa {
-
-/// Where a fork folds, in triangles; the lesser of two is the better fork.
-struct ForkFolds {
-  std::uint32_t rest = 0;      ///< at rest, 8 quads around
-  std::uint32_t others = 0;    ///< at rest, other numbers of quads around
-  std::uint32_t strained = 0;  ///< in strained shapes of the network, 8 quads around
-  bool none() const { return rest + others + strained == 0; }
-  auto operator<=>(const ForkFolds&) const = default;
-};
 
 /// Tries forks at rest and in shapes that the network may be bent to. A fork moves with a few control points
 /// that lie close together, so what a motion does to it is an affine map up to bending: the network is
 /// squeezed, stretched and sheared along the three axes, radii kept, as joints do to vessels that pass them.
 class ForkTrials {
  public:
-  explicit ForkTrials(const Network& network);
+  /// Both must outlive this.
+  ForkTrials(const Network& network, ForkMemory& memory);
 
-  /// One result a fork. Those of earlier calls are remembered.
+  /// One result a fork. Those that the memory knows are not tried.
   std::vector<ForkFolds> foldsOf(std::span<const shared::ForkRecord> forks,
                                  std::span<const shared::ForkBranch> branches);
 
@@ -31,10 +23,17 @@ class ForkTrials {
     std::vector<vec4> points;
     std::vector<quat> frames;
   };
+  std::uint64_t keyOf(shared::ForkRecord fork, std::span<const shared::ForkBranch> branches) const;
+  shared::ForkRing within(shared::ForkRing ring, std::uint32_t vessel) const;
+  std::uint32_t vesselOfPoint(std::uint32_t point) const;
+  void strain(std::uint32_t vessel);
   ForkFolds tried(const SweepTable& table, const shared::ForkRecord& fork) const;
 
-  std::vector<Shape> shapes_;  // the first one at rest
-  std::unordered_map<std::uint64_t, ForkFolds> known_;
+  const Network& network_;
+  ForkMemory& memory_;
+  std::vector<std::uint64_t> keys_;  // of the vessels' shapes
+  std::vector<Shape> shapes_;        // the first one at rest; of strained vessels alone
+  std::vector<char> strained_;
 };
 
 }  // namespace vasa

@@ -24,7 +24,7 @@ bool visitAll(Table& table, const Visit& visit) {
          visit(table.spanOfFork) && visit(patches.patches) && visit(patches.seams) &&
          visit(patches.vertices) && visit(patches.shares) && visit(patches.triangles) &&
          visit(patches.firstFan) && visit(patches.fans) && visit(table.pointCount) &&
-         visit(table.knotCount) && visit(table.spanCount);
+         visit(table.knotCount) && visit(table.spanCount) && visit(table.ways.of) && visit(table.ways.apart);
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
   }
   for (const TubeStretch& tube : plan.tubes) addTube(network, tube, firstSpan[tube.vessel], table);
   table.branches = std::move(plan.branches);
+  table.ways = std::move(plan.ways);
   // By branches: devices run several forks in step, and those with fewer would wait for the others.
   for (std::uint32_t branches = 0; branches <= shared::kMostBranches; ++branches)
     for (std::size_t i = 0; i < plan.forks.size(); ++i) {

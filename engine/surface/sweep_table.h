@@ -25,6 +25,7 @@ struct SweepTable {
   std::vector<shared::ForkRecord> forks;                ///< those with fewer branches first
   std::vector<shared::ForkBranch> branches;             ///< fork after fork
   std::vector<std::uint32_t> vesselOfFork, spanOfFork;  ///< those whose colour a fork takes
+  ForkWays ways;                                        ///< ForkPlan::ways
   PatchTable patches;                                   ///< in the place of forks (surface/patch.h)
   std::uint32_t pointCount = 0;                         ///< de Boor points of the network
   /// Knot quaternions: spans + 1 of each vessel, vessel after vessel.

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/hash.h"
+
 namespace vasa {
 namespace {
 
@@ -161,6 +163,11 @@ VesselLine::VesselLine(const Network& network, std::vector<Part> parts) : parts_
       samples_.push_back({vec3(point), point.w, at, u, p});
     }
   }
+}
+
+std::uint64_t VesselLine::key() const {
+  static_assert(sizeof(Sample) == 28);  // no gaps
+  return hashOf(std::span<const Sample>(samples_));
 }
 
 std::size_t VesselLine::sampleBefore(float way) const {

@@ -25,6 +25,8 @@ class VesselLine {
 
   std::span<const Part> parts() const { return parts_; }
   float length() const { return samples_.back().at; }
+  /// Of its course and radii, whatever the numbers of its vessels.
+  std::uint64_t key() const;
   /// Where one part ends and the next begins, `gap` further along.
   struct Join {
     float at = 0, gap = 0;

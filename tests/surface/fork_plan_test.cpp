@@ -2,10 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include "core/hash.h"
 #include "network/builder.h"
+#include "network/reshape.h"
 #include "support/manifold.h"
 #include "support/networks.h"
 #include "surface/fork_check.h"
+#include "surface/fork_memory.h"
 #include "surface/surface_mesh.h"
 
 using namespace vasa;
@@ -143,4 +146,66 @@ TEST_CASE("random trees: every branch is accounted for, no fork folds at rest") 
     for (const shared::ForkRecord& fork : table.forks)
       CHECK(foldedTriangles({table, network.points(), frames}, fork, 8, ForkForm::bare) == 0);
   }
+}
+
+namespace {
+
+std::uint64_t hashOfPlan(const ForkPlan& plan) {
+  std::uint64_t hash = hashOf(std::span(plan.forks));
+  hash = hashOf(std::span(plan.branches), hash);
+  hash = hashOf(std::span(plan.vesselOfFork), hash);
+  for (const TubeStretch& tube : plan.tubes) {
+    const float ends[]{tube.from, tube.to, float(tube.vessel), float(2 * tube.capFrom + tube.capTo)};
+    hash = hashOf(std::span<const float>(ends), hash);
+  }
+  return hash;
+}
+
+// One vessel with other points: wider, and bent aside in its middle.
+Network withOtherVessel(const Network& network, std::size_t which) {
+  std::vector<vec4> points(network.points().begin(), network.points().end());
+  const Vessel& vessel = network.vessels()[which];
+  for (std::uint32_t i = 2; i + 2 < vessel.pointCount; ++i)
+    points[vessel.firstPoint + i] += vec4(0, 0.3f, 0.2f, 0.2f) * points[vessel.firstPoint + i].w;
+  pinEnds(network, points);
+  auto edited = reshapeNetwork(network, points, network.bodyHeight());
+  REQUIRE(edited.ok());
+  return std::move(*edited);
+}
+
+}  // namespace
+
+TEST_CASE("plans are the same with what earlier ones have found out") {
+  ForkMemory memory;
+  int others = 0;  // a vessel's end without forks may be anywhere
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const Network network = test::branchingNetwork(20, seed);
+    CHECK(hashOfPlan(planForks(network, memory)) == hashOfPlan(planForks(network)));
+    for (const std::size_t vessel : {std::size_t(0), std::size_t(1), network.vessels().size() - 1}) {
+      const Network edited = withOtherVessel(network, vessel);
+      CHECK(hashOfPlan(planForks(edited, memory)) == hashOfPlan(planForks(edited)));
+      others += hashOfPlan(planForks(edited)) != hashOfPlan(planForks(network));
+    }
+  }
+  CHECK(others > 20);
+  const std::size_t exits = memory.exits.size(), folds = memory.folds.size();
+  planForks(test::branchingNetwork(20, 1), memory);
+  CHECK(memory.exits.size() == exits);
+  CHECK(memory.folds.size() == folds);
+}
+
+TEST_CASE("a network planned as it was before has the same plan; an edited one as many forks") {
+  ForkMemory memory;
+  std::uint32_t forks = 0, others = 0;
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const Network network = test::branchingNetwork(20, seed);
+    const ForkPlan plan = planForks(network);
+    CHECK(hashOfPlan(planForksAs(network, plan.ways, memory)) == hashOfPlan(plan));
+    const Network edited = withOtherVessel(network, 0);
+    const ForkPlan live = planForksAs(edited, plan.ways, memory);
+    forks += plan.report.forked, others += live.report.forked;
+    CHECK(live.report.forked <= plan.report.forked);
+  }
+  CHECK(forks > 100);
+  CHECK(others > forks * 0.9);
 }
