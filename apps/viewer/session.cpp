@@ -54,14 +54,19 @@ Result<void> Session::keepScript() {
   return options_.record.empty() ? Result<void>() : writeFileAtomically(options_.record, recorder_.text());
 }
 
-// Of a session that cannot go on: what was not saved, under a new name, what was done in it, how it looked,
-// and the film so far.
+// Of a session that was not ended by its user: what was not saved, in a scene of its own. Says where; empty
+// where there is nothing to save.
+std::string Session::keepUnsaved() {
+  if (!document_ || !history_.unsaved(state_)) return "";
+  const auto kept = keeper_.save(*document_, state_, {}, freeName(options_.out, "json"));
+  return kept ? "what was not saved is in " + kept->string() : kept.error().message;
+}
+
+// Of a session that cannot go on: what was not saved, what was done in it, how it looked, and the film so
+// far.
 Error Session::keepWhatIsThere(Error error) {
   if (!document_) return error;
-  if (history_.unsaved(state_)) {
-    const auto kept = keeper_.save(*document_, state_, {}, freeName(options_.out, "json"));
-    error.message += kept ? "; what was not saved is in " + kept->string() : "; " + kept.error().message;
-  }
+  if (const std::string told = keepUnsaved(); !told.empty()) error.message += "; " + told;
   const auto path = options_.record;
   if (const auto kept = keepScript(); !kept)
     error.message += "; " + kept.error().message;
@@ -100,6 +105,8 @@ Result<ViewReport> Session::go() {
     if (failure_) return *failure_;
     rest(std::chrono::duration<double>(Clock::now() - start).count());
   }
+  if (!ending_)
+    if (const std::string told = keepUnsaved(); !told.empty()) logWarning(told);
   if (const auto written = keepScript(); !written) return written.error();
   state_.recording = false;
   record();

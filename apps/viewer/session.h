@@ -60,6 +60,7 @@ class Session {
  private:
   Result<ViewReport> go();
   Result<void> keepScript();
+  std::string keepUnsaved();
   Error keepWhatIsThere(Error error);
   using Clock = std::chrono::steady_clock;
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -332,6 +333,34 @@ TEST_CASE("what is wrong is told before a window opens, or by its closing") {
   const auto missing =
       runProgram({"view", "--body", "none.glb", "--network", "none.vasa"}, on(display, folder));
   CHECK(missing.exit == 6);
+}
+
+TEST_CASE("a session that a signal ends leaves what was not saved in a scene of its own") {
+  const VirtualDisplay display;
+  for (int after = 4000;; after *= 2) {
+    const TemporaryFolder home;
+    // A view is kept under a number, and then the session goes on.
+    const auto script = scriptIn(home.path(),
+                                 "settle\nhold control\nhold shift\nkey 4\nlet shift\nlet control\nframes 2\n"
+                                 "window seen.png\nframes 1000000\n");
+    ProgramOptions options = on(display, home);
+    options.signalAfterMs = after;
+    options.signal = SIGTERM;
+    const Outcome ended = runProgram(
+        {"view", "--script", script.string(), "--size", "400x320", "--out", home.path().string()}, options);
+    INFO(ended.err);
+    REQUIRE(ended.exit == 128 + SIGTERM);
+    if (!std::filesystem::exists(home.path() / "seen.png")) {  // on a busy machine
+      REQUIRE(after < 100000);
+      continue;
+    }
+    const auto scene = home.path() / "vasa_001.json";
+    CHECK(ended.err.find("what was not saved is in " + scene.string()) != std::string::npos);
+    const Outcome again = runProgram({"info", scene.string()}, on(display, home));
+    CHECK_MESSAGE(again.exit == 0, again.err);
+    CHECK(contentOf(scene).find("\"views\"") != std::string::npos);
+    break;
+  }
 }
 
 TEST_CASE("settings are kept when a person ends the session, and only then") {
