@@ -146,6 +146,21 @@ bool UiContext::closePopups() {
   return true;
 }
 
+bool UiContext::inMenu() const {
+  const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+  return !open.empty() && !(open.front().Window && open.front().Window->Flags & ImGuiWindowFlags_Modal);
+}
+
+void UiContext::useKeysInMenus(bool on) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (on)
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  else
+    io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+}
+
+bool UiContext::alt() const { return ImGui::GetIO().KeyAlt; }
+
 Window::Pointer UiContext::pointer() const {
   switch (ImGui::GetMouseCursor()) {
     case ImGuiMouseCursor_TextInput:
