@@ -132,7 +132,13 @@ UiContext::UiContext(float scale) : scale_(scale) {
 
 UiContext::~UiContext() { ImGui::DestroyContext(); }
 
-void UiContext::feed(const InputEvent& event) { std::visit(Feeder{ImGui::GetIO()}, event); }
+void UiContext::feed(const InputEvent& event) {
+  std::visit(Feeder{ImGui::GetIO()}, event);
+  // ImGui takes what is marked in a menu by Space alone.
+  if (const auto* key = std::get_if<KeyChanged>(&event);
+      key && key->key == Key::enter && (inMenu() || !key->down))
+    ImGui::GetIO().KeysDown[int(Key::space)] = key->down;
+}
 
 bool UiContext::wantsPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
