@@ -158,7 +158,7 @@ void Session::follow() {
 void Session::meetWishes() {
   takeFile();
   if (std::exchange(state_.wishSave, false)) {
-    if (keeper_.path().empty())
+    if (keeper_.path().empty() && !options_.script)  // scripts write below their folder
       state_.wishSaveAs = true, goesOnSaved_ = std::exchange(state_.wishGoOn, false);
     else
       saveScene();
