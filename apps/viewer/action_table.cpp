@@ -18,6 +18,8 @@ using State = ViewState;
 using Shown = const Document*;
 
 bool loaded(const State&, Shown document) { return document; }
+bool undoable(const State& state, Shown document) { return document && !state.undone.empty(); }
+bool redoable(const State& state, Shown document) { return document && !state.redone.empty(); }
 bool anyChosen(const State& state, Shown document) { return document && state.selected; }
 bool editable(const State& state, Shown document) { return anyChosen(state, document) && state.editing; }
 bool moving(const State& state, Shown document) { return document && state.playback.clip >= 0; }
@@ -81,9 +83,9 @@ constexpr Action kActions[] = {
      [](State& s, Shown, int) { s.wishQuit = true; }, nullptr, nullptr, true},
 
     {undo, MenuId::edit, "Undo", {ctrl('Z')}, "undo edits, pose, look, view",
-     [](State& s, Shown, int) { s.wishUndo = true; }, loaded},
+     [](State& s, Shown, int) { s.wishUndo = true; }, undoable},
     {redo, MenuId::edit, "Redo", {ctrl('Y'), ctrlShift('Z')}, "redo",
-     [](State& s, Shown, int) { s.wishRedo = true; }, loaded},
+     [](State& s, Shown, int) { s.wishRedo = true; }, redoable},
     {find, MenuId::edit, "Find", {ctrl('F')}, "search vessels by a few letters",
      [](State& s, Shown, int) { s.wishSearch = s.panels = true; }, loaded, nullptr, true},
     {measure, MenuId::edit, "Measure", {plain('M')}, "measure along the vessels",

@@ -64,6 +64,19 @@ void perform(ActionId id, ViewState& state, const Document* document) {
 
 std::string keysOf(const Action& action) { return chordText(action.chords[0]); }
 
+std::string titleOf(const Action& action, const ViewState& state) {
+  const std::string* about = action.id == ActionId::undo   ? &state.undone
+                             : action.id == ActionId::redo ? &state.redone
+                                                           : nullptr;
+  return about && !about->empty() ? fmt::format("{} {}", action.name, *about) : action.name;
+}
+
+int menuOf(Key letter) {
+  const auto found =
+      std::ranges::find_if(kMenuNames, [&](const char* name) { return keyOf(name[0]) == letter; });
+  return found == kMenuNames.end() ? -1 : int(found - kMenuNames.begin());
+}
+
 std::string tipOf(const Action& action) {
   const std::string keys = keysOf(action);
   return keys.empty() ? fmt::format("{}: {}", action.name, action.what)

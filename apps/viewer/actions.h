@@ -101,8 +101,12 @@ void perform(ActionId id, ViewState& state, const Document* document);
 
 /// Its first keys; empty: none.
 std::string keysOf(const Action& action);
-/// "Undo (Ctrl Z): takes back ...".
+/// In menus: its name, of undo and redo with what they are about.
+std::string titleOf(const Action& action, const ViewState& state);
+/// "Save (Ctrl S): save the scene".
 std::string tipOf(const Action& action);
+/// The menu whose name begins with a letter; -1: none.
+int menuOf(Key letter);
 
 /// What a pressed key does.
 void applyShortcut(Key key, bool control, bool shift, ViewState& state, const Document* document);

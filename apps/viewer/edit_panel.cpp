@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "viewer/editor.h"
+#include "viewer/file_chooser.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
 
@@ -19,7 +20,7 @@ void showTools(const PanelInput& in) {
   Editor& editor = *in.editor;
   ViewState& state = in.state;
   const Document& document = *in.document;
-  ImGui::PushItemWidth(120 * in.scale);
+  ImGui::PushItemWidth(std::min(120 * in.scale, in.layout.picture.width - 116 * in.scale));
   const auto stenosis = editor.stenosisThere(document, state);
   float percent = stenosis ? float(stenosis->percent) : 0;
   if (ImGui::SliderFloat("stenosis", &percent, 0, 95, "%.0f %%", ImGuiSliderFlags_AlwaysClamp) &&
@@ -33,15 +34,24 @@ void showTools(const PanelInput& in) {
   ImGui::PopItemWidth();
   const auto tool = [&](const char* name, EditTool which) {
     if (ImGui::RadioButton(name, state.editTool == which)) state.editTool = which;
-    ImGui::SameLine();
+  };
+  const float end = in.layout.picture.left + in.layout.picture.width - 12 * in.scale;
+  const auto nextTo = [&](const char* text) {  // in this line, where there is room
+    const float width = ImGui::CalcTextSize(text).x + ImGui::GetFrameHeight() + 24 * in.scale;
+    if (ImGui::GetItemRectMax().x + width < end) ImGui::SameLine();
   };
   tool("move", EditTool::change);
+  nextTo("branch");
   tool("branch", EditTool::branch);
+  nextTo("graft");
   tool("graft", EditTool::graft);
+  nextTo("Delete");
   if (ImGui::Button("Delete")) state.wishDelete = true;
+  ImGui::PushTextWrapPos(in.layout.picture.width - 24 * in.scale);
   ImGui::TextDisabled("%s", state.editTool == EditTool::branch  ? "click where the branch is to end"
                             : state.editTool == EditTool::graft ? "click the vessel where the graft is to end"
                                                                 : "drag the ring to move the vessel");
+  ImGui::PopTextWrapPos();
 }
 
 void showJournal(const PanelInput& in) {
@@ -62,7 +72,8 @@ void showEdit(const PanelInput& in) {
   // The head: sliders must not move away under the pointer as lines are added.
   const float below = 84 * in.scale;
   ImGui::SetNextWindowPos({picture.left + edge, picture.top + below});
-  ImGui::SetNextWindowSizeConstraints({260 * in.scale, 0}, {picture.width - 2 * edge, picture.height});
+  ImGui::SetNextWindowSizeConstraints({std::min(260 * in.scale, picture.width - 2 * edge), 0},
+                                      {picture.width - 2 * edge, picture.height});
   if (ImGui::Begin("##edit", nullptr, kFixed)) {
     if (in.state.selected) {
       ImGui::Text("%s at %.4g", in.document->scene.network.vessel(in.state.selected->vessel).name.c_str(),
@@ -96,7 +107,7 @@ void showEditHandle(const PanelInput& in) {
 }
 
 void showQuestion(const PanelInput& in) {
-  if (in.state.waiting == Waiting::nothing) return;
+  if (in.state.waiting == Waiting::nothing || in.files->isOpen()) return;
   const bool quits = in.state.waiting == Waiting::quit;
   const Rect& picture = in.layout.picture;
   ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,

@@ -16,6 +16,11 @@ namespace {
 
 constexpr float kReach = 9;          // [pixels of an ordinary screen] of the handle, as a joint's
 constexpr double kSamePlace = 2e-3;  // of a vessel
+// [radii] to either side that a drag takes along, where the default of `move` (three times the way) is less:
+// a wall that is moved within less of its own width folds. An abdominal aorta of 6.6 mm is moved by 1 mm and
+// more.
+constexpr double kLeastFalloff = 5;
+constexpr double kWayToFalloff = 3;
 
 // A number of so many decimals that is written with no more of them.
 double decimals(double value, int count) { return std::stod(fmt::format("{:.{}f}", value, count)) + 0.0; }
@@ -105,6 +110,8 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
     if (!held_ || place_ == held_->pressed) return held();
     const vec3 way = held_->back * wayInPlane(camera, held_->from, place_ - held_->pressed, picture.height);
     for (int axis = 0; axis < 3; ++axis) held_->line.byMm[axis] = decimals(1e3 * double(way[axis]), 2);
+    const bool narrow = kWayToFalloff * glm::length(held_->line.byMm) < held_->leastFalloffMm;
+    held_->line.falloffMm = narrow ? held_->leastFalloffMm : 0;
     write(state, held_->line, std::exchange(held_->written, true));
     return true;
   }
@@ -123,6 +130,8 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
   held.from = centre;
   held.back = glm::inverse(turnSinceRest(document, body, *state.selected));
   held.pressed = place_;
+  held.leastFalloffMm =
+      decimals(kLeastFalloff * 1e3 * double(radiusAt(document.scene.network, *state.selected)), 1);
   return true;
 }
 

@@ -44,6 +44,7 @@ class Editor {
     vec3 from;     // [m] in the posed world
     quat back;     // from there to rest
     vec2 pressed;  // [pixels]
+    double leastFalloffMm = 0;
     bool written = false;
   };
   float scale_;

@@ -69,7 +69,8 @@ void FileChooser::list() {
   auto rows = rowsOfFolder(folder_, allFiles_ ? std::vector<std::string>{} : extensions_);
   message_ = rows ? "" : rows.error().message;
   rows_ = rows ? std::move(*rows) : std::vector<FileRow>{{"..", true}};
-  marked_ = -1;
+  marked_ = first_ = -1;
+  taken_.clear();
 }
 
 void FileChooser::go(const std::filesystem::path& folder) {
@@ -92,7 +93,8 @@ void FileChooser::setExtensions(std::vector<std::string> extensions) {
 }
 
 void FileChooser::mark(int row) {
-  marked_ = row;
+  marked_ = first_ = row;
+  taken_.clear();
   message_.clear();
   replaced_.clear();
   if (purpose_ != FilePurpose::open && row >= 0 && !rows_[std::size_t(row)].folder)
@@ -100,15 +102,57 @@ void FileChooser::mark(int row) {
 }
 
 void FileChooser::step(int way) {
-  if (rows_.empty()) return;
+  if (!rows_.empty()) mark(stepped(way));
+}
+
+int FileChooser::stepped(int way) const {
   const int from = marked_ < 0 ? (way > 0 ? -1 : int(rows_.size())) : marked_;
-  mark(std::clamp(from + way, 0, int(rows_.size()) - 1));
+  return std::clamp(from + way, 0, int(rows_.size()) - 1);
+}
+
+bool FileChooser::isTaken(int row) const {
+  return std::ranges::find(taken_, rows_[std::size_t(row)].name) != taken_.end();
+}
+
+void FileChooser::toggle(int row) {
+  if (purpose_ != FilePurpose::open || rows_[std::size_t(row)].folder) return mark(row);
+  // The line that was marked alone is one of them.
+  if (taken_.empty() && marked_ >= 0 && marked_ != row && !rows_[std::size_t(marked_)].folder)
+    taken_.push_back(rows_[std::size_t(marked_)].name);
+  const bool out = isTaken(row);
+  if (out)
+    std::erase(taken_, rows_[std::size_t(row)].name);
+  else
+    taken_.push_back(rows_[std::size_t(row)].name);
+  marked_ = first_ = out ? -1 : row;
+  message_.clear();
+}
+
+void FileChooser::extend(int row) {
+  if (purpose_ != FilePurpose::open || first_ < 0) return mark(row);
+  taken_.clear();
+  for (int r = std::min(first_, row); r <= std::max(first_, row); ++r)
+    if (const FileRow& each = rows_[std::size_t(r)]; !each.folder) taken_.push_back(each.name);
+  marked_ = row;
+  message_.clear();
+}
+
+void FileChooser::extendStep(int way) {
+  if (!rows_.empty()) extend(stepped(way));
+}
+
+std::vector<std::filesystem::path> FileChooser::withOthers(const std::filesystem::path& file) const {
+  std::vector<std::filesystem::path> all{file};
+  for (const std::string& name : taken_)
+    if (folder_ / name != file) all.push_back(folder_ / name);
+  return all;
 }
 
 void FileChooser::typing() {
   message_.clear();
   replaced_.clear();
-  marked_ = -1;
+  marked_ = first_ = -1;
+  taken_.clear();
   if (typed.empty() || purpose_ != FilePurpose::open) return;
   const auto found =
       std::ranges::find_if(rows_, [&](const FileRow& row) { return beginsWith(row.name, typed); });
@@ -131,6 +175,9 @@ std::string FileChooser::completed() const {
 
 std::optional<std::filesystem::path> FileChooser::enter() {
   std::error_code ignored;
+  // All lines may have been taken out again but for some that are not marked.
+  if (marked_ < 0 && !taken_.empty())
+    marked_ = int(std::ranges::find(rows_, taken_.front(), &FileRow::name) - rows_.begin());
   const auto written = resolved(typed, folder_);
   const bool there = !typed.empty() && std::filesystem::exists(written, ignored);
   const bool byRow = marked_ >= 0 && (!there || purpose_ != FilePurpose::open);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -51,14 +52,25 @@ class FileChooser {
   std::string completed() const;
   void mark(int row);
   void step(int way);  ///< to the line so many further down
+  /// Of files that are opened together: takes a line in, or out again; all lines from the marked one to it;
+  /// one line further down, too.
+  void toggle(int row);
+  void extend(int row);
+  void extendStep(int way);
+  bool isTaken(int row) const;
+  /// How many files enter() means.
+  std::size_t count() const { return std::max<std::size_t>(taken_.size(), 1); }
   void showAllFiles(bool all);
   void setExtensions(std::vector<std::string> extensions);
   void go(const std::filesystem::path& folder);
   /// Into the folder that is meant, or the file itself, which ends the dialog. A file that would be replaced
   /// is asked for a second time.
   std::optional<std::filesystem::path> enter();
+  /// What enter() has answered, and the files beside it that were taken in.
+  std::vector<std::filesystem::path> withOthers(const std::filesystem::path& file) const;
 
  private:
+  int stepped(int way) const;
   void list();
   std::optional<std::filesystem::path> take(std::filesystem::path file);
 
@@ -67,7 +79,8 @@ class FileChooser {
   std::filesystem::path folder_;
   std::vector<std::string> extensions_;
   std::vector<FileRow> rows_;
-  int marked_ = -1;
+  int marked_ = -1, first_ = -1;  // the latter: where extending began
+  std::vector<std::string> taken_;
   std::string message_;
   std::filesystem::path replaced_;  // asked about
 };

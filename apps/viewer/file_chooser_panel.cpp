@@ -11,7 +11,7 @@
 #include "viewer/panels.h"
 
 // The dialog in which a file is chosen. What is typed has the keys, Up and Down mark a line, Tab completes,
-// Enter takes.
+// Enter takes; with Shift they take further lines in, as clicks with Ctrl and Shift do.
 namespace vasa::viewer {
 namespace {
 
@@ -49,7 +49,7 @@ bool showRows(FileChooser& files, float height, bool scroll) {
       const FileRow& row = files.rows()[std::size_t(r)];
       ImGui::PushID(r);
       const std::string text = row.folder ? row.name + "/" : row.name;
-      if (ImGui::Selectable(text.c_str(), files.marked() == r,
+      if (ImGui::Selectable(text.c_str(), files.marked() == r || files.isTaken(r),
                             ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
         clicked = r;
         twice = ImGui::IsMouseDoubleClicked(0);
@@ -62,7 +62,13 @@ bool showRows(FileChooser& files, float height, bool scroll) {
       if (scroll && files.marked() == r) ImGui::SetScrollHereY(0.5f);
       ImGui::PopID();
     }
-    if (clicked) files.mark(*clicked);
+    const ImGuiIO& io = ImGui::GetIO();
+    if (clicked && !twice && io.KeyCtrl)
+      files.toggle(*clicked);
+    else if (clicked && !twice && io.KeyShift)
+      files.extend(*clicked);
+    else if (clicked)
+      files.mark(*clicked);
     if (files.rows().empty()) ImGui::TextDisabled("Nothing here.");
   }
   ImGui::EndChild();
@@ -142,7 +148,11 @@ void showFileChooser(const PanelInput& in) {
   if (!shown) return;
   showFolder(files);
   const bool stepped = pressed(ImGuiKey_DownArrow) || pressed(ImGuiKey_UpArrow);
-  if (stepped) files.step(pressed(ImGuiKey_DownArrow) ? 1 : -1);
+  const int way = pressed(ImGuiKey_DownArrow) ? 1 : -1;
+  if (stepped && ImGui::GetIO().KeyShift)
+    files.extendStep(way);
+  else if (stepped)
+    files.step(way);
   const bool enters = pressed(ImGuiKey_Enter);
   const float line = ImGui::GetFrameHeightWithSpacing(), text = ImGui::GetTextLineHeightWithSpacing();
   const bool exports = files.purpose() == FilePurpose::exportFile;
@@ -155,7 +165,10 @@ void showFileChooser(const PanelInput& in) {
     ImGui::TextWrapped("%s", files.message().c_str());
     ImGui::PopStyleColor();
   }
-  take |= ImGui::Button(files.purpose() == FilePurpose::open ? "Open (Enter)" : "Save (Enter)") || enters;
+  const std::string label = files.purpose() != FilePurpose::open ? "Save (Enter)"
+                            : files.count() > 1 ? fmt::format("Open {} files (Enter)", files.count())
+                                                : "Open (Enter)";
+  take |= ImGui::Button((label + "###take").c_str()) || enters;
   ImGui::SameLine();
   if (ImGui::Button("Cancel (Esc)")) files.close();
   if (!files.extensions().empty()) {
@@ -164,7 +177,7 @@ void showFileChooser(const PanelInput& in) {
     if (ImGui::Checkbox("All files", &all)) files.showAllFiles(all);
   }
   if (take)
-    if (const auto file = files.enter()) in.state.chosenFile = *file;
+    if (const auto file = files.enter()) in.state.chosenFiles = files.withOthers(*file);
   if (!files.isOpen()) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }

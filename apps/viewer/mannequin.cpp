@@ -1,8 +1,11 @@
 #include "viewer/mannequin.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "body/humanoid.h"
 #include "body/mirror.h"
 #include "body/retarget.h"
 #include "viewer/joint_names.h"
@@ -69,6 +72,8 @@ bool isHinge(std::string_view part) { return part.ends_with("LowerArm") || part.
 Mannequin::Mannequin(const Skeleton& skeleton, std::span<const JointRange> ranges)
     : parts_(partsOf(skeleton).of), rolls_(skeleton.joints.size()) {
   nameJoints(skeleton);
+  for (const std::string_view side : {"left", "right"})
+    if (const JointId hand = find(onSide("@Hand", side)); hand.valid()) nameFingers(skeleton, hand, side);
   limitJoints(skeleton, ranges);
   findTwins(skeleton);
   findGrips(skeleton);
@@ -101,6 +106,45 @@ void Mannequin::nameJoints(const Skeleton& skeleton) {
     takes.most = {0, 0, motions_[elbow.value].most.z};
     motions_[elbow.value].least.z = motions_[elbow.value].most.z = 0;
   }
+}
+
+// Fingers are told by where they leave the hand: the thumb by its name, the others by how far from it.
+void Mannequin::nameFingers(const Skeleton& skeleton, JointId hand, std::string_view side) {
+  constexpr std::string_view kNames[] = {"index finger", "middle finger", "ring finger", "little finger"};
+  constexpr std::string_view kLinks[] = {"knuckle", "middle joint", "end joint"},
+                             kThumbLinks[] = {"base joint", "knuckle", "end joint"};
+  std::vector<JointId> thumb;
+  std::vector<std::vector<JointId>> fingers;
+  for (std::uint32_t j = hand.value + 1; j < skeleton.joints.size(); ++j) {
+    if (!childrenOf(skeleton, {j}).empty()) continue;
+    std::vector<JointId> chain{{j}};
+    JointId above = skeleton.joints[j].parent;
+    for (; above.valid() && above != hand && childrenOf(skeleton, above).size() == 1;
+         above = skeleton.joints[above.value].parent)
+      chain.insert(chain.begin(), above);
+    JointId at = above;
+    while (at.valid() && at != hand) at = skeleton.joints[at.value].parent;
+    if (at != hand || chain.size() < 2 || chain.size() > std::size(kLinks)) continue;
+    const bool isThumb =
+        parts_[chain.front().value].ends_with("ThumbProximal") ||
+        plainName(skeleton.joints[chain.front().value].name).find("thumb") != std::string::npos;
+    if (isThumb)
+      thumb = std::move(chain);
+    else
+      fingers.push_back(std::move(chain));
+  }
+  const auto name = [&](const std::vector<JointId>& chain, std::string_view finger,
+                        std::span<const std::string_view> links) {
+    for (std::size_t k = 0; k < chain.size(); ++k)
+      names_[chain[k].value] = fmt::format("{} {}, {}", side, finger, links[k]);
+  };
+  if (thumb.empty() || fingers.size() != std::size(kNames)) return;
+  const vec3 root = placeOf(skeleton, thumb.front());
+  std::ranges::sort(fingers, {}, [&](const std::vector<JointId>& finger) {
+    return glm::distance(root, placeOf(skeleton, finger.front()));
+  });
+  name(thumb, "thumb", kThumbLinks);
+  for (std::size_t f = 0; f < fingers.size(); ++f) name(fingers[f], kNames[f], kLinks);
 }
 
 void Mannequin::limitJoints(const Skeleton& skeleton, std::span<const JointRange> ranges) {
@@ -203,7 +247,11 @@ void Mannequin::gripHand(const Skeleton& skeleton, JointId joint) {
   finger.push_back(turning(joint));
   const vec3 link = placeOf(skeleton, joint) - placeOf(skeleton, skeleton.joints[joint.value].parent);
   const vec3 end = glm::inverse(rotationOf(skeleton.joints[joint.value].restWorld)) * (0.8f * link);
-  grips_.push_back({names_[joint.value] + ", tip", {std::move(finger), joint, end}, true});
+  // "left index finger, end joint": the finger's own.
+  const std::string& name = names_[joint.value];
+  const bool named = name.ends_with(", end joint");
+  grips_.push_back(
+      {(named ? name.substr(0, name.rfind(',')) : name) + ", tip", {std::move(finger), joint, end}, true});
 }
 
 std::vector<JointTurn> mirroredTurns(const Mannequin& mannequin, std::span<const JointTurn> turns) {

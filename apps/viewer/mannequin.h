@@ -42,6 +42,7 @@ class Mannequin {
 
  private:
   void nameJoints(const Skeleton& skeleton);
+  void nameFingers(const Skeleton& skeleton, JointId hand, std::string_view side);
   void limitJoints(const Skeleton& skeleton, std::span<const JointRange> ranges);
   void findTwins(const Skeleton& skeleton);
   void findGrips(const Skeleton& skeleton);

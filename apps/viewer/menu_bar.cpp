@@ -87,7 +87,11 @@ float showTool(const PanelInput& in, const Tool& tool, float left, float side) {
                        edge);
   drawIcon(list, tool.sign, {low.x + inset, low.y + inset}, side - 2 * inset,
            able ? ImGui::GetColorU32(ImGuiCol_Text) : ImGui::GetColorU32(ImGuiCol_TextDisabled, 0.6f));
-  if (under) ImGui::SetTooltip("%s", tipOf(action).c_str());
+  if (under) {
+    const std::string title = titleOf(action, in.state), plain = action.name;
+    ImGui::SetTooltip(
+        "%s", title == plain ? tipOf(action).c_str() : fmt::format("{} ({})", title, keysOf(action)).c_str());
+  }
   ImGui::PopID();
   return left + side;
 }
@@ -106,7 +110,8 @@ void showTools(const PanelInput& in, float left, float right) {
 
 void showActionItem(const PanelInput& in, ActionId id) {
   const Action& action = actionOf(id);
-  if (ImGui::MenuItem(action.name, keysOf(action).c_str(), action.on && action.on(in.state),
+  const std::string title = titleOf(action, in.state) + "###" + action.name;
+  if (ImGui::MenuItem(title.c_str(), keysOf(action).c_str(), action.on && action.on(in.state),
                       canDo(action, in.state, in.document)))
     perform(id, in.state, in.document);
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", action.what);
@@ -137,11 +142,14 @@ void showBar(const PanelInput& in) {
   const bool bars = open && ImGui::BeginMenuBar();  // whose words stand in its middle
   ImGui::PopStyleVar(3);
   if (bars) {
-    for (std::size_t menu = 0; menu < kMenuNames.size(); ++menu)
+    for (std::size_t menu = 0; menu < kMenuNames.size(); ++menu) {
+      if (in.state.menu == int(menu)) ImGui::OpenPopup(kMenuNames[menu]);
       if (ImGui::BeginMenu(kMenuNames[menu])) {
         showMenu(in, MenuId(menu));
         ImGui::EndMenu();
       }
+    }
+    in.state.menu = -1;
     const float left = ImGui::GetCursorScreenPos().x + 8 * in.scale;
     float right = bar.left + bar.width - style.WindowPadding.x;
     if (in.framesPerSecond > 0) {

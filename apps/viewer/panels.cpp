@@ -46,6 +46,7 @@ void showProgress(const PanelInput& in, const Loader::Stage& stage) {
 }
 
 void showSide(const PanelInput& in) {
+  if (in.layout.panels.width <= 0) return;
   place(in.layout.panels);
   if (ImGui::Begin("##side", nullptr, kFixed)) {
     showInspectorSection(in);
@@ -74,12 +75,12 @@ void showHeads(const PanelInput& in) {
   ImGui::SetNextWindowPos({in.layout.picture.left + edge, in.layout.picture.top + edge});
   if (ImGui::Begin("##head", nullptr, kText)) {
     const Network& network = in.document->scene.network;
+    ImGui::PushTextWrapPos(in.layout.picture.width - 2 * edge - ImGui::GetStyle().WindowPadding.x);
     ImGui::Text("%s", in.document->title.c_str());
     ImGui::TextDisabled("%zu vessels, %u sweeps", network.vessels().size(), network.sweepCount());
     if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording (R ends it)");
     if (in.state.posing) ImGui::TextUnformatted("drag a joint; Ctrl: it alone (P ends it)");
     if (in.state.measuring) ImGui::TextUnformatted("click two vessels (M ends it)");
-    ImGui::PushTextWrapPos(in.layout.picture.width - ImGui::GetStyle().WindowPadding.x);
     if (!in.message.empty()) ImGui::TextUnformatted(in.message.c_str());
     ImGui::PopTextWrapPos();
   }
@@ -123,10 +124,10 @@ void showExporting(const PanelInput& in) {
 void showPanels(const PanelInput& in) {
   showCutOutline(in);
   showChosen(in);
-  showNames(in);
-  showLegend(in);
   showHandles(in);
   showEditHandle(in);
+  showNames(in);
+  showLegend(in);
   showHeads(in);
   showEdit(in);
   showOutliner(in);

@@ -112,6 +112,43 @@ bool PoseTool::feed(const InputEvent& event, bool single, const Document& docume
   return true;
 }
 
+std::vector<PoseTool::Planted> PoseTool::plantedFeet(const Grip& pulled, const Document& document,
+                                                     const PosedBody& body) {
+  const Mannequin& mannequin = *document.mannequin;
+  std::vector<Planted> feet;
+  const JointId pelvis = mannequin.find("hips");
+  if (std::ranges::find(pulled.limb.joints, pelvis, &ReachJoint::joint) == pulled.limb.joints.end())
+    return feet;
+  for (std::size_t g = 0; g < mannequin.grips().size(); ++g) {
+    const Grip& grip = mannequin.grips()[g];
+    if (!mannequin.partOf(grip.limb.tip).ends_with("Foot")) continue;
+    const auto angles = anglesIn(document.scene.body.skeleton, mannequin, grip.limb, body.pose);
+    feet.push_back({g, placeOf(grip, body.pose), body.pose.world[grip.limb.tip.value], angles, angles});
+  }
+  return feet;
+}
+
+// Turns the leg so that its foot is where it was, and the ankle so that it stands as it stood.
+void PoseTool::hold(Planted& foot, const Pose& clip, const Document& document, ViewState& state) {
+  const Skeleton& skeleton = document.scene.body.skeleton;
+  const Mannequin& mannequin = *document.mannequin;
+  const auto set = [&](JointId joint, vec3 sinceRest) {
+    const JointMotion& motion = mannequin.motion(joint);
+    turnOfJoint(state, joint, motion).angles =
+        anglesBeside(skeleton.joints[joint.value], motion, before(skeleton, clip, joint),
+                     clip.world[joint.value], sinceRest);
+  };
+  const ReachLimb limb = widened(mannequin.grips()[foot.grip].limb, foot.pressed);
+  const Reached there =
+      reach(skeleton, turned(skeleton, clip, state.turns), limb, foot.at, foot.pressed, foot.latest);
+  for (std::size_t k = 0; k < limb.joints.size(); ++k) set(limb.joints[k].joint, there.angles[k]);
+  foot.latest = there.angles;
+  const Pose now = turned(skeleton, clip, state.turns);
+  const JointMotion& ankle = mannequin.motion(limb.tip);
+  set(limb.tip, ankle.within(anglesSinceRest(skeleton.joints[limb.tip.value], ankle,
+                                             before(skeleton, now, limb.tip), foot.stands)));
+}
+
 void PoseTool::take(const JointHandle& handle, bool single, const Document& document, const PosedBody& body,
                     ViewState& state) {
   const Grip& grip = document.mannequin->grips()[handle.grip];
@@ -120,7 +157,8 @@ void PoseTool::take(const JointHandle& handle, bool single, const Document& docu
                handle.place - place_,
                placeOf(grip, body.pose),
                anglesIn(document.scene.body.skeleton, *document.mannequin, grip.limb, body.pose),
-               {}};
+               {},
+               single ? std::vector<Planted>{} : plantedFeet(grip, document, body)};
   held_->latest = held_->pressed;
   state.joint = grip.limb.joints.back().joint;  // whose sliders go along
   state.playback.playing = false;
@@ -147,6 +185,7 @@ void PoseTool::pull(vec2 to, const Document& document, const PosedBody& body, co
     followOnOtherSide(mannequin, state, joint);
   }
   held_->latest = there.angles;
+  for (Planted& foot : held_->feet) hold(foot, clip, document, state);
 }
 
 void PoseTool::turn(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,

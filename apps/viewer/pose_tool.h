@@ -28,8 +28,9 @@ std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& po
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale);
 
 /// Poses the body by pulling it about, in the plane through what is pulled that lies parallel to the picture:
-/// a pulled wrist takes its whole arm along, within what joints can do (body/reach.h). With Ctrl only the
-/// joint next to the handle turns, about the line of sight.
+/// a pulled wrist takes its whole arm along, within what joints can do (body/reach.h). Where the pelvis turns
+/// the feet stay where they are, as far as the legs reach. With Ctrl only the joint next to the handle turns,
+/// about the line of sight.
 class PoseTool {
  public:
   /// @param scale  pixels for one of an ordinary screen
@@ -45,6 +46,13 @@ class PoseTool {
   std::optional<std::size_t> held() const { return held_ ? std::optional(held_->grip) : std::nullopt; }
 
  private:
+  // A foot that stays while the pelvis turns.
+  struct Planted {
+    std::size_t grip;
+    vec3 at;      // [m]
+    mat4 stands;  // the ankle
+    std::vector<vec3> pressed, latest;
+  };
   struct Held {
     std::size_t grip;
     bool single;
@@ -52,7 +60,11 @@ class PoseTool {
     vec3 from;                  // [m] the grip when it was taken
     std::vector<vec3> pressed;  // angles since rest then
     std::vector<vec3> latest;
+    std::vector<Planted> feet;
   };
+  static std::vector<Planted> plantedFeet(const Grip& pulled, const Document& document,
+                                          const PosedBody& body);
+  static void hold(Planted& foot, const Pose& clip, const Document& document, ViewState& state);
   void take(const JointHandle& handle, bool single, const Document& document, const PosedBody& body,
             ViewState& state);
   void pull(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,

@@ -169,7 +169,12 @@ void Session::follow() {
 
 void Session::meetWishes() {
   takeFile();
-  if (std::exchange(state_.wishSave, false)) saveScene();
+  if (std::exchange(state_.wishSave, false)) {
+    if (keeper_.path().empty() && !options_.script)  // scripts write below their folder
+      state_.wishSaveAs = true, goesOnSaved_ = std::exchange(state_.wishGoOn, false);
+    else
+      saveScene();
+  }
   if (std::exchange(state_.wishQuit, false)) {
     state_.waiting = Waiting::quit;
     state_.wishGoOn = true;

@@ -72,6 +72,7 @@ class Session {
   void click(const Click& click);
   void openContext(vec2 place);
   void escape();
+  bool askForMenu(const KeyChanged& key);
   std::optional<VesselPlace> vesselAt(vec2 place) const;
   void lookUnderPointer();
   bool isHidden(vec3 place) const;
@@ -102,6 +103,7 @@ class Session {
   void changeTo(std::shared_ptr<const Document> edited);
   void noteEdit();
   void travel();
+  void nameSteps();
   void entitle();
   void saveScene(const std::filesystem::path& as = {});
 
@@ -181,7 +183,9 @@ class Session {
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;
-  bool exportMore_ = false;  // slices of its pictures wait
+  bool altAlone_ = false;     // pressed, and nothing since
+  bool goesOnSaved_ = false;  // with what waits, once the dialog has a name to save it under
+  bool exportMore_ = false;   // slices of its pictures wait
   std::string message_;
   double messageUntil_ = 0;
   std::optional<Error> failure_;

@@ -3,6 +3,7 @@
 
 #include "edit/replay.h"
 #include "viewer/session.h"
+#include "viewer/undo_name.h"
 
 // How a session goes from one document to the next: by the journal in its state, whoever wrote it there, an
 // edit or undoing one.
@@ -32,7 +33,11 @@ void Session::travel() {
   const bool held = state_.wishHome || state_.wishFocus || pointer_.dragging() || poseTool_.held() ||
                     editor_.held() || ui_.isHeld() || now_ - scrolledAt_ < kScrollEnds ||
                     state_.journal != document_->journal;
-  if (arriving_) return history_.start(state_);  // the view is still being found
+  if (arriving_) {  // the view is still being found
+    history_.start(state_);
+    nameSteps();
+    return;
+  }
   if (undo || redo) {
     const bool gone = undo ? history_.undo(state_) : history_.redo(state_);
     if (!gone) say(undo ? "Nothing to undo" : "Nothing to redo");
@@ -40,7 +45,18 @@ void Session::travel() {
   } else {
     history_.watch(state_, held);
   }
+  nameSteps();
   entitle();
+}
+
+void Session::nameSteps() {
+  const Mannequin& mannequin = *document_->mannequin;
+  const Undoable &now = history_.now(), *before = history_.before(), *after = history_.after();
+  std::string undone = before ? undoName(*before, now, mannequin) : "",
+              redone = after ? undoName(now, *after, mannequin) : "";
+  if (undone == state_.undone && redone == state_.redone) return;
+  state_.undone = std::move(undone), state_.redone = std::move(redone);
+  panelFrames_ = kRestingFrames;
 }
 
 // One document at a time: what is coming is seen before the next is made.

@@ -13,6 +13,10 @@ bool changesState(const InputEvent& event) {
 
 bool isArrow(Key key) { return key == Key::up || key == Key::down; }
 
+bool isOfMenus(Key key) {
+  return isArrow(key) || key == Key::left || key == Key::right || key == Key::space || key == Key::enter;
+}
+
 }  // namespace
 
 void Session::gather() {
@@ -84,6 +88,8 @@ void Session::handle(const InputEvent& event) {
   } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
     if (key->down && key->key == Key::escape)
       escape();
+    else if (askForMenu(*key) || (ui_.inMenu() && isOfMenus(key->key)))
+      ;  // the menus' own
     else if (key->down && !files_.isOpen() && !ui_.wantsKeys() &&
              !(state_.outliner.focused && isArrow(key->key)))
       applyShortcut(key->key, pointer_.control(), pointer_.shift(), state_, document_.get());
@@ -108,6 +114,21 @@ void Session::handle(const InputEvent& event) {
   const bool edited = editing && editor_.feed(event, *document_, *body_, cameraNow(), pictureRect(), state_);
   if (edited && !std::holds_alternative<PointerMoved>(event)) return;
   if (const auto clicked = pointer_.feed(event, pictureRect(), free, now_, state_)) click(*clicked);
+}
+
+// Alt and a menu's first letter open it; Alt alone, or F10, the first one.
+bool Session::askForMenu(const KeyChanged& key) {
+  const bool isAlt = key.key == Key::leftAlt || key.key == Key::rightAlt;
+  const bool tapped = isAlt && !key.down && altAlone_;
+  altAlone_ = isAlt && key.down;
+  if (!state_.panels || files_.isOpen()) return false;
+  const int menu = tapped || (key.down && key.key == Key(int(Key::f1) + 9)) ? 0
+                   : key.down && !isAlt && ui_.alt()                        ? menuOf(key.key)
+                                                                            : -1;
+  if (menu < 0) return false;
+  ui_.closePopups();
+  state_.menu = menu;
+  return true;
 }
 
 // Out of what is uppermost: a menu, a question, help, opening; last of what is chosen.

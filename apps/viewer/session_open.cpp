@@ -82,7 +82,11 @@ void Session::watchLoading() {
     load.seconds = std::chrono::duration<double>(now - loadStart_).count();
     panelFrames_ = std::max(panelFrames_, 1);
   }
-  if (shown_) arriving_ = false;
+  // The view that was found belongs to the beginning: it is no step.
+  if (shown_ && std::exchange(arriving_, false)) {
+    history_.start(state_);
+    nameSteps();
+  }
   lastWatched_ = now;
 }
 
@@ -148,13 +152,17 @@ void Session::askForFile() {
 
 // What was chosen in them.
 void Session::takeFile() {
-  if (state_.chosenFile.empty()) return;
-  auto file = std::exchange(state_.chosenFile, {});
-  panelFrames_ = kRestingFrames;
-  if (files_.purpose() == FilePurpose::open) {
-    state_.wishFiles = {std::move(file)};
+  if (state_.chosenFiles.empty()) {
+    if (!files_.isOpen() && !state_.wishSaveAs) goesOnSaved_ = false;  // left without a name
     return;
   }
+  auto chosen = std::exchange(state_.chosenFiles, {});
+  panelFrames_ = kRestingFrames;
+  if (files_.purpose() == FilePurpose::open) {
+    state_.wishFiles = std::move(chosen);
+    return;
+  }
+  auto file = std::move(chosen.front());
   if (options_.script) {
     auto place = placeBelow(options_.out, file);
     if (!place) {
@@ -165,8 +173,10 @@ void Session::takeFile() {
   }
   if (files_.purpose() == FilePurpose::exportFile)
     startExport(file);
-  else
+  else {
     saveScene(file);
+    state_.wishGoOn = std::exchange(goesOnSaved_, false);
+  }
 }
 
 void Session::remember(const std::vector<std::filesystem::path>& files) {

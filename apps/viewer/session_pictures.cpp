@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/log.h"
@@ -49,8 +50,18 @@ bool same(const Shot& a, const Shot& b) {
 
 }  // namespace
 
+// Where the list and the panels would leave no picture between them, the list takes the panels' place.
 Layout Session::layoutNow() const {
-  return layoutOf(float(width_), float(height_), ui_.scale(), state_.panels, state_.outliner.on);
+  const auto width = float(width_);
+  const float scale = ui_.scale(), least = 200 * scale;
+  Layout layout = layoutOf(width, float(height_), scale, state_.panels, state_.outliner.on);
+  if (!state_.panels || !state_.outliner.on || layout.picture.width >= least) return layout;
+  const float list = std::min(std::round(270 * scale), std::round(width / 2));
+  layout.outliner.width = layout.picture.left = list;
+  layout.picture.width = std::max(width - list, 1.0f);
+  layout.panels.left = layout.transport.width = width;
+  layout.panels.width = 0;
+  return layout;
 }
 
 Rect Session::pictureRect() const { return layoutNow().picture; }
@@ -211,6 +222,7 @@ void Session::leaveStill() {
 void Session::drawWindow() {
   const auto start = Clock::now();
   canvas_.resize({width_, height_});
+  ui_.useKeysInMenus(state_.menu >= 0 || ui_.inMenu());
   ui_.begin(width_, height_, options_.script ? kScriptFrame : kFrame);
   const Layout layout = layoutNow();
   showPanels({.state = state_,

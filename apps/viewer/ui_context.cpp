@@ -132,7 +132,13 @@ UiContext::UiContext(float scale) : scale_(scale) {
 
 UiContext::~UiContext() { ImGui::DestroyContext(); }
 
-void UiContext::feed(const InputEvent& event) { std::visit(Feeder{ImGui::GetIO()}, event); }
+void UiContext::feed(const InputEvent& event) {
+  std::visit(Feeder{ImGui::GetIO()}, event);
+  // ImGui takes what is marked in a menu by Space alone.
+  if (const auto* key = std::get_if<KeyChanged>(&event);
+      key && key->key == Key::enter && (inMenu() || !key->down))
+    ImGui::GetIO().KeysDown[int(Key::space)] = key->down;
+}
 
 bool UiContext::wantsPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
@@ -145,6 +151,21 @@ bool UiContext::closePopups() {
   ImGui::ClosePopupToLevel(0, true);
   return true;
 }
+
+bool UiContext::inMenu() const {
+  const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+  return !open.empty() && !(open.front().Window && open.front().Window->Flags & ImGuiWindowFlags_Modal);
+}
+
+void UiContext::useKeysInMenus(bool on) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (on)
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  else
+    io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+}
+
+bool UiContext::alt() const { return ImGui::GetIO().KeyAlt; }
 
 Window::Pointer UiContext::pointer() const {
   switch (ImGui::GetMouseCursor()) {

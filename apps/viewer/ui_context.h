@@ -20,7 +20,12 @@ class UiContext {
   bool isHeld() const;        ///< a slider or a text is being changed
   bool wantsPointer() const;  ///< it is over a panel, or a panel has hold of it
   bool wantsKeys() const;     ///< text is being typed
-  bool closePopups();         ///< menus that are open. @return whether any was
+  bool closePopups();
+  /// A menu is open: arrow keys, Enter and Space are its own.
+  bool inMenu() const;
+  /// Keys go through menus from the next picture on, or no longer.
+  void useKeysInMenus(bool on);
+  bool alt() const;  ///< menus that are open. @return whether any was
   Window::Pointer pointer() const;
 
   /// Panels are declared between these two. @param seconds  since the last frame

@@ -20,6 +20,11 @@ class UndoHistory {
   bool canUndo() const { return at_ > 0; }
   bool canRedo() const { return at_ + 1 < steps_.size(); }
 
+  /// Where one is, and the steps to either side; null where there is none.
+  const Undoable& now() const { return steps_[at_]; }
+  const Undoable* before() const { return canUndo() ? &steps_[at_ - 1] : nullptr; }
+  const Undoable* after() const { return canRedo() ? &steps_[at_ + 1] : nullptr; }
+
   void markSaved(const ViewState& state) { saved_ = kept(state); }
   /// Whether edits, the pose, what is hidden or labelled, or kept views are others than those that were
   /// saved: looks are quickly made again.

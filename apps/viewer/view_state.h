@@ -84,6 +84,9 @@ struct ViewState : Undoable {
   std::optional<VesselPlace> from, to;
   std::string search;
 
+  std::string undone, redone;  ///< what would be (undoName()); empty: there is nothing
+  int menu = -1;               ///< of kMenuNames, opens with the next picture
+
   // Wishes, taken back when they are met.
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
        wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
@@ -93,8 +96,8 @@ struct ViewState : Undoable {
   bool wishSaveAs = false;
   /// Files that are to be opened together in place of what is shown.
   std::vector<std::filesystem::path> wishFiles;
-  ExportWish exportWish;             ///< as the dialog has it
-  std::filesystem::path chosenFile;  ///< in the dialog of files, for its purpose; empty: none yet
+  ExportWish exportWish;                           ///< as the dialog has it
+  std::vector<std::filesystem::path> chosenFiles;  ///< in the dialog of files, for its purpose; none yet
 
   Waiting waiting = Waiting::nothing;  ///< whether to go on with something unsaved is being asked
   std::string failure;              ///< why something could not be opened, until it is read; empty: it could

@@ -40,8 +40,9 @@ titled() { [ "$(xdotool getwindowname "$window")" = "$1" ]; }
 saved='human.vasa - vasa'
 unsaved="* $saved"
 
+# start [SCENE]; without any the built-in human
 start() {
-  "$vasa" view "$folder/scene.json" --size 960x640 --out "$folder" >"$folder/log" 2>&1 &
+  "$vasa" view "$@" --size 960x640 --out "$folder" >"$folder/log" 2>&1 &
   app=$!
   wait_for 'the opening of the window' xdotool search --name '^human.vasa - vasa$'
   window=$(xdotool search --name '^human.vasa - vasa$' | head -1)
@@ -70,7 +71,7 @@ drag() {
   sleep 0.3
 }
 
-start
+start "$folder/scene.json"
 point 480 600
 xdotool key p
 sleep 0.3
@@ -98,7 +99,7 @@ cp "$folder/scene.json" "$folder/first.json"
 grep -q '"LeftArm"' "$folder/scene.json" || fail 'no arm is posed in the saved scene'
 grep -q '"chosen": ".* femoral artery"' "$folder/scene.json" || fail 'no femoral artery is chosen in the saved scene'
 
-start
+start "$folder/scene.json"
 xdotool key ctrl+s
 sleep 1
 end
@@ -111,7 +112,7 @@ type_file() {
   sleep 0.3
 }
 
-start
+start "$folder/scene.json"
 point 480 600
 xdotool key h
 wait_for 'hiding the chosen vessel' titled "$unsaved"
@@ -143,7 +144,7 @@ cmp "$folder/first.json" "$folder/scene.json" || fail 'saving under another name
 cp "$folder/second.json" "$folder/kept.json"
 
 echo '{ "body": 3 }' >"$folder/bad.json"
-start
+start "$folder/scene.json"
 xdotool key ctrl+o
 type_file "$folder/bad.json"
 xdotool key Return
@@ -162,3 +163,43 @@ wait_for 'opening another scene, and saving it' save_again
 end
 cmp "$folder/kept.json" "$folder/second.json" || fail 'opened by the dialog and saved again, the scene is another'
 cmp "$folder/first.json" "$folder/scene.json" || fail 'opening another scene changed the first one'
+
+# Menus by keys alone; what has no name is asked for one; a body and its vessels are opened together.
+mkdir "$folder/pair"
+cp "$data/human.glb" "$data/human.vasa" "$folder/pair"
+start --verbose
+point 480 600
+xdotool key alt+p
+sleep 0.5
+xdotool key Down Return # Both sides, which changes nothing that is saved
+sleep 0.3
+xdotool key alt+v
+sleep 0.5
+xdotool key Escape
+sleep 0.3
+xdotool key p
+sleep 0.3
+drag 403 316 443 210
+wait_for 'a pose of both arms' titled "$unsaved"
+xdotool key ctrl+s
+type_file "$folder/named.json"
+xdotool key Return
+wait_for 'saving under a first name' titled "$saved"
+for arm in LeftArm RightArm; do
+  grep -q "\"$arm\"" "$folder/named.json" || fail "the menu did not ask for both sides: no $arm"
+done
+xdotool key ctrl+o
+sleep 0.7
+xdotool type --delay 30 "$folder/pair"
+xdotool key Return
+sleep 0.5
+xdotool key Down Down shift+Down Return
+opened_again() { [ "$(grep -c "preparing the body's meshes" "$folder/log")" -ge 2 ]; }
+wait_for 'opening a body and vessels together' opened_again
+sleep 3
+xdotool key ctrl+shift+s
+type_file "$folder/paired.json"
+paired() { grep -q 'pair/human.glb' "$folder/paired.json" && grep -q 'pair/human.vasa' "$folder/paired.json"; }
+xdotool key Return
+wait_for 'saving what was opened together' paired
+end

@@ -73,3 +73,23 @@ TEST_CASE("help lists every action that has keys, once") {
   CHECK(std::ranges::any_of(edit, [](const Shortcut& row) { return row.keys == "Ctrl Y, Ctrl Shift Z"; }));
   CHECK(tipOf(actionOf(ActionId::undo)) == "Undo (Ctrl Z): undo edits, pose, look, view");
 }
+
+TEST_CASE("undo and redo can be done where there is something, and say what") {
+  ViewState state;
+  const Document document;
+  const Action &undo = actionOf(ActionId::undo), &redo = actionOf(ActionId::redo);
+  CHECK_FALSE(canDo(undo, state, &document));
+  CHECK(titleOf(undo, state) == "Undo");
+  state.undone = "move of left wrist";
+  CHECK(canDo(undo, state, &document));
+  CHECK_FALSE(canDo(redo, state, &document));
+  CHECK(titleOf(undo, state) == "Undo move of left wrist");
+  applyShortcut(keyOf('Z'), true, false, state, &document);
+  CHECK(state.wishUndo);
+}
+
+TEST_CASE("each menu has a letter of its own") {
+  for (std::size_t menu = 0; menu < kMenuNames.size(); ++menu)
+    CHECK(menuOf(keyOf(kMenuNames[menu][0])) == int(menu));
+  CHECK(menuOf(keyOf('Q')) == -1);
+}

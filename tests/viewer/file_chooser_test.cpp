@@ -105,3 +105,40 @@ TEST_CASE("what is saved gets an extension; what is there is replaced at the sec
   shelf.files.start(FilePurpose::exportFile, shelf.folder.path(), "walk.mp4", {".glb", ".mp4"});
   CHECK(shelf.files.enter() == shelf.path("walk.mp4"));
 }
+
+TEST_CASE("several files are opened together: by Ctrl, by Shift, by Shift and arrow keys") {
+  Shelf shelf;
+  std::ofstream(shelf.path("body.glb")) << "1";
+  shelf.open();  // .. scans arm.json Arteries.vasa body.glb
+  shelf.files.mark(2);
+  shelf.files.toggle(4);
+  CHECK(shelf.files.count() == 2);
+  CHECK(shelf.files.isTaken(2));
+  shelf.files.toggle(3);
+  shelf.files.toggle(4);  // out again
+  CHECK(shelf.files.count() == 2);
+  auto file = shelf.files.enter();
+  REQUIRE(file);
+  auto all = shelf.files.withOthers(*file);
+  std::ranges::sort(all);
+  CHECK(all == std::vector{shelf.path("Arteries.vasa"), shelf.path("arm.json")});
+  CHECK_FALSE(shelf.files.isOpen());
+
+  shelf.open();
+  shelf.files.mark(4);
+  shelf.files.extend(2);
+  CHECK(shelf.files.count() == 3);
+  shelf.files.mark(3);  // one alone again
+  CHECK(shelf.files.count() == 1);
+  shelf.files.extendStep(1);
+  file = shelf.files.enter();
+  REQUIRE(file);
+  CHECK(shelf.files.withOthers(*file) == std::vector{shelf.path("body.glb"), shelf.path("Arteries.vasa")});
+
+  shelf.open();
+  shelf.files.mark(2);
+  shelf.files.toggle(1);  // a folder is gone into, and not taken in
+  CHECK(shelf.files.count() == 1);
+  CHECK_FALSE(shelf.files.enter());
+  CHECK(shelf.files.folder() == shelf.path("scans"));
+}

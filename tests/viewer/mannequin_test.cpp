@@ -150,3 +150,12 @@ TEST_CASE("a skeleton that is no person's can be pulled joint by joint") {
   CHECK(plain.grips()[1].name == "part2");
   CHECK(plain.grips()[1].limb.joints.front().joint == JointId{1});
 }
+
+TEST_CASE("finger joints have people's names") {
+  const auto name = [](const char* joint) { return mannequin().nameOf(human().find(joint)); };
+  CHECK(name("LeftHandFinger1") == "left index finger, knuckle");
+  CHECK(name("LeftHandFinger1_2") == "left index finger, middle joint");
+  CHECK(name("RightHandFinger4_3") == "right little finger, end joint");
+  CHECK(name("RThumb") == "right thumb, base joint");
+  CHECK(gripNamed("left ring finger, tip"));
+}

@@ -153,3 +153,27 @@ TEST_CASE("a copied pose is pasted as it was, out of a scene, too; what is no po
   CHECK_FALSE(poseOfText("femoral artery"));
   CHECK(poseOfText("{}").error().message.find("holds no pose") != std::string::npos);
 }
+
+TEST_CASE("where the pelvis is pulled aside over bent knees the feet stay where they are, and flat") {
+  Posing human;
+  for (const std::string side : {"Left", "Right"}) {
+    for (const auto& [name, bend] : {std::pair{"UpLeg", 0.5f}, std::pair{"Leg", -1.0f}}) {
+      const JointId joint = human.skeleton().find(side + name);
+      REQUIRE(joint.valid());
+      const JointMotion& motion = human.document.mannequin->motion(joint);
+      turnOfJoint(human.state, joint, motion).angles.x = bend;
+    }
+  }
+  human.move({0, 0});
+  const vec3 left = human.place("LeftFoot"), right = human.place("RightFoot"), head = human.place("Head");
+  const vec3 toes = human.place("LeftToeBase");
+  const float thigh = human.turnOf("LeftUpLeg");
+  const vec2 at = human.handle("pelvis");
+  human.press(at);
+  for (int step = 1; step <= 4; ++step) human.move(at + vec2(float(step), 0));
+  CHECK(glm::distance(human.place("Head"), head) > 0.02f);
+  CHECK(glm::distance(human.place("LeftFoot"), left) < 5e-3f);
+  CHECK(glm::distance(human.place("RightFoot"), right) < 5e-3f);
+  CHECK(glm::distance(human.place("LeftToeBase"), toes) < 1e-2f);
+  CHECK(std::abs(human.turnOf("LeftUpLeg") - thigh) > 0.01f);
+}
