@@ -339,15 +339,16 @@ TEST_CASE("a session that a signal ends leaves what was not saved in a scene of 
   const VirtualDisplay display;
   for (int after = 4000;; after *= 2) {
     const TemporaryFolder home;
-    // A view is kept under a number, and then the session goes on.
+    // A view is kept under a number, and then the body walks.
     const auto script = scriptIn(home.path(),
                                  "settle\nhold control\nhold shift\nkey 4\nlet shift\nlet control\nframes 2\n"
-                                 "window seen.png\nframes 1000000\n");
+                                 "window seen.png\nkey space\nframes 100000\n");
     ProgramOptions options = on(display, home);
     options.signalAfterMs = after;
     options.signal = SIGTERM;
-    const Outcome ended = runProgram(
-        {"view", "--script", script.string(), "--size", "400x320", "--out", home.path().string()}, options);
+    const Outcome ended = runProgram({"view", "--clip", "walk", "--script", script.string(), "--size",
+                                      "400x320", "--out", home.path().string()},
+                                     options);
     INFO(ended.err);
     REQUIRE(ended.exit == 128 + SIGTERM);
     if (!std::filesystem::exists(home.path() / "seen.png")) {  // on a busy machine
