@@ -11,9 +11,6 @@
 
 namespace vasa {
 
-/// The unit vector along v, zero where there is none.
-inline vec3 directionOf(vec3 v) { return unitOr(v, vec3(0)); }
-
 /// What a body's skeleton and a motion's have in common: joints with names, parents and places, and what part
 /// of a person each is.
 struct Rig {

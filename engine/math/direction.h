@@ -9,9 +9,12 @@ inline vec3 unitOr(vec3 v, vec3 otherwise) {
   return length > 1e-9f ? v / length : otherwise;
 }
 
+/// The unit vector along v, zero where there is none.
+inline vec3 directionOf(vec3 v) { return unitOr(v, vec3(0)); }
+
 /// The shortest turn from one direction to another, of any lengths; none where either is missing.
 inline quat turnBetween(vec3 from, vec3 to) {
-  from = unitOr(from, vec3(0)), to = unitOr(to, vec3(0));
+  from = directionOf(from), to = directionOf(to);
   if (from == vec3(0) || to == vec3(0)) return quat(1, 0, 0, 0);
   const float cosine = glm::dot(from, to);
   if (cosine < -0.9999f) return glm::angleAxis(kPi, anyPerpendicular(from));

@@ -154,7 +154,7 @@ class Sharing {
     for (const std::size_t side : {0u, 1u}) joinUp(side);
     beds.beds.clear(), beds.regionOfBed.clear();
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (i % 256 == 0) checkpoint();
+      checkpoint();
       beds.beds.push_back(bedOf(i));
       beds.regionOfBed.push_back(pieces_[i].region);
     }
@@ -291,9 +291,8 @@ class Sharing {
     const auto wayOf = [&](std::size_t i) { return ways_[side].length[std::size_t(pieces_[i].centre)]; };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t l, std::size_t r) { return wayOf(l) < wayOf(r); });
-    Checkpoints checkpoints;
     for (const std::size_t i : order) {
-      checkpoints.pass();
+      checkpoint();
       Piece& piece = pieces_[i];
       piece.from[side] = std::int32_t(i);
       for (std::int32_t cube = piece.centre;; cube = ways_[side].before[std::size_t(cube)]) {

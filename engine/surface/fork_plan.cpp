@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/hash.h"
+#include "surface/fork_item.h"
 #include "surface/fork_memory.h"
 #include "surface/fork_record.h"
-#include "surface/fork_room.h"
 #include "surface/fork_trials.h"
 #include "surface/vessel_line.h"
 
@@ -30,36 +30,7 @@ constexpr Manner kManners[] = {
     {1.3f, 4, 0.9f}, {1.3f, 4, 0.6f},      {1.0f, 3, 0.6f},     {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
     {1.4f, 3, 0.5f}, {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},     {0.3f, 1, 0.15f},  {1.2f, 1.5f, 0.2f},
     {2.5f, 4, 0.5f}, {0.5f, 2, 0.15f},     {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
-constexpr float kWidestHole = 0.9f;    // sine of half its angle
-constexpr float kHoleMargin = 1.1f;    // rows of the trunk stay outside the hole
-constexpr float kBetweenHoles = 0.3f;  // [radians] around the host
-constexpr float kSliver = 0.1f;        // of the radius: shorter tubes go to the forks beside them
-constexpr float kBesideJoin = 0.15f;   // of the radius: the least a join takes
-
-// A branch that leaves a line.
-struct Leaving {
-  std::uint32_t child = 0;  // 2 * line + end
-  ForkExit exit;
-  float centre = 0;   // way along the host
-  vec3 direction{0};  // unit, from the host's axis
-  float hole = 0, around = 0, radius = 0, cornerAround = 0, cornerAlong = 0;
-  bool operator==(const Leaving&) const = default;
-};
-
-// One or two branches, or a join, or both, on a line.
-struct Item {
-  ForkRoom room;
-  std::vector<Leaving> branches;
-  float radius = 0, shiftLimit = 0;
-  float mustLow = 1e30f, mustHigh = -1e30f;  // a join within
-
-  bool operator==(const Item&) const = default;
-  bool branch() const { return !branches.empty(); }
-  const Leaving& thinnest() const {
-    return *std::min_element(branches.begin(), branches.end(),
-                             [](const Leaving& a, const Leaving& b) { return a.radius < b.radius; });
-  }
-};
+constexpr float kSliver = 0.1f;  // of the radius: shorter tubes go to the forks beside them
 
 enum class Fate { none, forked, hidden, tooShort, crowded, folded };
 
@@ -123,7 +94,7 @@ class Planner {
   // What a line has come to, along it. Numbers of branches count within.
   struct Piece {
     std::vector<TubeStretch> tubes;
-    std::vector<Item> items;  // one a fork
+    std::vector<ForkItem> items;  // one a fork
     std::vector<shared::ForkRecord> forks;
     std::vector<shared::ForkBranch> branches;
     std::vector<std::optional<ForkFolds>> folds;  // of each fork; nothing before it was tried
@@ -218,7 +189,7 @@ class Planner {
       for (std::size_t i = 0; i < piece.forks.size(); ++i) {
         addFork(piece, i, plan.forks, plan.branches);
         plan.vesselOfFork.push_back(piece.forks[i].vesselA);
-        for (const Leaving& leaving : piece.items[i].branches) plan.report.leaning += !leaving.exit.clear;
+        for (const ForkLeaving& leaving : piece.items[i].branches) plan.report.leaning += !leaving.exit.clear;
         plan.report.joins += piece.items[i].mustLow < 1e30f;
       }
     }
@@ -246,7 +217,7 @@ class Planner {
     bool changed = false;
     for (const std::uint32_t line : emitted_)
       for (std::size_t i = 0; i < pieces_[line].forks.size(); ++i)
-        for (const Leaving& leaving : pieces_[line].items[i].branches)
+        for (const ForkLeaving& leaving : pieces_[line].items[i].branches)
           if (const ForkFolds& folds = *pieces_[line].folds[i]; !folds.none())
             changed = tryOtherwise(leaving.child, folds) || changed;
     return changed;
@@ -308,135 +279,28 @@ class Planner {
     return {margin(2 * index), length - margin(2 * index + 1)};
   }
 
-  Item branchItem(const VesselLine& host, std::uint32_t end) const {
-    const ForkExit& exit = exits_[end];
-    const float trunk = host.point(exit.foot).w;
-    const float stretched = 1 / std::sqrt(std::max(1 - exit.lean * exit.lean, 1.0f / 9));
-    Leaving leaving;
-    leaving.child = end;
-    leaving.exit = exit;
-    leaving.centre = exit.foot;
-    leaving.radius = exit.radius;
-    // Without a fillet wall and branch meet in about an ellipse. In a narrow angle that ends before the
-    // branch is clear.
-    const float radius = std::min(exit.radius, 1.3f * trunk), fillet = kManners[trials_[end].manner].fillet;
-    const float corner = std::clamp(std::abs(exit.ringFoot - exit.foot), radius, radius * stretched);
-    leaving.hole = corner + fillet * (0.5f * radius + 0.5f * corner);
-    leaving.around = std::min(exit.radius * (1 + fillet) / trunk, kWidestHole);
-    leaving.cornerAlong = corner / leaving.hole;
-    leaving.cornerAround = 1 / (1 + fillet);
-    const VesselLine& branch = lines_.lines[end / 2];
-    const vec3 axis = host.tangent(exit.foot);
-    const vec3 out =
-        vec3(branch.point(end % 2 ? branch.length() - exit.cross : exit.cross) - host.point(exit.foot));
-    const vec3 level = out - glm::dot(out, axis) * axis;
-    leaving.direction = level / std::max(glm::length(level), 1e-12f);
-    Item item;
-    item.branches = {leaving};
-    item.radius = exit.radius;
-    item.room.centre = exit.foot;
-    item.room.before = item.room.after = kHoleMargin * leaving.hole + 0.08f * trunk;
-    item.room.want = (kHoleMargin + 0.2f) * leaving.hole + 0.35f * trunk;
-    item.shiftLimit = 2.6f * leaving.hole + 2 * trunk;
-    return item;
-  }
-
-  // Branches that need the same room on different sides of the host become one fork.
-  static void pairUp(std::vector<Item>& items) {
-    for (std::size_t i = 0; i + 1 < items.size(); ++i) {
-      Item& one = items[i];
-      for (std::size_t k = i + 1; k < items.size() && one.branches.size() == 1; ++k) {
-        Item& other = items[k];
-        if (other.branches.size() != 1) continue;
-        if (other.room.centre - other.room.before >= one.room.centre + one.room.after) continue;
-        const Leaving &a = one.branches[0], &b = other.branches[0];
-        if (std::abs(a.centre - b.centre) > 1.2f * std::min(a.hole, b.hole) + 0.8f * std::max(a.hole, b.hole))
-          continue;
-        const float apart = std::acos(std::clamp(glm::dot(a.direction, b.direction), -1.0f, 1.0f));
-        if (apart < std::asin(a.around) + std::asin(b.around) + kBetweenHoles) continue;
-        const float low = std::min(one.room.centre - one.room.before, other.room.centre - other.room.before);
-        const float high = std::max(one.room.centre + one.room.after, other.room.centre + other.room.after);
-        one.room.want += high - low - one.room.before - one.room.after;
-        one.room.centre = (low + high) / 2;
-        one.room.before = one.room.after = (high - low) / 2;
-        one.shiftLimit = std::max(one.shiftLimit, other.shiftLimit);
-        one.branches.push_back(b);
-        items.erase(items.begin() + std::ptrdiff_t(k));
-      }
-    }
-  }
-
-  static Item joinItem(const VesselLine& line, const VesselLine::Join& join) {
-    const vec4 before = line.point(join.at), after = line.point(join.at + join.gap);
-    const float radius = std::max(before.w, after.w), probe = 1.5f * radius, middle = join.at + join.gap / 2;
-    const vec3 in = vec3(before - line.point(join.at - probe)),
-               out = vec3(line.point(join.at + join.gap + probe) - after);
-    const float size = std::max(glm::length(in) * glm::length(out), 1e-20f);
-    const float cosine = std::clamp(glm::dot(in, out) / size, -0.6f, 1.0f);
-    const float bend = std::sqrt((1 - cosine) / (1 + cosine));  // tan of half the angle
-    Item item;
-    item.radius = radius;
-    item.room.centre = middle;
-    item.room.before = item.room.after = kBesideJoin * radius + join.gap / 2;
-    item.room.want = item.room.before + radius * (2 + bend) + std::abs(before.w - after.w);
-    item.mustLow = join.at;
-    item.mustHigh = join.at + join.gap;
-    return item;
-  }
-
-  std::vector<Item> itemsOf(std::uint32_t index, Range range) const {
+  std::vector<ForkItem> itemsOf(std::uint32_t index, Range range) const {
     const VesselLine& line = lines_.lines[index];
-    std::vector<Item> items;
+    std::vector<ForkItem> branches;
     for (const std::uint32_t end : children_[index])
-      if (forked(end)) items.push_back(branchItem(line, end));
-    const auto byCentre = [](const Item& a, const Item& b) {
-      if (a.room.centre != b.room.centre || !a.branch() || !b.branch()) return a.room.centre < b.room.centre;
-      return a.branches[0].child < b.branches[0].child;
-    };
-    std::sort(items.begin(), items.end(), byCentre);
-    pairUp(items);
-    std::vector<Item> joins;
-    for (const VesselLine::Join& join : line.joins()) {
-      if (join.at <= range.low || join.at + join.gap >= range.high) continue;
-      Item item = joinItem(line, join);
-      Item* nearest = nullptr;
-      for (Item& branch : items) {
-        const float apart = std::abs(branch.room.centre - item.room.centre);
-        if (apart < branch.room.before + 1.5f * item.room.before + 0.5f * item.radius &&
-            (!nearest || apart < std::abs(nearest->room.centre - item.room.centre)))
-          nearest = &branch;
-      }
-      if (nearest)
-        take(*nearest, item);
-      else
-        joins.push_back(item);
-    }
-    items.insert(items.end(), joins.begin(), joins.end());
-    std::sort(items.begin(), items.end(), byCentre);
-    return items;
-  }
-
-  // The branch's fork covers the join, too, and somewhat more, so that it may move.
-  static void take(Item& branch, const Item& join) {
-    const float beside = join.room.before + 0.35f * join.radius;
-    branch.room.before = std::max(branch.room.before, branch.room.centre - join.room.centre + beside);
-    branch.room.after = std::max(branch.room.after, join.room.centre - branch.room.centre + beside);
-    branch.mustLow = std::min(branch.mustLow, join.mustLow);
-    branch.mustHigh = std::max(branch.mustHigh, join.mustHigh);
+      if (forked(end))
+        branches.push_back(
+            branchItem(line, lines_.lines[end / 2], end, exits_[end], kManners[trials_[end].manner].fillet));
+    return arrangedItems(line, std::move(branches), range.low, range.high);
   }
 
   // @return false where a branch was dropped
   bool settle(std::uint32_t index) {
     const Range range = rangeOf(index);
-    std::vector<Item>& items = items_[index];
+    std::vector<ForkItem>& items = items_[index];
     items = itemsOf(index, range);
     if (items.empty()) return true;
     std::vector<ForkRoom> rooms;
-    for (const Item& item : items) rooms.push_back(item.room);
+    for (const ForkItem& item : items) rooms.push_back(item.room);
     const float sliver = kSliver * lines_.lines[index].point(range.low).w;
-    Item* worst = nullptr;
+    ForkItem* worst = nullptr;
     if (!shareRoom(rooms, range.low, range.high, sliver)) {
-      for (Item& item : items)
+      for (ForkItem& item : items)
         if (item.branch() && (!worst || item.thinnest().radius < worst->thinnest().radius)) worst = &item;
     } else {
       float excess = 1;
@@ -460,9 +324,9 @@ class Planner {
     return true;
   }
 
-  static Item* nearestBranch(std::vector<Item>& items, std::size_t to) {
-    Item* nearest = nullptr;
-    for (Item& item : items)
+  static ForkItem* nearestBranch(std::vector<ForkItem>& items, std::size_t to) {
+    ForkItem* nearest = nullptr;
+    for (ForkItem& item : items)
       if (item.branch() && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
                                             std::abs(nearest->room.centre - items[to].room.centre)))
         nearest = &item;
@@ -476,7 +340,7 @@ class Planner {
     const bool fromBranch = forked(2 * index), toBranch = forked(2 * index + 1);
     float from = fromBranch ? exits_[2 * index].ring : 0;
     bool cap = !fromBranch;
-    for (const Item& item : items_[index]) {
+    for (const ForkItem& item : items_[index]) {
       emitTube(piece, line, from, item.room.low, cap, false);
       emitFork(piece, before, line, item);
       from = item.room.high;
@@ -501,7 +365,7 @@ class Planner {
     return float(network_.vessels()[place.vessel].spanCount());
   }
 
-  void emitFork(Piece& piece, const Piece& before, const VesselLine& line, const Item& item) const {
+  void emitFork(Piece& piece, const Piece& before, const VesselLine& line, const ForkItem& item) const {
     const auto same = std::ranges::find(before.items, item);
     piece.items.push_back(item);
     if (same != before.items.end()) {
@@ -513,7 +377,7 @@ class Planner {
     ForkCourse course{.low = line.place(item.room.low),
                       .high = line.place(item.room.high),
                       .length = item.room.high - item.room.low};
-    for (const Leaving& leaving : item.branches) {
+    for (const ForkLeaving& leaving : item.branches) {
       const VesselLine& branch = lines_.lines[leaving.child / 2];
       const bool last = leaving.child % 2 == 1;
       const auto way = [&](float fromEnd) { return last ? branch.length() - fromEnd : fromEnd; };
@@ -545,7 +409,7 @@ class Planner {
   std::vector<Fate> fates_;
   std::vector<Trial> trials_;
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
-  std::vector<std::vector<Item>> items_;
+  std::vector<std::vector<ForkItem>> items_;
   std::vector<char> unsettled_, old_;  // lines of which something is another since they were settled, emitted
   std::vector<Piece> pieces_;
   std::vector<std::uint32_t> emitted_;  // lines, by the last emitOld()

@@ -192,6 +192,17 @@ struct Bench {
   }
 };
 
+// Of the app, told what to do by a script.
+struct AppBench : Bench {
+  const VirtualDisplay display;
+  std::vector<std::string> command;
+  explicit AppBench(const std::string& script) {
+    environment.push_back(display.variable());
+    command = {"view", "--script", writeBytes(folder.path() / "script.txt", script).string(), "--size",
+               "400x320"};
+  }
+};
+
 }  // namespace
 
 TEST_CASE("render: whatever Vulkan call fails, the run ends in good order") {
@@ -209,31 +220,22 @@ TEST_CASE("profile: whatever Vulkan call fails, the run ends in good order") {
 }
 
 TEST_CASE("view: whatever Vulkan call fails, the run ends in good order") {
-  const VirtualDisplay display;
-  Bench bench;
-  bench.environment.push_back(display.variable());
-  const auto script = writeBytes(
-      bench.folder.path() / "script.txt",
+  AppBench bench(
       "settle\nframes 2\nresize 420 300\nframes 2\nwindow window.png\npicture picture.png\nclose\n");
-  bench.tryAll({"view", "--script", script.string(), "--size", "400x320"});
+  bench.tryAll(bench.command);
   MESSAGE("view: " << bench.runs << " sites, " << bench.struck << " struck");
 }
 
 TEST_CASE("view: a device that is lost leaves what was not saved in a scene of its own") {
-  const VirtualDisplay display;
-  Bench bench;
-  bench.environment.push_back(display.variable());
-  const auto script = writeBytes(
-      bench.folder.path() / "script.txt",
+  AppBench bench(
       "settle\nhold control\nhold shift\nkey 4\nlet shift\nlet control\nframes 2\nwindow window.png\n");
-  const std::vector<std::string> arguments{"view", "--script", script.string(), "--size", "400x320"};
   std::string log;
-  const Outcome whole = bench.run(arguments, "", log);
+  const Outcome whole = bench.run(bench.command, "", log);
   REQUIRE_MESSAGE(whole.exit == 0, whole.err);
   CHECK(listOf(bench.folder.path() / "out") == std::vector<std::string>{"window.png"});
   const unsigned last = calledOf(log).at("vkQueueSubmit2").calls;
   const Outcome lost =
-      bench.run(arguments, Site{"vkQueueSubmit2", last, VK_ERROR_DEVICE_LOST, true}.text(), log);
+      bench.run(bench.command, Site{"vkQueueSubmit2", last, VK_ERROR_DEVICE_LOST, true}.text(), log);
   INFO(lost.err);
   CHECK(lost.exit == 5);
   CHECK(lost.err.find("what was not saved is in ./vasa_001.json") != std::string::npos);
