@@ -44,10 +44,10 @@ Result<Setting> prepare(const Options& options) {
   auto scene = loadScene(*choice);
   if (!scene) return scene.error();
   Setting setting{std::move(*scene)};
-  if (!choice->clip.empty()) {
-    const auto clip = findClip(setting.scene.body, choice->clip);
-    if (!clip) return clip.error();
-    setting.clip = *clip;
+  const auto clip = sceneClip(setting.scene, *choice);
+  if (!clip) return clip.error();
+  setting.clip = *clip;
+  if (setting.clip) {
     const float rate = options.fps > 0 ? float(options.fps) : setting.clip->framesPerSecond;
     setting.timing = {.start = setting.clip->start, .end = setting.clip->end, .framesPerSecond = rate};
   }

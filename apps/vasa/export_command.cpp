@@ -48,11 +48,9 @@ Result<Job> prepare(const Options& options) {
           nullptr,
           {},
           {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = options.avoid}};
-  if (!choice->clip.empty()) {
-    const auto clip = findClip(job.scene.body, choice->clip);
-    if (!clip) return clip.error();
-    job.clip = *clip;
-  }
+  const auto clip = sceneClip(job.scene, *choice);
+  if (!clip) return clip.error();
+  job.clip = *clip;
   const auto range = parseFrameRange(framesOf(options), job.clip ? job.clip->frameCount() : 1);
   if (!range) return range.error();
   job.range = *range;

@@ -43,11 +43,10 @@ Result<std::vector<SourceElement>> givenMeshes(const Options& options, const Sce
   return elements;
 }
 
-// The clip that is asked for; else a walk if there is one, or the first.
-Result<const Clip*> chooseClip(const Body& body, const std::string& name) {
-  if (!name.empty()) return findClip(body, name);
-  if (auto walk = findClip(body, "walk"); walk) return walk;
-  return body.clips.empty() ? nullptr : &body.clips.front();
+// A walk if there is one, or the first.
+std::string ownClip(const Body& body) {
+  if (const auto walk = findClip(body, "walk"); walk) return (*walk)->name;
+  return body.clips.empty() ? "" : body.clips.front().name;
 }
 
 Result<void> prepare(const Globals& globals, const Options& options, PaperStudy& study) {
@@ -56,7 +55,7 @@ Result<void> prepare(const Globals& globals, const Options& options, PaperStudy&
   study.size = *size;
   study.quick = options.quick;
   study.seed = std::uint32_t(globals.seed);
-  const auto choice = chooseScene(options.scene);
+  auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
   auto meshes = givenMeshes(options, *choice);
   if (!meshes) return meshes.error();
@@ -65,9 +64,11 @@ Result<void> prepare(const Globals& globals, const Options& options, PaperStudy&
   study.scene = std::move(*scene);
   study.meshesGiven = !meshes->empty();
   study.meshes = study.meshesGiven ? std::move(*meshes) : meshesOf(study.scene.network);
-  const auto clip = chooseClip(study.scene.body, choice->clip);
-  if (!clip) return clip.error();
-  study.clip = *clip;
+  if (choice->clip.empty()) choice->clip = ownClip(study.scene.body);
+  clearArms(*choice, study.scene.body, study.scene.body.clips);
+  const auto clip = findClip(study.scene.body, choice->clip);
+  if (!clip && !choice->clip.empty()) return clip.error();
+  study.clip = clip ? *clip : nullptr;
   study.table = makeSweepTable(study.scene.network);
   CapillaryChoice capillaries = choice->capillaries;
   capillaries.levels = std::max(1u, capillaries.levels);

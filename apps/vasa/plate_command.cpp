@@ -165,15 +165,12 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   job->scene = std::move(*scene);
   line("planning where vessels join");
   job->table = makeSweepTable(job->scene.network);
-  const Clip* clip = nullptr;
-  if (!file->clip.empty()) {
-    const auto found = findClip(job->scene.body, file->clip);
-    if (!found) return found.error();
-    clip = *found;
-    if (options.frame >= clip->frameCount())
-      return Error{Fault::usage, fmt::format("--frame {}: the clip has frames 0 to {}", options.frame,
-                                             clip->frameCount() - 1)};
-  }
+  const auto found = sceneClip(job->scene, *file);
+  if (!found) return found.error();
+  const Clip* clip = *found;
+  if (clip && options.frame >= clip->frameCount())
+    return Error{Fault::usage, fmt::format("--frame {}: the clip has frames 0 to {}", options.frame,
+                                           clip->frameCount() - 1)};
   line("posing the vessels");
   job->frame = std::make_unique<FrameMaker>(job->scene, FrameOptions{.avoid = true});
   job->frame->make(clip, clip ? clip->timeOfFrame(options.frame) : 0);

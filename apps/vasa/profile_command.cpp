@@ -135,7 +135,7 @@ Result<Setting> prepare(const Options& options) {
   const auto size = parseSize(options.size);
   if (!size) return size.error();
   setting.size = *size;
-  const auto choice = chooseScene(options.scene);
+  auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
   const auto cameraChoice = chooseCamera(choice->camera, options.camera);
   if (!cameraChoice) return cameraChoice.error();
@@ -146,13 +146,11 @@ Result<Setting> prepare(const Options& options) {
   auto growth = growthOf(setting.scene, setting.capillaries);
   if (!growth) return growth.error();
   setting.growth = std::move(*growth);
-  if (!choice->clip.empty()) {
-    const auto clip = findClip(setting.scene.body, choice->clip);
-    if (!clip) return clip.error();
-    setting.clip = *clip;
-  } else if (!setting.scene.body.clips.empty()) {
-    setting.clip = &setting.scene.body.clips.front();
-  }
+  if (choice->clip.empty() && !setting.scene.body.clips.empty())
+    choice->clip = setting.scene.body.clips.front().name;
+  const auto clip = sceneClip(setting.scene, *choice);
+  if (!clip) return clip.error();
+  setting.clip = *clip;
   auto camera =
       CameraMan::create(*cameraChoice, setting.scene, setting.clip, float(size->width) / float(size->height));
   if (!camera) return camera.error();

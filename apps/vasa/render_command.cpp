@@ -153,11 +153,9 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
   stages.end();
   if (!growth) return growth.error();
   job.growth = std::move(*growth);
-  if (!job.choice.clip.empty()) {
-    const auto clip = findClip(job.scene.body, job.choice.clip);
-    if (!clip) return clip.error();
-    job.clip = *clip;
-  }
+  const auto clip = sceneClip(job.scene, job.choice);
+  if (!clip) return clip.error();
+  job.clip = *clip;
   const auto range = parseFrameRange(options.frames, job.clip ? job.clip->frameCount() : 1);
   if (!range) return range.error();
   if (options.output != "-" && !options.output.empty()) {

@@ -52,6 +52,8 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option(
       "--joint-map", options.jointMap,
       "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
+  sub.add_flag("--as-recorded", options.asRecorded,
+               "Leave arms that pass through the body where the motion has them (default: turned out of it)");
 }
 
 namespace {
@@ -88,6 +90,7 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
   if (!options.edits.empty()) scene.edits.assign(options.edits.begin(), options.edits.end());
   if (!options.clip.empty()) scene.clip = options.clip;
   if (!options.jointMap.empty()) scene.jointMap = options.jointMap;
+  scene.asRecorded |= options.asRecorded;
   if (!scene.jointMap.empty() && !isMotionFile(scene.clip))
     return Error{Fault::usage, "a joint map belongs to a .bvh file; give one with --clip FILE.bvh"};
   if (!scene.body.empty() && scene.networks.empty())

@@ -15,6 +15,7 @@ struct SceneOptions {
   std::vector<std::string> networks;
   std::string clip;
   std::string jointMap;
+  bool asRecorded = false;
   std::vector<std::string> edits;
 };
 
@@ -25,7 +26,7 @@ Result<std::filesystem::path> dataFolder();
 /// either.
 std::filesystem::path cacheFolder();
 
-/// Declares SCENE, --body, --network, --edits, --clip and --joint-map.
+/// Declares SCENE, --body, --network, --edits, --clip, --joint-map and --as-recorded.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 
 /// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes

@@ -70,4 +70,15 @@ Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time) {
   return poseFromLocal(skeleton, local);
 }
 
+bool closes(const Skeleton& skeleton, const Clip& clip) {
+  constexpr float kSamePlace = 1e-3f;  // [m] and of an axis
+  const std::uint32_t last = clip.frameCount() - 1;
+  const Pose a = samplePose(skeleton, clip, clip.timeOfFrame(0)),
+             b = samplePose(skeleton, clip, clip.timeOfFrame(last));
+  for (std::size_t j = 0; j < a.world.size(); ++j)
+    for (int k = 0; k < 4; ++k)
+      if (glm::distance(a.world[j][k], b.world[j][k]) > kSamePlace) return false;
+  return last > 0;
+}
+
 }  // namespace vasa

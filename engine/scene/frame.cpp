@@ -24,17 +24,8 @@ constexpr float kShortestStep = 0.5f;
 // passing touch.
 constexpr int kCaught = 4;
 constexpr float kStepSeconds = 0.1f;  // of the way from rest to a clip's beginning
-// [m] and of an axis: a clip whose last pose is its first closes
-constexpr float kSamePlace = 1e-3f;
 constexpr std::uint32_t kRunUp = 15;  // frames before the seam with which a closed clip begins
 constexpr float kOnFrame = 1e-3f;     // of a frame: a time so near is the frame's
-
-bool same(const Pose& a, const Pose& b) {
-  for (std::size_t j = 0; j < a.world.size(); ++j)
-    for (int k = 0; k < 4; ++k)
-      if (glm::distance(a.world[j][k], b.world[j][k]) > kSamePlace) return false;
-  return true;
-}
 
 }  // namespace
 
@@ -182,12 +173,11 @@ void FrameMaker::start(const Correction& correction) {
 void FrameMaker::begin(const Clip& clip) {
   const Skeleton& skeleton = scene_->body.skeleton;
   const std::uint32_t last = clip.frameCount() - 1;
-  const Pose first = samplePose(skeleton, clip, clip.timeOfFrame(0));
-  const bool closes = last > 0 && same(first, samplePose(skeleton, clip, clip.timeOfFrame(last)));
-  std::uint32_t frame = closes ? last - std::min(kRunUp, last) : 0;
+  const bool round = closes(skeleton, clip);
+  std::uint32_t frame = round ? last - std::min(kRunUp, last) : 0;
   make(samplePose(skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
-  // The seam is where the last pose is the first one, to kSamePlace: frame 0 has the first, to the bit.
-  while (closes && ++frame <= last) {
+  // The seam is where the last pose is nearly the first one: frame 0 has the first, to the bit.
+  while (round && ++frame <= last) {
     const float time = clip.timeOfFrame(frame < last ? frame : 0);
     walk(samplePose(skeleton, clip, time), clip.timeOfFrame(frame - 1), time, 1 / clip.framesPerSecond);
   }

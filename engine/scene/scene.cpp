@@ -1,8 +1,11 @@
 #include "scene/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
+#include "body/limb_clearance.h"
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -154,6 +157,31 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
                     (list.empty() ? "it has no clips at all" : "It has " + list) +
                     (remedy.empty() ? "; --clip takes .bvh files, too" : remedy));
   }
+  return found;
+}
+
+void clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips) {
+  if (file.asRecorded) return;
+  for (const ClearedArm& arm : keepArmsClear(body, clips)) {
+    if (arm.frames == 0) continue;
+    const std::string what = fmt::format("{}: {} lies up to {:.0f} mm in the body in {} frames", arm.clip,
+                                         arm.joint, 1000 * arm.before, arm.frames);
+    if (arm.left == 0)
+      logInfo(fmt::format("{}, and is turned out of it by up to {:.0f} degrees; --as-recorded leaves it",
+                          what, glm::degrees(arm.turn)));
+    else
+      logWarning(fmt::format(
+          "{}, and still in {} of them after a turn of {:.0f} degrees; vessels there are held aside", what,
+          arm.left, glm::degrees(arm.turn)));
+  }
+}
+
+Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file) {
+  if (file.clip.empty()) return nullptr;
+  const auto found = findClip(scene.body, file.clip);
+  if (!found) return found;
+  clearArms(file, scene.body,
+            std::span(scene.body.clips).subspan(std::size_t(*found - scene.body.clips.data()), 1));
   return found;
 }
 

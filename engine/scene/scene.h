@@ -27,6 +27,14 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told = {})
 /// The body's clip with this name, or the only one that begins with it. badInput lists what there is.
 Result<const Clip*> findClip(const Body& body, std::string_view name);
 
+/// The clip that a scene file names; nullptr where it names none. Arms that pass through the body are turned
+/// out of it (body/limb_clearance.h), and what was done is told, unless the file asks for the motion as
+/// recorded.
+Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file);
+
+/// The same for all clips of a body.
+void clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips);
+
 /// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name
 /// goes before a part of one, vessels before joints.
 struct Subject {

@@ -225,6 +225,7 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
        {"edits", reader.paths(scene.edits)},
        {"clip", reader.text(scene.clip)},
        {"joint_map", reader.path(scene.jointMap)},
+       {"as_recorded", reader.flag(scene.asRecorded)},
        {"camera", [&](const Json& v, const std::string& p) { readCamera(reader, v, p, scene.camera); }},
        {"look", [&](const Json& v, const std::string& p) { readLook(reader, v, p, scene.look); }},
        {"capillaries",

@@ -56,7 +56,7 @@ struct ViewChoice {
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
-///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt",
+///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt", "as_recorded": false,
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones":
 ///     true, "organs": true, "arteries": true, "veins": true,
@@ -75,6 +75,7 @@ struct SceneFile {
       edits;         ///< journals (edit/journal.h), replayed in order onto all networks together
   std::string clip;  ///< a clip's name or the beginning of it, or a .bvh file
   std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
+  bool asRecorded = false;         ///< arms that pass through the body stay there (body/limb_clearance.h)
   CameraChoice camera;
   LookChoice look;
   CapillaryChoice capillaries;

@@ -93,6 +93,7 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   add("edits", names(scene.edits));
   if (!scene.clip.empty()) json["clip"] = isMotionFile(scene.clip) ? named(scene.clip, folder) : scene.clip;
   if (!scene.jointMap.empty()) json["joint_map"] = named(scene.jointMap, folder);
+  if (scene.asRecorded) json["as_recorded"] = true;
   add("camera", camera(scene.camera));
   add("look", look(scene.look));
   add("capillaries", capillaries(scene.capillaries, folder));

@@ -44,10 +44,13 @@ TEST_CASE("a full scene is read, paths relative to the file") {
 }
 
 TEST_CASE("a motion file's path is relative to the scene, a clip's name is no path") {
-  const auto scene = parseScene(R"({"clip": "walk.bvh", "joint_map": "map.txt"})", "/here", "x.json");
+  const auto scene =
+      parseScene(R"({"clip": "walk.bvh", "joint_map": "map.txt", "as_recorded": true})", "/here", "x.json");
   REQUIRE(scene.ok());
   CHECK(scene->clip == "/here/walk.bvh");
   CHECK(scene->jointMap == "/here/map.txt");
+  CHECK(scene->asRecorded);
+  CHECK(parseScene(sceneText(*scene, "/here"), "/here", "x.json")->asRecorded);
   CHECK(isMotionFile(scene->clip));
   CHECK(!isMotionFile("walk"));
 }
@@ -146,7 +149,7 @@ TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("[1]") == "x.json: / must be an object");
   CHECK(
       messageOf(R"({"boddy": 1})") ==
-      "x.json: /boddy is not a known key; use one of body, camera, capillaries, chosen, clip, edits, hidden, joint_map, labels, look, networks, pose, time, views");
+      "x.json: /boddy is not a known key; use one of as_recorded, body, camera, capillaries, chosen, clip, edits, hidden, joint_map, labels, look, networks, pose, time, views");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");

@@ -1,0 +1,58 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "body/body.h"
+#include "body/skin_shell.h"
+
+namespace vasa {
+
+/// A body's skin without its arms, as the boundary of the flesh that an arm should stay out of. It is looked
+/// up at rest: a place in a pose is taken back by each of the joints that the skin follows, and the skin that
+/// is nearest there counts where that joint moves it.
+class ArmlessFlesh {
+ public:
+  /// @param armJoints  one a joint: whether it is part of an arm
+  ArmlessFlesh(const Body& body, const SkinnedMesh& skin, const std::vector<char>& armJoints);
+
+  /// From a pose back to rest, as each of the joints moves the flesh.
+  std::vector<mat4> toRest(const Pose& pose) const;
+
+  struct Depth {
+    float depth = -1e9f;  ///< [m] below the skin; outside it is negative, and at least as far away
+    vec3 outwards{0};     ///< from there, unit, in the pose
+  };
+  /// O(log triangles) where a joint's skin is near.
+  Depth look(std::span<const mat4> toRest, vec3 place) const;
+
+ private:
+  struct Host {
+    std::uint32_t joint;
+    Aabb box;  // of what it moves, at rest
+    mat4 restWorld{1};
+  };
+  float weightOf(std::uint32_t joint, std::uint32_t triangle) const;
+
+  std::vector<SkinInfluence> influences_;
+  SkinShell shell_;
+  std::vector<Host> hosts_;
+};
+
+/// Lower arm and hand as places on their skin, and the joint at the shoulder that moves all of them.
+struct ArmPlaces {
+  struct Place {
+    uvec3 corners;  ///< of a triangle of the skin
+    vec3 shares;
+  };
+  JointId shoulder, other;  ///< other: of the other arm
+  std::vector<Place> places;
+  std::vector<float> atRest;  ///< [m] how deep each is in the flesh there
+
+  std::vector<vec3> posed(const SkinnedMesh& skin, std::span<const mat4> skinMatrices) const;
+};
+
+/// The arms that are known by the joints' names or the skeleton's shape (body/rig.h).
+std::vector<ArmPlaces> armsOf(const Body& body, const SkinnedMesh& skin);
+std::vector<char> armJointsOf(const Body& body);
+
+}  // namespace vasa

@@ -1,0 +1,215 @@
+#include "body/limb_clearance.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "body/arm_flesh.h"
+#include "body/joint_motion.h"
+#include "body/skin_field.h"
+#include "body/skinning.h"
+#include "core/parallel.h"
+#include "math/direction.h"
+
+namespace vasa {
+namespace {
+
+constexpr float kMostTurn = 0.5f;      // [rad], see the header
+constexpr float kReachSeconds = 0.2f;  // to both sides, see the header
+constexpr float kBeyond = 0.001f;      // [m] taken out by more than is asked, so that steps end
+constexpr float kLever =
+    0.1f;  // [m] an arm shorter than this is turned by less than would do: no step is wild
+constexpr int kSteps = 20, kRounds = 4;
+
+quat turnOf(vec3 turn) {
+  const float angle = glm::length(turn);
+  return angle > 0 ? glm::angleAxis(angle, turn / angle) : quat(1, 0, 0, 0);
+}
+
+vec3 vectorOf(quat turn) {
+  if (turn.w < 0) turn = -turn;
+  const vec3 v(turn.x, turn.y, turn.z);
+  const float sine = glm::length(v);
+  return sine > 0 ? v * (2 * std::atan2(sine, turn.w) / sine) : vec3(0);
+}
+
+// One arm in one frame.
+struct Stance {
+  vec3 shoulder{0};
+  vec3 aside{0};  // from the other shoulder
+  std::vector<vec3> places;
+  std::vector<mat4> toRest;
+  std::vector<float> unturned;  // [m] how deep the places are without a turn, as ArmlessFlesh::Depth has it
+};
+
+struct Deepest {
+  float depth = 0;  // [m] beyond what it is at rest
+  vec3 place{0}, outwards{0};
+};
+
+class ArmClearing {
+ public:
+  ArmClearing(const Body& body, const SkinnedMesh& skin, const ArmlessFlesh& flesh, const ArmPlaces& arm)
+      : body_(body), skin_(skin), flesh_(flesh), arm_(arm) {}
+
+  ClearedArm run(Clip& clip) {
+    ClearedArm told{.joint = body_.skeleton.joints[arm_.shoulder.value].name};
+    const std::uint32_t frames = clip.frameCount();
+    std::vector<Stance> stances(frames);
+    std::vector<float> depths(frames);
+    parallelFor(frames, 1, [&](std::size_t f) {
+      stances[f] = stanceIn(samplePose(body_.skeleton, clip, clip.timeOfFrame(std::uint32_t(f))));
+      depths[f] = deepest(stances[f], vec3(0)).depth;
+    });
+    told.before = *std::ranges::max_element(depths);
+    told.frames = std::uint32_t(std::ranges::count_if(depths, [](float d) { return d > kFleshGives; }));
+    if (told.frames == 0) return told;
+    const auto reach = std::max(1, int(std::lround(kReachSeconds * clip.framesPerSecond)));
+    const bool round = closes(body_.skeleton, clip);
+    std::vector<vec3> asked(frames, vec3(0)), turns = asked;
+    for (int k = 0; k < kRounds; ++k) {
+      std::atomic<bool> done = true;
+      parallelFor(frames, 1, [&](std::size_t f) {
+        if (deepest(stances[f], turns[f]).depth <= kFleshGives) return;
+        asked[f] = cleared(stances[f], turns[f]);
+        done = false;
+      });
+      if (done) break;
+      turns = spread(asked, reach, round);
+    }
+    parallelFor(frames, 1, [&](std::size_t f) { depths[f] = deepest(stances[f], turns[f]).depth; });
+    told.after = *std::ranges::max_element(depths);
+    told.left = std::uint32_t(std::ranges::count_if(depths, [](float d) { return d > kFleshGives; }));
+    for (const vec3& turn : turns) told.turn = std::max(told.turn, glm::length(turn));
+    turnShoulder(clip, turns);
+    return told;
+  }
+
+ private:
+  Stance stanceIn(const Pose& pose) const {
+    const vec3 shoulder(pose.world[arm_.shoulder.value][3]);
+    const vec3 aside =
+        arm_.other.valid() ? directionOf(shoulder - vec3(pose.world[arm_.other.value][3])) : vec3(0);
+    Stance stance{
+        shoulder, aside, arm_.posed(skin_, skinMatrices(body_.skeleton, pose)), flesh_.toRest(pose), {}};
+    for (const vec3& place : stance.places)
+      stance.unturned.push_back(flesh_.look(stance.toRest, place).depth);
+    return stance;
+  }
+
+  // A place that a turn takes less far than it was from the flesh is out of it still.
+  Deepest deepest(const Stance& stance, vec3 turn) const {
+    const quat q = turnOf(turn);
+    const float angle = glm::length(turn);
+    Deepest found;
+    for (std::size_t i = 0; i < stance.places.size(); ++i) {
+      const vec3 arm = stance.places[i] - stance.shoulder;
+      if (stance.unturned[i] + angle * glm::length(arm) <= arm_.atRest[i]) continue;
+      const auto at = flesh_.look(stance.toRest, stance.shoulder + q * arm);
+      if (const float depth = at.depth - arm_.atRest[i]; depth > found.depth)
+        found = {depth, stance.shoulder + q * arm, at.outwards};
+    }
+    return found;
+  }
+
+  // The least turn that takes the arm out, from one that does not. A hand that is most of the way through a
+  // limb would leave it on the wrong side: where the nearest way out is none, it is taken aside.
+  vec3 cleared(const Stance& stance, vec3 turn) const {
+    const vec3 nearest = turnedOut(stance, turn, vec3(0));
+    const float left = deepest(stance, nearest).depth;
+    if (stance.aside == vec3(0) || left <= kFleshGives) return nearest;
+    const vec3 aside = turnedOut(stance, turn, stance.aside);
+    return deepest(stance, aside).depth < left ? aside : nearest;
+  }
+
+  vec3 turnedOut(const Stance& stance, vec3 turn, vec3 way) const {
+    for (int k = 0; k < kSteps; ++k) {
+      const Deepest at = deepest(stance, turn);
+      if (at.depth <= kFleshGives) break;
+      const vec3 axis = glm::cross(at.place - stance.shoulder, way == vec3(0) ? at.outwards : way);
+      const float lever = std::max(glm::dot(axis, axis), kLever * kLever);
+      turn = vectorOf(turnOf(axis * ((at.depth - kFleshGives + kBeyond) / lever)) * turnOf(turn));
+      if (const float angle = glm::length(turn); angle > kMostTurn) return turn * (kMostTurn / angle);
+    }
+    return turn;
+  }
+
+  // The greatest turn of the frames near by, averaged over as many twice: as large as asked for everywhere,
+  // and without a corner. Its axis is the mean of theirs.
+  static std::vector<vec3> spread(const std::vector<vec3>& asked, int reach, bool round) {
+    const int count = int(asked.size());
+    const auto at = [&](const auto& items, int f) {
+      if (round) f = ((f % (count - 1)) + count - 1) % (count - 1);
+      return items[std::size_t(std::clamp(f, 0, count - 1))];
+    };
+    std::vector<float> sizes, greatest(asked.size());
+    for (const vec3& turn : asked) sizes.push_back(glm::length(turn));
+    for (int f = 0; f < count; ++f)
+      for (int k = -reach; k <= reach; ++k)
+        greatest[std::size_t(f)] = std::max(greatest[std::size_t(f)], at(sizes, f + k));
+    std::vector<vec3> out(asked.size());
+    for (int f = 0; f < count; ++f) {
+      float size = 0, weights = 0;
+      vec3 axis(0);
+      for (int k = -2 * reach; k <= 2 * reach; ++k) {
+        axis += float(2 * reach + 1 - std::abs(k)) * at(asked, f + k);
+        if (const int w = reach + 1 - std::abs(k); w > 0)
+          size += float(w) * at(greatest, f + k), weights += float(w);
+      }
+      out[std::size_t(f)] = directionOf(axis) * (size / weights);
+    }
+    return out;
+  }
+
+  // Keys at the frames: between its own keys a clip may bend otherwise, but frames are what is shown.
+  void turnShoulder(Clip& clip, const std::vector<vec3>& turns) const {
+    const auto& joints = body_.skeleton.joints;
+    const JointId above = joints[arm_.shoulder.value].parent;
+    Track<quat> track;
+    for (std::uint32_t f = 0; f < turns.size(); ++f) {
+      const Pose pose = samplePose(body_.skeleton, clip, clip.timeOfFrame(f));
+      const quat parent = rotationOf(above.valid() ? pose.world[above.value] : body_.skeleton.rootTransform);
+      const quat world = turnOf(turns[f]) * rotationOf(pose.world[arm_.shoulder.value]);
+      quat local = glm::normalize(glm::conjugate(parent) * world);
+      if (!track.values.empty() && glm::dot(track.values.back(), local) < 0) local = -local;
+      track.times.push_back(clip.timeOfFrame(f));
+      track.values.push_back(local);
+    }
+    const auto of =
+        std::ranges::find_if(clip.tracks, [&](const JointTracks& t) { return t.joint == arm_.shoulder; });
+    if (of != clip.tracks.end())
+      of->rotation = std::move(track);
+    else
+      clip.tracks.push_back(
+          {.joint = arm_.shoulder, .translation = {}, .rotation = std::move(track), .scale = {}});
+  }
+
+  const Body& body_;
+  const SkinnedMesh& skin_;
+  const ArmlessFlesh& flesh_;
+  const ArmPlaces& arm_;
+};
+
+}  // namespace
+
+std::vector<ClearedArm> keepArmsClear(const Body& body, std::span<Clip> clips) {
+  std::vector<ClearedArm> told;
+  const SkinnedMesh* skin = skinOf(body);
+  if (!skin || clips.empty()) return told;
+  std::vector<ArmPlaces> arms = armsOf(body, *skin);
+  if (arms.empty()) return told;
+  const ArmlessFlesh flesh(body, *skin, armJointsOf(body));
+  const Pose rest = restPose(body.skeleton);
+  const auto toRest = flesh.toRest(rest);
+  for (ArmPlaces& arm : arms)
+    for (const vec3& place : arm.posed(*skin, skinMatrices(body.skeleton, rest)))
+      arm.atRest.push_back(std::max(0.0f, flesh.look(toRest, place).depth));
+  for (Clip& clip : clips)
+    for (const ArmPlaces& arm : arms) {
+      told.push_back(ArmClearing(body, *skin, flesh, arm).run(clip));
+      told.back().clip = clip.name;
+    }
+  return told;
+}
+
+}  // namespace vasa
