@@ -29,6 +29,7 @@ Renderer rendererOf(const FilmJob& job, gpu::Device& device) {
   const StageLog stage("preparing to draw");
   RenderOptions options = job.render;
   options.table = &job.table;
+  options.skeleton = &job.scene.body.skeleton;
   return Renderer(device, job.scene.network, job.scene.body.meshes, options);
 }
 

@@ -23,7 +23,7 @@ struct Options {
 
 Result<void> makeAll(const Scene& scene, CapillaryChoice capillaries) {
   StageLog stages("levels of detail");
-  bodyLevels(scene.body.meshes);
+  bodyLevels(scene.body.meshes, &scene.body.skeleton);
   stages.next("beds of capillaries");
   capillaries.levels = 1;  // any
   if (const auto growth = growthOf(scene, capillaries); !growth) return growth.error();

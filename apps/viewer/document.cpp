@@ -123,7 +123,8 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
     if (part == 0)
       document->table = makeSweepTable(document->scene.network);
     else
-      document->levels = std::make_shared<const BodyLevels>(bodyLevels(document->scene.body.meshes));
+      document->levels = std::make_shared<const BodyLevels>(
+          bodyLevels(document->scene.body.meshes, &document->scene.body.skeleton));
   });
   document->bounds = boundsOf(document->scene);
   document->groups = std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(document->scene));

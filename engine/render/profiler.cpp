@@ -134,6 +134,7 @@ Profiler::~Profiler() = default;
 
 void Profiler::startPass(bool timed) {
   RenderOptions options = setting_.render;
+  options.skeleton = &setting_.scene->body.skeleton;
   options.shape = wanted_[rows_.size()].shape;
   options.pixelError = wanted_[rows_.size()].pixelError;
   options.timed = timed;

@@ -65,7 +65,7 @@ BodyLevels levelsOf(std::span<const SkinnedMesh> meshes, const RenderOptions& op
     for (const SkinnedMesh& mesh : meshes) all.push_back(oneLevel(mesh));
     return all;
   }
-  return options.levels ? *options.levels : bodyLevels(meshes);
+  return options.levels ? *options.levels : bodyLevels(meshes, options.skeleton);
 }
 
 gpu::TargetSpec targetSpec(const RenderOptions& options) {

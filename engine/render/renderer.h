@@ -40,6 +40,7 @@ struct RenderOptions {
   /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can
   /// share them. nullptr: made.
   const BodyLevels* levels = nullptr;
+  const Skeleton* skeleton = nullptr;  ///< of the meshes, for those that are made; nullptr: they stay at rest
   /// Vessels join smoothly, or as the network's patches have it; false: they end inside one another.
   bool forks = true;
   /// makeSweepTable() of the network, read at construction: planning forks takes a while. nullptr: made.

@@ -92,6 +92,7 @@ Image draw(gpu::Device& device, const Shot& shot) {
                     {.width = width,
                      .height = height,
                      .pixelError = kAutoPixelError,
+                     .skeleton = &all.scene.body.skeleton,
                      .supersample = 2,
                      .occlusion = true,
                      .growth = shot.growLevels ? &all.growth : nullptr,

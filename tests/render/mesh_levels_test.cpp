@@ -2,9 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "body/body.h"
+#include "body/skinning.h"
+#include "mesh/triangle_tree.h"
 
 using namespace vasa;
 
@@ -113,6 +117,52 @@ TEST_CASE("a large triangle at a sharp edge is shaded as itself, not as the edge
       CHECK(glm::length(coarse.normals[t[k]]) == doctest::Approx(1).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("levels of a straight arm hold where its elbow is bent") {
+  // A tube along +X, bent in its middle by half of the joint's turn over 6 cm.
+  constexpr int kRings = 100, kAround = 24;
+  constexpr float kLength = 0.5f, kBlend = 0.06f;
+  Skeleton arm;
+  arm.joints.resize(2);
+  arm.joints[1].parent = {0};
+  arm.joints[1].rest.translation = {kLength / 2, 0, 0};
+  arm.joints[1].restWorld = glm::translate(mat4(1), arm.joints[1].rest.translation);
+  arm.joints[1].inverseBind = glm::inverse(arm.joints[1].restWorld);
+  SkinnedMesh mesh;
+  for (int i = 0; i <= kRings; ++i)
+    for (int k = 0; k < kAround; ++k) {
+      const float x = kLength * float(i) / kRings, angle = 2 * kPi * float(k) / kAround;
+      const vec3 normal(0, std::cos(angle), std::sin(angle));
+      mesh.mesh.positions.push_back(vec3(x, 0, 0) + 0.04f * normal);
+      mesh.normals.push_back(normal);
+      const float far = glm::smoothstep(-kBlend / 2, kBlend / 2, x - kLength / 2);
+      mesh.influences.push_back({{0, 1, 0, 0}, vec4(1 - far, far, 0, 0)});
+      const auto at = [&](int ring, int spoke) { return std::uint32_t(ring * kAround + spoke % kAround); };
+      if (i == 0) continue;
+      mesh.mesh.triangles.push_back({at(i - 1, k), at(i, k), at(i, k + 1)});
+      mesh.mesh.triangles.push_back({at(i - 1, k), at(i, k + 1), at(i - 1, k + 1)});
+    }
+  // How far the mesh's vertices lie from a level of a few hundred triangles where the elbow has a right
+  // angle.
+  const auto error = [&](const Skeleton* skeleton) {
+    const LevelledMesh all = coarserLevels(mesh, skeleton);
+    const auto few =
+        std::ranges::find_if(all.levels, [](const MeshLevel& l) { return l.triangles.size() < 700; });
+    REQUIRE(few != all.levels.end());
+    std::vector<JointTransform> local{arm.joints[0].rest, arm.joints[1].rest};
+    local[1].rotation = glm::angleAxis(glm::radians(90.0f), vec3(0, 0, 1));
+    std::vector<vec3> posed;
+    skinPositions(mesh, skinMatrices(arm, poseFromLocal(arm, local)), posed);
+    const TriangleMesh coarse{posed, trianglesOf(*few)};
+    const TriangleTree tree(coarse);
+    float worst = 0;
+    for (const vec3& p : posed) worst = std::max(worst, tree.nearest(p).distance);
+    MESSAGE(few->triangles.size() << " triangles, " << 1000 * worst << " mm");
+    return worst;
+  };
+  CHECK(error(nullptr) > 0.01f);
+  CHECK(error(&arm) < 0.004f);
 }
 
 TEST_CASE("a mesh of nothing and a triangle have no coarser levels") {
