@@ -104,7 +104,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   auto scene = loadScene(others, told);
   if (!scene) return scene.error();
   document->scene = std::move(*scene);
-  clearArms(file, document->scene.body, document->scene.body.clips);
+  document->clearedArms = clearArms(file, document->scene.body, document->scene.body.clips);
   if (!file.clip.empty())
     if (const auto clip = findClip(document->scene.body, file.clip); !clip) return clip.error();
   const std::filesystem::path folder =
@@ -157,6 +157,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   made->levels = document.levels;
   made->mannequin = document.mannequin;
   made->title = document.title;
+  made->clearedArms = document.clearedArms;
   made->base = document.base;
   made->baseBinding = document.baseBinding;
   made->rebinder = document.rebinder;

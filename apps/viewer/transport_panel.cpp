@@ -1,16 +1,29 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <string_view>
+
 #include "viewer/panels.h"
 
 namespace vasa::viewer {
 namespace {
 
+void tellCleared(const Document& document, std::string_view clip) {
+  std::string text;
+  for (const ClearedArm& arm : document.clearedArms)
+    if (arm.clip == clip) text += describeArm(arm) + "\n";
+  if (text.empty()) return;
+  text.pop_back();
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
 void chooseClip(const PanelInput& in, const std::vector<Clip>& clips) {
   Playback& playback = in.state.playback;
   const char* shown = playback.clip >= 0 ? clips[std::size_t(playback.clip)].name.c_str() : "at rest";
   ImGui::SetNextItemWidth(120 * in.scale);
-  if (!ImGui::BeginCombo("##clip", shown)) return;
+  const bool open = ImGui::BeginCombo("##clip", shown);
+  if (!open && ImGui::IsItemHovered()) tellCleared(*in.document, shown);
+  if (!open) return;
   for (int i = -1; i < int(clips.size()); ++i) {
     const bool chosen = i == playback.clip;
     if (ImGui::Selectable(i < 0 ? "at rest" : clips[std::size_t(i)].name.c_str(), chosen)) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "body/limb_clearance.h"
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -160,20 +159,25 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
   return found;
 }
 
-void clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips) {
-  if (file.asRecorded) return;
-  for (const ClearedArm& arm : keepArmsClear(body, clips)) {
-    if (arm.frames == 0) continue;
-    const std::string what = fmt::format("{}: {} lies up to {:.0f} mm in the body in {} frames", arm.clip,
-                                         arm.joint, 1000 * arm.before, arm.frames);
-    if (arm.left == 0)
-      logInfo(fmt::format("{}, and is turned out of it by up to {:.0f} degrees; --as-recorded leaves it",
-                          what, glm::degrees(arm.turn)));
-    else
-      logWarning(fmt::format(
-          "{}, and still in {} of them after a turn of {:.0f} degrees; vessels there are held aside", what,
-          arm.left, glm::degrees(arm.turn)));
+std::string describeArm(const ClearedArm& arm) {
+  const std::string what = fmt::format("{} lies up to {:.0f} mm in the body in {} frames", arm.joint,
+                                       1000 * arm.before, arm.frames);
+  if (arm.left == 0)
+    return fmt::format("{}, and is turned out of it by up to {:.0f} degrees", what, glm::degrees(arm.turn));
+  return fmt::format(
+      "{}, and still in {} of them after a turn by {:.0f} degrees: vessels there are held aside", what,
+      arm.left, glm::degrees(arm.turn));
+}
+
+std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips) {
+  if (file.asRecorded) return {};
+  std::vector<ClearedArm> arms = keepArmsClear(body, clips);
+  std::erase_if(arms, [](const ClearedArm& arm) { return arm.frames == 0; });
+  for (const ClearedArm& arm : arms) {
+    const std::string text = arm.clip + ": " + describeArm(arm);
+    arm.left == 0 ? logInfo(text + "; --as-recorded leaves it") : logWarning(text);
   }
+  return arms;
 }
 
 Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file) {

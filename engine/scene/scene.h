@@ -1,6 +1,7 @@
 #pragma once
 #include "body/binding.h"
 #include "body/body.h"
+#include "body/limb_clearance.h"
 #include "network/network.h"
 #include "scene/reading.h"
 #include "scene/scene_file.h"
@@ -32,8 +33,11 @@ Result<const Clip*> findClip(const Body& body, std::string_view name);
 /// recorded.
 Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file);
 
-/// The same for all clips of a body.
-void clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips);
+/// The same for all clips of a body. @return  the arms that were, or that could not be
+std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips);
+
+/// "LeftArm lies up to 46 mm in the body in 80 frames, and is turned out of it by up to 6 degrees"
+std::string describeArm(const ClearedArm& arm);
 
 /// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name
 /// goes before a part of one, vessels before joints.
