@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "viewer/flow.h"
 #include "viewer/joint_names.h"
 #include "viewer/label.h"
 #include "viewer/panels.h"
@@ -66,8 +67,7 @@ void showTurned(const PanelInput& in) {
     if (std::exchange(first, false)) ImGui::TextDisabled("turned beside the clip");
     ImGui::PushID(int(turn.joint.value));
     const std::string text = described(*in.document->mannequin, turn);
-    if (ImGui::Selectable(text.c_str(), in.state.joint == turn.joint)) in.state.joint = turn.joint;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+    if (selectableLines(text, in.state.joint == turn.joint)) in.state.joint = turn.joint;
     ImGui::PopID();
   }
 }
@@ -80,17 +80,17 @@ void showPoseButtons(const PanelInput& in) {
     return pressed;
   };
   ImGui::Checkbox("Drag joints (P)", &state.posing);
-  ImGui::SameLine();
+  sameLineWithRoom(checkboxWidth("Both sides"));
   explained(ImGui::Checkbox("Both sides", &state.bothSides),
             "The body's other side does what is done to one");
   if (explained(ImGui::Button("Reset"), "The clip's pose")) state.turns.clear();
-  ImGui::SameLine();
+  sameLineWithRoom(buttonWidth("Mirror"));
   if (explained(ImGui::Button("Mirror"), "Left and right change places"))
     state.turns = mirroredTurns(*in.document->mannequin, state.turns);
-  ImGui::SameLine();
+  sameLineWithRoom(buttonWidth("Copy"));
   if (explained(ImGui::Button("Copy"), "Ctrl C while posing: the pose as text, as scenes have it"))
     state.wishCopyPose = true;
-  ImGui::SameLine();
+  sameLineWithRoom(buttonWidth("Paste"));
   if (explained(ImGui::Button("Paste"), "Ctrl V while posing")) state.wishPastePose = true;
 }
 
