@@ -56,15 +56,17 @@ std::string described(const Mannequin& mannequin, const JointTurn& turn) {
     text += fmt::format("{}{} {:.0f}°", mark, wordForAxis(part, axis), degrees);
     mark = ", ";
   }
-  return text;
+  if (turn.moved == vec3(0)) return text;
+  const vec3 mm = glm::round(1000.0f * turn.moved) + 0.0f;  // not "-0"
+  return text + fmt::format("{}{:.0f} mm up, {:.0f} to the left, {:.0f} forwards", mark, mm.y, mm.x, mm.z);
 }
 
 // The joints that are turned beside what the clip does; a click takes one to the sliders.
 void showTurned(const PanelInput& in) {
   bool first = true;
   for (const JointTurn& turn : in.state.turns) {
-    if (turn.angles == vec3(0)) continue;
-    if (std::exchange(first, false)) ImGui::TextDisabled("turned beside the clip");
+    if (!turn.any()) continue;
+    if (std::exchange(first, false)) ImGui::TextDisabled("posed beside the clip");
     ImGui::PushID(int(turn.joint.value));
     const std::string text = described(*in.document->mannequin, turn);
     if (selectableLines(text, in.state.joint == turn.joint)) in.state.joint = turn.joint;
@@ -112,7 +114,8 @@ void showJointChoice(const PanelInput& in) {
   if (!state.joint.valid()) return;
   ImGui::SameLine();
   if (ImGui::Button("Reset##joint")) {
-    turnOfJoint(state, state.joint, mannequin.motion(state.joint)).angles = vec3(0);
+    JointTurn& turn = turnOfJoint(state, state.joint, mannequin.motion(state.joint));
+    turn.angles = turn.moved = vec3(0);
     followOnOtherSide(mannequin, state, state.joint);
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("This joint as the clip has it");
