@@ -4,6 +4,7 @@
 
 #include "viewer/editor.h"
 #include "viewer/file_chooser.h"
+#include "viewer/flow.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
 
@@ -20,7 +21,8 @@ void showTools(const PanelInput& in) {
   Editor& editor = *in.editor;
   ViewState& state = in.state;
   const Document& document = *in.document;
-  ImGui::PushItemWidth(std::min(120 * in.scale, in.layout.picture.width - 116 * in.scale));
+  const float words = ImGui::CalcTextSize("stenosis").x + ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::PushItemWidth(std::min(120 * in.scale, ImGui::GetContentRegionAvail().x - words));
   const auto stenosis = editor.stenosisThere(document, state);
   float percent = stenosis ? float(stenosis->percent) : 0;
   if (ImGui::SliderFloat("stenosis", &percent, 0, 95, "%.0f %%", ImGuiSliderFlags_AlwaysClamp) &&
@@ -35,61 +37,77 @@ void showTools(const PanelInput& in) {
   const auto tool = [&](const char* name, EditTool which) {
     if (ImGui::RadioButton(name, state.editTool == which)) state.editTool = which;
   };
-  const float end = in.layout.picture.left + in.layout.picture.width - 12 * in.scale;
-  const auto nextTo = [&](const char* text) {  // in this line, where there is room
-    const float width = ImGui::CalcTextSize(text).x + ImGui::GetFrameHeight() + 24 * in.scale;
-    if (ImGui::GetItemRectMax().x + width < end) ImGui::SameLine();
-  };
   tool("move", EditTool::change);
-  nextTo("branch");
+  sameLineWithRoom(checkboxWidth("branch"));
   tool("branch", EditTool::branch);
-  nextTo("graft");
+  sameLineWithRoom(checkboxWidth("graft"));
   tool("graft", EditTool::graft);
-  nextTo("Delete");
+  sameLineWithRoom(buttonWidth("Delete"));
   if (ImGui::Button("Delete")) state.wishDelete = true;
-  ImGui::PushTextWrapPos(in.layout.picture.width - 24 * in.scale);
   ImGui::TextDisabled("%s", state.editTool == EditTool::branch  ? "click where the branch is to end"
                             : state.editTool == EditTool::graft ? "click the vessel where the graft is to end"
                                                                 : "drag the ring to move the vessel");
-  ImGui::PopTextWrapPos();
 }
 
 void showJournal(const PanelInput& in) {
   constexpr std::size_t kShown = 5;
   const auto& journal = in.state.journal;
-  ImGui::PushTextWrapPos(300 * in.scale);
   for (std::size_t i = journal.size() > kShown ? journal.size() - kShown : 0; i < journal.size(); ++i)
     ImGui::TextDisabled("%zu  %s", i + 1, journal[i].c_str());
+}
+
+// Over a smaller picture than this they would lie on most of it, and on what is below.
+bool isSmall(const PanelInput& in) {
+  return in.layout.picture.width < 272 * in.scale || in.layout.picture.height < 300 * in.scale;
+}
+
+bool inPanel(const PanelInput& in) { return in.layout.panels.width > 0 && isSmall(in); }
+
+bool anyEditing(const PanelInput& in) { return in.state.editing && in.document && in.editor; }
+
+void tellRefusal(const PanelInput& in, const ImVec4& colour) {
+  if (!in.editor->refusal.empty()) ImGui::TextColored(colour, "%s", in.editor->refusal.c_str());
+}
+
+void showContents(const PanelInput& in) {
+  ImGui::PushTextWrapPos();
+  if (in.state.selected) {
+    ImGui::Text("%s at %.4g", in.document->scene.network.vessel(in.state.selected->vessel).name.c_str(),
+                shareOf(in.document->scene.network, *in.state.selected));
+    showTools(in);
+  } else {
+    ImGui::TextDisabled("Click a vessel to edit it.");
+  }
+  if (!isSmall(in)) tellRefusal(in, {0.98f, 0.62f, 0.35f, 1});
+  showJournal(in);
   ImGui::PopTextWrapPos();
 }
 
 }  // namespace
 
+void showEditSection(const PanelInput& in) {
+  if (!anyEditing(in) || !inPanel(in)) return;
+  int& lastShown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("edit, frame"), -1);
+  if (lastShown != ImGui::GetFrameCount() - 1) ImGui::SetScrollY(0);  // it has just come
+  lastShown = ImGui::GetFrameCount();
+  if (ImGui::CollapsingHeader("Edit", ImGuiTreeNodeFlags_DefaultOpen)) showContents(in);
+}
+
 void showEdit(const PanelInput& in) {
-  if (!in.state.editing || !in.document || !in.editor) return;
+  if (!anyEditing(in) || inPanel(in)) return;
   const float edge = 6 * in.scale;
   const Rect& picture = in.layout.picture;
   // The head: sliders must not move away under the pointer as lines are added.
   const float below = 84 * in.scale;
+  const float width = std::min(316 * in.scale, picture.width - 2 * edge);
   ImGui::SetNextWindowPos({picture.left + edge, picture.top + below});
-  ImGui::SetNextWindowSizeConstraints({std::min(260 * in.scale, picture.width - 2 * edge), 0},
-                                      {picture.width - 2 * edge, picture.height});
-  if (ImGui::Begin("##edit", nullptr, kFixed)) {
-    if (in.state.selected) {
-      ImGui::Text("%s at %.4g", in.document->scene.network.vessel(in.state.selected->vessel).name.c_str(),
-                  shareOf(in.document->scene.network, *in.state.selected));
-      showTools(in);
-    } else {
-      ImGui::TextDisabled("Click a vessel to edit it.");
-    }
-    showJournal(in);
-    if (!in.editor->refusal.empty()) {
-      ImGui::PushTextWrapPos(std::min(picture.width - 4 * edge, 300 * in.scale));
-      ImGui::TextColored({0.98f, 0.62f, 0.35f, 1}, "%s", in.editor->refusal.c_str());
-      ImGui::PopTextWrapPos();
-    }
-  }
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(picture.height - below - edge, 1.0f)});
+  if (ImGui::Begin("##edit", nullptr, kFixed)) showContents(in);
   ImGui::End();
+}
+
+void showRefusal(const PanelInput& in) {
+  if (anyEditing(in) && isSmall(in)) tellRefusal(in, {0.85f, 0.15f, 0.12f, 1});
 }
 
 void showEditHandle(const PanelInput& in) {

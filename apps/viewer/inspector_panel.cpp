@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curve/bspline.h"
+#include "viewer/flow.h"
 #include "viewer/fuzzy.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
@@ -49,14 +50,17 @@ void showSearch(const PanelInput& in) {
   ImGui::EndChild();
 }
 
-// Two columns: now, at rest.
+// Two columns: now, at rest; in a narrow panel one above the other.
 class Facts {
  public:
-  explicit Facts(float scale) : open_(ImGui::BeginTable("##facts", 3)) {
+  explicit Facts(float scale)
+      : narrow_(ImGui::GetContentRegionAvail().x < 250 * scale),
+        open_(ImGui::BeginTable("##facts", narrow_ ? 2 : 3)) {
     if (!open_) return;
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 72 * scale);
-    ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("at rest", ImGuiTableColumnFlags_WidthStretch);
+    const float names = narrow_ ? ImGui::CalcTextSize("Clearance").x : 72 * scale;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, names);
+    ImGui::TableSetupColumn(narrow_ ? "now, at rest" : "now", ImGuiTableColumnFlags_WidthStretch);
+    if (!narrow_) ImGui::TableSetupColumn("at rest", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
   }
   ~Facts() {
@@ -64,14 +68,22 @@ class Facts {
   }
   void row(const char* name, const std::string& now, const std::string& rest) {
     if (!open_) return;
-    for (const char* text : {name, now.c_str(), rest.c_str()}) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos();
+    ImGui::TextUnformatted(now.c_str());
+    if (!narrow_) {
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(text);
+      ImGui::TextUnformatted(rest.c_str());
+    } else if (!rest.empty()) {
+      ImGui::TextDisabled("%s", rest.c_str());
     }
+    ImGui::PopTextWrapPos();
   }
 
  private:
-  bool open_;
+  bool narrow_, open_;
 };
 
 void showFacts(const PanelInput& in, VesselId id) {
@@ -105,7 +117,7 @@ void showRelatives(const PanelInput& in, const char* title, std::span<const Vess
   ImGui::TextDisabled("%s", title);
   for (const VesselId vessel : relatives) {
     ImGui::PushID(int(vessel.value));
-    if (ImGui::Selectable(in.document->scene.network.vessel(vessel).name.c_str())) choose(in, vessel, false);
+    if (selectableLines(in.document->scene.network.vessel(vessel).name)) choose(in, vessel, false);
     ImGui::PopID();
   }
 }
@@ -118,12 +130,14 @@ void showMeasure(const PanelInput& in) {
   const auto name = [&](const std::optional<VesselPlace>& place) {
     return place ? network.vessel(place->vessel).name.c_str() : "click a vessel";
   };
+  ImGui::PushTextWrapPos();
   ImGui::TextDisabled("from");
   ImGui::SameLine(50 * in.scale);
   ImGui::TextUnformatted(name(state.from));
   ImGui::TextDisabled("to");
   ImGui::SameLine(50 * in.scale);
   ImGui::TextUnformatted(name(state.to));
+  ImGui::PopTextWrapPos();
   if (!state.from || !state.to) return;
   const auto route = RouteFinder(network, in.body->points).find(*state.from, *state.to);
   if (!route)
@@ -149,7 +163,7 @@ void showInspectorSection(const PanelInput& in) {
                         vessel.ontologyId.empty() ? "" : ", ", vessel.ontologyId.c_str());
     showFacts(in, id);
     if (ImGui::Button("Go to (F)")) in.state.wishFocus = true;
-    ImGui::SameLine();
+    sameLineWithRoom(checkboxWidth("Only its tree (I)"));
     ImGui::Checkbox("Only its tree (I)", &in.state.isolate);
     const Relatives relatives = relativesOf(in.document->scene.network, id);
     showRelatives(in, "comes from", relatives.parents);

@@ -12,7 +12,7 @@ struct Rect {
 };
 
 /// How the window is shared out: the bar of menus and tools above, the picture, the list of vessels left of
-/// it, the panels right of it, the clip's time below.
+/// it, the panels right of it, the clip's time below, under the panels, too, where the window is narrow.
 struct Layout {
   Rect picture, panels, transport, outliner, bar;
 };
@@ -24,9 +24,10 @@ inline Layout layoutOf(float width, float height, float scale, bool panels, bool
   const float above = panels ? glm::min(std::round(30 * scale), height / 3) : 0;
   const float list = outliner ? glm::min(std::round(270 * scale), (width - side) / 2) : 0;
   const float across = glm::max(width - side, 1.0f), down = glm::max(height - above - below, 1.0f);
+  const bool narrow = across < 400 * scale;
   return {.picture = {list, above, glm::max(across - list, 1.0f), down},
-          .panels = {across, above, side, height - above},
-          .transport = {0, above + down, across, below},
+          .panels = {across, above, side, narrow ? down : height - above},
+          .transport = {0, above + down, narrow ? width : across, below},
           .outliner = {0, above, list, down},
           .bar = {0, 0, width, above}};
 }

@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include "viewer/flow.h"
 #include "viewer/panels.h"
 
 namespace vasa::viewer {
@@ -7,7 +8,7 @@ namespace {
 
 void choosePreset(ViewState& state) {
   for (const char* name : {"atlas", "clinical", "xray"}) {
-    if (name[0] != 'a') ImGui::SameLine();
+    if (name[0] != 'a') sameLineWithRoom(checkboxWidth(name));
     if (!ImGui::RadioButton(name, state.preset == name)) continue;
     state.preset = name;
     Look look = *lookNamed(name);
@@ -65,7 +66,7 @@ void showLookSection(const PanelInput& in) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Cuts off what is nearer to you, wherever you look from");
   bool orthographic = in.state.orbit.orthographic();
   if (ImGui::Checkbox("Orthographic", &orthographic)) in.state.orbit.setOrthographic(orthographic);
-  ImGui::SameLine();
+  sameLineWithRoom(checkboxWidth("Fine stills"));
   ImGui::Checkbox("Fine stills", &in.state.fineStills);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("What stands still is drawn anew with 4 samples a pixel and occlusion");

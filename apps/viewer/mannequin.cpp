@@ -209,6 +209,7 @@ void Mannequin::findGrips(const Skeleton& skeleton) {
       if (tip == grip.limb.joints.back().joint)  // it turns about itself: what is pulled lies above it
         grip.limb.offset =
             glm::inverse(rotationOf(skeleton.joints[tip.value].restWorld)) * vec3(0, kAbove, 0);
+      grip.carries = pull.tip == "hips";
       grips_.push_back(std::move(grip));
     }
   for (std::uint32_t j = 0; j < parts_.size(); ++j) gripHand(skeleton, {j});
@@ -258,7 +259,8 @@ std::vector<JointTurn> mirroredTurns(const Mannequin& mannequin, std::span<const
   std::vector<JointTurn> all;
   for (const JointTurn& turn : turns) {
     const JointId twin = mannequin.twinOf(turn.joint);
-    all.push_back({twin, mirroredAngles(turn.angles), mannequin.motion(twin).axes});
+    all.push_back(
+        {twin, mirroredAngles(turn.angles), mannequin.motion(twin).axes, vec3(-1, 1, 1) * turn.moved});
   }
   return all;
 }

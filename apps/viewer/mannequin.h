@@ -12,9 +12,10 @@ namespace vasa::viewer {
 
 /// A place of the body that can be taken hold of, and what moves when it is pulled.
 struct Grip {
-  std::string name;   ///< "left wrist"
-  ReachLimb limb;     ///< of which the tip is the place; limits as of a pose at rest
-  bool fine = false;  ///< on a hand: gives way to others where they lie on one another
+  std::string name;      ///< "left wrist"
+  ReachLimb limb;        ///< of which the tip is the place; limits as of a pose at rest
+  bool fine = false;     ///< on a hand: gives way to others where they lie on one another
+  bool carries = false;  ///< the whole body hangs on it: pulled, it moves and does not turn
 };
 
 /// A skeleton as something to pose: what its joints are called and how far they go, where it can be taken

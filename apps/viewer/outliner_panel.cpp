@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "curve/bspline.h"
+#include "viewer/flow.h"
 #include "viewer/label.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
@@ -67,6 +68,9 @@ void showRow(const PanelInput& in, std::span<const OutlinerRow> rows, std::size_
                         ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_AllowItemOverlap,
                         {width - indent - 1.4f * line, 0}))
     clickRow(in, rows, r);
+  if (row.vessel.valid() && ImGui::IsItemHovered() &&
+      ImGui::CalcTextSize(text.c_str()).x > width - indent - 1.4f * line)
+    ImGui::SetTooltip("%s", text.c_str());  // its end is cut off
   if (sight == RowSight::hidden) ImGui::PopStyleColor();
   if (!row.vessel.valid()) {
     const std::string count = std::to_string(row.vessels.size());
@@ -93,14 +97,17 @@ void showButtons(const PanelInput& in) {
   const auto button = [](const char* name, const char* keys) {
     const bool pressed = ImGui::Button(name);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", keys);
-    ImGui::SameLine();
     return pressed;
   };
   if (button("Hide", "What is chosen (H)")) in.state.hidden.set(network, chosen, true);
+  sameLineWithRoom(buttonWidth("Only"));
   if (button("Only", "What is chosen (Shift H)") && !chosen.empty())
     in.state.hidden.setAllBut(network, chosen);
+  sameLineWithRoom(buttonWidth("All"));
   if (button("All", "Show all (Ctrl H)")) in.state.hidden.clear();
-  ImGui::TextDisabled("%zu chosen", chosen.size());
+  const std::string count = std::to_string(chosen.size()) + " chosen";
+  sameLineWithRoom(ImGui::CalcTextSize(count.c_str()).x);
+  ImGui::TextDisabled("%s", count.c_str());
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ void showSide(const PanelInput& in) {
   if (in.layout.panels.width <= 0) return;
   place(in.layout.panels);
   if (ImGui::Begin("##side", nullptr, kFixed)) {
+    showEditSection(in);
     showInspectorSection(in);
     showLookSection(in);
     showVesselSection(in);
@@ -81,6 +82,7 @@ void showHeads(const PanelInput& in) {
     if (in.state.recording) ImGui::TextColored({0.85f, 0.15f, 0.12f, 1}, "recording (R ends it)");
     if (in.state.posing) ImGui::TextUnformatted("drag a joint; Ctrl: it alone (P ends it)");
     if (in.state.measuring) ImGui::TextUnformatted("click two vessels (M ends it)");
+    showRefusal(in);
     if (!in.message.empty()) ImGui::TextUnformatted(in.message.c_str());
     ImGui::PopTextWrapPos();
   }

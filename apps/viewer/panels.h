@@ -62,7 +62,10 @@ void showNames(const PanelInput& in);     ///< of what is pointed at and chosen,
 void showLegend(const PanelInput& in);    ///< what the colours mean, over the picture
 void showPoseSection(const PanelInput& in);
 void showHandles(const PanelInput& in);     ///< joints to drag, over the picture
-void showEdit(const PanelInput& in);        ///< what edits the chosen vessel, over the picture
+/// What edits the chosen vessel: over the picture, and in the panels where that is too small
+void showEdit(const PanelInput& in);
+void showEditSection(const PanelInput& in);
+void showRefusal(const PanelInput& in);  ///< of an edit, in a text over the picture, where that is too small
 void showEditHandle(const PanelInput& in);  ///< the chosen place, to drag
 void showQuestion(
     const PanelInput& in);               ///< before quitting or opening something else with something unsaved

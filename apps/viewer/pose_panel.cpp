@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "viewer/flow.h"
 #include "viewer/joint_names.h"
 #include "viewer/label.h"
 #include "viewer/panels.h"
@@ -55,19 +56,20 @@ std::string described(const Mannequin& mannequin, const JointTurn& turn) {
     text += fmt::format("{}{} {:.0f}°", mark, wordForAxis(part, axis), degrees);
     mark = ", ";
   }
-  return text;
+  if (turn.moved == vec3(0)) return text;
+  const vec3 mm = glm::round(1000.0f * turn.moved) + 0.0f;  // not "-0"
+  return text + fmt::format("{}{:.0f} mm up, {:.0f} to the left, {:.0f} forwards", mark, mm.y, mm.x, mm.z);
 }
 
 // The joints that are turned beside what the clip does; a click takes one to the sliders.
 void showTurned(const PanelInput& in) {
   bool first = true;
   for (const JointTurn& turn : in.state.turns) {
-    if (turn.angles == vec3(0)) continue;
-    if (std::exchange(first, false)) ImGui::TextDisabled("turned beside the clip");
+    if (!turn.any()) continue;
+    if (std::exchange(first, false)) ImGui::TextDisabled("posed beside the clip");
     ImGui::PushID(int(turn.joint.value));
     const std::string text = described(*in.document->mannequin, turn);
-    if (ImGui::Selectable(text.c_str(), in.state.joint == turn.joint)) in.state.joint = turn.joint;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+    if (selectableLines(text, in.state.joint == turn.joint)) in.state.joint = turn.joint;
     ImGui::PopID();
   }
 }
@@ -80,17 +82,17 @@ void showPoseButtons(const PanelInput& in) {
     return pressed;
   };
   ImGui::Checkbox("Drag joints (P)", &state.posing);
-  ImGui::SameLine();
+  sameLineWithRoom(checkboxWidth("Both sides"));
   explained(ImGui::Checkbox("Both sides", &state.bothSides),
             "The body's other side does what is done to one");
   if (explained(ImGui::Button("Reset"), "The clip's pose")) state.turns.clear();
-  ImGui::SameLine();
+  sameLineWithRoom(buttonWidth("Mirror"));
   if (explained(ImGui::Button("Mirror"), "Left and right change places"))
     state.turns = mirroredTurns(*in.document->mannequin, state.turns);
-  ImGui::SameLine();
+  sameLineWithRoom(buttonWidth("Copy"));
   if (explained(ImGui::Button("Copy"), "Ctrl C while posing: the pose as text, as scenes have it"))
     state.wishCopyPose = true;
-  ImGui::SameLine();
+  sameLineWithRoom(buttonWidth("Paste"));
   if (explained(ImGui::Button("Paste"), "Ctrl V while posing")) state.wishPastePose = true;
 }
 
@@ -112,7 +114,8 @@ void showJointChoice(const PanelInput& in) {
   if (!state.joint.valid()) return;
   ImGui::SameLine();
   if (ImGui::Button("Reset##joint")) {
-    turnOfJoint(state, state.joint, mannequin.motion(state.joint)).angles = vec3(0);
+    JointTurn& turn = turnOfJoint(state, state.joint, mannequin.motion(state.joint));
+    turn.angles = turn.moved = vec3(0);
     followOnOtherSide(mannequin, state, state.joint);
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("This joint as the clip has it");

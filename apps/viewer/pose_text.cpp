@@ -8,12 +8,16 @@
 namespace vasa::viewer {
 
 std::string poseText(std::span<const TurnChoice> pose) {
-  std::map<std::string, vec3> turns;  // by name, as a scene has them
-  for (const TurnChoice& turn : pose) turns[turn.joint] = turn.degrees;
+  std::map<std::string, TurnChoice> turns;  // by name, as a scene has them
+  for (const TurnChoice& turn : pose) turns[turn.joint] = turn;
+  const auto list = [](vec3 value) { return fmt::format("[{:g}, {:g}, {:g}]", value.x, value.y, value.z); };
   std::string text;
-  for (const auto& [joint, degrees] : turns)
-    text += fmt::format("{}\n    {}: [{:g}, {:g}, {:g}]", text.empty() ? "" : ",",
-                        nlohmann::json(joint).dump(), degrees.x, degrees.y, degrees.z);
+  for (const auto& [joint, turn] : turns) {
+    text += fmt::format("{}\n    {}: ", text.empty() ? "" : ",", nlohmann::json(joint).dump());
+    text += turn.metres == vec3(0)
+                ? list(turn.degrees)
+                : fmt::format("{{ \"turn\": {}, \"move\": {} }}", list(turn.degrees), list(turn.metres));
+  }
   return "{ \"pose\": {" + text + " } }\n";
 }
 

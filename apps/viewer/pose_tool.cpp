@@ -128,8 +128,10 @@ std::vector<PoseTool::Planted> PoseTool::plantedFeet(const Grip& pulled, const D
   return feet;
 }
 
-// Turns the leg so that its foot is where it was, and the ankle so that it stands as it stood.
-void PoseTool::hold(Planted& foot, const Pose& clip, const Document& document, ViewState& state) {
+// Turns the leg so that its foot is where it was, and the ankle so that it stands as it stood: under weight
+// an ankle bends farther than the tables' hanging ones (20 degrees), which would put the toes through the
+// floor of a squat. @return [m] how far above its place the foot is
+float PoseTool::hold(Planted& foot, const Pose& clip, const Document& document, ViewState& state) {
   const Skeleton& skeleton = document.scene.body.skeleton;
   const Mannequin& mannequin = *document.mannequin;
   const auto set = [&](JointId joint, vec3 sinceRest) {
@@ -145,8 +147,25 @@ void PoseTool::hold(Planted& foot, const Pose& clip, const Document& document, V
   foot.latest = there.angles;
   const Pose now = turned(skeleton, clip, state.turns);
   const JointMotion& ankle = mannequin.motion(limb.tip);
-  set(limb.tip, ankle.within(anglesSinceRest(skeleton.joints[limb.tip.value], ankle,
-                                             before(skeleton, now, limb.tip), foot.stands)));
+  set(limb.tip,
+      anglesSinceRest(skeleton.joints[limb.tip.value], ankle, before(skeleton, now, limb.tip), foot.stands));
+  return there.end.y - foot.at.y;
+}
+
+// Moves the pelvis, but not so far down that a foot would have to sink.
+void PoseTool::carry(vec3 way, const Pose& clip, const Document& document, ViewState& state) {
+  constexpr float kFloor = 1e-3f;  // [m] that a foot may sink
+  constexpr int kRaises = 4;       // raised by what is missing, folded legs lack less each time
+  const JointId pelvis = document.mannequin->grips()[held_->grip].limb.tip;
+  const JointMotion& motion = document.mannequin->motion(pelvis);
+  vec3 moved = held_->moved + way;
+  for (int raised = 0;; ++raised) {
+    turnOfJoint(state, pelvis, motion).moved = moved;
+    float sunk = 0;
+    for (Planted& foot : held_->feet) sunk = std::max(sunk, -hold(foot, clip, document, state));
+    if (sunk < kFloor || raised == kRaises) return;
+    moved.y += sunk;
+  }
 }
 
 void PoseTool::take(const JointHandle& handle, bool single, const Document& document, const PosedBody& body,
@@ -158,7 +177,10 @@ void PoseTool::take(const JointHandle& handle, bool single, const Document& docu
                placeOf(grip, body.pose),
                anglesIn(document.scene.body.skeleton, *document.mannequin, grip.limb, body.pose),
                {},
-               single ? std::vector<Planted>{} : plantedFeet(grip, document, body)};
+               single ? std::vector<Planted>{} : plantedFeet(grip, document, body),
+               vec3(0)};
+  const auto posed = std::ranges::find(state.turns, grip.limb.tip, &JointTurn::joint);
+  if (posed != state.turns.end()) held_->moved = posed->moved;
   held_->latest = held_->pressed;
   state.joint = grip.limb.joints.back().joint;  // whose sliders go along
   state.playback.playing = false;
@@ -172,6 +194,7 @@ void PoseTool::pull(vec2 to, const Document& document, const PosedBody& body, co
   if (!was) return;
   const vec3 target = held_->from + wayInPlane(camera, held_->from, to + held_->off - *was, picture.height);
   const Pose clip = unturned(skeleton, body.pose, body.order.turns);
+  if (mannequin.grips()[held_->grip].carries) return carry(target - held_->from, clip, document, state);
   const ReachLimb limb = widened(mannequin.grips()[held_->grip].limb, held_->pressed);
   const Reached there =
       reach(skeleton, turned(skeleton, clip, state.turns), limb, target, held_->pressed, held_->latest);

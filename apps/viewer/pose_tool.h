@@ -28,9 +28,10 @@ std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& po
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale);
 
 /// Poses the body by pulling it about, in the plane through what is pulled that lies parallel to the picture:
-/// a pulled wrist takes its whole arm along, within what joints can do (body/reach.h). Where the pelvis turns
-/// the feet stay where they are, as far as the legs reach. With Ctrl only the joint next to the handle turns,
-/// about the line of sight.
+/// a pulled wrist takes its whole arm along, within what joints can do (body/reach.h). A pulled pelvis moves
+/// and takes the body along; it sinks over bending knees. Where it moves, or turns because a hip is pulled,
+/// the feet stay where they are, as far as the legs reach: beyond that they leave the floor, but do not sink
+/// into it. With Ctrl only the joint next to the handle turns, about the line of sight.
 class PoseTool {
  public:
   /// @param scale  pixels for one of an ordinary screen
@@ -46,7 +47,7 @@ class PoseTool {
   std::optional<std::size_t> held() const { return held_ ? std::optional(held_->grip) : std::nullopt; }
 
  private:
-  // A foot that stays while the pelvis turns.
+  // A foot that stays while the pelvis moves or turns.
   struct Planted {
     std::size_t grip;
     vec3 at;      // [m]
@@ -61,10 +62,12 @@ class PoseTool {
     std::vector<vec3> pressed;  // angles since rest then
     std::vector<vec3> latest;
     std::vector<Planted> feet;
+    vec3 moved{0};  // [m] the pelvis, when it was taken
   };
   static std::vector<Planted> plantedFeet(const Grip& pulled, const Document& document,
                                           const PosedBody& body);
-  static void hold(Planted& foot, const Pose& clip, const Document& document, ViewState& state);
+  static float hold(Planted& foot, const Pose& clip, const Document& document, ViewState& state);
+  void carry(vec3 way, const Pose& clip, const Document& document, ViewState& state);
   void take(const JointHandle& handle, bool single, const Document& document, const PosedBody& body,
             ViewState& state);
   void pull(vec2 to, const Document& document, const PosedBody& body, const Camera& camera,

@@ -24,12 +24,6 @@ std::vector<std::uint32_t> spansOf(std::span<const Interference::Place> places) 
   return spans;
 }
 
-bool sameTurns(std::span<const JointTurn> a, std::span<const JointTurn> b) {
-  return std::ranges::equal(a, b, [](const JointTurn& x, const JointTurn& y) {
-    return x.joint == y.joint && x.angles == y.angles;
-  });
-}
-
 bool sameOptions(const PoseOrder& a, const PoseOrder& b) {
   return a.document == b.document && a.forces == b.forces && a.contacts == b.contacts;
 }
@@ -38,7 +32,7 @@ bool sameOptions(const PoseOrder& a, const PoseOrder& b) {
 
 bool PoseOrder::operator==(const PoseOrder& other) const {
   return sameOptions(*this, other) && clip == other.clip && time == other.time &&
-         measures == other.measures && sameTurns(turns, other.turns);
+         measures == other.measures && turns == other.turns;
 }
 
 void takeShapeOf(FrameMaker& maker, bool contacts, PosedBody& body) {

@@ -43,9 +43,13 @@ LookChoice lookOf(const ViewState& state) {
 std::vector<TurnChoice> poseOf(const Skeleton& skeleton, std::span<const JointTurn> turns) {
   std::vector<TurnChoice> pose;
   for (const JointTurn& turn : turns) {
-    vec3 degrees;
-    for (int axis = 0; axis < 3; ++axis) degrees[axis] = rounded(glm::degrees(turn.angles[axis]), 100);
-    if (degrees != vec3(0)) pose.push_back({skeleton.joints[turn.joint.value].name, degrees});
+    vec3 degrees, metres;
+    for (int axis = 0; axis < 3; ++axis) {
+      degrees[axis] = rounded(glm::degrees(turn.angles[axis]), 100);
+      metres[axis] = rounded(turn.moved[axis], 10'000);
+    }
+    if (degrees != vec3(0) || metres != vec3(0))
+      pose.push_back({skeleton.joints[turn.joint.value].name, degrees, metres});
   }
   return pose;
 }
@@ -56,7 +60,7 @@ std::vector<JointTurn> turnsOf(const Skeleton& skeleton, std::span<const TurnCho
     const auto joint = std::ranges::find(skeleton.joints, choice.joint, &Skeleton::Joint::name);
     if (joint == skeleton.joints.end()) continue;
     const JointId id{std::uint32_t(joint - skeleton.joints.begin())};
-    turns.push_back({id, glm::radians(choice.degrees), jointMotion(skeleton, id, {}).axes});
+    turns.push_back({id, glm::radians(choice.degrees), jointMotion(skeleton, id, {}).axes, choice.metres});
   }
   return turns;
 }

@@ -162,7 +162,9 @@ void Session::takeShape() {
 }
 
 void Session::follow() {
-  const vec3 way = wayOverFloor(document_->scene, body_->pose);
+  // Where the clip goes, not a person: the camera stays beside a pelvis that is pulled.
+  const vec3 way = wayOverFloor(document_->scene,
+                                unturned(document_->scene.body.skeleton, body_->pose, body_->order.turns));
   if (state_.follow && !state_.wishHome) carried_ += way - way_;
   way_ = way;
 }

@@ -9,10 +9,10 @@ constexpr std::size_t kMostSteps = 1000;  // some kB each
 
 }  // namespace
 
-// A joint whose sliders are shown but not moved is not turned.
+// A joint whose sliders are shown but not moved is not posed.
 Undoable UndoHistory::kept(const ViewState& state) {
   Undoable value = state;
-  std::erase_if(value.turns, [](const JointTurn& turn) { return turn.angles == vec3(0); });
+  std::erase_if(value.turns, [](const JointTurn& turn) { return !turn.any(); });
   return value;
 }
 

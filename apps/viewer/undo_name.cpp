@@ -14,9 +14,9 @@ std::string editName(const std::string& line) {
   return std::string(operationName(operation)) + " of " + vesselOf(operation);
 }
 
-vec3 anglesOf(const std::vector<JointTurn>& turns, JointId joint) {
+JointTurn turnOf(const std::vector<JointTurn>& turns, JointId joint) {
   const auto found = std::ranges::find(turns, joint, &JointTurn::joint);
-  return found == turns.end() ? vec3(0) : found->angles;
+  return found == turns.end() ? JointTurn{joint} : *found;
 }
 
 // The grip that moves all of these joints, and the fewest besides.
@@ -35,10 +35,12 @@ const Grip* gripOf(const Mannequin& mannequin, const std::vector<JointId>& joint
 std::string poseName(const Undoable& before, const Undoable& after, const Mannequin& mannequin) {
   std::vector<JointId> joints;
   for (const Undoable* step : {&before, &after})
-    for (const JointTurn& turn : step->turns)
-      if (anglesOf(before.turns, turn.joint) != anglesOf(after.turns, turn.joint) &&
-          std::ranges::find(joints, turn.joint) == joints.end())
+    for (const JointTurn& turn : step->turns) {
+      const JointTurn was = turnOf(before.turns, turn.joint), is = turnOf(after.turns, turn.joint);
+      if (was.moved != is.moved && !after.turns.empty()) return "move of " + mannequin.nameOf(turn.joint);
+      if (was.angles != is.angles && std::ranges::find(joints, turn.joint) == joints.end())
         joints.push_back(turn.joint);
+    }
   if (joints.size() == 1) return "turn of " + mannequin.nameOf(joints.front());
   if (after.turns.empty()) return "reset of the pose";
   const Grip* grip = gripOf(mannequin, joints);

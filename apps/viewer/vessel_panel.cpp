@@ -1,6 +1,9 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "shared/growth.h"
+#include "viewer/flow.h"
 #include "viewer/panels.h"
 
 namespace vasa::viewer {
@@ -27,7 +30,8 @@ void showVesselSection(const PanelInput& in) {
                      detail.capillaries ? "%d generations" : "none", ImGuiSliderFlags_AlwaysClamp);
   }
   Forces& forces = in.state.forces;
-  if (ImGui::BeginTable("##forces", 2)) {
+  const bool pairs = ImGui::GetContentRegionAvail().x > 2 * checkboxWidth("Keep volume") + 16 * in.scale;
+  if (ImGui::BeginTable("##forces", pairs ? 2 : 1)) {
     const auto item = [&](const char* name, bool& on, const char* text) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(name, &on);
@@ -40,11 +44,15 @@ void showVesselSection(const PanelInput& in) {
     item("Heartbeat", forces.beat, "The heart beats, and the vessels beside it go along");
     ImGui::EndTable();
   }
-  ImGui::SetNextItemWidth(110 * in.scale);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room =
+      ImGui::GetContentRegionAvail().x - style.ItemInnerSpacing.x - ImGui::CalcTextSize("colour (K)").x;
+  const float beside = room - style.ItemSpacing.x - checkboxWidth("Legend (L)");
+  ImGui::SetNextItemWidth(std::clamp(beside, std::min(90 * in.scale, room), 110 * in.scale));
   int colouring = int(in.state.colouring);
   if (ImGui::Combo("colour (K)", &colouring, atlas::kColourings.data(), int(atlas::kColourings.size())))
     setColouring(in.state, atlas::Colouring(colouring));
-  ImGui::SameLine();
+  sameLineWithRoom(checkboxWidth("Legend (L)"));
   ImGui::Checkbox("Legend (L)", &in.state.legend);
   if (in.state.contacts && in.body) {
     const FrameReport& report = in.body->report;

@@ -39,12 +39,18 @@ mat3 axesAtRest(vec3 bone) {
   return {bend, glm::cross(bone, bend), bone};
 }
 
-// What each turn adds in the joint's own space.
-std::vector<mat4> ownTurns(const Skeleton& skeleton, std::span<const JointTurn> turns) {
-  std::vector<mat4> own(skeleton.joints.size(), mat4(1));
+// What is done to a joint: a turn in its own space, then a way in model space.
+struct Own {
+  mat4 turn{1}, way{1};
+};
+
+std::vector<Own> ownOf(const Skeleton& skeleton, std::span<const JointTurn> turns) {
+  std::vector<Own> own(skeleton.joints.size());
   for (const JointTurn& turn : turns)
     if (turn.joint.value < own.size())
-      own[turn.joint.value] = glm::mat4_cast(turn.axes * turnByAngles(turn.angles) * glm::inverse(turn.axes));
+      own[turn.joint.value] = {
+          glm::mat4_cast(turn.axes * turnByAngles(turn.angles) * glm::inverse(turn.axes)),
+          glm::translate(mat4(1), turn.moved)};
   return own;
 }
 
@@ -95,29 +101,31 @@ vec3 anglesBeside(const Skeleton::Joint& joint, const JointMotion& motion, const
 
 namespace {
 
-// Each joint by what is its own, those below with it.
-Pose turnedBy(const Skeleton& skeleton, const Pose& pose, std::span<const mat4> own) {
-  Pose result = pose;
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const JointId parent = skeleton.joints[j].parent;
-    const mat4 before =
-        parent.valid() ? result.world[parent.value] * glm::inverse(pose.world[parent.value]) : mat4(1);
-    result.world[j] = before * pose.world[j] * own[j];
-  }
-  return result;
+// How a pose moved what hangs on a joint's parent.
+mat4 alongWithParent(const Skeleton& skeleton, std::size_t joint, const Pose& before, const Pose& after) {
+  const JointId parent = skeleton.joints[joint].parent;
+  return parent.valid() ? after.world[parent.value] * glm::inverse(before.world[parent.value]) : mat4(1);
 }
 
 }  // namespace
 
 Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
-  return turns.empty() ? pose : turnedBy(skeleton, pose, ownTurns(skeleton, turns));
+  if (turns.empty()) return pose;
+  const std::vector<Own> own = ownOf(skeleton, turns);
+  Pose result = pose;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    result.world[j] = own[j].way * alongWithParent(skeleton, j, pose, result) * pose.world[j] * own[j].turn;
+  return result;
 }
 
 Pose unturned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
   if (turns.empty()) return pose;
-  std::vector<mat4> own = ownTurns(skeleton, turns);
-  for (mat4& turn : own) turn = glm::inverse(turn);
-  return turnedBy(skeleton, pose, own);
+  const std::vector<Own> own = ownOf(skeleton, turns);
+  Pose result = pose;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    result.world[j] = alongWithParent(skeleton, j, pose, result) * glm::inverse(own[j].way) * pose.world[j] *
+                      glm::inverse(own[j].turn);
+  return result;
 }
 
 JointMotion jointMotion(const Skeleton& skeleton, JointId joint, std::string_view role) {

@@ -26,16 +26,18 @@ struct JointMotion {
 /// @param role  empty: unknown, 90 degrees each way
 JointMotion jointMotion(const Skeleton& skeleton, JointId joint, std::string_view role);
 
-/// What a person turned a joint by, after whatever the clip does with it.
+/// What a person turned a joint by, and moved it by, after whatever the clip does with it.
 struct JointTurn {
   JointId joint;
   vec3 angles{0};         ///< [rad] bend, spread and twist of JointMotion
   quat axes{1, 0, 0, 0};  ///< JointMotion::axes
+  vec3 moved{0};          ///< [m] in model space; of the pelvis, which has nothing to hang on
 
+  bool any() const { return angles != vec3(0) || moved != vec3(0); }
   bool operator==(const JointTurn&) const = default;
 };
 
-/// The pose with these joints turned, and what hangs on them along.
+/// The pose with these joints turned and moved, and what hangs on them along.
 Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns);
 /// The pose that turned() made this one of.
 Pose unturned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns);

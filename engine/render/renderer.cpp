@@ -4,21 +4,19 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <future>
 #include <optional>
-#include <string_view>
 
 #include "core/clock.h"
 #include "gpu/barrier.h"
 #include "gpu/device.h"
 #include "gpu/timer.h"
 #include "render/capillary_pass.h"
-#include "render/frame_upload.h"
+#include "render/drawn_vessels.h"
+#include "render/frame_stages.h"
 #include "render/occlusion_pass.h"
-#include "render/patch_pass.h"
 #include "render/picture.h"
+#include "render/rounds.h"
 #include "render/skin_pass.h"
-#include "render/static_tubes.h"
 
 // A frame:
 //   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
@@ -29,28 +27,16 @@
 //   made in slices rests picture, last stretch: skin; resolve
 // Stretches with nothing between them are one. One barrier a round keeps both templates apart: whatever wrote
 // or read one of them before it is finished after it. Between two barriers a device may write one template
-// while it draws the other. How many rounds a picture takes is seen once it is done: as many as the last one
-// took, and where they do not do, the frame is drawn once more with more of them. Rounds do not show in the
-// picture.
+// while it draws the other.
 namespace vasa {
+using namespace stage;
 namespace {
 
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
 constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
-constexpr const char* kTessellate = "tessellate";
-constexpr const char* kForks = "forks";
-constexpr const char* kDraw = "draw tubes";
-constexpr const char* kCapillaries = "capillaries";
-constexpr const char* kMeshes = "meshes";
-// Before it is known what pictures need: a whole body's at four samples a pixel; one that holds nothing costs
-// next to nothing.
-constexpr std::uint32_t kFirstRounds = 4;
-constexpr std::uint32_t kScopes = 7, kScopesOfRound = 3;  // that are timed
-
 std::array<float, 4> clearColour(const Look& look) {
   if (look.transparent) return {0, 0, 0, 0};
   const vec4 c = linearColour(look.background);
@@ -77,6 +63,11 @@ gpu::TargetSpec targetSpec(const RenderOptions& options) {
           .readDepth = options.occlusion};
 }
 
+FrameUpload uploadOf(gpu::Device& device, const DrawnVessels& vessels, const MeshSet& meshes) {
+  const SweepTable& table = vessels.tubes().table();
+  return {device, table.pointCount, table.knotCount, meshes.jointCount()};
+}
+
 gpu::BufferSpec readBackSpec(const gpu::Target& target) {
   return {"picture, host", target.pictureBytes(), gpu::MemoryRole::readBack};
 }
@@ -94,39 +85,25 @@ struct Renderer::State {
   /// The next batches of the picture's capillaries, and with the last one what comes behind them.
   void recordSlice(VkCommandBuffer commands, std::size_t batches);
   void drawSlice(std::size_t batches);
-  void addTimes();
   bool settleRounds(const Look& look);
+  void take(const Network& network, const SweepTable& table);
+  /// @param tubes  written by DrawnVessels::recordStatic()
   double timeStatic(const StaticTubes& tubes, const RenderInput& input);
   shared::DetailView viewOf(const RenderInput& input) const;
 
   gpu::Device& device;
   RenderOptions options;
-  const Template& templateOf(std::uint32_t round) const { return round % 2 == 0 ? first : *second; }
   void setColours(std::span<const std::uint32_t> given);
 
-  std::vector<std::uint32_t> ownColours;  // of the spans, by their vessels' kinds
-  TubeSet tubes;
-  ForkSet forks;
-  // A driver takes as long for the forks' shader as for all others: that is made beside the rest.
-  std::future<ForkPass> comingForkPass;
-  PatchSet patches;
+  DrawnVessels vessels;
   MeshSet meshes;
   FrameUpload upload;
-  DetailPass detailPass;
-  TubePass tubePass;
-  ForkPass forkPass;
-  std::optional<PatchPass> patchPass;  // where there are patches
   SkinPass skinPass;
   gpu::Target target;
   SurfacePass surfacePass;
   std::optional<OcclusionPass> occlusionPass;
-  FillRange vessels;
-  Filling filling;
-  PlanPass planPass;
-  Template first;
-  std::optional<Template> second;                        // where the first may not do
-  std::uint32_t rounds = kFirstRounds, timerRounds = 1;  // of the next frame, and that the timer has room for
-  std::uint64_t drawnTriangles = 0;
+  Rounds rounds;
+  std::uint32_t timedRounds = 1;  // that the timer has room for
   std::optional<CapillaryPass> capillaries;
   gpu::Buffer readBack;
   std::optional<gpu::GpuTimer> timer;
@@ -146,11 +123,11 @@ struct Renderer::State {
   std::size_t drawnBatches = 0;  // of its capillaries
 
  private:
-  void recordFill(VkCommandBuffer commands, std::uint32_t round);
   void recordOpaque(VkCommandBuffer commands, const Frame& frame);
   void recordRounds(VkCommandBuffer commands, const Frame& frame);
   void recordEnd(VkCommandBuffer commands, const Frame& frame);
-  void recordPatches(VkCommandBuffer commands, const shared::DrawPush& push, const Look& look);
+  void recordPatches(VkCommandBuffer commands, const Frame& frame);
+  DrawnVessels::Frame ofVessels() { return {upload, *timer, cull}; }
   void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
   void recordCapillaries(VkCommandBuffer commands, const Frame& frame, std::size_t from, std::size_t to);
 };
@@ -159,58 +136,26 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
                        const RenderOptions& chosen)
     : device(dev),
       options(chosen),
-      ownColours(kindColours(network)),
-      tubes(device, network, {chosen.shape, chosen.pixelError, chosen.forks, chosen.table},
-            chosen.templateBytes),
-      forks(device, tubes.table(), tubes.detail(), chosen.templateBytes),
-      comingForkPass(
-          std::async(std::launch::async, [this] { return ForkPass(device, options.samples, forks); })),
-      patches(device, tubes.table().patches),
+      vessels(device, network, options),
       meshes(device, skinned, levelsOf(skinned, chosen)),
-      upload(device, tubes.table().pointCount, tubes.table().knotCount, meshes.jointCount()),
-      detailPass(device, tubes),
-      tubePass(device, chosen.samples, tubes),
+      upload(uploadOf(device, vessels, meshes)),
       skinPass(device),
       target(device, targetSpec(chosen)),
       surfacePass(device, target.spec()),
-      vessels(everything(tubes)),
-      filling(device, tubes, forks, fillRoom(tubes, forks, vessels, chosen.templateBytes)),
-      planPass(device),
-      first(device, filling.room()),
       readBack(device, readBackSpec(target)),
       staticTimer(device, 1) {
   timer.emplace(device, chosen.timed ? kScopes + kScopesOfRound : 0);
-  if (!patches.empty()) patchPass.emplace(device, chosen.samples);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
   if (options.growth && options.capillaries.levels > 0)
-    capillaries.emplace(device, target.spec(), tubes, options.growth->rules, options.growth->beds,
+    capillaries.emplace(device, target.spec(), vessels.tubes(), options.growth->rules, options.growth->beds,
                         options.capillaries);
   setColours({});
-  forkPass = comingForkPass.get();
+  vessels.settle();
 }
 
 void Renderer::State::setColours(std::span<const std::uint32_t> given) {
-  const std::vector<std::uint32_t> colours = recoloured(ownColours, given);
-  tubes.setSpanColours(device, colours);
-  forks.setSpanColours(device, colours);
-  patches.setSpanColours(device, colours);
+  const std::vector<std::uint32_t> colours = vessels.setColours(given);
   if (capillaries) capillaries->setSpanColours(device, colours);
-}
-
-void Renderer::State::recordFill(VkCommandBuffer commands, std::uint32_t round) {
-  const Template& into = templateOf(round);
-  {
-    const auto scope = timer->scope(commands, kTessellate);
-    tubePass.record(commands, {tubes, detailPass, upload.points(), upload.knots(), filling, into, cull});
-    gpu::stageBarrier(commands, kCompute, kCompute);
-  }
-  const auto scope = timer->scope(commands, kForks);
-  if (vessels.forkEnd > 0) {
-    forkPass.record(commands,
-                    {tubes, forks, detailPass, upload.points(), upload.knots(), filling, into, cull});
-    gpu::stageBarrier(commands, kCompute, kCompute);
-  }
-  planPass.record(commands, filling, into);
 }
 
 void Renderer::State::recordOpaque(VkCommandBuffer commands, const Frame& frame) {
@@ -226,7 +171,7 @@ void Renderer::State::recordRounds(VkCommandBuffer commands, const Frame& frame)
   if (timed) recordOpaque(commands, frame);
   const std::uint32_t stretches = timed ? frame.rounds : std::max(frame.rounds, 1u);
   for (std::uint32_t k = 0; k < stretches; ++k) {
-    if (k + 1 < frame.rounds) recordFill(commands, k + 1);
+    if (k + 1 < frame.rounds) vessels.recordFill(commands, ofVessels(), k + 1);
     const auto scope = timer->scope(commands, kDraw);
     const bool starts = k == 0 && !timed, ends = k + 1 == stretches && frame.wholeEnd;
     target.begin(commands, clearColour(frame.look), 0,
@@ -235,7 +180,7 @@ void Renderer::State::recordRounds(VkCommandBuffer commands, const Frame& frame)
                         : gpu::Stretch::middle);
     if (starts) surfacePass.recordOpaque(commands, frame.push, meshes, frame.levels, frame.look, partial);
     if (frame.rounds > 0)
-      surfacePass.recordVessels(commands, frame.push, drawsOf(templateOf(k)), frame.look, partial);
+      surfacePass.recordVessels(commands, frame.push, vessels.drawsOfRound(k), frame.look, partial);
     if (ends) return recordEnd(commands, frame);
     target.pause(commands);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
@@ -247,11 +192,10 @@ void Renderer::State::recordEnd(VkCommandBuffer commands, const Frame& frame) {
   target.end(commands);
 }
 
-void Renderer::State::recordPatches(VkCommandBuffer commands, const shared::DrawPush& push,
-                                    const Look& look) {
+void Renderer::State::recordPatches(VkCommandBuffer commands, const Frame& frame) {
   const auto scope = timer->scope(commands, kDraw);
   target.begin(commands, {}, 0, gpu::Stretch::middle);
-  surfacePass.recordVessels(commands, push, drawsOf(patches), look, partial);
+  surfacePass.recordVessels(commands, frame.push, vessels.drawsOfPatches(), frame.look, partial);
   target.pause(commands);
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
@@ -280,14 +224,14 @@ void Renderer::State::recordCapillaries(VkCommandBuffer commands, const Frame& f
 }
 
 shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
-  return detailView(input.camera, input.look, target.spec().size, tubes.detail(),
+  return detailView(input.camera, input.look, target.spec().size, vessels.tubes().detail(),
                     detailSnap(device, target.spec().size));
 }
 
 void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
-  if (rounds > 1 && !second) second.emplace(device, filling.room());
-  if (options.timed && timerRounds < rounds)
-    timer.emplace(device, kScopes + kScopesOfRound * (timerRounds = rounds));
+  if (rounds.next() > 1) vessels.makeRoom();
+  if (options.timed && timedRounds < rounds.next())
+    timer.emplace(device, kScopes + kScopesOfRound * (timedRounds = rounds.next()));
   const bool any = anyVessels(input.look);
   partial = isPartial(input.camera, input.look);
   // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss
@@ -296,35 +240,29 @@ void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input)
   // Depth of what is translucent is grain.
   const bool occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) &&
                         input.look.style != LookStyle::xray;
-  const bool grows = capillaries && any && input.look.capillaryOpacity > 0, patched = any && patchPass;
+  const bool grows = capillaries && any && input.look.capillaryOpacity > 0,
+             patched = any && vessels.anyPatches();
   Frame frame{
       .push = drawConstants(input.camera, input.look, target.spec().size),
       .look = input.look,
       .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
                                  meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
-      .rounds = any ? rounds : 0,
+      .rounds = any ? rounds.next() : 0,
       .wholeEnd = !(options.timed || patched || occludes || grows)};
   timer->begin(commands);
   upload.record(commands);
-  if (any) {
-    const auto scope = timer->scope(commands, kTessellate);
-    filling.recordStart(commands, vessels);
-    detailPass.record(commands, tubes, upload.points(), viewOf(input));
-  }
-  if (any) recordFill(commands, 0);
-  if (patched) {
-    const auto scope = timer->scope(commands, kForks);
-    patchPass->record(commands, {tubes, patches, detailPass, upload.points(), upload.knots(), cull});
-  }
+  if (any) vessels.recordStart(commands, ofVessels(), viewOf(input));
+  if (any) vessels.recordFill(commands, ofVessels(), 0);
+  if (patched) vessels.recordPatches(commands, ofVessels());
   {
     const auto scope = timer->scope(commands, kMeshes);
     skinPass.record(commands, meshes, frame.levels, upload.joints(), upload.jointCount(), input.heartScale);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
   recordRounds(commands, frame);
-  if (any) filling.recordCopy(commands);
+  if (any) vessels.recordEnd(commands);
   if (frame.wholeEnd) return;
-  if (patched) recordPatches(commands, frame.push, input.look);
+  if (patched) recordPatches(commands, frame);
   if (occludes) recordOcclusion(commands, input);
   if (grows && capillaries->batches() > 0) {
     begun = std::move(frame);
@@ -356,31 +294,22 @@ void Renderer::State::drawSlice(std::size_t batches) {
   recordSlice(commands, batches);
   device.queue().wait(device.queue().submit(std::move(commands)));
   times.total += msSince(start);
-  addTimes();
+  addTo(times, *timer);
 }
 
-// Whether the frame's rounds did for all of its vessels; says how many the next one gets, with an eighth to
-// spare.
+// Whether the frame's rounds did for all of its vessels.
 bool Renderer::State::settleRounds(const Look& look) {
-  drawnTriangles = 0;
-  if (!anyVessels(look)) return true;
-  const shared::Filling state = filling.read();
-  const std::uint32_t room = filling.room().blocks, wanted = state.blocks + state.blocks / 8;
-  const double items = vessels.tubeEnd + vessels.forkEnd, done = double(state.firstTube) + state.firstFork;
-  const bool whole = done == items;
-  rounds = whole ? std::max({1u, state.rounds, (wanted + room - 1) / room})
-                 : std::uint32_t(
-                       std::min(items, std::max(rounds + 1.0, 1.25 * rounds * items / std::max(done, 1.0))));
-  drawnTriangles = state.indices / 3;
-  return whole;
+  if (anyVessels(look)) return rounds.settle(vessels.filling(), vessels.range());
+  rounds.settleWithout();
+  return true;
 }
 
 double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderInput& input) {
   const shared::DrawPush push = drawConstants(input.camera, input.look, target.spec().size);
   gpu::Commands commands = device.queue().begin("static draw");
   staticTimer.begin(commands);
-  if (patchPass) {
-    patchPass->recordTriangles(commands, patches, detailPass, false);
+  if (vessels.anyPatches()) {
+    vessels.recordStaticPatches(commands);
     gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
   }
   target.begin(commands, clearColour(input.look), 0, gpu::Stretch::first);
@@ -390,7 +319,7 @@ double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderI
     const auto scope = staticTimer.scope(commands, kDraw);
     target.begin(commands, {}, 0, gpu::Stretch::middle);
     tubesAtOnce.recordDraw(commands, surfacePass, push);
-    if (patchPass) surfacePass.recordVessels(commands, push, drawsOf(patches));
+    if (vessels.anyPatches()) surfacePass.recordVessels(commands, push, vessels.drawsOfPatches());
     target.pause(commands);
   }
   gpu::stageBarrier(commands, gpu::kAttachmentStages, gpu::kAttachmentStages);
@@ -429,19 +358,7 @@ void Renderer::State::drawFirst(const RenderInput& input) {
     device.queue().wait(device.queue().submit(std::move(commands)));
   } while (!settleRounds(input.look));
   times.total = msSince(start);
-  addTimes();
-}
-
-// Of what was submitted last.
-void Renderer::State::addTimes() {
-  for (const auto& [name, ms] : timer->results()) {
-    const std::string_view stage(name);
-    (stage == kTessellate    ? times.tessellate
-     : stage == kForks       ? times.forks
-     : stage == kDraw        ? times.draw
-     : stage == kCapillaries ? times.capillaries
-                             : times.meshes) += ms;
-  }
+  addTo(times, *timer);
 }
 
 void Renderer::draw(const RenderInput& input) {
@@ -457,31 +374,14 @@ bool Renderer::step() {
   return state_->begun.has_value();
 }
 
-void Renderer::take(const Network& network, const SweepTable& table) {
-  State& s = *state_;
-  const std::uint32_t bytes = s.options.templateBytes;
-  s.begun.reset();
-  s.capillaries.reset();
-  s.ownColours = kindColours(network);
-  s.tubes =
-      TubeSet(s.device, network, {s.options.shape, s.options.pixelError, s.options.forks, &table}, bytes);
-  s.forks = ForkSet(s.device, s.tubes.table(), s.tubes.detail(), bytes);
-  s.patches = PatchSet(s.device, s.tubes.table().patches);
-  if (s.filling.groupSweeps() != s.tubes.groupSweeps())
-    s.tubePass = TubePass(s.device, s.options.samples, s.tubes);
-  if (s.filling.groupForks() != s.forks.groupForks())
-    s.forkPass = ForkPass(s.device, s.options.samples, s.forks);
-  if (!s.patches.empty() && !s.patchPass) s.patchPass.emplace(s.device, s.options.samples);
-  if (s.patches.empty()) s.patchPass.reset();
-  s.upload =
-      FrameUpload(s.device, s.tubes.table().pointCount, s.tubes.table().knotCount, s.meshes.jointCount());
-  s.detailPass.fit(s.device, s.tubes);
-  s.vessels = everything(s.tubes);
-  s.filling = Filling(s.device, s.tubes, s.forks, fillRoom(s.tubes, s.forks, s.vessels, bytes));
-  s.first = Template(s.device, s.filling.room());
-  s.second.reset();
-  s.setColours({});
+void Renderer::State::take(const Network& network, const SweepTable& table) {
+  begun.reset();
+  capillaries.reset();
+  vessels.take(network, table);
+  upload = uploadOf(device, vessels, meshes);
 }
+
+void Renderer::take(const Network& network, const SweepTable& table) { state_->take(network, table); }
 
 void Renderer::resize(std::uint32_t width, std::uint32_t height) {
   State& s = *state_;
@@ -521,36 +421,24 @@ CapillaryCounts Renderer::capillaryCounts() const {
 
 double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   State& s = *state_;
-  const StaticTubes tubes(s.device, s.tubes, s.forks);
+  const StaticTubes tubes = s.vessels.makeStatic();
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);
   gpu::Commands commands = s.device.queue().begin("static vertices");
   s.upload.record(commands);
-  s.detailPass.record(commands, s.tubes, s.upload.points(), s.viewOf(input));
-  if (s.patchPass)
-    s.patchPass->record(commands, {s.tubes, s.patches, s.detailPass, s.upload.points(), s.upload.knots()});
-  tubes.recordVertices(commands, s.tubePass, s.forkPass, s.planPass, s.detailPass, s.upload.points(),
-                       s.upload.knots());
+  s.vessels.recordStatic(commands, {s.upload, *s.timer}, s.viewOf(input), tubes);
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
   for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));
   return best;
 }
 
-std::uint64_t Renderer::triangleCount() const {
-  const State& s = *state_;
-  const std::uint64_t patches =
-      s.options.pixelError > 0 ? 0 : s.patches.triangleCount(s.options.shape.around);
-  return s.tubes.triangleCount() + s.forks.triangleCount() + patches;
-}
+std::uint64_t Renderer::triangleCount() const { return state_->vessels.triangleCount(); }
 
-std::uint64_t Renderer::drawnTriangleCount() const { return state_->drawnTriangles; }
+std::uint64_t Renderer::drawnTriangleCount() const { return state_->rounds.drawnTriangles(); }
 
-std::uint32_t Renderer::sweepCount() const { return state_->tubes.table().spanCount; }
+std::uint32_t Renderer::sweepCount() const { return state_->vessels.tubes().table().spanCount; }
 
-std::uint64_t Renderer::templateBytes() const {
-  const State& s = *state_;
-  return s.first.bytes() + (s.second ? s.second->bytes() : 0) + s.filling.state().bytes() + s.patches.bytes();
-}
+std::uint64_t Renderer::templateBytes() const { return state_->vessels.bytes(); }
 
 const RenderOptions& Renderer::options() const { return state_->options; }
 

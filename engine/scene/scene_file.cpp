@@ -188,9 +188,15 @@ void readViews(Reader& reader, const Json& value, const std::string& place, std:
 void readPose(Reader& reader, const Json& value, const std::string& place, std::vector<TurnChoice>& pose) {
   if (!value.is_object()) return reader.fail(place, "must be an object of joints");
   for (const auto& [joint, turn] : value.items()) {
-    std::optional<vec3> degrees;
-    reader.vector(degrees, -360, 360)(turn, place + "/" + joint);
-    if (degrees) pose.push_back({joint, *degrees});
+    std::optional<vec3> degrees, metres;
+    const std::string where = place + "/" + joint;
+    if (turn.is_object())
+      reader.object(
+          turn, where,
+          {{"turn", reader.vector(degrees, -360, 360)}, {"move", reader.vector(metres, -kFar, kFar)}});
+    else
+      reader.vector(degrees, -360, 360)(turn, where);
+    if (degrees || metres) pose.push_back({joint, degrees.value_or(vec3(0)), metres.value_or(vec3(0))});
   }
 }
 

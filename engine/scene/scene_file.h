@@ -39,10 +39,12 @@ struct CapillaryChoice {
   std::filesystem::path rules;  ///< folder with capillaries.lsys and regions.csv; empty: the program's own
 };
 
-/// How far a joint is turned beside what the clip does with it: bend, spread and twist, as the app has them.
+/// How far a joint is turned beside what the clip does with it: bend, spread and twist, as the app has them;
+/// and how far the pelvis is moved.
 struct TurnChoice {
   std::string joint;
   vec3 degrees{0};
+  vec3 metres{0};
 };
 
 /// A view that is kept under a number: of the app.
@@ -65,7 +67,8 @@ struct ViewChoice {
 ///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5,
 ///     "rules": "folder" },
 ///     "hidden": ["left great saphenous vein"],
-///     "time": 1.5, "pose": { "LeftForeArm": [bend, spread, twist] }, "chosen": "aorta",
+///     "time": 1.5, "pose": { "LeftForeArm": [bend, spread, twist], "Hips": { "turn": [0,0,0], "move":
+///     [x,y,z] } }, "chosen": "aorta",
 ///     "labels": ["coeliac trunk"],
 ///     "views": { "1": { "position": [x,y,z], "target": [x,y,z], "angle": 30 } } }
 struct SceneFile {

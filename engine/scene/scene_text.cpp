@@ -27,6 +27,15 @@ std::string named(const std::filesystem::path& file, const std::filesystem::path
   return std::filesystem::absolute(file).lexically_normal().lexically_proximate(base).generic_string();
 }
 
+// A list where nothing is moved.
+Json turned(const TurnChoice& choice) {
+  if (choice.metres == vec3(0)) return list(choice.degrees);
+  Json json = Json::object();
+  if (choice.degrees != vec3(0)) json["turn"] = list(choice.degrees);
+  json["move"] = list(choice.metres);
+  return json;
+}
+
 Json camera(const CameraChoice& choice) {
   const CameraChoice usual;
   Json json = Json::object();
@@ -100,7 +109,7 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   add("hidden", scene.hidden);
   if (scene.time != 0) json["time"] = number(scene.time);
   std::map<std::string, Json> pose;  // by name, as readers hand them out
-  for (const TurnChoice& turn : scene.pose) pose[turn.joint] = list(turn.degrees);
+  for (const TurnChoice& turn : scene.pose) pose[turn.joint] = turned(turn);
   add("pose", pose);
   if (!scene.chosen.empty()) json["chosen"] = scene.chosen;
   add("labels", scene.labels);

@@ -107,6 +107,22 @@ TEST_CASE("what is turned is turned back, and a joint's angles since rest count 
                       hand[0].angles) < 1e-5f);
 }
 
+TEST_CASE("a joint that is moved takes along what hangs on it, and turned back all are where they were") {
+  const Skeleton skeleton = leg();
+  const JointMotion hip = jointMotion(skeleton, {0}, "leftUpperLeg"),
+                    knee = jointMotion(skeleton, {1}, "leftLowerLeg");
+  const vec3 way(0.1f, -0.3f, 0.05f);
+  const JointTurn turns[]{{{0}, {0.3f, -0.2f, 0.1f}, hip.axes, way}, {{1}, {-0.7f, 0, 0}, knee.axes}};
+  JointTurn still[]{turns[0], turns[1]};
+  still[0].moved = vec3(0);
+  const Pose rest = restPose(skeleton), moved = turned(skeleton, rest, turns),
+             there = turned(skeleton, rest, still), back = unturned(skeleton, moved, turns);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    CHECK(glm::distance(vec3(moved.world[j][3]), vec3(there.world[j][3]) + way) < 1e-6f);
+    CHECK(glm::distance(vec3(back.world[j][3]), vec3(rest.world[j][3])) < 1e-6f);
+  }
+}
+
 TEST_CASE("mirrored angles take the other side's joint to the mirrored place") {
   Skeleton both;
   for (const float side : {1.0f, -1.0f})

@@ -168,7 +168,10 @@ TEST_CASE(
   run("1600x1200", "2",
       "settle\nmove 640 600\npress right\nrelease right\nsettle\nwindow OUT/context.png\nkey escape\nkey n\nkey k\n"
       "frames 2\n");
-  for (const char* name : {"menus", "help", "context"})
+  run("800x600", "2",
+      "settle\nhold control\nkey f\nlet control\nframes 2\ntype abdominal aorta\nkey enter\nframes 2\nkey e\n"
+      "settle\nwindow OUT/narrow.png\nkey o\nsettle\nwindow OUT/narrow_list.png\n");
+  for (const char* name : {"menus", "help", "context", "narrow", "narrow_list"})
     checkPicture(folder.path() / (std::string(name) + ".png"), name);
 }
 
