@@ -61,7 +61,7 @@ void showOutliner(const PanelInput& in);  ///< the list of all vessels
 void showNames(const PanelInput& in);     ///< of what is pointed at and chosen, over the picture
 void showLegend(const PanelInput& in);    ///< what the colours mean, over the picture
 void showPoseSection(const PanelInput& in);
-void showHandles(const PanelInput& in);     ///< joints to drag, over the picture
+void showHandles(const PanelInput& in);  ///< joints to drag, over the picture
 /// What edits the chosen vessel: over the picture, and in the panels where that is too small
 void showEdit(const PanelInput& in);
 void showEditSection(const PanelInput& in);

@@ -5,9 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/atomic_file.h"
+#include "core/nearest_names.h"
 
 // Every operation lists its words once, in describe(); three kinds of `fields` go through such a list: one
 // reads a line, one writes it, one tells how it is written.
@@ -315,10 +317,12 @@ std::string grammarOf(const Operation& operation) {
   return grammar.text;
 }
 
-std::string operationList() {
-  std::string list;
-  for (const std::string_view name : kNames) list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
-  return list;
+// What was meant where an operation's name is hardly misspelt, else all of them.
+std::string meantOperation(const std::string& written) {
+  constexpr std::size_t kLongest = 32;  // twice the longest name: what is longer is none of them
+  const std::vector<std::string> names(std::begin(kNames), std::end(kNames));
+  const std::string all = fmt::format("use one of {}", fmt::join(names, ", "));
+  return written.empty() || written.size() > kLongest ? all : didYouMean(written, names, all);
 }
 
 }  // namespace
@@ -363,8 +367,8 @@ Result<std::vector<Edit>> parseJournal(std::string_view text, const std::string&
     if (words.empty()) continue;
     auto operation = words[0].isQuoted ? std::nullopt : operationNamed(words[0].text);
     if (!operation)
-      return badInput(
-          fmt::format("{}'{}' is no operation; use one of {}", where, words[0].text, operationList()));
+      return badInput(fmt::format("{}'{}' is no operation; {}", where, words[0].text,
+                                  meantOperation(words[0].isQuoted ? "" : words[0].text)));
     Reader reader(words, 1);
     std::visit([&](auto& value) { describe(reader, value), reader.atEnd(); }, *operation);
     if (reader.fault)

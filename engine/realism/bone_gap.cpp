@@ -30,32 +30,40 @@ float boneBegins(const Body& body, JointId joint) {
 
 }  // namespace
 
-float boneGap(const Body& body, const Pose& pose, JointId joint, std::optional<float> level,
-              const Network& network, const VesselPath& path, std::span<const vec4> points) {
+PosedBones::PosedBones(const Body& body, const Pose& pose) : body_(&body), pose_(&pose) {
+  const std::vector<mat4> matrices = skinMatrices(body.skeleton, pose);
+  for (const SkinnedMesh& mesh : body.meshes) {
+    if (roleNamed(mesh.name) != MeshRole::bones) continue;
+    skinPositions(mesh, matrices, bones_.emplace_back(Bone{&mesh.mesh, {}}).positions);
+  }
+}
+
+float PosedBones::distance(vec3 place) const {
+  float least = std::numeric_limits<float>::infinity();
+  for (const Bone& bone : bones_)
+    for (const uvec3& t : bone.mesh->triangles)
+      least = std::min(
+          least,
+          glm::distance(
+              place,
+              closestOnTriangle(place, bone.positions[t.x], bone.positions[t.y], bone.positions[t.z]).point));
+  return least;
+}
+
+float boneGap(const PosedBones& bones, JointId joint, std::optional<float> level, const Network& network,
+              const VesselPath& path, std::span<const vec4> points) {
   std::vector<vec4> places;
   for (const VesselPath::Station& station : path.stations)
     places.push_back(evaluate(Network::pointsOf(network.vessel(station.vessel), points), station.parameter));
   if (level) {
-    const Skeleton::Joint& limb = body.skeleton.joints[joint.value];
-    const mat4 toRest = limb.restWorld * glm::inverse(pose.world[joint.value]);
-    const float height = limb.restWorld[3].y - boneBegins(body, joint) + *level;
+    const Skeleton::Joint& limb = bones.body().skeleton.joints[joint.value];
+    const mat4 toRest = limb.restWorld * glm::inverse(bones.pose().world[joint.value]);
+    const float height = limb.restWorld[3].y - boneBegins(bones.body(), joint) + *level;
     places = {*std::ranges::min_element(
         places, {}, [&](const vec4& place) { return std::abs((toRest * vec4(vec3(place), 1)).y - height); })};
   }
-  const std::vector<mat4> matrices = skinMatrices(body.skeleton, pose);
   float gap = std::numeric_limits<float>::infinity();
-  std::vector<vec3> positions;
-  for (const SkinnedMesh& mesh : body.meshes) {
-    if (roleNamed(mesh.name) != MeshRole::bones) continue;
-    skinPositions(mesh, matrices, positions);
-    for (const vec4& place : places)
-      for (const uvec3& t : mesh.mesh.triangles)
-        gap = std::min(
-            gap, glm::distance(
-                     vec3(place),
-                     closestOnTriangle(vec3(place), positions[t.x], positions[t.y], positions[t.z]).point) -
-                     place.w);
-  }
+  for (const vec4& place : places) gap = std::min(gap, bones.distance(vec3(place)) - place.w);
   return gap;
 }
 

@@ -34,6 +34,7 @@ struct Posed {
   Pose pose;
   std::vector<vec4> points;
   std::vector<quat> rotations;
+  mutable std::optional<PosedBones> bones;  // posed for the first row that asks
 };
 
 class Study {
@@ -88,7 +89,8 @@ class Study {
     maker_.make(*pose);
     Posed made{std::move(*pose),
                {maker_.points().begin(), maker_.points().end()},
-               {maker_.rotations().begin(), maker_.rotations().end()}};
+               {maker_.rotations().begin(), maker_.rotations().end()},
+               {}};
     return &posed_.emplace(key, std::move(made)).first->second;
   }
 
@@ -106,7 +108,8 @@ class Study {
       const auto knee = jointCalled(mirror ? "rightLowerLeg" : "leftLowerLeg");
       if (!knee) return knee.error();
       const auto gap = [&](const Posed& in) {
-        return boneGap(scene_.body, in.pose, *knee, row.level, scene_.network, *path, in.points);
+        if (!in.bones) in.bones.emplace(scene_.body, in.pose);
+        return boneGap(*in.bones, *knee, row.level, scene_.network, *path, in.points);
       };
       return 1e3f * (gap(**last) - gap(**first));
     }

@@ -36,8 +36,8 @@ enum class Fate { none, forked, hidden, tooShort, crowded, folded };
 
 class Planner {
  public:
-  using Pair = std::array<VesselId, 2>;
-  Planner(const Network& network, std::span<const Pair> apart, ForkMemory& memory)
+  using VesselPair = std::array<VesselId, 2>;
+  Planner(const Network& network, std::span<const VesselPair> apart, ForkMemory& memory)
       : network_(network), lines_(makeVesselLines(network, apart)), memory_(memory) {
     exits_.resize(2 * lines_.lines.size());
     fates_.resize(exits_.size(), Fate::none);
@@ -77,8 +77,8 @@ class Planner {
   }
 
   /// Vessels whose join folds at rest in the plan of run().
-  std::vector<Pair> bent() const {
-    std::vector<Pair> pairs;
+  std::vector<VesselPair> bent() const {
+    std::vector<VesselPair> pairs;
     for (const Piece& piece : pieces_)
       for (std::size_t i = 0; i < piece.forks.size(); ++i)
         if (!piece.items[i].branch() && piece.folds[i]->rest > 0)
@@ -352,7 +352,7 @@ class Planner {
 
   void emitTube(Piece& piece, const VesselLine& line, float from, float to, bool capFrom, bool capTo) const {
     if (to <= from) return;
-    const VesselPlace a = line.place(from), b = line.place(to);
+    const LinePlace a = line.place(from), b = line.place(to);
     TubeStretch tube{b.vessel, a.vessel == b.vessel ? a.u : (b.reversed ? spansOf(b) : 0), b.u, capFrom,
                      capTo};
     if (b.reversed) {
@@ -361,9 +361,7 @@ class Planner {
     }
     if (tube.to > tube.from) piece.tubes.push_back(tube);
   }
-  float spansOf(const VesselPlace& place) const {
-    return float(network_.vessels()[place.vessel].spanCount());
-  }
+  float spansOf(const LinePlace& place) const { return float(network_.vessels()[place.vessel].spanCount()); }
 
   void emitFork(Piece& piece, const Piece& before, const VesselLine& line, const ForkItem& item) const {
     const auto same = std::ranges::find(before.items, item);
@@ -426,10 +424,8 @@ ForkPlan planWithoutForks(const Network& network) {
 
 ForkPlan planForksAs(const Network& network, const ForkWays& before, ForkMemory& memory) {
   memory.trim();
-  std::vector<Planner::Pair> apart;
-  for (const auto& [one, other] : before.apart) apart.push_back({VesselId{one}, VesselId{other}});
-  ForkPlan plan = Planner(network, apart, memory).runAs(before);
-  plan.report.bentJoins = std::uint32_t(apart.size());
+  ForkPlan plan = Planner(network, before.apart, memory).runAs(before);
+  plan.report.bentJoins = std::uint32_t(before.apart.size());
   plan.ways = before;
   return plan;
 }
@@ -441,15 +437,15 @@ ForkPlan planForks(const Network& network) {
 
 ForkPlan planForks(const Network& network, ForkMemory& memory) {
   memory.trim();
-  std::vector<Planner::Pair> apart;
+  std::vector<Planner::VesselPair> apart;
   ForkTrials shapes(network, memory);
   for (;;) {
     Planner planner(network, apart, memory);
     ForkPlan plan = planner.run(shapes);
     plan.report.bentJoins = std::uint32_t(apart.size());
-    for (const Planner::Pair& pair : apart) plan.ways.apart.push_back({pair[0].value, pair[1].value});
+    plan.ways.apart = apart;
     const std::size_t before = apart.size();
-    for (const Planner::Pair& pair : planner.bent())
+    for (const Planner::VesselPair& pair : planner.bent())
       if (pair[0] != pair[1]) apart.push_back(pair);
     if (apart.size() == before) return plan;
   }

@@ -17,10 +17,9 @@ struct TubeStretch {
 
 /// How the ends of a network's vessels leave others: what planForks() has tried out.
 struct ForkWays {
-  static constexpr std::uint8_t kTube = 255;  ///< no fork: a tube of its own
-  std::vector<std::uint8_t> of;               ///< two a vessel, that of its start first
-  std::vector<std::array<std::uint32_t, 2>>
-      apart;  ///< vessels that would fold where one runs on into the other
+  static constexpr std::uint8_t kTube = 255;   ///< no fork: a tube of its own
+  std::vector<std::uint8_t> of;                ///< two a vessel, that of its start first
+  std::vector<std::array<VesselId, 2>> apart;  ///< would fold where one runs on into the other
 };
 
 /// How the surface of a network is cut into tubes and forks. Settled once, at rest: from then on a fork is a

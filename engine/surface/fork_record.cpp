@@ -19,26 +19,26 @@ struct SpanPlace {
   float t;
 };
 
-SpanPlace spanPlace(const Network& network, const VesselPlace& place) {
+SpanPlace spanPlace(const Network& network, const LinePlace& place) {
   const Vessel& vessel = network.vessels()[place.vessel];
   const auto [span, t] = locate(place.u, vessel.spanCount());
   return {vessel.firstPoint + span, spanClassOf(span, vessel.spanCount()), span, t};
 }
 
-VesselPlace turned(VesselPlace place, bool around) {
+LinePlace turned(LinePlace place, bool around) {
   place.reversed = place.reversed != around;
   return place;
 }
 
 // d/ds of the trunk from d/du of a ring's vessel.
-float scaleAt(const Network& network, const VesselPlace& place, const ForkCourse& course) {
+float scaleAt(const Network& network, const LinePlace& place, const ForkCourse& course) {
   if (course.low.vessel == course.high.vessel) return course.high.u - course.low.u;
   const vec3 speed(evaluateDerivative(network.pointsOf(network.vessels()[place.vessel]), place.u));
   return (place.reversed ? -1.0f : 1.0f) * course.length / std::max(glm::length(speed), 1e-9f);
 }
 
 Bezier trunkAtRest(const Network& network, const ForkCourse& course, const shared::ForkRecord& record) {
-  const auto end = [&](const VesselPlace& place, float scale) {
+  const auto end = [&](const LinePlace& place, float scale) {
     const auto points = network.pointsOf(network.vessels()[place.vessel]);
     return std::pair(evaluate(points, place.u), scale * evaluateDerivative(points, place.u));
   };
@@ -79,7 +79,7 @@ shared::ForkBranch branchRecord(const Network& network, const ForkCourse::Branch
 
 }  // namespace
 
-shared::ForkRing forkRingAt(const Network& network, const VesselPlace& place) {
+shared::ForkRing forkRingAt(const Network& network, const LinePlace& place) {
   const Vessel& vessel = network.vessels()[place.vessel];
   const SpanPlace at = spanPlace(network, place);
   return {at.point,

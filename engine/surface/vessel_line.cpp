@@ -190,7 +190,7 @@ float VesselLine::wayOf(VesselId vessel, float u) const {
   return way;
 }
 
-VesselPlace VesselLine::place(float way) const {
+LinePlace VesselLine::place(float way) const {
   const std::size_t i = sampleBefore(way);
   const Sample &a = samples_[i], &b = samples_[i + 1];
   const Part& part = parts_[a.part];

@@ -6,8 +6,8 @@
 
 namespace vasa {
 
-/// A place on a vessel.
-struct VesselPlace {
+/// A place of a line: on which vessel, and which way the line runs there.
+struct LinePlace {
   std::uint32_t vessel = 0;
   float u = 0;            ///< in [0, spans]
   bool reversed = false;  ///< the line runs against the vessel's parameter
@@ -34,7 +34,7 @@ class VesselLine {
   std::span<const Join> joins() const { return joins_; }
   /// Way of a vessel's parameter, for a vessel of this line.
   float wayOf(VesselId vessel, float u) const;
-  VesselPlace place(float way) const;
+  LinePlace place(float way) const;
   /// Centre and radius.
   vec4 point(float way) const;
   /// Unit, the way the line runs.

@@ -76,6 +76,7 @@ TEST_CASE("what is wrong in a journal is told with its line and how it is writte
         "f.vedit:1: a name's closing quote is missing; names stand in double quotes");
   CHECK(faultOf("occlude \"v\tx\" 0.1") ==
         "f.vedit:1: a name holds a control character; names stand in double quotes");
+  CHECK(faultOf("stenoss v 0.1 12 70") == "f.vedit:1: 'stenoss' is no operation; did you mean stenosis?");
   CHECK(faultOf("\"occlude\" v 0.1").find("is no operation") != std::string::npos);
   CHECK(faultOf("occlude v") == "f.vedit:1: occlude: s is missing; write occlude V s");
   CHECK(faultOf("occlude \"\" 1") == "f.vedit:1: occlude: V must not be empty; write occlude V s");

@@ -34,7 +34,7 @@ TEST_CASE(
   const JointId knee{2};
   Pose pose = restPose(body.skeleton);
   const auto gapAt = [&](std::optional<float> level) {
-    return boneGap(body, pose, knee, level, *network, *path, network->points());
+    return boneGap(PosedBones(body, pose), knee, level, *network, *path, network->points());
   };
   CHECK(gapAt(0.0f) == doctest::Approx(0.033f - 0.002f).epsilon(0.01));
   CHECK(gapAt(-0.02f) == doctest::Approx(0.031f - 0.002f).epsilon(0.01));

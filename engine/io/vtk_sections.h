@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "math/types.h"
+
+namespace vasa::vtk {
+
+/// What a file does not keep to: thrown by sectionsOf(), and by whoever reads on.
+struct BrokenRule {
+  std::string place, rule;
+};
+[[noreturn]] inline void breaks(std::string place, std::string rule) {
+  throw BrokenRule{std::move(place), std::move(rule)};
+}
+
+/// One after the other: files may have a cell for two bytes.
+struct Cells {
+  std::vector<std::uint32_t> points, ends;
+  std::size_t size() const { return ends.size(); }
+  std::span<const std::uint32_t> operator[](std::size_t i) const {
+    const std::size_t from = i == 0 ? 0 : ends[i - 1];
+    return std::span(points).subspan(from, ends[i] - from);
+  }
+};
+
+/// What a legacy VTK file holds, section by section.
+struct Sections {
+  std::vector<dvec3> points;
+  std::map<std::string, Cells> cells;  ///< "LINES", "POLYGONS", "TRIANGLE_STRIPS"
+  std::map<std::string, std::vector<double>> pointData, cellData;
+};
+
+/// Throws BrokenRule.
+Sections sectionsOf(std::span<const std::byte> bytes);
+
+}  // namespace vasa::vtk
