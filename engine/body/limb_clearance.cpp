@@ -39,7 +39,8 @@ struct Stance {
   vec3 aside{0};  // from the other shoulder
   std::vector<vec3> places;
   std::vector<mat4> toRest;
-  std::vector<float> unturned;  // [m] how deep the places are without a turn, as ArmlessFlesh::Depth has it
+  std::span<const float>
+      unturned;  // [m] how deep the places are without a turn, as ArmlessFlesh::Depth has it
 };
 
 struct Deepest {
@@ -55,29 +56,30 @@ class ArmClearing {
   ClearedArm run(Clip& clip) {
     ClearedArm told{.joint = body_.skeleton.joints[arm_.shoulder.value].name};
     const std::uint32_t frames = clip.frameCount();
-    std::vector<Stance> stances(frames);
+    unturned_.assign(frames, {});
     std::vector<float> depths(frames);
-    parallelFor(frames, 1, [&](std::size_t f) {
-      stances[f] = stanceIn(samplePose(body_.skeleton, clip, clip.timeOfFrame(std::uint32_t(f))));
-      depths[f] = deepest(stances[f], vec3(0)).depth;
-    });
+    const auto stance = [&](std::size_t f) {
+      return stanceIn(samplePose(body_.skeleton, clip, clip.timeOfFrame(std::uint32_t(f))), unturned_[f]);
+    };
+    parallelFor(frames, 1, [&](std::size_t f) { depths[f] = deepest(stance(f), vec3(0)).depth; });
     told.before = *std::ranges::max_element(depths);
     told.frames = std::uint32_t(std::ranges::count_if(depths, [](float d) { return d > kFleshGives; }));
     if (told.frames == 0) return told;
     const auto reach = std::max(1, int(std::lround(kReachSeconds * clip.framesPerSecond)));
     const bool round = closes(body_.skeleton, clip);
     std::vector<vec3> asked(frames, vec3(0)), turns = asked;
-    for (int k = 0; k < kRounds; ++k) {
+    for (int k = 0;; ++k) {
       std::atomic<bool> done = true;
       parallelFor(frames, 1, [&](std::size_t f) {
-        if (deepest(stances[f], turns[f]).depth <= kFleshGives) return;
-        asked[f] = cleared(stances[f], turns[f]);
+        const Stance here = stance(f);
+        depths[f] = deepest(here, turns[f]).depth;
+        if (depths[f] <= kFleshGives || k == kRounds) return;
+        asked[f] = cleared(here, turns[f]);
         done = false;
       });
       if (done) break;
       turns = spread(asked, reach, round);
     }
-    parallelFor(frames, 1, [&](std::size_t f) { depths[f] = deepest(stances[f], turns[f]).depth; });
     told.after = *std::ranges::max_element(depths);
     told.left = std::uint32_t(std::ranges::count_if(depths, [](float d) { return d > kFleshGives; }));
     for (const vec3& turn : turns) told.turn = std::max(told.turn, glm::length(turn));
@@ -86,14 +88,16 @@ class ArmClearing {
   }
 
  private:
-  Stance stanceIn(const Pose& pose) const {
+  // @param unturned  kept from one time to the next: most of the cost
+  Stance stanceIn(const Pose& pose, std::vector<float>& unturned) const {
     const vec3 shoulder(pose.world[arm_.shoulder.value][3]);
     const vec3 aside =
         arm_.other.valid() ? directionOf(shoulder - vec3(pose.world[arm_.other.value][3])) : vec3(0);
     Stance stance{
         shoulder, aside, arm_.posed(skin_, skinMatrices(body_.skeleton, pose)), flesh_.toRest(pose), {}};
-    for (const vec3& place : stance.places)
-      stance.unturned.push_back(flesh_.look(stance.toRest, place).depth);
+    if (unturned.empty())
+      for (const vec3& place : stance.places) unturned.push_back(flesh_.look(stance.toRest, place).depth);
+    stance.unturned = unturned;
     return stance;
   }
 
@@ -188,6 +192,7 @@ class ArmClearing {
   const SkinnedMesh& skin_;
   const ArmlessFlesh& flesh_;
   const ArmPlaces& arm_;
+  std::vector<std::vector<float>> unturned_;  // one a frame
 };
 
 }  // namespace
@@ -206,6 +211,7 @@ std::vector<ClearedArm> keepArmsClear(const Body& body, std::span<Clip> clips) {
       arm.atRest.push_back(std::max(0.0f, flesh.look(toRest, place).depth));
   for (Clip& clip : clips)
     for (const ArmPlaces& arm : arms) {
+      if (clip.frameCount() > kMostClearedFrames) continue;
       told.push_back(ArmClearing(body, *skin, flesh, arm).run(clip));
       told.back().clip = clip.name;
     }

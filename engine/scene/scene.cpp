@@ -171,6 +171,11 @@ std::string describeArm(const ClearedArm& arm) {
 
 std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips) {
   if (file.asRecorded) return {};
+  for (const Clip& clip : clips)
+    if (clip.frameCount() > kMostClearedFrames)
+      logWarning(fmt::format(
+          "{}: of more than {} frames, so that arms are left as they are, also where they pass through the body",
+          clip.name, kMostClearedFrames));
   std::vector<ClearedArm> arms = keepArmsClear(body, clips);
   std::erase_if(arms, [](const ClearedArm& arm) { return arm.frames == 0; });
   for (const ClearedArm& arm : arms) {
