@@ -54,6 +54,8 @@ void addPlaces(const SkinnedMesh& skin, const uvec3& t, std::set<std::tuple<int,
     }
 }
 
+float distanceTo(const Aabb& box, vec3 p) { return glm::distance(p, glm::clamp(p, box.low, box.high)); }
+
 std::uint32_t upperArm(const Rig& rig, const char* side) {
   return rig.partNamed(std::string(side) + "UpperArm");
 }
@@ -86,25 +88,46 @@ float ArmlessFlesh::weightOf(std::uint32_t joint, std::uint32_t triangle) const 
   return sum / 3;
 }
 
+void ArmlessFlesh::lookFrom(std::size_t host, const mat4& toRest, vec3 place, Depth& found) const {
+  const vec3 atRest(toRest * vec4(place, 1));
+  if (const float aside = distanceTo(hosts_[host].box, atRest); aside > 0) {
+    found.depth = std::max(found.depth, -aside);
+    return;
+  }
+  const SkinShell::Place at = shell_.look(atRest);
+  if (weightOf(hosts_[host].joint, at.triangle) < kMoves)
+    found.depth = std::max(found.depth, std::min(at.depth, 0.0f));
+  else if (at.depth > found.depth)
+    found = {at.depth, directionOf(at.normal * mat3(toRest))};  // the inverse's transpose
+}
+
 ArmlessFlesh::Depth ArmlessFlesh::look(std::span<const mat4> toRest, vec3 place) const {
   Depth found;
-  for (std::size_t h = 0; h < hosts_.size(); ++h) {
-    const vec3 atRest(toRest[h] * vec4(place, 1));
-    const Aabb& box = hosts_[h].box;
-    const float aside = glm::distance(atRest, glm::clamp(atRest, box.low, box.high));
-    if (aside > 0) {
-      found.depth = std::max(found.depth, -aside);
-      continue;
-    }
-    const SkinShell::Place at = shell_.look(atRest);
-    if (weightOf(hosts_[h].joint, at.triangle) < kMoves) {
-      found.depth = std::max(found.depth, std::min(at.depth, 0.0f));
-      continue;
-    }
-    if (at.depth <= found.depth) continue;
-    found = {at.depth, directionOf(at.normal * mat3(toRest[h]))};  // the inverse's transpose
-  }
+  for (std::size_t h = 0; h < hosts_.size(); ++h) lookFrom(h, toRest[h], place, found);
   return found;
+}
+
+std::vector<float> ArmlessFlesh::depths(std::span<const mat4> toRest, std::span<const vec3> places) const {
+  Aabb box;
+  for (const vec3& place : places) box.add(place);
+  const vec3 centre = box.centre();
+  const float radius = glm::length(box.extent()) / 2;
+  Depth far;  // of joints that no place is near to: at least as far away
+  std::vector<std::size_t> near;
+  for (std::size_t h = 0; h < hosts_.size(); ++h) {
+    const float aside = distanceTo(hosts_[h].box, vec3(toRest[h] * vec4(centre, 1))) - radius;
+    if (aside > 0)
+      far.depth = std::max(far.depth, -aside);
+    else
+      near.push_back(h);
+  }
+  std::vector<float> out;
+  for (const vec3& place : places) {
+    Depth found = far;
+    for (const std::size_t h : near) lookFrom(h, toRest[h], place, found);
+    out.push_back(found.depth);
+  }
+  return out;
 }
 
 std::vector<vec3> ArmPlaces::posed(const SkinnedMesh& skin, std::span<const mat4> skinMatrices) const {

@@ -24,6 +24,8 @@ class ArmlessFlesh {
   };
   /// O(log triangles) where a joint's skin is near.
   Depth look(std::span<const mat4> toRest, vec3 place) const;
+  /// Depths of places that lie near one another: joints far from all of them are looked at once.
+  std::vector<float> depths(std::span<const mat4> toRest, std::span<const vec3> places) const;
 
  private:
   struct Host {
@@ -32,6 +34,7 @@ class ArmlessFlesh {
     mat4 restWorld{1};
   };
   float weightOf(std::uint32_t joint, std::uint32_t triangle) const;
+  void lookFrom(std::size_t host, const mat4& toRest, vec3 place, Depth& found) const;
 
   std::vector<SkinInfluence> influences_;
   SkinShell shell_;

@@ -39,8 +39,7 @@ struct Stance {
   vec3 aside{0};  // from the other shoulder
   std::vector<vec3> places;
   std::vector<mat4> toRest;
-  std::span<const float>
-      unturned;  // [m] how deep the places are without a turn, as ArmlessFlesh::Depth has it
+  std::span<const float> unturned;  // [m] how deep the places are without a turn (ArmlessFlesh::depths)
 };
 
 struct Deepest {
@@ -95,8 +94,7 @@ class ArmClearing {
         arm_.other.valid() ? directionOf(shoulder - vec3(pose.world[arm_.other.value][3])) : vec3(0);
     Stance stance{
         shoulder, aside, arm_.posed(skin_, skinMatrices(body_.skeleton, pose)), flesh_.toRest(pose), {}};
-    if (unturned.empty())
-      for (const vec3& place : stance.places) unturned.push_back(flesh_.look(stance.toRest, place).depth);
+    if (unturned.empty()) unturned = flesh_.depths(stance.toRest, stance.places);
     stance.unturned = unturned;
     return stance;
   }
