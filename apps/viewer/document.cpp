@@ -104,7 +104,6 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   auto scene = loadScene(others, told);
   if (!scene) return scene.error();
   document->scene = std::move(*scene);
-  document->clearedArms = clearArms(file, document->scene.body, document->scene.body.clips);
   if (!file.clip.empty())
     if (const auto clip = findClip(document->scene.body, file.clip); !clip) return clip.error();
   const std::filesystem::path folder =
@@ -119,9 +118,11 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   const char* what = "planning where vessels join, preparing the body's meshes";
   const StageLog stage(what);
   told(what, 0, 0);
-  parallelFor(2, 1, [&](std::size_t part) {
+  parallelFor(3, 1, [&](std::size_t part) {
     if (part == 0)
       document->table = makeSweepTable(document->scene.network);
+    else if (part == 1)
+      document->clearedArms = clearArms(file, document->scene.body, document->scene.body.clips);
     else
       document->levels = std::make_shared<const BodyLevels>(
           bodyLevels(document->scene.body.meshes, &document->scene.body.skeleton));
