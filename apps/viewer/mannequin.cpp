@@ -8,6 +8,7 @@
 #include "body/humanoid.h"
 #include "body/mirror.h"
 #include "body/retarget.h"
+#include "math/direction.h"
 #include "viewer/joint_names.h"
 
 namespace vasa::viewer {

@@ -17,12 +17,6 @@ constexpr float kMoves = 0.25f;
 constexpr float kSpacing = 0.02f;  // [m] between places on an arm: a finger has two around
 constexpr int kMostCuts = 16;      // of a triangle: longer ones are none of an arm
 
-bool isBelow(const Skeleton& skeleton, std::uint32_t joint, std::uint32_t top) {
-  for (JointId at{joint}; at.valid(); at = skeleton.joints[at.value].parent)
-    if (at.value == top) return true;
-  return false;
-}
-
 float weightOn(const SkinInfluence& influence, auto&& counts) {
   float sum = 0;
   for (int k = 0; k < 4; ++k)
@@ -53,8 +47,6 @@ void addPlaces(const SkinnedMesh& skin, const uvec3& t, std::set<std::tuple<int,
       if (taken.emplace(int(cell.x), int(cell.y), int(cell.z)).second) places.push_back({t, shares});
     }
 }
-
-float distanceTo(const Aabb& box, vec3 p) { return glm::distance(p, glm::clamp(p, box.low, box.high)); }
 
 std::uint32_t upperArm(const Rig& rig, const char* side) {
   return rig.partNamed(std::string(side) + "UpperArm");
@@ -90,7 +82,7 @@ float ArmlessFlesh::weightOf(std::uint32_t joint, std::uint32_t triangle) const 
 
 void ArmlessFlesh::lookFrom(std::size_t host, const mat4& toRest, vec3 place, Depth& found) const {
   const vec3 atRest(toRest * vec4(place, 1));
-  if (const float aside = distanceTo(hosts_[host].box, atRest); aside > 0) {
+  if (const float aside = hosts_[host].box.distance(atRest); aside > 0) {
     found.depth = std::max(found.depth, -aside);
     return;
   }
@@ -115,7 +107,7 @@ std::vector<float> ArmlessFlesh::depths(std::span<const mat4> toRest, std::span<
   Depth far;  // of joints that no place is near to: at least as far away
   std::vector<std::size_t> near;
   for (std::size_t h = 0; h < hosts_.size(); ++h) {
-    const float aside = distanceTo(hosts_[h].box, vec3(toRest[h] * vec4(centre, 1))) - radius;
+    const float aside = hosts_[h].box.distance(vec3(toRest[h] * vec4(centre, 1))) - radius;
     if (aside > 0)
       far.depth = std::max(far.depth, -aside);
     else
@@ -131,15 +123,7 @@ std::vector<float> ArmlessFlesh::depths(std::span<const mat4> toRest, std::span<
 }
 
 std::vector<vec3> ArmPlaces::posed(const SkinnedMesh& skin, std::span<const mat4> skinMatrices) const {
-  const auto vertex = [&](std::uint32_t v) {
-    const SkinInfluence& influence = skin.influences[v];
-    vec4 sum(0);
-    for (int k = 0; k < 4; ++k)
-      if (influence.weights[k] > 0)
-        sum += influence.weights[k] *
-               (skinMatrices[influence.joints[std::size_t(k)]] * vec4(skin.mesh.positions[v], 1));
-    return vec3(sum);
-  };
+  const auto vertex = [&](std::uint32_t v) { return skinnedPosition(skin, skinMatrices, v); };
   std::vector<vec3> out;
   for (const Place& place : places)
     out.push_back(place.shares.x * vertex(place.corners.x) + place.shares.y * vertex(place.corners.y) +
@@ -153,7 +137,7 @@ std::vector<char> armJointsOf(const Body& body) {
   for (const char* side : {"left", "right"})
     if (const std::uint32_t top = upperArm(rig, side); top != Rig::kNone)
       for (std::uint32_t j = 0; j < arm.size(); ++j)
-        if (isBelow(body.skeleton, j, top)) arm[j] = 1;
+        if (hangsOn(rig.parents, j, top)) arm[j] = 1;
   return arm;
 }
 
@@ -162,10 +146,10 @@ std::vector<ArmPlaces> armsOf(const Body& body, const SkinnedMesh& skin) {
   const Rig rig = rigOf(body.skeleton);
   for (const char* side : {"left", "right"}) {
     const std::uint32_t top = upperArm(rig, side), lower = rig.partNamed(std::string(side) + "LowerArm");
-    if (top == Rig::kNone || lower == Rig::kNone || !isBelow(body.skeleton, lower, top)) continue;
+    if (top == Rig::kNone || lower == Rig::kNone || !hangsOn(rig.parents, lower, top)) continue;
     const auto onLowerArm = [&](std::uint32_t v) {
       return weightOn(skin.influences[v],
-                      [&](std::size_t j) { return isBelow(body.skeleton, std::uint32_t(j), lower); }) > 0.5f;
+                      [&](std::size_t j) { return hangsOn(rig.parents, std::uint32_t(j), lower); }) > 0.5f;
     };
     ArmPlaces arm{.shoulder = {top}, .other = {}, .places = {}, .atRest = {}};
     std::set<std::tuple<int, int, int>> taken;

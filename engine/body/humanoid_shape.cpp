@@ -7,6 +7,7 @@
 #include <string>
 
 #include "body/humanoid.h"
+#include "body/skeleton.h"
 #include "core/ids.h"
 
 namespace vasa {
@@ -91,15 +92,16 @@ class Shape {
     // Of pairs inside a limb (two bones of a forearm) only those along the trunk count: a limb's joint is
     // below a pair.
     std::erase_if(pairs, [&](const Pair& p) {
-      return std::ranges::any_of(
-          pairs, [&](const Pair& q) { return q.at != p.at && (isBelow(p.at, q.a) || isBelow(p.at, q.b)); });
+      return std::ranges::any_of(pairs, [&](const Pair& q) {
+        return q.at != p.at && (hangsOn(parents_, p.at, q.a) || hangsOn(parents_, p.at, q.b));
+      });
     });
     if (pairs.size() < 2) return false;
     std::ranges::stable_sort(pairs, std::greater{}, &Pair::length);
     Pair legs = pairs[0], arms = pairs[1];
     // The joint nearer to the root has the legs, as a rule; where the other pair has the feet, that one has.
-    if (isBelow(legs.at, arms.at)) std::swap(legs, arms);
-    if (!isBelow(arms.at, legs.at)) return false;
+    if (hangsOn(parents_, legs.at, arms.at)) std::swap(legs, arms);
+    if (!hangsOn(parents_, arms.at, legs.at)) return false;
     const auto leg = limb(legs.a, false);
     if (!leg) return false;
     legBones_ = straight(leg->chain, leg->upper, leg->lower) + straight(leg->chain, leg->lower, leg->end);
@@ -112,12 +114,6 @@ class Shape {
         return false;
     }
     return true;
-  }
-
-  bool isBelow(std::uint32_t joint, std::uint32_t above) const {
-    for (; joint != kNone; joint = parents_[joint])
-      if (joint == above) return true;
-    return false;
   }
 
   std::uint32_t longest(std::uint32_t joint) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/direction.h"
+
 namespace vasa {
 namespace {
 
@@ -71,11 +73,6 @@ vec3 anglesOfTurn(quat turn) {
   const float sine = glm::length(vec2(swing.x, swing.y));
   const float share = sine > 0 ? 2 * std::atan2(sine, swing.w) / sine : 2;
   return {share * swing.x, share * swing.y, 2 * half};
-}
-
-quat rotationOf(const mat4& world) {
-  return glm::quat_cast(
-      mat3(glm::normalize(vec3(world[0])), glm::normalize(vec3(world[1])), glm::normalize(vec3(world[2]))));
 }
 
 namespace {

@@ -57,9 +57,6 @@ vec3 anglesSinceRest(const Skeleton::Joint& joint, const JointMotion& motion, co
 vec3 anglesBeside(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
                   const mat4& world, vec3 sinceRest);
 
-/// Rotation of a transform, whatever its scale.
-quat rotationOf(const mat4& world);
-
 /// What a joint on one side of the body is turned by where its twin on the other is turned by these angles.
 inline vec3 mirroredAngles(vec3 angles) { return {angles.x, -angles.y, -angles.z}; }
 

@@ -24,11 +24,6 @@ constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
 constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
 const quat kIdentity(1, 0, 0, 0);
 
-quat rotationOf(const mat4& m) {
-  const vec3 x = directionOf(vec3(m[0])), y = directionOf(vec3(m[1]) - glm::dot(vec3(m[1]), x) * x);
-  return glm::normalize(glm::quat_cast(mat3(x, y, glm::cross(x, y))));
-}
-
 std::string perhaps(const std::string& name, std::span<const std::string> names) {
   const std::string near = didYouMean(name, names);
   return near.empty() ? near : "; " + near;

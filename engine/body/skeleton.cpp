@@ -19,6 +19,12 @@ JointId Skeleton::find(std::string_view name) const {
   return {};
 }
 
+bool hangsOn(std::span<const std::uint32_t> parents, std::uint32_t joint, std::uint32_t top) {
+  for (; joint != JointId::kNone; joint = parents[joint])
+    if (joint == top) return true;
+  return false;
+}
+
 Pose restPose(const Skeleton& skeleton) {
   Pose pose;
   pose.world.reserve(skeleton.joints.size());

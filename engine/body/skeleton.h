@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Skeleton {
   /// The joint with this name; invalid if there is none.
   JointId find(std::string_view name) const;
 };
+
+/// Whether a joint is `top` or hangs on it. @param parents  of each joint; JointId::kNone at a root
+bool hangsOn(std::span<const std::uint32_t> parents, std::uint32_t joint, std::uint32_t top);
 
 /// A pose: each joint's transform in model space.
 struct Pose {

@@ -5,7 +5,7 @@
 namespace vasa {
 namespace {
 
-mat4 blended(const SkinInfluence& influence, const std::vector<mat4>& matrices) {
+mat4 blended(const SkinInfluence& influence, std::span<const mat4> matrices) {
   mat4 sum(0);
   for (int i = 0; i < 4; ++i)
     if (influence.weights[i] != 0) sum += influence.weights[i] * matrices[influence.joints[std::size_t(i)]];
@@ -37,12 +37,15 @@ void skinVertices(const SkinnedMesh& mesh, const std::vector<mat4>& matrices, st
   }
 }
 
+vec3 skinnedPosition(const SkinnedMesh& mesh, std::span<const mat4> matrices, std::uint32_t vertex) {
+  return vec3(blended(mesh.influences[vertex], matrices) * vec4(mesh.mesh.positions[vertex], 1));
+}
+
 void skinPositions(const SkinnedMesh& mesh, const std::vector<mat4>& matrices, std::vector<vec3>& positions) {
   const std::size_t count = mesh.mesh.positions.size();
   assert(mesh.influences.size() == count);
   positions.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-    positions[i] = vec3(blended(mesh.influences[i], matrices) * vec4(mesh.mesh.positions[i], 1));
+  for (std::uint32_t i = 0; i < count; ++i) positions[i] = skinnedPosition(mesh, matrices, i);
 }
 
 }  // namespace vasa

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "body/body.h"
@@ -17,7 +18,10 @@ std::vector<mat4> skinMatrices(const Skeleton& skeleton, const Pose& pose);
 void skinVertices(const SkinnedMesh& mesh, const std::vector<mat4>& matrices, std::vector<vec3>& positions,
                   std::vector<vec3>& normals);
 
-/// The same without normals.
+/// One vertex of it.
+vec3 skinnedPosition(const SkinnedMesh& mesh, std::span<const mat4> matrices, std::uint32_t vertex);
+
+/// All of them without normals.
 void skinPositions(const SkinnedMesh& mesh, const std::vector<mat4>& matrices, std::vector<vec3>& positions);
 
 }  // namespace vasa

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "math/direction.h"
+
 namespace vasa::gltf {
 namespace {
 
@@ -36,11 +38,6 @@ std::optional<JointTransform> parts(const mat4& m) {
   const float size = difference(m, mat4(0));
   if (!(difference(out.matrix(), m) <= kSamePose * std::max(size, 1e-6f))) return std::nullopt;
   return out;
-}
-
-mat3 rotationOf(const mat4& m) {
-  const vec3 x = glm::normalize(vec3(m[0])), y = glm::normalize(vec3(m[1]) - glm::dot(vec3(m[1]), x) * x);
-  return mat3(x, y, glm::cross(x, y));
 }
 
 struct Link {
@@ -82,7 +79,7 @@ mat4 spaceOf(const Skeleton& skeleton, const std::vector<Link>& links) {
   const auto off = [&](float unit) { return std::abs(std::log(measured / unit)); };
   float scale = ofNodes > 0 && off(ofNodes) < off(1) ? ofNodes : 1.0f;
   if (off(scale) > kAnotherUnit) scale = measured;
-  const mat3 nodes = sound(above) ? rotationOf(above) : mat3(1);
+  const mat3 nodes = sound(above) ? glm::mat3_cast(rotationOf(above)) : mat3(1);
   const bool inNodes = likeness(links, nodes) > likeness(links, mat3(1)) + 1e-3f;
   mat3 turn = inNodes ? nodes : mat3(1);
   if (likeness(links, turn) < kTurnedLinks)

@@ -25,6 +25,8 @@ struct Aabb {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
   }
+  /// From a place to the box; zero inside.
+  float distance(vec3 p) const { return glm::length(glm::max(glm::max(low - p, p - high), vec3(0))); }
   bool overlaps(const Aabb& other) const {
     return glm::all(glm::lessThanEqual(low, other.high)) && glm::all(glm::lessThanEqual(other.low, high));
   }

@@ -21,4 +21,12 @@ inline quat turnBetween(vec3 from, vec3 to) {
   return glm::normalize(quat(1 + cosine, glm::cross(from, to)));
 }
 
+/// The rotation in a transform, whatever its scale; where it is sheared, of its x axis and of its y axis
+/// beside that.
+inline quat rotationOf(const mat4& transform) {
+  const vec3 x = directionOf(vec3(transform[0]));
+  const vec3 y = directionOf(vec3(transform[1]) - glm::dot(vec3(transform[1]), x) * x);
+  return glm::normalize(glm::quat_cast(mat3(x, y, glm::cross(x, y))));
+}
+
 }  // namespace vasa

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
 
-float distanceToBox(vec3 p, const Aabb& box) {
-  return glm::length(glm::max(glm::max(box.low - p, p - box.high), vec3(0)));
-}
-
 }  // namespace
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
@@ -65,10 +61,9 @@ TriangleTree::Nearest TriangleTree::nearest(vec3 p, float within) const {
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    if (distanceToBox(p, node.box) >= best.distance) continue;
+    if (node.box.distance(p) >= best.distance) continue;
     if (node.count == 0) {
-      const bool leftNearer =
-          distanceToBox(p, nodes_[node.first].box) <= distanceToBox(p, nodes_[node.first + 1].box);
+      const bool leftNearer = nodes_[node.first].box.distance(p) <= nodes_[node.first + 1].box.distance(p);
       stack[depth++] = node.first + (leftNearer ? 1 : 0);
       stack[depth++] = node.first + (leftNearer ? 0 : 1);
       continue;
@@ -89,7 +84,7 @@ void TriangleTree::nearPlane(vec3 onPlane, vec3 normal, float reach,
   if (nodes_.empty()) return;
   const std::size_t before = triangles.size();
   const auto crosses = [&](const Aabb& box) {
-    if (distanceToBox(onPlane, box) > reach) return false;
+    if (box.distance(onPlane) > reach) return false;
     const float half = 0.5f * glm::dot(box.extent(), glm::abs(normal));
     return std::abs(glm::dot(box.centre() - onPlane, normal)) <= half * 1.0001f + 1e-7f;
   };

@@ -53,6 +53,14 @@ std::vector<vec3> bentPositions(const SkinnedMesh& mesh, const Skeleton* skeleto
   return bent;
 }
 
+// Of all that says where a bent mesh is, beside the mesh itself.
+std::uint64_t hashOfPose(const Skeleton& skeleton, std::uint64_t key) {
+  for (const auto& joint : skeleton.joints)
+    key = hashOf(std::span(&joint.inverseBind, 1),
+                 hashOf(std::span(&joint.rest, 1), hashOf(std::span(&joint.parent, 1), key)));
+  return hashOf(std::span(&skeleton.rootTransform, 1), key);
+}
+
 std::vector<uvec3> simplified(const TriangleMesh& mesh, std::span<const vec3> positions, float error) {
   std::vector<uvec3> fewer(mesh.triangles.size());
   const std::size_t vertices = positions.size();
@@ -176,9 +184,9 @@ BodyLevels bodyLevels(std::span<const SkinnedMesh> meshes, const Skeleton* skele
   for (const SkinnedMesh& mesh : meshes) {
     key = hashOf(std::span(mesh.normals),
                  hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key)));
-    const std::vector<vec3> bent = bentPositions(mesh, skeleton);
-    key = hashOf(std::span(bent), key);
+    if (skeleton) key = hashOf(std::span(mesh.influences), key);
   }
+  if (skeleton) key = hashOfPose(*skeleton, key);
   if (const auto kept = findKept(kKind, key))
     if (auto levels = restored(meshes, *kept)) return std::move(*levels);
   BodyLevels all(meshes.size());

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "math/direction.h"
+
 using namespace vasa;
 
 TEST_CASE("a turned joint takes along what hangs on it") {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "body/joint_motion.h"
+#include "math/direction.h"
 
 using namespace vasa;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/gltf.h"
+#include "math/direction.h"
 #include "viewer/joint_names.h"
 
 using namespace vasa;
