@@ -2,6 +2,7 @@
 
 #include "capillary_options.h"
 #include "commands.h"
+#include "core/cancellation.h"
 #include "core/kept.h"
 #include "core/log.h"
 #include "core/stage_log.h"
@@ -21,14 +22,30 @@ struct Options {
   std::string output;
 };
 
-Result<void> makeAll(const Scene& scene, CapillaryChoice capillaries) {
+// Where its motions bring vessels near bones: a first look at a place takes long (avoid/bones.h).
+void solveAll(Scene& scene, const SceneFile& file, const ReadingProgress& told) {
+  clearArms(file, scene.body, scene.body.clips);
+  FrameMaker frames(scene,
+                    {.avoid = true, .track = std::make_shared<MotionTrack>(MotionTrack::Keeps::latest)});
+  std::size_t done = 0, count = 0;
+  for (const Clip& clip : scene.body.clips) count += clip.frameCount();
+  for (const Clip& clip : scene.body.clips)
+    for (std::uint32_t frame = 0; frame < clip.frameCount(); ++frame) {
+      checkpoint();
+      told("preparing motions", done++, count);
+      frames.make(&clip, clip.timeOfFrame(frame));
+    }
+}
+
+Result<void> makeAll(Scene& scene, const SceneFile& file, const ReadingProgress& told) {
   StageLog stages("levels of detail");
   bodyLevels(scene.body.meshes, &scene.body.skeleton);
   stages.next("beds of capillaries");
+  CapillaryChoice capillaries = file.capillaries;
   capillaries.levels = 1;  // any
   if (const auto growth = growthOf(scene, capillaries); !growth) return growth.error();
   stages.next("distance fields of bones");
-  const FrameMaker frames(scene, {.avoid = true});
+  solveAll(scene, file, told);
   return keptAll();
 }
 
@@ -52,7 +69,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   auto scene = loadScene(*choice, line->told());
   if (!scene) return scene.error();
   (*line)("preparing");
-  if (const auto made = makeAll(*scene, choice->capillaries); !made) return made;
+  if (const auto made = makeAll(*scene, *choice, line->told()); !made) return made;
   line.reset();
   std::uintmax_t bytes = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder, error))
@@ -68,8 +85,8 @@ void addPrepare(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("prepare", "Make beforehand what takes long at a body's first use");
   sub->footer(
-      "Levels of detail of skin, bones and organs, distance fields of the bones, how vessels hang on the body and where\n"
-      "they join, beds of capillaries.\n"
+      "Levels of detail of skin, bones and organs, distance fields of the bones wherever the body's motions bring vessels,\n"
+      "how vessels hang on the body and where they join, beds of capillaries.\n"
       "Commands that need them make and keep them by themselves, in $XDG_CACHE_HOME/vasa (~/.cache/vasa), 512 MiB at\n"
       "most; --no-cache does without. Those of the built-in human come with the program.\n\n"
       "Examples:\n"

@@ -26,7 +26,7 @@ constexpr float kStride = 0.8f;       // ... and of the distance
 constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
-constexpr float kWorthKeeping = 1.05f;  // that many times what was kept is kept instead
+constexpr float kWorthKeeping = 1.02f;  // that many times what was kept is kept instead
 constexpr float kMovedFar = 0.002f;     // [m] less brings no tube from beyond a field's band into a part
 
 vec3 placed(const mat4& matrix, vec3 p) { return vec3(matrix * vec4(p, 1)); }
@@ -104,7 +104,10 @@ struct Bones::State {
   std::vector<std::vector<Seen>> seen, seenBefore;  // likewise; by part, then tube
   std::vector<BoneContact> contacts;
   std::size_t restContacts = 0;
+  std::uint64_t key = 0;         // of the fields, where they are kept ...
+  std::uint32_t keptBricks = 0;  // ... and how much of them is
 
+  void keepFields();
   void lookAtAll(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out);
   void lookAtNear(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out);
   void findNewlyNear(std::size_t task, const Tubes& tubes);
@@ -324,12 +327,22 @@ void Bones::State::lookAtNear(std::size_t task, const Tubes& tubes, std::vector<
       look(at, inPart(at.part, tubes.now[at.tube]), tubes, out);
 }
 
+// What was looked at, if that is more than what is kept.
+void Bones::State::keepFields() {
+  std::uint32_t filled = 0;
+  std::vector<const DistanceField*> fields;
+  for (const Solid& solid : solids) fields.push_back(&solid.field), filled += solid.field.filledBricks();
+  if (float(filled) <= kWorthKeeping * float(keptBricks)) return;
+  SolidParts::keepFields(key, fields);
+  keptBricks = filled;
+}
+
 Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::make_unique<State>()) {
   const SolidParts parts(body);
+  state_->key = parts.key();
   std::vector<DistanceField> fields = parts.fields();
-  std::uint32_t filled = 0;
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    filled += fields[k].filledBricks();
+    state_->keptBricks += fields[k].filledBricks();
     state_->solids.push_back({parts.joint(k), std::move(fields[k])});
   }
   state_->rest.assign(restTubes.begin(), restTubes.end());
@@ -347,13 +360,18 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
       atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
     atRest.back().second = std::min(atRest.back().second, contact.f);
   }
-  std::uint32_t filledNow = 0;
-  std::vector<const DistanceField*> now;
-  for (const State::Solid& solid : state_->solids)
-    now.push_back(&solid.field), filledNow += solid.field.filledBricks();
-  if (float(filledNow) > kWorthKeeping * float(filled)) parts.keepFields(now);
+  state_->keepFields();
 }
-Bones::~Bones() = default;
+
+// The first tube that comes to a place that was never looked at, in a field that was restored, waits for the
+// part's search trees: a tenth of a second at a skull.
+Bones::~Bones() {
+  if (!state_) return;
+  try {
+    state_->keepFields();
+  } catch (const std::exception&) {  // the next run looks again
+  }
+}
 Bones::Bones(Bones&&) noexcept = default;
 
 std::uint32_t Bones::partCount() const { return std::uint32_t(state_->solids.size()); }

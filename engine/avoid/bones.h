@@ -33,6 +33,7 @@ struct BoneContact {
 /// nearest surface's is taken.
 class Bones {
  public:
+  /// What is looked at in its life is kept for later runs (core/kept.h).
   /// @param restTubes  of the network; those that lie in a part at rest may stay as deep as they are there
   Bones(const Body& body, std::span<const Bezier> restTubes);
   ~Bones();

@@ -80,7 +80,7 @@ class ContactPool {
   void begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const;
   vec3 motionOf(const Constraint& constraint, std::span<const vec3> z) const;
   void sortIn(std::size_t before);
-  float ascend(Constraint& constraint, std::span<vec3> z);
+  float ascend(Constraint& constraint, float relaxation, std::span<vec3> z);
 
   const MotionSpace* space_;
   const Interference* interference_;

@@ -12,10 +12,6 @@ namespace vasa {
 /// coordinates and radii by up to 15 µm, so that is how well the depth at rest is known.
 constexpr float kRestTolerance = 2e-5f;
 
-/// [m] How near tubes are to one another that are followed: more than what one round of a solver moves two
-/// by, less than what makes many pairs.
-constexpr float kFollowed = 5e-4f;
-
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///
 /// Tubes near one another along the network (collide/neighbours.h) are left out: they belong together. Two
@@ -37,14 +33,7 @@ class Interference {
   /// Every pair of tubes with f < margin in the given shape, sorted by pair; valid until the next call.
   /// @param margin  [m] >= 0; at 0 these are the tubes that overlap
   /// @param points  as Network::points()
-  /// @param beginsToFollow  for follow(), which then needs no second look at most pairs
-  std::span<const Place> find(std::span<const vec4> points, float margin = 0, bool beginsToFollow = false);
-
-  /// The same as find() while a shape is changed bit by bit: pairs that were within kReach at the last
-  /// find(points, margin, true) are followed from one nearest place to the next, and only where one of the
-  /// two has moved. Where a tube has moved so far since that another may have come near, all is looked at
-  /// again. O(pairs that moved)
-  std::span<const Place> follow(std::span<const vec4> points, float margin);
+  std::span<const Place> find(std::span<const vec4> points, float margin = 0);
 
   /// A pair's f at rest [m], where that is negative; otherwise 0.
   float allowed(TubePair pair) const;
@@ -65,17 +54,11 @@ class Interference {
     TubePair tubes;
     float f;
   };
-  void gather(float margin);
-
   NetworkTubes layout_;
   std::vector<Bezier> rest_, tubes_;
   std::unique_ptr<TubeDetector> detector_;
   std::vector<RestPair> restPairs_;  // sorted
   std::vector<Place> places_;
-  std::vector<Contact> near_;      // within kReach when all was looked at last, and kept up to date since
-  std::vector<Bezier> tubesThen_;  // the shape in which it was
-  std::vector<Bezier> lastTubes_;
-  std::vector<char> moved_;  // since the last look, a tube each
 };
 
 }  // namespace vasa

@@ -73,10 +73,10 @@ std::vector<DistanceField> SolidParts::fields() const {
   return fields;
 }
 
-void SolidParts::keepFields(std::span<const DistanceField* const> fields) const {
+void SolidParts::keepFields(std::uint64_t key, std::span<const DistanceField* const> fields) {
   ByteWriter out;
   for (const DistanceField* field : fields) field->save(out);
-  keep(kKind, key(), out.bytes());
+  keep(kKind, key, out.bytes());
 }
 
 }  // namespace vasa

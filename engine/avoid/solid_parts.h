@@ -19,7 +19,9 @@ class SolidParts {
 
   /// A field each, with the bricks that an earlier run filled where it kept them (core/kept.h).
   std::vector<DistanceField> fields() const;
-  void keepFields(std::span<const DistanceField* const> fields) const;
+  /// Of what the fields depend on: their name where they are kept.
+  std::uint64_t key() const;
+  static void keepFields(std::uint64_t key, std::span<const DistanceField* const> fields);
 
  private:
   struct Part {
@@ -28,7 +30,6 @@ class SolidParts {
     std::vector<uvec3> triangles;
   };
   void add(const SkinnedMesh& mesh);
-  std::uint64_t key() const;
 
   std::vector<Part> parts_;
 };

@@ -124,6 +124,7 @@ struct Avoider::State {
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
   NearbySteps posedSteps{kNear};
+  bool posedStepsAreSet = false;            // for this pose
   std::vector<char> anewTubes, anewPoints;  // of vessels that start from the pose alone ...
   bool mayJump = false;                     // ... and keep no pace
   std::vector<vec3> none;                   // no correction
@@ -138,6 +139,7 @@ struct Avoider::State {
   std::vector<Contact> changed;
   std::vector<NarrowPlace> narrowed;
   VolumeKeeper::Outcome volumeOutcome;
+  VolumeKeeper::Memory volumes;  // of the last round's shape: most vessels are not moved again
 };
 
 quat Avoider::State::turnOf(std::size_t variable, std::span<const quat> rotations) const {
@@ -152,6 +154,7 @@ quat Avoider::State::turnOf(std::size_t variable, std::span<const quat> rotation
 void Avoider::State::pose(const PosedVessels& posed) {
   if (bones) bones->pose(posed.jointMatrices);
   if (wall) wall->pose(posed.jointMatrices);
+  posedStepsAreSet = false;
   for (std::uint32_t tube = 0; tube < turns.size(); ++tube) {
     const auto [vessel, span] = interference.layout().address(tube);
     const std::uint32_t point = network.vessel(vessel).firstPoint + span + 1;
@@ -191,11 +194,10 @@ vec3 Avoider::State::onCurve(std::span<const vec4> points, std::size_t point) co
 
 // Nothing is moved aside faster than what is about it moves, or a slow pace: no jump, whatever asks for one.
 void Avoider::State::keepPace(const Input& in) {
-  bool stepsAreSet = false;
   const float slow = kPace * in.seconds;
   space.keepNear(accepted.motions, correction.motions, [&](std::uint32_t point, float distance) {
     if (distance <= slow || (mayJump && anewPoints[point])) return distance;
-    if (!std::exchange(stepsAreSet, true))
+    if (!std::exchange(posedStepsAreSet, true))
       posedSteps.set(slow, lastPosed.size(), [&](std::size_t k) {
         const vec3 place = onCurve(in.posed.points, k);
         return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
@@ -211,7 +213,7 @@ void Avoider::State::place(const Input& in) {
   const std::span<const vec4> rest = network.points();
   for (std::size_t p = 0; p < in.points.size(); ++p) in.points[p] = vec4(vec3(in.posed.points[p]), rest[p].w);
   space.apply(correction.motions, in.points);
-  if (in.volume) volumeOutcome = in.volume->run(in.points, correction.widest);
+  if (in.volume) volumeOutcome = in.volume->run(in.points, correction.widest, volumes);
   for (std::size_t p = 0; p < in.points.size(); ++p)
     in.points[p].w = std::min(in.points[p].w, correction.widest[p]);
 }
@@ -221,9 +223,7 @@ void Avoider::State::look(const Input& in, std::span<const vec4> points, Look ho
   in.report.certifyMs = 0;
   {
     StageClock clock(in.report.certifyMs);
-    places = how == Look::again     ? interference.follow(points, kMargin)
-             : how == Look::certain ? interference.find(points)
-                                    : interference.find(points, kMargin, true);
+    places = interference.find(points, how == Look::certain ? 0 : kMargin);
     certificateOf(places, &remaining);
   }
   in.report.detectMs += in.report.certifyMs;

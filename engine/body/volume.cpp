@@ -54,15 +54,43 @@ VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
         quadraticOf(vessel, network.pointsOf(vessel), [](std::uint32_t) { return 0.0f; }).volume);
 }
 
+void VolumeKeeper::Outcome::add(const Outcome& other) {
+  largestError = std::max(largestError, other.largestError);
+  clampedError = std::max(clampedError, other.clampedError);
+  clampedCount += other.clampedCount;
+}
+
 VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const float> most) const {
-  std::vector<Outcome> each(restVolumes_.size());
-  parallelFor(each.size(), 64, [&](std::size_t v) { keep({std::uint32_t(v)}, points, most, each[v]); });
+  Memory none;
+  return run(points, most, none);
+}
+
+VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const float> most,
+                                        Memory& last) const {
+  const bool known = last.given.size() == points.size() && last.most.size() == most.size();
+  if (!known)
+    last.given.resize(points.size()), last.made.resize(points.size()), last.most.resize(most.size());
+  last.outcomes.resize(restVolumes_.size());
+  parallelFor(restVolumes_.size(), 64, [&](std::size_t v) {
+    const Vessel& vessel = network_->vessels()[v];
+    const auto ofVessel = [&vessel](auto values) {
+      return values.empty() ? values : values.subspan(vessel.firstPoint, vessel.pointCount);
+    };
+    const auto own = ofVessel(points), given = ofVessel(std::span(last.given)),
+               made = ofVessel(std::span(last.made));
+    const auto limits = ofVessel(most);
+    const auto lastLimits = ofVessel(std::span(last.most));
+    if (known && std::ranges::equal(own, given) && std::ranges::equal(limits, lastLimits)) {
+      std::ranges::copy(made, own.begin());
+      return;
+    }
+    std::ranges::copy(own, given.begin());
+    std::ranges::copy(limits, lastLimits.begin());
+    keep({std::uint32_t(v)}, points, most, last.outcomes[v] = {});
+    std::ranges::copy(own, made.begin());
+  });
   Outcome all;
-  for (const Outcome& own : each) {
-    all.largestError = std::max(all.largestError, own.largestError);
-    all.clampedError = std::max(all.clampedError, own.clampedError);
-    all.clampedCount += own.clampedCount;
-  }
+  for (const Outcome& own : last.outcomes) all.add(own);
   return all;
 }
 

@@ -19,11 +19,22 @@ class VolumeKeeper {
     float largestError = 0;          ///< |V - V0| / V0 of the worst vessel whose radii could do it
     float clampedError = 0;          ///< ... of the worst that could not
     std::uint32_t clampedCount = 0;  ///< vessels whose radii would have left the sane range, or were held
+    void add(const Outcome& other);
   };
 
   /// @param points  a posed network's points; radii must be those at rest. O(spans), parallel.
   /// @param most    if given, one a point: radii may not be larger; the rest of the vessel makes up for it
   Outcome run(std::span<vec4> points, std::span<const float> most = {}) const;
+
+  /// What a run was given and made of it. One network's alone.
+  struct Memory {
+    std::vector<vec4> given, made;  ///< one a point
+    std::vector<float> most;
+    std::vector<Outcome> outcomes;  ///< one a vessel
+  };
+  /// The same, bit for bit, where vessels that come as they came to the last such run need no computation.
+  Outcome run(std::span<vec4> points, std::span<const float> most, Memory& last) const;
+
   /// The same for one vessel; its errors are added to an outcome.
   void keep(VesselId vessel, std::span<vec4> points, std::span<const float> most, Outcome& outcome) const;
 

@@ -69,7 +69,9 @@ struct TubeDetector::State {
   std::vector<Worker> workers;
   std::size_t workersUsed = 0;
   std::vector<TubePair> pairs, sortScratch;
-  std::vector<Contact> contacts;
+  std::vector<Contact> contacts, lastContacts;
+  std::vector<Bezier> lastTubes;  // in which lastContacts were found, with lastGrow
+  float lastGrow = 0;
 };
 
 void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
@@ -191,10 +193,22 @@ std::span<const TubePair> TubeDetector::detect() {
 
 std::span<const Contact> TubeDetector::contacts() {
   State& state = *state_;
+  const std::span<const Bezier> tubes = state.tree.tubes;
+  const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
+  const bool sameMargin = state.lastTubes.size() == tubes.size() && state.lastGrow == state.tree.grow;
+  const auto stays = [&](std::uint32_t tube) { return tubes[tube].b == state.lastTubes[tube].b; };
+  state.contacts.swap(state.lastContacts);
   state.contacts.resize(state.pairs.size());
-  parallelFor(state.pairs.size(), 64, [&state](std::size_t k) {
+  parallelFor(state.pairs.size(), 64, [&](std::size_t k) {
     const TubePair pair = state.pairs[k];
-    const Bezier &a = state.tree.tubes[pair.i], &b = state.tree.tubes[pair.j];
+    if (sameMargin && stays(pair.i) && stays(pair.j)) {
+      const auto last = std::ranges::lower_bound(state.lastContacts, pair, {}, pairOf);
+      if (last != state.lastContacts.end() && pairOf(*last) == pair) {
+        state.contacts[k] = *last;
+        return;
+      }
+    }
+    const Bezier &a = tubes[pair.i], &b = tubes[pair.j];
     Contact contact = nearestPlace(a, b);
     // Newton steps from the nearest chords may end in another local minimum than the one for which the pair
     // was reported.
@@ -203,6 +217,8 @@ std::span<const Contact> TubeDetector::contacts() {
     contact.j = pair.j;
     state.contacts[k] = contact;
   });
+  state.lastTubes.assign(tubes.begin(), tubes.end());
+  state.lastGrow = state.tree.grow;
   return state.contacts;
 }
 

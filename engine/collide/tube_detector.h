@@ -47,7 +47,8 @@ class TubeDetector {
 
   /// The nearest place of each pair that the last detect() returned, in its order: where the two come
   /// deepest. Found by Newton steps from the nearest of 4x4 chords, and where these end elsewhere than
-  /// where the pair was found, by closestOfTubes(); the value is f there exactly. Valid until the next call.
+  /// where the pair was found, by closestOfTubes(); the value is f there exactly. A pair of the last call of
+  /// which neither has moved since is not looked at again. Valid until the next call.
   std::span<const Contact> contacts();
 
   /// What the last detect() did.
