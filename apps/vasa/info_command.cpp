@@ -12,8 +12,12 @@
 #include "io/bvh.h"
 #include "io/foreign_files.h"
 #include "io/gltf.h"
+#include "io/png.h"
 #include "network/file.h"
 #include "network/measure.h"
+#include "network/measure_profile.h"
+#include "network/route.h"
+#include "plate/profile_chart.h"
 #include "report.h"
 #include "scene/make_scene.h"
 #include "scene/vessel_files.h"
@@ -25,7 +29,7 @@ namespace vasa::cli {
 namespace {
 
 struct Options {
-  std::string file, profile, output;
+  std::string file, profile, to, output;
   std::vector<std::string> edits;
   bool vessels = false, joints = false;
   float stepMm = 1;
@@ -299,7 +303,25 @@ Result<void> printProfile(const Options& options) {
   if (!network) return network.error();
   const auto vessel = findVessel(*network, options.profile);
   if (!vessel) return badInput("--profile \"" + options.profile + "\": " + vessel.error().message);
-  const std::string csv = profileCsv(network->pointsOf(network->vessel(*vessel)), 1e-3f * options.stepMm);
+  const float step = 1e-3f * options.stepMm;
+  std::string title = network->vessel(*vessel).name;
+  std::vector<ProfileStation> stations;
+  if (options.to.empty()) {
+    stations = stationsOf(network->pointsOf(network->vessel(*vessel)), step);
+  } else {
+    const auto last = findVessel(*network, options.to);
+    if (!last) return badInput("--to \"" + options.to + "\": " + last.error().message);
+    const auto route = RouteFinder(*network, network->points())
+                           .find({*vessel, 0}, {*last, float(network->vessel(*last).spanCount())});
+    title += " to " + network->vessel(*last).name;
+    if (!route) return badInput(title + ": no vessels join the two");
+    stations = stationsAlong(*network, network->points(), *route, step);
+  }
+  if (extensionOf(options.output) == ".png") {
+    const auto chart = plate::drawProfile(title, stations);
+    return chart ? writePng(options.output, *chart) : Result<void>(chart.error());
+  }
+  const std::string csv = plate::profileCsv(stations);
   return options.output.empty() ? printText(csv) : writeFileAtomically(options.output, csv);
 }
 
@@ -325,6 +347,12 @@ Result<void> run(const Globals& globals, const Options& options) {
     return Error{
         Fault::usage,
         "--edits belongs to a scene or the built-in human; vasa edit writes an edited network, which info reads"};
+  if (!options.to.empty() && options.profile.empty())
+    return Error{Fault::usage,
+                 "--to is where a profile ends; name the vessel where it begins with --profile"};
+  const std::string extension = extensionOf(options.output);
+  if (!options.output.empty() && extension != ".csv" && extension != ".png")
+    return Error{Fault::usage, "-o " + options.output + ": a profile is a table (.csv) or a picture (.png)"};
   if (!options.profile.empty()) return printProfile(options);
   if (!options.output.empty())
     return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
@@ -352,7 +380,9 @@ void addInfo(CLI::App& app, Command& command) {
       "  vasa info walk.bvh   (what a motion file holds, and how its joints are understood)\n"
       "  vasa info            (the built-in human)\n"
       "  vasa info --vessels  (a table: sizes, stenoses, aneurysms, how they wind)\n"
-      "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv");
+      "  vasa info body.vasa --profile 'left femoral artery' -o femoral.csv\n"
+      "  vasa info --profile 'abdominal aorta' --to 'left popliteal artery' -o way.png   (from the start of one to the end of\n"
+      "  the other)");
   sub->add_option(
       "FILE", options->file,
       "A network, a body, vessels to be converted, a motion or a scene; nothing: the built-in human");
@@ -366,11 +396,14 @@ void addInfo(CLI::App& app, Command& command) {
       ->take_all()
       ->allow_extra_args(false);
   sub->add_option("--profile", options->profile, "Print one vessel's radius and area along its way, as CSV");
+  sub->add_option("--to", options->to,
+                  "Of a profile: the vessel at whose end it ends, by the shortest way there");
   sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1000.0));
-  sub->add_option("-o,--output", options->output,
-                  "Of a profile: the file to write (.csv); none: standard output");
+  sub->add_option(
+      "-o,--output", options->output,
+      "Of a profile: the file to write, a table (.csv) or a picture (.png); none: standard output");
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "render/look.h"
+
 namespace vasa::cli {
 
 const char* const kLookHelp =
@@ -28,18 +30,6 @@ Result<void> chooseLook(LookChoice& choice, const std::string& preset, const std
       return Error{Fault::usage, "--hide " + word + ": choose from skin, bones, organs, arteries, veins"};
   }
   return {};
-}
-
-Look lookOf(const LookChoice& choice) {
-  Look look = lookNamed(choice.preset).value_or(Look{});
-  if (choice.background) look.background = *choice.background;
-  look.drawSkin = choice.skin;
-  look.drawBones = choice.bones;
-  look.drawHeart = look.drawOther = choice.organs;
-  look.drawArteries = choice.arteries;
-  look.drawVeins = choice.veins;
-  if (choice.skinOpacity) look.skinOpacity = *choice.skinOpacity;
-  return look;
 }
 
 }  // namespace vasa::cli

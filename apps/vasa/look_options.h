@@ -2,16 +2,12 @@
 #include <string>
 
 #include "core/result.h"
-#include "render/look.h"
 #include "scene/scene_file.h"
 
 namespace vasa::cli {
 
 /// --look and --hide, on top of what the scene says. Both may be empty.
 Result<void> chooseLook(LookChoice& choice, const std::string& preset, const std::string& hidden);
-
-/// The look that a choice means.
-Look lookOf(const LookChoice& choice);
 
 extern const char* const kLookHelp;
 extern const char* const kHideHelp;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "atlas/colouring.h"
+#include "atlas/scene_look.h"
 #include "commands.h"
 #include "core/atomic_file.h"
 #include "core/log.h"
@@ -192,8 +193,8 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
       subtitle = seen;
     }
   }
-  job->look = lookOf(file->look);
-  if (!file->look.skinOpacity) job->look.skinOpacity = 0.2f;
+  job->look = atlas::lookOf(file->look);
+  if (!file->look.opacity.skin) job->look.skinOpacity = 0.2f;
   job->style.paper = vec3(job->look.background);
   job->style.title = options.title.value_or(job->subject.title);
   job->style.subtitle = job->subject.subtitle;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlas/colouring.h"
+#include "atlas/scene_look.h"
 #include "camera_choice.h"
 #include "capillary_options.h"
 #include "commands.h"
@@ -163,7 +164,7 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
     if (!pattern) return pattern.error();
     job.pattern = std::move(*pattern);
   }
-  job.look = lookOf(job.choice.look);
+  job.look = atlas::lookOf(job.choice.look);
   job.look.transparent = options.transparent;
   job.size = *size;
   float aspect = float(size->width) / float(size->height);

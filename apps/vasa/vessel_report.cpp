@@ -127,16 +127,4 @@ std::string forkTable(const Report& forks) {
   return text;
 }
 
-std::string profileCsv(std::span<const vec4> points, float step) {
-  std::string text = "along_mm,share,x_mm,y_mm,z_mm,radius_mm,area_mm2,curvature_per_mm\n";
-  const auto stations = stationsOf(points, step);
-  for (const ProfileStation& station : stations)
-    text += fmt::format(
-        "{:.3f},{:.5f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.6f}\n", 1e3 * double(station.along),
-        double(station.along) / std::max(double(stations.back().along), 1e-12),
-        1e3 * double(station.centre.x), 1e3 * double(station.centre.y), 1e3 * double(station.centre.z),
-        1e3 * double(station.radius), 1e6 * double(station.area()), 1e-3 * double(station.curvature));
-  return text;
-}
-
 }  // namespace vasa::cli

@@ -16,7 +16,4 @@ Report forkReport(const Network& network);
 std::string vesselTable(const Report& vessels);
 std::string forkTable(const Report& forks);
 
-/// A row a station along a vessel, as CSV. @param step  [m] between stations
-std::string profileCsv(std::span<const vec4> points, float step);
-
 }  // namespace vasa::cli

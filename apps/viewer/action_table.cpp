@@ -75,7 +75,7 @@ constexpr Action kActions[] = {
      [](State& s, Shown, int) { s.wishExport = true; }, loaded},
     {picture, MenuId::file, "Picture", {plain(Key::f12)}, "picture to a file",
      [](State& s, Shown, int) { s.wishPicture = true; }, loaded, nullptr, true},
-    {copyPicture, MenuId::file, "Copy picture", {ctrlShift('C')}, "picture to a file whose name goes to the clipboard",
+    {copyPicture, MenuId::file, "Copy picture", {ctrlShift('C')}, "picture to a file and to the clipboard",
      [](State& s, Shown, int) { s.wishCopyPicture = true; }, loaded},
     {record, MenuId::file, "Record", {plain('R')}, "record a video of what is shown",
      [](State& s, Shown, int) { s.recording = !s.recording; }, loaded, [](const State& s) { return s.recording; }},

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "curve/bspline.h"
+#include "network/measure_course.h"
+#include "network/measure_lesion.h"
 #include "viewer/flow.h"
 #include "viewer/fuzzy.h"
 #include "viewer/panels.h"
 #include "viewer/projection.h"
+#include "viewer/way_profile.h"
 
 // The chosen vessel: what it is, how large, and where it belongs; search by name; measuring along vessels.
 namespace vasa::viewer {
@@ -86,6 +89,27 @@ class Facts {
   bool narrow_, open_;
 };
 
+constexpr float kStations = 1e-3f;  // [m] apart
+// What is less is a vessel's own taper.
+constexpr float kShownStenosis = 0.1f, kShownAneurysm = 1.2f;
+
+std::string winding(std::span<const vec4> points) {
+  return fmt::format("{:.2f} times the chord", measureCourse(points).tortuosity);
+}
+
+std::string narrowing(std::span<const vec4> points) {
+  const auto worst = worstStenosis(stationsOf(points, kStations));
+  if (!worst || worst->ecst() < kShownStenosis) return "none";
+  return fmt::format("NASCET {:.0f} %, ECST {:.0f} %, area {:.0f} %", 100 * worst->nascet(),
+                     100 * worst->ecst(), 100 * worst->area());
+}
+
+std::string widening(std::span<const vec4> points) {
+  const auto widest = widestAneurysm(stationsOf(points, kStations));
+  if (!widest || widest->ratio() < kShownAneurysm) return "none";
+  return fmt::format("{:.1f} mm wide, {:.1f} times", 1000 * widest->diameter(), widest->ratio());
+}
+
 void showFacts(const PanelInput& in, VesselId id) {
   const Network& network = in.document->scene.network;
   const Vessel& vessel = network.vessel(id);
@@ -104,6 +128,12 @@ void showFacts(const PanelInput& in, VesselId id) {
             fmt::format("{:.3f} ml", 1e6 * rest.volume));
   facts.row("Curvature", fmt::format("{:.0f} /m", now.greatestCurvature),
             fmt::format("{:.0f} /m", rest.greatestCurvature));
+  facts.row("Winding", winding(Network::pointsOf(vessel, in.body->points)),
+            winding(network.pointsOf(vessel)));
+  facts.row("Narrowing", narrowing(Network::pointsOf(vessel, in.body->points)),
+            narrowing(network.pointsOf(vessel)));
+  facts.row("Widening", widening(Network::pointsOf(vessel, in.body->points)),
+            widening(network.pointsOf(vessel)));
   std::string clearance = "when paused";
   if (!in.body->measures.empty()) {
     const auto gap = in.body->measures[id.value].clearance;
@@ -120,6 +150,19 @@ void showRelatives(const PanelInput& in, const char* title, std::span<const Vess
     if (selectableLines(in.document->scene.network.vessel(vessel).name)) choose(in, vessel, false);
     ImGui::PopID();
   }
+}
+
+// From its start, on the left, to its end.
+void showProfile(const PanelInput& in, const WayProfile& way) {
+  std::vector<float> radii;
+  for (const ProfileStation& station : way.stations) radii.push_back(1000 * station.radius);
+  const float most = *std::ranges::max_element(radii);
+  const std::string name = fmt::format("radius, to {:.1f} mm", most);
+  ImGui::PlotLines("##profile", radii.data(), int(radii.size()), 0, name.c_str(), 0, 1.1f * most,
+                   {-1, 64 * in.scale});
+  if (ImGui::Button("Save profile")) in.state.wishSaveProfile = true;
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("Radius and area along %s, as a picture (PNG) and a table (CSV)", way.title.c_str());
 }
 
 void showMeasure(const PanelInput& in) {
@@ -139,12 +182,13 @@ void showMeasure(const PanelInput& in) {
   ImGui::TextUnformatted(name(state.to));
   ImGui::PopTextWrapPos();
   if (!state.from || !state.to) return;
-  const auto route = RouteFinder(network, in.body->points).find(*state.from, *state.to);
-  if (!route)
-    ImGui::TextUnformatted("No vessel joins them.");
-  else
-    ImGui::Text("%.1f mm along %zu vessel%s", double(1000 * route->length), route->legs.size(),
-                route->legs.size() == 1 ? "" : "s");
+  const auto way = profileOf(state, network, in.body->points);
+  if (!way) return ImGui::TextUnformatted("No vessel joins them.");
+  ImGui::PushTextWrapPos();
+  ImGui::Text("%.1f mm along %zu vessel%s, %.1f mm straight", double(1000 * way->length()), way->vessels,
+              way->vessels == 1 ? "" : "s", double(1000 * way->straight()));
+  ImGui::PopTextWrapPos();
+  showProfile(in, *way);
 }
 
 }  // namespace
@@ -168,6 +212,9 @@ void showInspectorSection(const PanelInput& in) {
     const Relatives relatives = relativesOf(in.document->scene.network, id);
     showRelatives(in, "comes from", relatives.parents);
     showRelatives(in, "gives off", relatives.children);
+    if (!in.state.measuring)
+      if (const auto way = profileOf(in.state, in.document->scene.network, in.body->points))
+        showProfile(in, *way);
   } else {
     ImGui::TextDisabled("Click a vessel to choose it.");
   }

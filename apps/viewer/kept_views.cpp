@@ -6,10 +6,11 @@
 namespace vasa::viewer {
 
 ViewChoice viewOf(Orbit orbit, unsigned number) {
+  const bool orthographic = orbit.orthographic();
   orbit.setOrthographic(false);
   const Camera camera = orbit.camera(0, 1);
   const double degrees = double(glm::degrees(camera.verticalAngle));
-  return {number, camera.position, camera.target, float(std::round(degrees * 1000) / 1000)};
+  return {number, camera.position, camera.target, float(std::round(degrees * 1000) / 1000), orthographic};
 }
 
 void keepView(std::vector<ViewChoice>& views, const ViewChoice& view) {
@@ -23,6 +24,7 @@ bool goToView(const std::vector<ViewChoice>& views, unsigned number, Orbit& orbi
   orbit.take({.position = view->position,
               .target = view->target,
               .verticalAngle = glm::radians(view->angleDegrees)});
+  orbit.setOrthographic(view->orthographic);
   return true;
 }
 

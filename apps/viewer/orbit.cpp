@@ -78,14 +78,7 @@ Camera Orbit::camera(float cut, float reach) const {
   Camera camera = plain();
   const float least = kNearShare * distance_;
   camera.nearDistance = least;
-  if (orthographic_) {
-    camera.orthographicHeight = 2 * distance_ * std::tan(angle_ / 2);
-    camera.farDistance = distance_ + 2 * reach;
-    // An orthographic eye may stand inside the body: it sees from outside all the same.
-    const float back = std::max(0.0f, 2 * reach - distance_);
-    camera.position += back * backwards();
-    camera.farDistance += back;
-  }
+  if (orthographic_) camera = vasa::orthographic(camera, reach);
   if (cut > 0) {
     const float middle = glm::distance(camera.position, pivot_);
     camera.nearDistance = std::max(least, middle - reach + 2 * reach * cut);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atlas/scene_look.h"
 #include "core/atomic_file.h"
 #include "viewer/kept_views.h"
 
@@ -18,21 +19,12 @@ CameraChoice cameraOf(const Orbit& orbit) {
   choice.position = view.position;
   choice.target = view.target;
   choice.angleDegrees = view.angleDegrees;
+  choice.orthographic = view.orthographic;
   return choice;
 }
 
 LookChoice lookOf(const ViewState& state) {
-  LookChoice choice;
-  const Look& look = state.look;
-  const Look preset = lookNamed(state.preset).value_or(Look{});
-  choice.preset = state.preset;
-  if (look.background != preset.background) choice.background = look.background;
-  if (look.skinOpacity != preset.skinOpacity) choice.skinOpacity = look.skinOpacity;
-  choice.skin = look.drawSkin;
-  choice.bones = look.drawBones;
-  choice.organs = look.drawHeart || look.drawOther;
-  choice.arteries = look.drawArteries;
-  choice.veins = look.drawVeins;
+  LookChoice choice = atlas::choiceOf(state.look, state.preset);
   choice.colour = atlas::kColourings[std::size_t(state.colouring)];
   choice.legend = state.legend;
   return choice;

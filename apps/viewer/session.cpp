@@ -187,6 +187,7 @@ void Session::meetWishes() {
   if (state_.wishPicture && shown_) save({freeName(options_.out, "png"), false});
   state_.wishPicture = state_.wishCancel = false;
   if (std::exchange(state_.wishCopyPicture, false) && shown_) copyPicture();
+  if (std::exchange(state_.wishSaveProfile, false)) saveProfile();
   if (std::exchange(state_.wishFullScreen, false)) {
     state_.fullScreen = window_.setFullScreen(!state_.fullScreen);
     panelFrames_ = kRestingFrames;

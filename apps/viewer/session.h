@@ -12,6 +12,7 @@
 #include "viewer/paint.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
+#include "viewer/picture_clipboard.h"
 #include "viewer/pointer.h"
 #include "viewer/pose_tool.h"
 #include "viewer/recording.h"
@@ -127,6 +128,7 @@ class Session {
   bool save(const SavePicture& wish, const char* more = "");
   double framesPerSecond() const;
   void copyPicture();
+  void saveProfile();
   void say(std::string message, double seconds = 4);
   void rest(double drawn);
   ViewReport report() const;
@@ -148,6 +150,7 @@ class Session {
   UndoHistory history_;
   SceneKeeper keeper_;
   Recording recording_;
+  std::optional<PictureClipboard> pictureClipboard_;  // once something was copied
   std::unique_ptr<Profiler> profiler_;
   Loader& loader_;
   PoseWorker worker_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "atlas/scene_look.h"
 #include "edit/replay.h"
 #include "viewer/session.h"
 
@@ -208,14 +209,7 @@ void Session::takeChoices() {
     state_.preset = choice.look.preset;
     state_.look = lookNamed(state_.preset).value_or(Look{});
   }
-  Look& look = state_.look;
-  if (choice.look.background) look.background = *choice.look.background;
-  if (choice.look.skinOpacity) look.skinOpacity = *choice.look.skinOpacity;
-  if (!choice.look.skin) look.drawSkin = false;
-  if (!choice.look.bones) look.drawBones = false;
-  if (!choice.look.organs) look.drawHeart = look.drawOther = false;
-  if (!choice.look.arteries) look.drawArteries = false;
-  if (!choice.look.veins) look.drawVeins = false;
+  atlas::apply(choice.look, state_.look);
   state_.colouring = atlas::colouringNamed(choice.look.colour).value_or(atlas::Colouring::kind);
   state_.legend = choice.look.legend;
   state_.hidden = VesselNames(choice.hidden);
@@ -227,6 +221,8 @@ void Session::takeChoices() {
     state_.orbit.take({.position = *choice.camera.position,
                        .target = choice.camera.target.value_or(document_->bounds.centre()),
                        .verticalAngle = glm::radians(choice.camera.angleDegrees)});
+  if (choice.camera.position || choice.camera.orthographic)
+    state_.orbit.setOrthographic(choice.camera.orthographic);
   if (!choice.chosen.empty())
     if (const auto vessel = findVessel(document_->scene.network, choice.chosen))
       state_.selected = VesselPlace{*vessel, 0};

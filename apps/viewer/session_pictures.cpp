@@ -5,11 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "core/atomic_file.h"
 #include "core/log.h"
 #include "curve/bspline.h"
 #include "io/png.h"
+#include "plate/profile_chart.h"
 #include "viewer/paint.h"
 #include "viewer/session.h"
+#include "viewer/way_profile.h"
 
 // What a session draws: the scene's picture when anything in it has changed, the window's around it, and
 // copies of both for files and videos.
@@ -299,10 +302,30 @@ double Session::framesPerSecond() const {
   return options_.script || !state_.playback.playing || ms <= 0 ? 0 : 1000 / double(ms);
 }
 
-// GLFW's clipboard takes text alone, so that it gets the name of a file.
 void Session::copyPicture() {
   const auto file = std::filesystem::absolute(freeName(options_.out, "png"));
-  if (save({file, false}, "; its name is on the clipboard")) window_.setClipboard(file.string());
+  if (!save({file, false}, "; the picture is on the clipboard")) return;
+  auto bytes = readFile(file);
+  if (!pictureClipboard_) pictureClipboard_.emplace();
+  if (bytes && pictureClipboard_->offer(std::move(*bytes), file.string())) return;
+  window_.setClipboard(file.string());
+  say("wrote " + file.string() + "; its name is on the clipboard, which takes no picture");
+}
+
+void Session::saveProfile() {
+  if (!document_ || !body_) return;
+  const auto way = profileOf(state_, document_->scene.network, body_->points);
+  if (!way) return;
+  const auto table = freeName(options_.out, "csv"), picture = freeName(options_.out, "png");
+  const auto chart = plate::drawProfile(way->title, way->stations);
+  auto written = chart ? writePng(picture, *chart) : Result<void>(chart.error());
+  if (written) written = writeFileAtomically(table, plate::profileCsv(way->stations));
+  if (!written) {
+    if (options_.script) failure_ = written.error();
+    return say(written.error().message);
+  }
+  for (const auto& file : {table, picture}) report_.files.push_back(file);
+  say("wrote " + picture.string() + " and " + table.string());
 }
 
 bool Session::save(const SavePicture& wish, const char* more) {

@@ -93,7 +93,7 @@ struct ViewState : Undoable {
        wishDelete = false, wishDiscard = false, wishCopyPose = false, wishPastePose = false, wishOpen = false,
        wishCopyPicture = false, wishFullScreen = false, wishGoOn = false, wishExport = false,
        wishCancelExport = false;
-  bool wishSaveAs = false;
+  bool wishSaveAs = false, wishSaveProfile = false;
   /// Files that are to be opened together in place of what is shown.
   std::vector<std::filesystem::path> wishFiles;
   ExportWish exportWish;                           ///< as the dialog has it

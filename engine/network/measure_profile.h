@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "math/types.h"
+#include "network/route.h"
 
 namespace vasa {
 
@@ -25,5 +26,11 @@ struct ProfileStation {
 /// @param step    [m] > 0: they are no farther apart
 /// O(spans + stations)
 std::vector<ProfileStation> stationsOf(std::span<const vec4> points, float step);
+
+/// The same along a way through the network, `along` from where it begins; where it goes over from one vessel
+/// to another there is a station on each.
+/// @param points  as Network::points(), in any pose
+std::vector<ProfileStation> stationsAlong(const Network& network, std::span<const vec4> points,
+                                          const Route& route, float step);
 
 }  // namespace vasa

@@ -87,6 +87,15 @@ Camera cameraFrom(View view, const Aabb& box, float aspect) {
   return focusOn(camera, box, aspect);
 }
 
+Camera orthographic(Camera camera, float reach) {
+  const vec3 away = camera.position - camera.target;
+  const float distance = glm::length(away), back = std::max(0.0f, 2 * reach - distance);
+  camera.orthographicHeight = 2 * distance * std::tan(camera.verticalAngle / 2);
+  camera.position += back / distance * away;
+  camera.farDistance = distance + 2 * reach + back;
+  return camera;
+}
+
 Camera focusOn(const Camera& camera, const Aabb& box, float aspect) {
   assert(!box.empty() && aspect > 0);
   Aabb room = box;

@@ -37,6 +37,11 @@ std::optional<View> viewNamed(std::string_view name);
 /// @param aspect  width / height of the picture, > 0
 Camera cameraFrom(View view, const Aabb& box, float aspect);
 
+/// The same view without perspective: what is at the target keeps its size.
+/// @param reach  [m] from the target to the farthest of what is seen. The eye moves back as far: it sees all
+/// from outside
+Camera orthographic(Camera camera, float reach);
+
 /// The same direction of view moved up to a box.
 Camera focusOn(const Camera& camera, const Aabb& box, float aspect);
 

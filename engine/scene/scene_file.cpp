@@ -127,6 +127,7 @@ void readCamera(Reader& reader, const Json& value, const std::string& place, Cam
                  {"target", reader.vector(camera.target, -kFar, kFar)},
                  {"angle", reader.number(camera.angleDegrees, 1, 150)},
                  {"distance", reader.number(camera.distanceFactor, 0.01f, 100)},
+                 {"orthographic", reader.flag(camera.orthographic)},
                  {"focus", reader.text(camera.focus)}});
   constexpr std::array kViews{"front", "back", "left", "right", "top"};
   if (std::find(kViews.begin(), kViews.end(), camera.view) == kViews.end())
@@ -147,17 +148,25 @@ void readCapillaries(Reader& reader, const Json& value, const std::string& place
 }
 
 void readLook(Reader& reader, const Json& value, const std::string& place, LookChoice& look) {
-  reader.object(value, place,
-                {{"preset", reader.text(look.preset)},
-                 {"background", reader.vector(look.background, 0, 1)},
-                 {"skin", reader.flag(look.skin)},
-                 {"bones", reader.flag(look.bones)},
-                 {"organs", reader.flag(look.organs)},
-                 {"arteries", reader.flag(look.arteries)},
-                 {"veins", reader.flag(look.veins)},
-                 {"skin_opacity", reader.number(look.skinOpacity, 0, 1)},
-                 {"colour", reader.text(look.colour)},
-                 {"legend", reader.flag(look.legend)}});
+  reader.object(
+      value, place,
+      {{"preset", reader.text(look.preset)},
+       {"background", reader.vector(look.background, 0, 1)},
+       {"skin", reader.flag(look.skin)},
+       {"bones", reader.flag(look.bones)},
+       {"organs", reader.flag(look.organs)},
+       {"arteries", reader.flag(look.arteries)},
+       {"veins", reader.flag(look.veins)},
+       {"heart", [&](const Json& v, const std::string& p) { reader.flag(look.heart.emplace())(v, p); }},
+       {"artery_opacity", reader.number(look.opacity.arteries, 0, 1)},
+       {"vein_opacity", reader.number(look.opacity.veins, 0, 1)},
+       {"bone_opacity", reader.number(look.opacity.bones, 0, 1)},
+       {"heart_opacity", reader.number(look.opacity.heart, 0, 1)},
+       {"organ_opacity", reader.number(look.opacity.organs, 0, 1)},
+       {"skin_opacity", reader.number(look.opacity.skin, 0, 1)},
+       {"capillary_opacity", reader.number(look.opacity.capillaries, 0, 1)},
+       {"colour", reader.text(look.colour)},
+       {"legend", reader.flag(look.legend)}});
   constexpr std::array kPresets{"atlas", "clinical", "xray"};
   if (std::find(kPresets.begin(), kPresets.end(), look.preset) == kPresets.end())
     reader.fail(place + "/preset", "must be atlas, clinical or xray");
@@ -177,7 +186,8 @@ void readViews(Reader& reader, const Json& value, const std::string& place, std:
     reader.object(item, where,
                   {{"position", reader.vector(position, -kFar, kFar)},
                    {"target", reader.vector(target, -kFar, kFar)},
-                   {"angle", reader.number(view.angleDegrees, 1, 150)}});
+                   {"angle", reader.number(view.angleDegrees, 1, 150)},
+                   {"orthographic", reader.flag(view.orthographic)}});
     if (!position || !target) return reader.fail(where, "must have a position and a target");
     view.position = *position;
     view.target = *target;

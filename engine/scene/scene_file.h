@@ -17,6 +17,12 @@ struct CameraChoice {
   float angleDegrees = 30;       ///< vertical opening
   std::string focus;             ///< name of a vessel to fill the picture with; empty: the whole scene
   float distanceFactor = 1;      ///< 1: the subject just fits
+  bool orthographic = false;     ///< without perspective: what is at the target keeps its size
+};
+
+/// In [0, 1]; default: the preset's.
+struct OpacityChoice {
+  std::optional<float> arteries, veins, bones, heart, organs, skin, capillaries;
 };
 
 /// What is shown and how.
@@ -24,7 +30,8 @@ struct LookChoice {
   std::string preset = "atlas";    ///< atlas, clinical or xray
   std::optional<vec4> background;  ///< sRGB 0..1 and opacity; default: the preset's
   bool skin = true, bones = true, organs = true, arteries = true, veins = true;
-  std::optional<float> skinOpacity;  ///< default: the preset's
+  std::optional<bool> heart;  ///< default: as organs
+  OpacityChoice opacity;
   std::string colour =
       "kind";           ///< what vessels' colours tell: kind, blood, region, radius, strain, bend or lumen
   bool legend = false;  ///< of the colours, in the app
@@ -52,6 +59,7 @@ struct ViewChoice {
   unsigned number = 1;          ///< 1 to 9
   vec3 position{0}, target{0};  ///< [m]
   float angleDegrees = 30;      ///< vertical opening
+  bool orthographic = false;
 
   bool operator==(const ViewChoice&) const = default;
 };
@@ -59,18 +67,20 @@ struct ViewChoice {
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
 ///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt", "as_recorded": false,
-///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta" },
+///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta",
+///     "orthographic": true },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones":
 ///     true, "organs": true, "arteries": true, "veins": true,
-///               "skin_opacity": 0.3, "colour": "kind" | "blood" | "region" | "radius" | "strain" | "bend" |
-///               "lumen", "legend": true },
+///               "heart": true, "skin_opacity": 0.3 (likewise artery, vein, bone, heart, organ and
+///               capillary), "colour": "kind" | "blood" | "region" | "radius" | "strain" | "bend" | "lumen",
+///               "legend": true },
 ///     "capillaries": { "levels": 3, "edges": 0 | 3 | 5 | 8 | 10, "budget": 4000000, "smallest": 0.5,
 ///     "rules": "folder" },
 ///     "hidden": ["left great saphenous vein"],
 ///     "time": 1.5, "pose": { "LeftForeArm": [bend, spread, twist], "Hips": { "turn": [0,0,0], "move":
 ///     [x,y,z] } }, "chosen": "aorta",
 ///     "labels": ["coeliac trunk"],
-///     "views": { "1": { "position": [x,y,z], "target": [x,y,z], "angle": 30 } } }
+///     "views": { "1": { "position": [x,y,z], "target": [x,y,z], "angle": 30, "orthographic": true } } }
 struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;

@@ -44,6 +44,7 @@ Json camera(const CameraChoice& choice) {
   if (choice.target) json["target"] = list(*choice.target);
   if (choice.angleDegrees != usual.angleDegrees) json["angle"] = number(choice.angleDegrees);
   if (choice.distanceFactor != usual.distanceFactor) json["distance"] = number(choice.distanceFactor);
+  if (choice.orthographic) json["orthographic"] = true;
   if (!choice.focus.empty()) json["focus"] = choice.focus;
   return json;
 }
@@ -59,7 +60,14 @@ Json look(const LookChoice& choice) {
                                                 {"veins", choice.veins}};
   for (const auto& [name, shown] : parts)
     if (!shown) json[name] = false;
-  if (choice.skinOpacity) json["skin_opacity"] = number(*choice.skinOpacity);
+  if (choice.heart) json["heart"] = *choice.heart;
+  const std::pair<const char*, std::optional<float>> opacities[] = {
+      {"artery_opacity", choice.opacity.arteries},      {"vein_opacity", choice.opacity.veins},
+      {"bone_opacity", choice.opacity.bones},           {"heart_opacity", choice.opacity.heart},
+      {"organ_opacity", choice.opacity.organs},         {"skin_opacity", choice.opacity.skin},
+      {"capillary_opacity", choice.opacity.capillaries}};
+  for (const auto& [name, opacity] : opacities)
+    if (opacity) json[name] = number(*opacity);
   if (choice.colour != LookChoice().colour) json["colour"] = choice.colour;
   if (choice.legend) json["legend"] = true;
   return json;
@@ -67,10 +75,13 @@ Json look(const LookChoice& choice) {
 
 Json views(const std::vector<ViewChoice>& choices) {
   Json json = Json::object();
-  for (const ViewChoice& view : choices)
-    json[std::to_string(view.number)] = {{"position", list(view.position)},
-                                         {"target", list(view.target)},
-                                         {"angle", number(view.angleDegrees)}};
+  for (const ViewChoice& view : choices) {
+    Json& own = json[std::to_string(view.number)];
+    own = {{"position", list(view.position)},
+           {"target", list(view.target)},
+           {"angle", number(view.angleDegrees)}};
+    if (view.orthographic) own["orthographic"] = true;
+  }
   return json;
 }
 

@@ -66,6 +66,14 @@ TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are
   const auto profile = runProgram({"info", out, "--profile", "abdominal aorta", "--step", "2"});
   CHECK(profile.out.starts_with("along_mm,share,"));
   CHECK(std::count(profile.out.begin(), profile.out.end(), '\n') > 40);
+  const auto way = runProgram({"info", out, "--profile", "abdominal aorta", "--to", "left femoral artery"});
+  REQUIRE_MESSAGE(way.exit == 0, way.err);
+  CHECK(std::count(way.out.begin(), way.out.end(), '\n') > 400);  // millimetres of aorta, iliac and femoral
+  const auto chart = (folder.path() / "way.png").string();
+  CHECK(runProgram({"info", out, "--profile", "abdominal aorta", "-o", chart}).exit == 0);
+  CHECK(bytesOf(chart).starts_with("\x89PNG"));
+  CHECK(runProgram({"info", out, "--profile", "abdominal aorta", "-o", "way.txt"}).exit == 2);
+  CHECK(runProgram({"info", out, "--to", "abdominal aorta"}).exit == 2);
 }
 
 TEST_CASE(

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "network/builder.h"
+#include "network/measure_profile.h"
 #include "support/networks.h"
 
 using namespace vasa;
@@ -78,4 +79,25 @@ TEST_CASE("routes keep the triangle inequality and are as long both ways") {
   };
   for (int i = 0; i < 3; ++i) CHECK(length(i, (i + 1) % 3) == doctest::Approx(length((i + 1) % 3, i)));
   CHECK(length(0, 2) <= length(0, 1) + length(1, 2) + 1e-5f);
+}
+
+TEST_CASE("stations along a route count on from vessel to vessel, whichever way each is passed") {
+  const Tree tree;
+  const RouteFinder finder(tree.network, tree.network.points());
+  // From the twig's end, down the branch, to the trunk's start: half of them against their own direction.
+  const auto route = finder.find({tree.twig, 2}, {tree.trunk, 0});
+  REQUIRE(route);
+  REQUIRE(route->legs.size() == 3);
+  const auto stations = stationsAlong(tree.network, tree.network.points(), *route, 0.01f);
+  CHECK(stations.front().along == 0);
+  CHECK(stations.back().along == doctest::Approx(route->length));
+  CHECK(glm::distance(stations.front().centre, vec3(0.7f, 0.4f, 0)) < 1e-6f);
+  CHECK(glm::distance(stations.back().centre, vec3(0)) < 1e-6f);
+  CHECK(stations.size() >= std::size_t(route->length / 0.01f));
+  for (std::size_t k = 1; k < stations.size(); ++k) {
+    CHECK(stations[k].along >= stations[k - 1].along);
+    CHECK(glm::distance(stations[k].centre, stations[k - 1].centre) ==
+          doctest::Approx(stations[k].along - stations[k - 1].along).epsilon(1e-3));
+    CHECK(stations[k].radius == doctest::Approx(0.01f));
+  }
 }

@@ -48,6 +48,24 @@ TEST_CASE("an orthographic view keeps sizes and reverses depth") {
   CHECK(glm::distance(project(m, {1, 1, -2}), vec3(0.5f, -0.5f, 0)) < 1e-6f);
 }
 
+TEST_CASE("what is at the target is as large without perspective, and the eye sees all of it from outside") {
+  Camera camera;
+  camera.position = {0, 1, 0.5f};
+  camera.target = {0, 1, 0};
+  const Camera flat = orthographic(camera, 2);
+  const float high = 0.5f * std::tan(0.5f * camera.verticalAngle);
+  const auto seen = [](const Camera& by, vec3 p) {
+    const vec4 q = viewProjection(by, 1) * vec4(p, 1);
+    return vec3(q) / q.w;
+  };
+  CHECK(seen(flat, {0, 1 + high, 0}).y == doctest::Approx(seen(camera, {0, 1 + high, 0}).y));
+  for (const float z : {-1.99f, 1.99f}) {
+    const float depth = seen(flat, {0, 1, z}).z;
+    CHECK(depth > 0);
+    CHECK(depth < 1);
+  }
+}
+
 TEST_CASE("every named view holds the whole box, and not much more") {
   const Aabb box = boxOf({-0.4f, -0.1f, -0.2f}, {0.5f, 1.7f, 0.3f});
   for (const View view : {View::front, View::back, View::left, View::right, View::top})

@@ -74,8 +74,15 @@ TEST_CASE("a scene may ask for capillaries") {
 
 TEST_CASE("hidden vessels, colours, labels and kept views come back to the byte") {
   const std::string text = R"({
+  "camera": {
+    "orthographic": true
+  },
   "look": {
     "preset": "atlas",
+    "heart": true,
+    "artery_opacity": 0.5,
+    "bone_opacity": 0.25,
+    "skin_opacity": 0.125,
     "colour": "radius",
     "legend": true
   },
@@ -111,7 +118,8 @@ TEST_CASE("hidden vessels, colours, labels and kept views come back to the byte"
         0.5,
         0.0
       ],
-      "angle": 12.345
+      "angle": 12.345,
+      "orthographic": true
     }
   }
 }
@@ -120,11 +128,16 @@ TEST_CASE("hidden vessels, colours, labels and kept views come back to the byte"
   REQUIRE_MESSAGE(scene.ok(), scene.error().message);
   CHECK(scene->look.colour == "radius");
   CHECK(scene->look.legend);
+  CHECK(scene->look.opacity.bones == 0.25f);
+  CHECK_FALSE(scene->look.opacity.veins);
+  CHECK(scene->camera.orthographic);
   CHECK(scene->hidden == std::vector<std::string>{"a", "b \"c\""});
   CHECK(scene->labels == std::vector<std::string>{"d"});
   REQUIRE(scene->views.size() == 2);
-  CHECK(scene->views[1] == ViewChoice{9, {1, 2, 3}, {0, 0.5f, 0}, 12.345f});
+  CHECK(scene->views[1] == ViewChoice{9, {1, 2, 3}, {0, 0.5f, 0}, 12.345f, true});
   CHECK(sceneText(*scene, "/here") == text);
+  CHECK(messageOf(R"({"look": {"bone_opacity": 2}})") ==
+        "x.json: /look/bone_opacity must be a number from 0.0 to 1.0");
   CHECK(messageOf(R"({"look": {"colour": "mood"}})") ==
         "x.json: /look/colour must be kind, blood, region, radius, strain, bend or lumen");
   CHECK(messageOf(R"({"hidden": "aorta"})").find("/hidden must be a list of at most") != std::string::npos);
