@@ -12,7 +12,7 @@ namespace vasa::plate {
 namespace {
 
 constexpr float kLetters = 15;  // [pixels]
-constexpr int kWidth = 900, kHeight = 640, kLeft = 84, kRight = 28, kTop = 66, kBetween = 46, kBelow = 66;
+constexpr int kWidth = 900, kHeight = 656, kLeft = 84, kRight = 28, kTop = 82, kBetween = 46, kBelow = 66;
 constexpr vec3 kLine{0.70f, 0.13f, 0.13f}, kFilled{0.97f, 0.87f, 0.86f}, kGrid{0.88f, 0.89f, 0.91f};
 
 void put(Image& picture, int x, int y, vec3 colour) {

@@ -94,7 +94,7 @@ constexpr float kStations = 1e-3f;  // [m] apart
 constexpr float kShownStenosis = 0.1f, kShownAneurysm = 1.2f;
 
 std::string winding(std::span<const vec4> points) {
-  return fmt::format("{:.2f} times the chord", measureCourse(points).tortuosity);
+  return fmt::format("{:.2f} x chord", measureCourse(points).tortuosity);
 }
 
 std::string narrowing(std::span<const vec4> points) {
@@ -157,9 +157,9 @@ void showProfile(const PanelInput& in, const WayProfile& way) {
   std::vector<float> radii;
   for (const ProfileStation& station : way.stations) radii.push_back(1000 * station.radius);
   const float most = *std::ranges::max_element(radii);
-  const std::string name = fmt::format("radius, to {:.1f} mm", most);
-  ImGui::PlotLines("##profile", radii.data(), int(radii.size()), 0, name.c_str(), 0, 1.1f * most,
-                   {-1, 64 * in.scale});
+  ImGui::TextDisabled("radius, up to %.1f mm", double(most));
+  ImGui::PlotLines("##profile", radii.data(), int(radii.size()), 0, nullptr, 0, 1.1f * most,
+                   {ImGui::GetContentRegionAvail().x, 64 * in.scale});
   if (ImGui::Button("Save profile")) in.state.wishSaveProfile = true;
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("Radius and area along %s, as a picture (PNG) and a table (CSV)", way.title.c_str());
