@@ -69,25 +69,24 @@ VolumeKeeper::Outcome VolumeKeeper::run(std::span<vec4> points, std::span<const 
                                         Memory& last) const {
   const bool known = last.given.size() == points.size() && last.most.size() == most.size();
   if (!known)
-    last.given.resize(points.size()), last.made.resize(points.size()), last.most.resize(most.size());
+    last.given.resize(points.size()), last.radii.resize(points.size()), last.most.resize(most.size());
   last.outcomes.resize(restVolumes_.size());
   parallelFor(restVolumes_.size(), 64, [&](std::size_t v) {
     const Vessel& vessel = network_->vessels()[v];
     const auto ofVessel = [&vessel](auto values) {
       return values.empty() ? values : values.subspan(vessel.firstPoint, vessel.pointCount);
     };
-    const auto own = ofVessel(points), given = ofVessel(std::span(last.given)),
-               made = ofVessel(std::span(last.made));
+    const auto own = ofVessel(points), given = ofVessel(std::span(last.given));
     const auto limits = ofVessel(most);
-    const auto lastLimits = ofVessel(std::span(last.most));
+    const auto lastLimits = ofVessel(std::span(last.most)), radii = ofVessel(std::span(last.radii));
     if (known && std::ranges::equal(own, given) && std::ranges::equal(limits, lastLimits)) {
-      std::ranges::copy(made, own.begin());
+      for (std::size_t l = 0; l < own.size(); ++l) own[l].w = radii[l];
       return;
     }
     std::ranges::copy(own, given.begin());
     std::ranges::copy(limits, lastLimits.begin());
     keep({std::uint32_t(v)}, points, most, last.outcomes[v] = {});
-    std::ranges::copy(own, made.begin());
+    std::ranges::transform(own, radii.begin(), [](const vec4& point) { return point.w; });
   });
   Outcome all;
   for (const Outcome& own : last.outcomes) all.add(own);

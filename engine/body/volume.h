@@ -28,8 +28,8 @@ class VolumeKeeper {
 
   /// What a run was given and made of it. One network's alone.
   struct Memory {
-    std::vector<vec4> given, made;  ///< one a point
-    std::vector<float> most;
+    std::vector<vec4> given;  ///< one a point
+    std::vector<float> most, radii;
     std::vector<Outcome> outcomes;  ///< one a vessel
   };
   /// The same, bit for bit, where vessels that come as they came to the last such run need no computation.

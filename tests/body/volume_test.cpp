@@ -81,3 +81,28 @@ TEST_CASE("where a radius is held down the rest of the vessel keeps the volume")
   points = stretched(network, 0.95f);
   CHECK(keeper.run(points, most).clampedCount > 0);
 }
+
+TEST_CASE(
+    "with a memory of the last run the result is the same to the bit, whatever has moved or is held since") {
+  const Network network = sample();
+  const VolumeKeeper keeper(network);
+  VolumeKeeper::Memory memory;
+  std::vector<float> most(network.points().size(), std::numeric_limits<float>::infinity());
+  const auto compare = [&](std::vector<vec4> points) {
+    auto alone = points;
+    const auto outcome = keeper.run(points, most, memory), expected = keeper.run(alone, most);
+    CHECK(points == alone);
+    CHECK(outcome.largestError == expected.largestError);
+    CHECK(outcome.clampedError == expected.clampedError);
+    CHECK(outcome.clampedCount == expected.clampedCount);
+  };
+  auto points = stretched(network, 0.8f);
+  compare(points);
+  compare(points);  // nothing has moved
+  points[network.vessels()[1].firstPoint + 2].x += 0.002f;
+  compare(points);  // one vessel has
+  most[network.vessels()[0].firstPoint + 2] = 0.5f * network.points()[network.vessels()[0].firstPoint + 2].w;
+  compare(points);  // one is held
+  compare(stretched(network, 1.2f));
+  CHECK(memory.outcomes.size() == network.vessels().size());
+}

@@ -113,6 +113,26 @@ TEST_CASE("the same pairs for 1, 2 and 8 threads") {
   setThreadCount(0);
 }
 
+TEST_CASE(
+    "nearest places are those of a detector that sees the shape for the first time, whatever stayed where it was") {
+  auto tubes = test::randomTubes(400, 9, 0.3f, 0.08f, 0.006f);
+  const Exclusions none(400);
+  TubeDetector detector(tubes, none);
+  for (int round = 0; round < 6; ++round) {
+    const float margin = round == 4 ? 0.002f : 0;
+    for (std::size_t i = 0; round % 2 == 1 && i < tubes.size(); i += 5)
+      for (vec4& p : tubes[i].b) p += vec4(0.001f, 0.002f, 0, 0);
+    TubeDetector fresh(tubes, none);
+    const Pairs pairs = detect(detector, tubes, margin);
+    CHECK(detect(fresh, tubes, margin) == pairs);
+    const auto found = detector.contacts(), truth = fresh.contacts();
+    REQUIRE(found.size() == pairs.size());
+    REQUIRE(truth.size() == pairs.size());
+    CHECK(pairs.size() > 100);
+    CHECK(std::ranges::equal(std::as_bytes(found), std::as_bytes(truth)));
+  }
+}
+
 TEST_CASE("degenerate tubes: points, copies, needles, giants") {
   std::vector<Bezier> tubes = test::randomTubes(100, 4, 0.2f, 0.05f, 0.003f);
   for (std::size_t i = 0; i < 20; ++i)
