@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "plate/chart_paper.h"
 #include "plate/lettering.h"
 
 namespace vasa::plate {
@@ -14,13 +15,6 @@ namespace {
 constexpr float kLetters = 15;  // [pixels]
 constexpr int kWidth = 900, kHeight = 656, kLeft = 84, kRight = 28, kTop = 82, kBetween = 46, kBelow = 66;
 constexpr vec3 kLine{0.70f, 0.13f, 0.13f}, kFilled{0.97f, 0.87f, 0.86f}, kGrid{0.88f, 0.89f, 0.91f};
-
-void put(Image& picture, int x, int y, vec3 colour) {
-  if (x < 0 || y < 0 || x >= int(picture.width) || y >= int(picture.height)) return;
-  for (int c = 0; c < 3; ++c)
-    picture.rgba[4 * (std::size_t(y) * picture.width + std::size_t(x)) + std::size_t(c)] =
-        std::uint8_t(std::lround(255 * colour[c]));
-}
 
 // 1, 2 or 5 times a power of ten, so that a range has four to ten of them.
 float tickOf(float range) {
@@ -52,7 +46,7 @@ void drawCurve(Image& picture, const Lettering& letters, std::span<const Profile
   const int right = kWidth - kRight;
   const auto y = [&](float value) { return bottom - int(std::lround(float(bottom - top) * value / most)); };
   for (float mark = 0; mark <= 1.001f * most; mark += tick) {
-    for (int x = kLeft; x < right; ++x) put(picture, x, y(mark), kGrid);
+    fill(picture, kLeft, y(mark), right, y(mark) + 1, kGrid);
     letters.write(picture, kLeft - 10, y(mark) + 5, fmt::format("{:.4g}", double(mark)),
                   Lettering::Align::right);
   }
@@ -60,9 +54,9 @@ void drawCurve(Image& picture, const Lettering& letters, std::span<const Profile
   for (int x = kLeft; x < right; ++x) {
     const float along = length * float(x - kLeft) / float(right - 1 - kLeft);
     const int here = y(valueAt(stations, curve.values, along));
-    for (int k = here; k < bottom; ++k) put(picture, x, k, kFilled);
+    fill(picture, x, here, x + 1, bottom, kFilled);
     const int from = before < 0 ? here : before;
-    for (int k = std::min(from, here) - 1; k <= std::max(from, here); ++k) put(picture, x, k, kLine);
+    fill(picture, x, std::min(from, here) - 1, x + 1, std::max(from, here) + 1, kLine);
     before = here;
   }
   letters.write(picture, kLeft, top - 12, curve.name);
@@ -74,8 +68,7 @@ Result<Image> drawProfile(const std::string& title, std::span<const ProfileStati
   const auto letters = Lettering::load(kLetters), large = Lettering::load(1.3f * kLetters);
   if (!letters) return letters.error();
   if (!large) return large.error();
-  Image picture{std::uint32_t(kWidth), std::uint32_t(kHeight),
-                std::vector<std::uint8_t>(std::size_t(kWidth) * std::size_t(kHeight) * 4, 255)};
+  Image picture = blank(kWidth, kHeight);
   large->write(picture, kLeft, 32, title);
   Curve radius{"radius [mm]", {}}, area{"area of the lumen [mm²]", {}};
   for (const ProfileStation& station : stations) {

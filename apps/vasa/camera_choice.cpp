@@ -82,7 +82,7 @@ Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& sce
                                     float aspect) {
   CameraMan man;
   const Aabb all = motionBounds(scene, clip);
-  man.reach_ = choice.orthographic ? 0.5f * glm::length(all.extent()) : 0;
+  man.reach_ = choice.orthographic ? glm::length(all.extent()) : 0;
   man.still_ = cameraFrom(viewNamed(choice.view).value_or(View::front), all, aspect);
   man.still_.verticalAngle = glm::radians(choice.angleDegrees);
   if (choice.position) {
@@ -125,7 +125,7 @@ Camera CameraMan::at(const Scene& scene, const Pose& pose, std::span<const vec4>
     camera.target = subjectBounds(scene, *subject_, pose, points).centre();
     camera.position = camera.target + subjectOffset_;
   }
-  return reach_ > 0 ? orthographic(camera, 2 * reach_) : camera;
+  return reach_ > 0 ? orthographic(camera, reach_) : camera;
 }
 
 }  // namespace vasa::cli

@@ -27,7 +27,7 @@ class CameraMan {
   Camera still_;
   bool goesAlong_ = false;
   std::optional<Subject> subject_;
-  float reach_ = 0;        // [m] of the whole scene, for an orthographic camera; 0: perspective
+  float reach_ = 0;        // [m] across the scene, for an orthographic camera; 0: perspective
   vec3 subjectOffset_{0};  // from the subject's middle to the camera
 };
 

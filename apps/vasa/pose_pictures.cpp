@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "atlas/colouring.h"
+#include "plate/chart_paper.h"
 #include "plate/lettering.h"
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -18,21 +19,10 @@ namespace {
 constexpr float kLetters = 15;  // [pixels]
 constexpr int kRowHeight = 24, kMargin = 20, kPerDegree = 3, kTick = 30;
 
+using plate::blank;
+using plate::fill;
 using plate::Lettering;
 using Align = Lettering::Align;
-
-Image blank(int width, int height) {
-  return {std::uint32_t(width), std::uint32_t(height),
-          std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4, 255)};
-}
-
-void fill(Image& picture, int left, int top, int right, int bottom, vec3 colour) {
-  for (int y = std::max(top, 0); y < std::min(bottom, int(picture.height)); ++y)
-    for (int x = std::max(left, 0); x < std::min(right, int(picture.width)); ++x)
-      for (int c = 0; c < 3; ++c)
-        picture.rgba[4 * (std::size_t(y) * picture.width + std::size_t(x)) + std::size_t(c)] =
-            std::uint8_t(std::lround(255 * colour[c]));
-}
 
 // Between colours at 0, 1, 2 …
 template <std::size_t N>

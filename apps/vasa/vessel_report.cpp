@@ -13,8 +13,6 @@ namespace {
 
 constexpr float kStationsOfRadius = 0.25f;  // of a vessel's least radius, apart: a lesion is longer than that
 constexpr float kFinestStation = 1e-4f, kFewestStations = 200;
-// A table of healthy vessels is to be quiet: what is less is no finding. JSON has it all.
-constexpr double kShownStenosis = 0.1, kShownAneurysm = 1.2;
 
 Report maybe(bool there, double value) { return there ? Report(value) : Report(nullptr); }
 
@@ -97,8 +95,8 @@ std::string vesselTable(const Report& vessels) {
       fmt::format("{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "vessel", "kind", "mm long",
                   "mm wide", "NASCET %", "ECST %", "widened", "arc/ch", "bend mm");
   for (const Report& vessel : vessels) {
-    const bool narrow = vessel["ecst"].get<double>() >= kShownStenosis,
-               wide = vessel["aneurysm_ratio"].get<double>() >= kShownAneurysm;
+    const bool narrow = vessel["ecst"].get<double>() >= kNotableStenosis,
+               wide = vessel["aneurysm_ratio"].get<double>() >= kNotableAneurysm;
     text += fmt::format(
         "{:<44} {:<7} {:>8} {:>13} {:>8} {:>6} {:>8} {:>6} {:>8}\n", plainText(vessel["name"]),
         plainText(vessel["kind"]), cell(vessel["length_m"], 1e3, 1),

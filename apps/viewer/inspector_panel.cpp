@@ -90,31 +90,30 @@ class Facts {
 };
 
 constexpr float kStations = 1e-3f;  // [m] apart
-// What is less is a vessel's own taper.
-constexpr float kShownStenosis = 0.1f, kShownAneurysm = 1.2f;
 
 std::string winding(std::span<const vec4> points) {
   return fmt::format("{:.2f} x chord", measureCourse(points).tortuosity);
 }
 
-std::string narrowing(std::span<const vec4> points) {
-  const auto worst = worstStenosis(stationsOf(points, kStations));
-  if (!worst || worst->ecst() < kShownStenosis) return "none";
+std::string narrowing(std::span<const ProfileStation> stations) {
+  const auto worst = worstStenosis(stations);
+  if (!worst || worst->ecst() < kNotableStenosis) return "none";
   return fmt::format("NASCET {:.0f} %, ECST {:.0f} %, area {:.0f} %", 100 * worst->nascet(),
                      100 * worst->ecst(), 100 * worst->area());
 }
 
-std::string widening(std::span<const vec4> points) {
-  const auto widest = widestAneurysm(stationsOf(points, kStations));
-  if (!widest || widest->ratio() < kShownAneurysm) return "none";
+std::string widening(std::span<const ProfileStation> stations) {
+  const auto widest = widestAneurysm(stations);
+  if (!widest || widest->ratio() < kNotableAneurysm) return "none";
   return fmt::format("{:.1f} mm wide, {:.1f} times", 1000 * widest->diameter(), widest->ratio());
 }
 
 void showFacts(const PanelInput& in, VesselId id) {
   const Network& network = in.document->scene.network;
   const Vessel& vessel = network.vessel(id);
-  const VesselMeasures now = measureVessel(Network::pointsOf(vessel, in.body->points));
-  const VesselMeasures rest = measureVessel(network.pointsOf(vessel));
+  const auto posed = Network::pointsOf(vessel, in.body->points), asMade = network.pointsOf(vessel);
+  const VesselMeasures now = measureVessel(posed), rest = measureVessel(asMade);
+  const auto stations = stationsOf(posed, kStations), restStations = stationsOf(asMade, kStations);
   const auto mm = [](float metres) { return fmt::format("{:.2f} mm", 1000 * metres); };
   const auto range = [](const VesselMeasures& m) {
     return fmt::format("{:.2f}–{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius);
@@ -128,12 +127,9 @@ void showFacts(const PanelInput& in, VesselId id) {
             fmt::format("{:.3f} ml", 1e6 * rest.volume));
   facts.row("Curvature", fmt::format("{:.0f} /m", now.greatestCurvature),
             fmt::format("{:.0f} /m", rest.greatestCurvature));
-  facts.row("Winding", winding(Network::pointsOf(vessel, in.body->points)),
-            winding(network.pointsOf(vessel)));
-  facts.row("Narrowing", narrowing(Network::pointsOf(vessel, in.body->points)),
-            narrowing(network.pointsOf(vessel)));
-  facts.row("Widening", widening(Network::pointsOf(vessel, in.body->points)),
-            widening(network.pointsOf(vessel)));
+  facts.row("Winding", winding(posed), winding(asMade));
+  facts.row("Narrowing", narrowing(stations), narrowing(restStations));
+  facts.row("Widening", widening(stations), widening(restStations));
   std::string clearance = "when paused";
   if (!in.body->measures.empty()) {
     const auto gap = in.body->measures[id.value].clearance;

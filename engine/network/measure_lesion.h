@@ -23,6 +23,9 @@ struct Lesion {
 
 constexpr float kTaper = 0.02f;  ///< [m of radius for a metre]: healthy vessels thin by less than 1 mm in 50
 
+/// Stenosis::ecst() and Aneurysm::ratio() from which on people are told: less is a vessel's own taper.
+constexpr double kNotableStenosis = 0.1, kNotableAneurysm = 1.2;
+
 /// The narrowing that takes most of the diameter away; none where the radius has no inner minimum (a vessel
 /// that is narrowest at its very end tells nothing of what it would be there).
 struct Stenosis : Lesion {
