@@ -77,8 +77,9 @@ void ContactPool::clear() {
   sorted_ = 0;
 }
 
-vec3 ContactPool::motionOf(const Constraint& constraint, std::span<const vec3> z) const {
-  vec3 motion(0);
+template <class Vector>
+Vector ContactPool::motionOf(const Constraint& constraint, std::span<const Vector> z) const {
+  Vector motion(0);
   for (const auto& [variable, weight] : rows_.termsOf(constraint.row)) motion += weight * z[variable];
   return motion;
 }
@@ -88,7 +89,7 @@ void ContactPool::begin(Constraint& constraint, std::span<const Bezier> shape,
   const vec4 a = shape[constraint.i].at(constraint.s);
   const vec4 b = constraint.isBone() ? vec4(constraint.point, 0) : shape[constraint.other].at(constraint.t);
   constraint.distance = a.w + b.w + constraint.clearance;
-  constraint.start = glm::dot(constraint.normal, vec3(a) - vec3(b) - motionOf(constraint, z));
+  constraint.start = glm::dot(constraint.normal, vec3(a) - vec3(b) - motionOf<vec3>(constraint, z));
 }
 
 void ContactPool::refresh(std::span<const Bezier> shape, std::span<const vec3> z) {
@@ -153,8 +154,23 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
              std::abs(other.t - constraint.t) < kSameParameter;
     };
     if (std::ranges::any_of(own, isHere) || known(constraint, kSameDirection)) continue;
+    giveRow(constraint, found.rows);
     found.constraints[found.count++] = constraint;
   }
+}
+
+void ContactPool::propose(const BoneContact& place, std::span<const Bezier> shape, Proposals& found) const {
+  const float radius = shape[place.tube].at(place.s).w;
+  Constraint& constraint = found.constraints[found.count++];
+  constraint = {.i = place.tube,
+                .other = Constraint::kBone | place.part,
+                .s = place.s,
+                .normal = place.normal,
+                .point = place.point};
+  constraint.clearance =
+      place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
+  constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
+  giveRow(constraint, found.rows);
 }
 
 // The constraint that already asks for the same, or null.
@@ -168,27 +184,39 @@ Constraint* ContactPool::known(const Constraint& wanted, float cosine) {
   return nullptr;
 }
 
-// Gives a row to a constraint and takes it in.
-void ContactPool::take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) {
-  terms_.clear();
+// Where its row lies is told of `rows`.
+void ContactPool::giveRow(Constraint& constraint, MotionSpace::Rows& rows) const {
+  static thread_local std::vector<MotionSpace::Term> terms;
+  terms.clear();
   const auto [vessel, span] = interference_->layout().address(constraint.i);
-  space_->addPlace(vessel, span, constraint.s, 1, terms_);
+  space_->addPlace(vessel, span, constraint.s, 1, terms);
   if (!constraint.isBone()) {
     const auto [otherVessel, otherSpan] = interference_->layout().address(constraint.other);
-    space_->addPlace(otherVessel, otherSpan, constraint.t, -1, terms_);
+    space_->addPlace(otherVessel, otherSpan, constraint.t, -1, terms);
   }
-  constraint.row = space_->finish(terms_, rows_);
+  constraint.row = space_->finish(terms, rows);
+}
+
+// With a row that lies in `rows`.
+void ContactPool::take(const Constraint& constraint, const MotionSpace::Rows& rows,
+                       std::span<const Bezier> shape, std::span<const vec3> z) {
   if (constraint.row.diagonal <= kLeastDiagonal) return;
-  constraint.limit /= constraint.row.diagonal;
-  begin(constraint, shape, z);
-  constraints_.push_back(constraint);
+  Constraint& own = constraints_.emplace_back(constraint);
+  own.row = rows_.append(rows, constraint.row);
+  own.limit /= own.row.diagonal;
+  begin(own, shape, z);
 }
 
 void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape,
                            const LastShape& last, std::span<const vec3> z) {
   const std::size_t before = constraints_.size();
-  for (const Contact& contact : changed)
-    if (Constraint constraint; wouldRoll(contact, shape, last, constraint)) take(constraint, shape, z);
+  MotionSpace::Rows rows;
+  for (const Contact& contact : changed) {
+    Constraint constraint;
+    if (!wouldRoll(contact, shape, last, constraint)) continue;
+    giveRow(constraint, rows);
+    take(constraint, rows, shape, z);
+  }
   sortIn(before);
 }
 
@@ -203,66 +231,72 @@ void ContactPool::sortIn(std::size_t before) {
 std::size_t ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
                              std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z) {
   proposals_.resize(std::max(proposals_.size(), places.size()));
-  parallelFor(places.size(), 16, [&](std::size_t k) {
-    proposals_[k].count = 0;
-    propose(places[k].contact, shape, last, proposals_[k]);
+  atBones_.resize(std::max(atBones_.size(), bones.size()));
+  parallelFor(places.size() + bones.size(), 16, [&](std::size_t k) {
+    const bool isBone = k >= places.size();
+    Proposals& found = isBone ? atBones_[k - places.size()] : proposals_[k];
+    found.count = 0;
+    found.rows.clear();
+    if (isBone)
+      propose(bones[k - places.size()], shape, found);
+    else
+      propose(places[k].contact, shape, last, found);
   });
   const std::size_t before = constraints_.size();
-  for (const BoneContact& place : bones) {
-    const float radius = shape[place.tube].at(place.s).w;
-    Constraint constraint{.i = place.tube,
-                          .other = Constraint::kBone | place.part,
-                          .s = place.s,
-                          .normal = place.normal,
-                          .point = place.point};
-    constraint.clearance =
-        place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
-    constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
+  for (Proposals& proposals : std::span(atBones_).first(bones.size())) {
+    const Constraint& constraint = proposals.constraints[0];
     // A bone's surface is not flat: the plane goes along with the place, and takes its push along.
     if (Constraint* own = known(constraint, kSameWay)) {
-      push(*own, own->multiplier * (constraint.normal - own->normal), z);
+      push<vec3>(*own, own->multiplier * (constraint.normal - own->normal), z);
       own->normal = constraint.normal;
       own->point = constraint.point;
       begin(*own, shape, z);
     } else {
-      take(constraint, shape, z);
+      take(constraint, proposals.rows, shape, z);
     }
   }
-  for (Proposals& proposals : std::span(proposals_).first(places.size()))
-    for (Constraint& constraint : std::span(proposals.constraints).first(proposals.count))
-      take(constraint, shape, z);
+  for (const Proposals& proposals : std::span(proposals_).first(places.size()))
+    for (const Constraint& constraint : std::span(proposals.constraints).first(proposals.count))
+      take(constraint, proposals.rows, shape, z);
   const std::size_t added = constraints_.size() - before;
   sortIn(before);
   return added;
 }
 
-void ContactPool::push(const Constraint& constraint, vec3 force, std::span<vec3> z) const {
+template <class Vector>
+void ContactPool::push(const Constraint& constraint, Vector force, std::span<Vector> z) const {
   const float* response = rows_.responses.data() + constraint.row.firstResponse;
-  for (const auto& [first, count] : rows_.runsOf(constraint.row))
-    for (std::uint32_t k = 0; k < count; ++k) z[first + k] += *response++ * force;
+  for (const auto& [first, count] : rows_.runsOf(constraint.row)) {
+    Vector* const own = z.data() + first;
+    for (std::uint32_t k = 0; k < count; ++k) own[k] += response[k] * force;
+    response += count;
+  }
 }
 
 // Returns how far that moved the place.
-float ContactPool::ascend(Constraint& constraint, float relaxation, std::span<vec3> z) {
+float ContactPool::ascend(Constraint& constraint, float relaxation) {
+  const vec3 motion(motionOf<vec4>(constraint, z_));
   const float diagonal = constraint.row.diagonal,
-              present = constraint.start + glm::dot(constraint.normal, motionOf(constraint, z));
+              present = constraint.start + glm::dot(constraint.normal, motion);
   const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
   const float step = std::clamp(relaxation * lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
                                 std::max(constraint.limit - constraint.multiplier, 0.0f));
   if (step == 0) return 0;
   constraint.multiplier += step;
-  push(constraint, step * constraint.normal, z);
+  push<vec4>(constraint, vec4(step * constraint.normal, 0), z_);
   return std::abs(step) * diagonal;
 }
 
 void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
+  z_.resize(z.size());
+  std::ranges::transform(z, z_.begin(), [](vec3 own) { return vec4(own, 0); });
   for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
     float largest = 0;
     const float relaxation = sweep + kPlainSweeps < sweeps ? kOverRelaxation : 1;
-    for (Constraint& constraint : constraints_)
-      largest = std::max(largest, ascend(constraint, relaxation, z));
-    if (largest < kSettled) return;
+    for (Constraint& constraint : constraints_) largest = std::max(largest, ascend(constraint, relaxation));
+    if (largest < kSettled) break;
   }
+  std::ranges::transform(z_, z.begin(), [](vec4 own) { return vec3(own); });
 }
 
 }  // namespace vasa

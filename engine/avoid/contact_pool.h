@@ -65,22 +65,29 @@ class ContactPool {
 
  private:
   static constexpr std::size_t kPlaces = 5;
+  // Constraints that were found on a thread of their own, with their rows, until they are taken in.
   struct Proposals {
     std::array<Constraint, kPlaces> constraints;
     std::size_t count = 0;
+    MotionSpace::Rows rows;
   };
   float clearanceFor(const Constraint& at, float radii) const;
   bool wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                  Constraint& constraint) const;
   void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                Proposals& found);
+  void propose(const BoneContact& place, std::span<const Bezier> shape, Proposals& found) const;
   Constraint* known(const Constraint& wanted, float cosine);
-  void push(const Constraint& constraint, vec3 force, std::span<vec3> z) const;
-  void take(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z);
+  template <class Vector>
+  void push(const Constraint& constraint, Vector force, std::span<Vector> z) const;
+  void giveRow(Constraint& constraint, MotionSpace::Rows& rows) const;
+  void take(const Constraint& constraint, const MotionSpace::Rows& rows, std::span<const Bezier> shape,
+            std::span<const vec3> z);
   void begin(Constraint& constraint, std::span<const Bezier> shape, std::span<const vec3> z) const;
-  vec3 motionOf(const Constraint& constraint, std::span<const vec3> z) const;
+  template <class Vector>
+  Vector motionOf(const Constraint& constraint, std::span<const Vector> z) const;
   void sortIn(std::size_t before);
-  float ascend(Constraint& constraint, float relaxation, std::span<vec3> z);
+  float ascend(Constraint& constraint, float relaxation);
 
   const MotionSpace* space_;
   const Interference* interference_;
@@ -88,8 +95,8 @@ class ContactPool {
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
   std::size_t sorted_ = 0;               // of them; the others are of this round
   MotionSpace::Rows rows_;
-  std::vector<Proposals> proposals_;
-  std::vector<MotionSpace::Term> terms_;
+  std::vector<Proposals> proposals_, atBones_;
+  std::vector<vec4> z_;  // while they ascend: four numbers are added at a time
 };
 
 }  // namespace vasa

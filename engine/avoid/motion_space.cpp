@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/parallel.h"
 
 namespace vasa {
 namespace {
 
 constexpr float kSmallestWeight = 1e-3f;  // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
-constexpr float kSamePace = 1.0001f;                 // of what is allowed: above rounding
+constexpr float kSamePace = 1.0001f;  // of what is allowed: above rounding
+constexpr std::size_t kVesselGrain = 64;
 constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
 float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
@@ -45,10 +50,17 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::u
       startShare_(pointCount_, 0),
       endShare_(pointCount_, 0),
       nodeWeight_(network.nodes().size(), 0),
-      nodeMotion_(network.nodes().size()) {
-  std::size_t longest = 0;
-  for (const Vessel& vessel : network.vessels()) longest = std::max<std::size_t>(longest, vessel.pointCount);
-  work_.assign(longest, 0);
+      nodeMotion_(network.nodes().size()),
+      nodeChanged_(network.nodes().size()),
+      again_(network.vessels().size()) {
+  for (const Node& node : network.nodes()) {
+    Hosting& hosting = hostings_.emplace_back();
+    if (!node.host) continue;
+    hosting.host = &network.vessel(node.host->vessel);
+    const SpanParameter at = locate(node.host->parameter, hosting.host->spanCount());
+    hosting.span = at.span;
+    hosting.weights = deBoorWeights(at.span, hosting.host->spanCount(), at.t);
+  }
   const std::vector<float> masses =
       byMass ? relativeMasses(network) : std::vector<float>(network.vessels().size(), 1.0f);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
@@ -68,6 +80,21 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::u
     if (start) nodeWeight_[vessel.start.value] += masses[v] * BendingMetric::energy(startShare, beta);
     if (end) nodeWeight_[vessel.end.value] += masses[v] * BendingMetric::energy(endShare, beta);
   }
+}
+
+MotionSpace::Row MotionSpace::Rows::append(const Rows& others, const Row& row) {
+  Row own = row;
+  own.firstTerm = std::uint32_t(terms.size());
+  own.firstRun = std::uint32_t(runs.size());
+  own.firstResponse = std::uint32_t(responses.size());
+  const std::span<const Run> theirs = others.runsOf(row);
+  std::uint32_t count = 0;
+  for (const Run& run : theirs) count += run.count;
+  const auto first = others.responses.begin() + row.firstResponse;
+  terms.insert(terms.end(), others.termsOf(row).begin(), others.termsOf(row).end());
+  runs.insert(runs.end(), theirs.begin(), theirs.end());
+  responses.insert(responses.end(), first, first + count);
+  return own;
 }
 
 void MotionSpace::addPlace(VesselId vessel, std::uint32_t span, float t, float weight,
@@ -109,6 +136,7 @@ MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const
     else
       rows.terms.push_back(term), ++row.termCount;
   }
+  static thread_local std::vector<float> work;  // zero between calls
   const std::span<const Term> own = rows.termsOf(row);
   for (std::size_t k = 0; k < own.size();) {
     if (own[k].variable >= pointCount_) {
@@ -120,7 +148,8 @@ MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const
     }
     const std::uint32_t vessel = vesselOf_[own[k].variable];
     const Block& block = blocks_[vessel];
-    const std::span<float> x = std::span(work_).first(block.metric.count());
+    work.resize(std::max<std::size_t>(work.size(), block.metric.count()));
+    const std::span<float> x = std::span(work).first(block.metric.count());
     const std::size_t begin = k;
     for (; k < own.size() && own[k].variable < pointCount_ && vesselOf_[own[k].variable] == vessel; ++k)
       x[own[k].variable - block.first] = own[k].weight;
@@ -146,25 +175,23 @@ vec3 MotionSpace::motionOf(const Vessel& vessel, std::uint32_t local, std::span<
 
 void MotionSpace::moveNodes(std::span<const vec3> z) {
   for (const NodeId id : network_->pinOrder()) {
-    const auto& host = network_->node(id).host;
-    vec3& motion = nodeMotion_[id.value];
-    if (!host) {
+    const auto& [host, span, weights] = hostings_[id.value];
+    vec3 motion(0);
+    if (host)
+      for (std::uint32_t l = 0; l < 4; ++l) motion += weights[int(l)] * motionOf(*host, span + l, z);
+    else
       motion = z[pointCount_ + id.value];
-      continue;
-    }
-    const Vessel& vessel = network_->vessel(host->vessel);
-    const SpanParameter at = locate(host->parameter, vessel.spanCount());
-    const vec4 weights = deBoorWeights(at.span, vessel.spanCount(), at.t);
-    motion = vec3(0);
-    for (std::uint32_t l = 0; l < 4; ++l) motion += weights[int(l)] * motionOf(vessel, at.span + l, z);
+    nodeChanged_[id.value] = motion != std::exchange(nodeMotion_[id.value], motion);
   }
 }
 
 void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
   moveNodes(z);
-  for (const Vessel& vessel : network_->vessels())
+  parallelFor(network_->vessels().size(), kVesselGrain, [&](std::size_t v) {
+    const Vessel& vessel = network_->vessels()[v];
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
       points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z), 0);
+  });
   pinEnds(*network_, points);
 }
 
@@ -186,16 +213,25 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z,
     vec3& motion = difference_[pointCount_ + n];
     shorten(motion, vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0), motion);
   }
+  const std::span<const Vessel> vessels = network_->vessels();
+  for (std::size_t v = 0; v < vessels.size(); ++v)
+    again_[v] =
+        std::ranges::any_of(std::span(difference_).subspan(vessels[v].firstPoint, vessels[v].pointCount),
+                            [](vec3 motion) { return motion != vec3(0); });
+  std::ranges::fill(nodeMotion_, vec3(0));
+  const auto changed = [&](NodeId node) { return node.valid() && nodeChanged_[node.value]; };
   // What hangs on a vessel's side goes along with it, so that is known only once its host has been drawn
-  // nearer.
-  for (bool again = true; again;) {
-    again = false;
+  // nearer. A vessel is looked at anew where it, or a node that it hangs on, has changed.
+  do {
     moveNodes(difference_);
-    for (const Vessel& vessel : network_->vessels())
+    parallelFor(vessels.size(), kVesselGrain, [&](std::size_t v) {
+      const Vessel& vessel = vessels[v];
+      if (!std::exchange(again_[v], false) && !changed(vessel.start) && !changed(vessel.end)) return;
       for (std::uint32_t l = vessel.start.valid(); l + vessel.end.valid() < vessel.pointCount; ++l)
-        again |= shorten(difference_[vessel.firstPoint + l], vessel.firstPoint + l,
-                         motionOf(vessel, l, difference_));
-  }
+        again_[v] |= shorten(difference_[vessel.firstPoint + l], vessel.firstPoint + l,
+                             motionOf(vessel, l, difference_));
+    });
+  } while (std::ranges::any_of(again_, std::identity()));
   for (std::size_t v = 0; v < z.size(); ++v) z[v] = other[v] + difference_[v];
 }
 

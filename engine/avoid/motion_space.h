@@ -44,6 +44,7 @@ class MotionSpace {
     std::vector<Run> runs;
     std::vector<float> responses;
     void clear() { terms.clear(), runs.clear(), responses.clear(); }
+    Row append(const Rows& others, const Row& row);  ///< what lies there of a row
     std::span<const Term> termsOf(const Row& row) const {
       return std::span(terms).subspan(row.firstTerm, row.termCount);
     }
@@ -55,14 +56,16 @@ class MotionSpace {
   /// Adds weight · C(vessel at span, t) to a row's terms.
   void addPlace(VesselId vessel, std::uint32_t span, float t, float weight, std::vector<Term>& terms) const;
   /// Makes a row of some terms, which it sorts and joins: its response and diagonal. Responses below a
-  /// thousandth of the largest are left out. O(points the response reaches).
+  /// thousandth of the largest are left out. O(points the response reaches). On several threads at once, with
+  /// Rows of their own.
   Row finish(std::vector<Term>& terms, Rows& rows) const;
 
   /// points += Δq(z), ends exactly on their nodes; radii stay. @param z  variableCount()
   void apply(std::span<const vec3> z, std::span<vec4> points);
 
   /// Draws z nearer to another motion where a point would be farther from it than it may.
-  /// @param allowed  (point, distance [m]) -> what it may be; for a node, that of an end there
+  /// @param allowed  (point, distance [m]) -> what it may be; for a node, that of an end there. Called by
+  /// several threads at once.
   void keepNear(std::span<const vec3> other, std::span<vec3> z,
                 const std::function<float(std::uint32_t, float)>& allowed);
 
@@ -71,6 +74,12 @@ class MotionSpace {
     std::uint32_t first;  // first free point
     BendingMetric metric;
     float lightness;  // W is the metric by this
+  };
+  // A node on a host's side moves as four neighbouring points of the host do, by their weights there.
+  struct Hosting {
+    const Vessel* host = nullptr;
+    std::uint32_t span = 0;
+    vec4 weights{0};
   };
   void addPoint(const Vessel& vessel, std::uint32_t local, float weight, std::vector<Term>& terms) const;
   void addNode(NodeId node, float weight, std::vector<Term>& terms) const;
@@ -83,8 +92,9 @@ class MotionSpace {
   std::vector<std::uint32_t> vesselOf_;       // of a point
   std::vector<float> startShare_, endShare_;  // φ, one a point
   std::vector<float> nodeWeight_;             // W of a node's own variable
-  mutable std::vector<float> work_;           // of the longest vessel, zero between calls
+  std::vector<Hosting> hostings_;             // a node each
   std::vector<vec3> nodeMotion_, difference_;
+  std::vector<char> nodeChanged_, again_;  // a node each, a vessel each
 };
 
 }  // namespace vasa

@@ -30,7 +30,7 @@ class NearbySteps {
 
  private:
   struct Step {
-    std::uint64_t cell;
+    std::uint64_t key;  // of its cell and its length
     float length;
     vec3 place;
   };

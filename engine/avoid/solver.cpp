@@ -195,13 +195,13 @@ vec3 Avoider::State::onCurve(std::span<const vec4> points, std::size_t point) co
 // Nothing is moved aside faster than what is about it moves, or a slow pace: no jump, whatever asks for one.
 void Avoider::State::keepPace(const Input& in) {
   const float slow = kPace * in.seconds;
+  if (!std::exchange(posedStepsAreSet, true))
+    posedSteps.set(slow, lastPosed.size(), [&](std::size_t k) {
+      const vec3 place = onCurve(in.posed.points, k);
+      return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
+    });
   space.keepNear(accepted.motions, correction.motions, [&](std::uint32_t point, float distance) {
     if (distance <= slow || (mayJump && anewPoints[point])) return distance;
-    if (!std::exchange(posedStepsAreSet, true))
-      posedSteps.set(slow, lastPosed.size(), [&](std::size_t k) {
-        const vec3 place = onCurve(in.posed.points, k);
-        return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
-      });
     return posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
   space.keepNear(none, correction.motions,

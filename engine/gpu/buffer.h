@@ -31,6 +31,7 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_.get(); }
   VkDeviceSize bytes() const { return bytes_; }
+  VkDeviceSize allocated() const { return memory_.bytes(); }  ///< at least bytes(): in the device's own steps
   explicit operator bool() const { return bool(buffer_); }
   /// For push constants; a multiple of 16.
   VkDeviceAddress address() const { return address_; }

@@ -120,7 +120,7 @@ std::uint64_t DrawnVessels::triangleCount() const {
 }
 
 VkDeviceSize DrawnVessels::bytes() const {
-  return first_.bytes() + (second_ ? second_->bytes() : 0) + filling_.state().bytes() + patches_.bytes();
+  return first_.bytes() + (second_ ? second_->bytes() : 0) + filling_.state().allocated() + patches_.bytes();
 }
 
 }  // namespace vasa

@@ -9,7 +9,7 @@ namespace vasa {
 /// vertices and indices in blocks as groups take them, a colour a block, a draw a group.
 struct Template {
   Template(gpu::Device& device, const shared::FillRoom& room);
-  VkDeviceSize bytes() const { return pool.bytes() + colours.bytes() + draws.bytes(); }
+  VkDeviceSize bytes() const { return pool.allocated() + colours.allocated() + draws.allocated(); }
 
   gpu::Buffer pool, colours, draws;  ///< shared::TubeVertex and uint, uint, shared::DrawCommand
 };

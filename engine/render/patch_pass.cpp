@@ -79,7 +79,7 @@ VkDeviceSize PatchSet::bytes() const {
   for (const gpu::Buffer* buffer :
        {&draws_.vertices, &draws_.colours, &draws_.indices, &draws_.draws, &seams_, &shares_, &rest_,
         &joints_, &all_, &walls_, &firstFan_, &fans_, &strained_, &dispatch_, &between_})
-    sum += buffer->bytes();
+    sum += buffer->allocated();
   return sum;
 }
 
