@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "curve/arc_length.h"
 #include "curve/fit.h"
 #include "curve/frame.h"
 #include "edit/graft_course.h"
 #include "edit/redraw.h"
+#include "math/aabb.h"
 #include "network/kinks.h"
 
 namespace vasa {
@@ -101,6 +103,31 @@ Result<std::string> apply(const BranchEdit& edit, Draft& draft) {
                      std::acos(std::clamp(glm::dot(direction, tangent), -1.0f, 1.0f)) * 180 / kPi);
 }
 
+namespace {
+
+// Of a graft's straight way, in diagonals of the box around all vessels: a way through a body and back again
+// is shorter, and what leads it takes time with each millimetre.
+constexpr int kLongestWay = 4;
+
+float wayOf(const Draft& draft, const GraftTask& task) {
+  const auto at = [&](Draft::Place place) {
+    return vec3(evaluate(draft.line(place.vessel).points, place.parameter));
+  };
+  vec3 before = at(task.from);
+  float way = 0;
+  for (const vec3& place : task.via) way += glm::distance(std::exchange(before, place), place);
+  return way + glm::distance(before, at(task.to));
+}
+
+float reachOf(const Draft& draft) {
+  Aabb box;
+  for (const Draft::Line& line : draft.lines)
+    for (const vec4& point : line.points) box.add(vec3(point));
+  return glm::length(box.extent());
+}
+
+}  // namespace
+
 Result<std::string> apply(const GraftEdit& edit, Draft& draft) {
   const auto from = draft.find(edit.vessel);
   if (!from) return from.error();
@@ -114,6 +141,11 @@ Result<std::string> apply(const GraftEdit& edit, Draft& draft) {
   GraftTask task{
       placeAt(draft, *from, edit.at), placeAt(draft, *to, edit.otherAt), float(edit.radiusMm) * kMm, {}};
   for (const dvec3& place : edit.via) task.via.push_back(vec3(place) * kMm);
+  if (const float way = wayOf(draft, task), most = kLongestWay * reachOf(draft); way > most)
+    return badInput(fmt::format(
+        "its way is {:.0f} mm long, and nothing over {:.0f} is led: {} times what all vessels reach over; "
+        "are its places in millimetres of the network?",
+        way / kMm, most / kMm, kLongestWay));
   GraftCourse course = leadGraft(draft, task);
   std::vector<std::string> inTheWay;
   for (const VesselId each : course.inTheWay) inTheWay.push_back(draft.line(each).label.name);

@@ -68,3 +68,12 @@ TEST_CASE("a graft passes the places that it is led through") {
         std::min(nearest, glm::distance(vec3(at(after, "by", float(k) / 1000)), vec3(-0.04f, 1.02f, 0.1f)));
   CHECK(nearest < 0.001f);
 }
+
+TEST_CASE("a graft that is led far out of all vessels is refused before it is looked for") {
+  const std::string refusal = refusalOf(smallTree(), "graft trunk 0.2 far 0.8 2 by via 4040 0 6");
+  CHECK(refusal.find("its way is ") != std::string::npos);
+  CHECK(refusal.find("millimetres") != std::string::npos);
+  std::string forthAndBack = "graft trunk 0.2 far 0.8 2 by via";
+  for (int k = 0; k < 100; ++k) forthAndBack += k % 2 == 0 ? " -40 1020 100" : " -40 1020 200";
+  CHECK(refusalOf(smallTree(), forthAndBack).find("its way is ") != std::string::npos);
+}

@@ -28,9 +28,12 @@ Difference compare(const Image& wanted, const Image& found) {
   return difference;
 }
 
-bool same(const Difference& difference, std::uint32_t subPixelBits) {
-  const bool coarse = subPixelBits < 8;
-  return difference.foreground > 100 && difference.mean <= (coarse ? 4 : 1) &&
+bool same(const Difference& difference, const Drawn& drawn) {
+  const bool coarse = drawn.subPixelBits < 8;
+  return difference.foreground > 100 &&
+         difference.mean <= (coarse        ? 4
+                             : drawn.byGpu ? 1.5
+                                           : 1) &&
          difference.changed <= (coarse ? 0.1 : 0.01);
 }
 

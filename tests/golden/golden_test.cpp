@@ -22,6 +22,10 @@ std::filesystem::path pathOf(const std::string& name) {
 
 bool writing() { return std::getenv("VASA_WRITE_GOLDEN") != nullptr; }
 
+golden::Drawn drawnBy(const test::GpuRig& rig) {
+  return {rig.device().limits().subPixelPrecisionBits, !rig.device().isCpu()};
+}
+
 Image stored(const std::string& name) {
   auto picture = readPng(pathOf(name));
   REQUIRE_MESSAGE(picture.ok(), (picture.ok() ? "" : picture.error().message));
@@ -45,7 +49,7 @@ void check(const test::GpuRig& rig, const std::vector<golden::Picture>& pictures
     const golden::Difference difference = golden::compare(stored(picture.name), image);
     CAPTURE(difference.mean);
     CAPTURE(difference.changed);
-    CHECK(golden::same(difference, rig.device().limits().subPixelPrecisionBits));
+    CHECK(golden::same(difference, drawnBy(rig)));
   }
 }
 
@@ -71,8 +75,7 @@ TEST_CASE("a change in any family is seen") {
   for (const auto& mutations : {golden::syntheticMutations(), golden::humanMutations()})
     for (const golden::Picture& mutation : mutations) {
       CAPTURE(mutation.name);
-      const auto bits = rig.device().limits().subPixelPrecisionBits;
-      CHECK(!golden::same(golden::compare(stored(mutation.name), mutation.draw(rig.device())), bits));
+      CHECK(!golden::same(golden::compare(stored(mutation.name), mutation.draw(rig.device())), drawnBy(rig)));
       ++families[mutation.name.substr(0, mutation.name.find('/'))];
     }
   for (const auto& family : families) {

@@ -96,13 +96,14 @@ std::vector<Site> sitesOf(const std::map<std::string, Called>& called, std::size
   return every ? manySites(called, std::max(1ul, std::strtoul(every, nullptr, 10))) : fewSites(called, phase);
 }
 
-// What a run goes on after: the window system's and the clock's moods, memory of another type, ends that only
-// clean up.
+// What a run goes on after: the window system's and the clock's moods, memory of another type, pipelines that
+// were kept and are of no use, ends that only clean up.
 bool goesOn(const Site& site) {
   static const std::set<std::string> cleaning{"vkQueueWaitIdle", "vkDeviceWaitIdle"};
   if (site.last && (site.function == "vkWaitSemaphores" || site.function == "vkGetSemaphoreCounterValue"))
     return true;
   return site.result >= 0 || site.result == VK_ERROR_OUT_OF_DATE_KHR || cleaning.contains(site.function) ||
+         (site.function == "vkCreatePipelineCache" && site.call == 1 && !site.always) ||
          (site.function == "vkAllocateMemory" && site.result == VK_ERROR_OUT_OF_DEVICE_MEMORY &&
           !site.always);
 }
