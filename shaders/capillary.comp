@@ -65,7 +65,7 @@ Bud rootOf(GrowthStem stem, uint side, mat3 axes, vec3 origin) {
   return Bud(within(axes, place - origin), within(axes, turned(turn, direction)), stem.radius);
 }
 
-Capillary capillaryAt(uint number, GrowthStem stem, uint side, uint levels, uint curve) {
+Capillary capillaryAt(uint number, GrowthStem stem, uint side, uint levels, uint curve, bool sparse) {
   BedBox bed = boxAt(number);
   Section section = sectionOn(push.beds.bed[number].span, push.beds.bed[number].t);
   mat3 axes = axesOf(section);
@@ -85,9 +85,12 @@ Capillary capillaryAt(uint number, GrowthStem stem, uint side, uint levels, uint
     capillary.leaf = levels == 0 || childCount == 0;
     if (curve == 0 || capillary.leaf) break;
     --curve;
-    uint branch = 0;
-    for (; branch + 1 < childCount; ++branch) {
-      uint size = push.growth.growth.symbol[push.growth.growth.child[firstChild + branch].symbol].treeSize[levels];
+    bool thinned = sparse && levels == 1;
+    uint branch = thinned ? 2 * curve : 0;
+    if (thinned) curve = 0;
+    for (; !thinned && branch + 1 < childCount; ++branch) {
+      uint next = push.growth.growth.child[firstChild + branch].symbol;
+      uint size = sparse ? push.growth.growth.symbol[next].sparseSize[levels] : push.growth.growth.symbol[next].treeSize[levels];
       if (curve < size) break;
       curve -= size;
     }
@@ -104,6 +107,13 @@ Capillary capillaryAt(uint number, GrowthStem stem, uint side, uint levels, uint
     vec3 end = endIn(bed, part, key, last ? 0 : side == 1 ? -kApart : kApart);
     capillary.phase += (1 - capillary.phase) * 0.5 * child.at;
     capillary.curve = drawn(own, bed, bud, end, keyOf(key, 0x100u + side));
+    if (thinned) {
+      float share = float(childCount) / float(sparseOf(childCount));
+      capillary.curve.b0.w *= share;
+      capillary.curve.b1.w *= share;
+      capillary.curve.b2.w *= share;
+      capillary.curve.b3.w *= share;
+    }
     radius = bud.radius;
   }
   capillary.lastPhase = capillary.leaf ? 1 : capillary.phase + (1 - capillary.phase) * 0.5;
@@ -129,5 +139,5 @@ void main() {
       writeVertex(target + i, vec4(2, 2, 2, 1), 0, 0);  // outside the picture
     return;
   }
-  writeCurve(capillaryAt(job.bed, stem, job.side, job.levels, curve - job.firstCurve), colour, target);
+  writeCurve(capillaryAt(job.bed, stem, job.side, job.levels, curve - job.firstCurve, job.sparse != 0u), colour, target);
 }

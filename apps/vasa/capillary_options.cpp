@@ -33,7 +33,7 @@ void addCapillaryOptions(CLI::App& sub, CapillaryOptions& options) {
   sub.add_option(
          "--capillary-detail", options.smallest,
          fmt::format(
-             "Leave out generations shorter than this in pixels, draw thin ones with fewer triangles; 0: neither (default {})",
+             "Leave out generations shorter than this in pixels, draw thin ones with fewer triangles, and fewer of those not much longer; 0: neither (default {})",
              usual.smallest))
       ->check(CLI::Range(0.0f, 1000.0f));
   sub.add_option("--growth", options.rules,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "growth/random.h"
 
@@ -157,7 +158,7 @@ vec3 bedCentre(const PosedNetwork& network, std::span<const shared::SweepRecord>
 }
 
 Capillary capillaryAt(const GrowthScene& scene, std::uint32_t number, BedSide bedSide, std::uint32_t levels,
-                      std::uint32_t curve) {
+                      std::uint32_t curve, bool sparse) {
   assert(levels > 0);
   const GrowthBed& bed = scene.beds[number];
   const std::uint32_t side = bedSide == BedSide::vein;
@@ -178,12 +179,15 @@ Capillary capillaryAt(const GrowthScene& scene, std::uint32_t number, BedSide be
     if (curve == 0 || capillary.leaf) break;
     --curve;
     std::uint32_t branch = 0;
-    for (; branch + 1 < symbol.childCount; ++branch) {
-      const std::uint32_t size =
-          scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol].treeSize[levels];
-      if (curve < size) break;
-      curve -= size;
-    }
+    if (sparse && levels == 1)
+      branch = 2 * std::exchange(curve, 0);
+    else
+      for (; branch + 1 < symbol.childCount; ++branch) {
+        const GrowthSymbol& next = scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol];
+        const std::uint32_t size = sparse ? next.sparseSize[levels] : next.treeSize[levels];
+        if (curve < size) break;
+        curve -= size;
+      }
     const GrowthChild& child = scene.tables.child[symbol.firstChild + branch];
     const vec3 before = part.centre;
     part = partOf(bed, part, entry, symbol.childCount, branch);
@@ -196,6 +200,9 @@ Capillary capillaryAt(const GrowthScene& scene, std::uint32_t number, BedSide be
     const vec3 end = endIn(bed, part, key, last ? 0 : side ? -kApart : kApart);
     capillary.phase += (1 - capillary.phase) * 0.5f * child.at;
     drawnCurve = drawn(own, bed, bud, end, keyOf(key, 0x100u + side));
+    if (sparse && levels == 1)
+      for (vec4& b : drawnCurve.b)
+        b.w *= float(symbol.childCount) / float(shared::sparseOf(symbol.childCount));
     radius = bud.radius;
     capillary.symbol = child.symbol;
     ++capillary.generation;

@@ -40,10 +40,12 @@ struct Capillary {
 
 /// The capillary with a number in one tree of a bed. Trees are counted stem first, then branch after branch.
 /// @param levels  generations of the tree, 1 to shared::kMostGrowthLevels
-/// @param number  below tables.symbol[axiom].treeSize[levels]
+/// @param number  below GrowthRules::treeSize
+/// @param sparse  of the last generation every second curve is there, as thick as those that it stands for:
+///                far thinner than a pixel, they cover as much of the picture
 /// O(levels · branches), no allocation.
 Capillary capillaryAt(const GrowthScene& scene, std::uint32_t bed, BedSide side, std::uint32_t levels,
-                      std::uint32_t number);
+                      std::uint32_t number, bool sparse = false);
 
 /// Where a bed lies in the network's shape.
 vec3 bedCentre(const PosedNetwork& network, std::span<const shared::SweepRecord> spans,

@@ -311,15 +311,18 @@ class Parser {
     shared::GrowthTables& tables = rules_.tables;
     for (std::uint32_t level = 1; level <= shared::kMostGrowthLevels; ++level)
       for (std::uint32_t s = firstSymbol; s < rules_.symbols.size(); ++s) {
-        std::uint32_t size = 1;
+        shared::GrowthSymbol& own = tables.symbol[s];
+        std::uint32_t size = 1, sparse = level == 2 ? 1 + shared::sparseOf(own.childCount) : 1;
         bool fits = true;
-        for (std::uint32_t c = 0; c < tables.symbol[s].childCount; ++c) {
-          const std::uint32_t branch =
-              tables.symbol[tables.child[tables.symbol[s].firstChild + c].symbol].treeSize[level - 1];
-          fits = fits && (branch > 0 || level == 1);
-          size += branch;
+        for (std::uint32_t c = 0; c < own.childCount; ++c) {
+          const shared::GrowthSymbol& branch = tables.symbol[tables.child[own.firstChild + c].symbol];
+          fits = fits && (branch.treeSize[level - 1] > 0 || level == 1);
+          size += branch.treeSize[level - 1];
+          if (level > 2) sparse += branch.sparseSize[level - 1];
         }
-        tables.symbol[s].treeSize[level] = fits && size <= shared::kRingCurves ? size : 0;
+        fits = fits && size <= shared::kRingCurves;
+        own.treeSize[level] = fits ? size : 0;
+        own.sparseSize[level] = fits ? sparse : 0;
       }
   }
 

@@ -15,9 +15,10 @@ struct GrowthRules {
   std::vector<std::string> systems;  ///< names, as numbered in tables.system
   std::vector<std::string> symbols;  ///< letters, as numbered in tables.symbol
 
-  /// Curves of one tree of system `s`.
-  std::uint32_t treeSize(std::uint32_t s, std::uint32_t levels) const {
-    return tables.symbol[tables.system[s].axiom].treeSize[levels];
+  /// Curves of one tree of system `s`. @param sparse  with every second one of the last generation
+  std::uint32_t treeSize(std::uint32_t s, std::uint32_t levels, bool sparse = false) const {
+    const shared::GrowthSymbol& axiom = tables.symbol[tables.system[s].axiom];
+    return sparse ? axiom.sparseSize[levels] : axiom.treeSize[levels];
   }
 };
 

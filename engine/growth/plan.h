@@ -28,7 +28,8 @@ struct CapillaryWish {
   /// Most curves in a picture: beyond it trees lose generations, the deepest first, and stems go last.
   std::uint32_t budget = 4'000'000;
   /// [pixels] generations with shorter curves are left out, and trees much thinner than a pixel are drawn as
-  /// threads (ribbon.h) where `edges` is 0. 0: none is left out, all are ribbons.
+  /// threads (ribbon.h) where `edges` is 0, those whose last curves are up to eight times as long with every
+  /// second of these. 0: none is left out, all are ribbons.
   float smallest = 0.5f;
 };
 

@@ -7,9 +7,11 @@
 #include <cstddef>
 namespace vasa::shared {
 #define VASA_CONSTANT constexpr
+#define VASA_FUNCTION constexpr
 #define VASA_ADDRESS(Block) std::uint64_t
 #else
 #define VASA_CONSTANT const
+#define VASA_FUNCTION
 #endif
 
 VASA_CONSTANT uint kMostGrowthLevels = 6;  // generations of a tree
@@ -31,11 +33,15 @@ struct GrowthChild {
 /// A letter of an L-system: the curve that it is drawn as, and its branches.
 struct GrowthSymbol {
   uint firstChild, childCount;
-  float taper;                           // last radius in first radii
-  float meander;                         // how far both ends of a curve stray from the straight way
-  float fibre;                           // pull along the longest side of the bed, either way
-  uint treeSize[kMostGrowthLevels + 1];  // curves of a tree of so many generations that begins here
+  float taper;                             // last radius in first radii
+  float meander;                           // how far both ends of a curve stray from the straight way
+  float fibre;                             // pull along the longest side of the bed, either way
+  uint treeSize[kMostGrowthLevels + 1];    // curves of a tree of so many generations that begins here
+  uint sparseSize[kMostGrowthLevels + 1];  // likewise, of its last generation every second one
 };
+
+/// How many of a curve's branches are drawn where every second one is.
+VASA_FUNCTION uint sparseOf(uint branches) { return (branches + 1) / 2; }
 
 /// An L-system.
 struct GrowthSystem {
@@ -90,6 +96,7 @@ struct GrowthJob {
   uint bed;
   uint side;  // 0: the artery's tree, 1: the vein's
   uint levels;
+  uint sparse;  // 1: of the last generation every second curve is drawn, as thick as those that it stands for
 };
 
 /// A picture's view of the capillaries.
@@ -144,8 +151,8 @@ struct CapillaryPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GrowthChild) == 12 && sizeof(GrowthSymbol) == 48 && sizeof(GrowthSystem) == 12);
-static_assert(sizeof(GrowthStem) == 64 && sizeof(GrowthBed) == 304 && sizeof(GrowthJob) == 16 &&
+static_assert(sizeof(GrowthChild) == 12 && sizeof(GrowthSymbol) == 76 && sizeof(GrowthSystem) == 12);
+static_assert(sizeof(GrowthStem) == 64 && sizeof(GrowthBed) == 304 && sizeof(GrowthJob) == 20 &&
               sizeof(CapillaryVertex) == 24);
 static_assert(sizeof(GrowthView) == 64 + 5 * 16 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared

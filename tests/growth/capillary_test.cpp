@@ -89,6 +89,36 @@ TEST_CASE("a branch begins on its parent's axis, no thicker than it, and leaves 
   CHECK(generations == std::map<std::uint32_t, std::size_t>{{0, 1}, {1, 4}, {2, 4 + 2 * 3}});
 }
 
+TEST_CASE("a sparse tree has every second of the last curves, and these cover as much") {
+  const test::GrownNetwork grown(test::windingNetwork(6, 9));
+  const PosedNetwork posed = grown.posed();
+  const GrowthScene scene = grown.scene(posed);
+  std::size_t trees = 0;
+  forEachTree(grown, [&](std::uint32_t bed, BedSide side) {
+    const std::uint32_t system = scene.beds[bed].system;
+    const std::vector<Capillary> whole = treeOf(scene, bed, side);
+    const auto area = [](const Capillary& one) {
+      return double(one.curve.b[0].w + one.curve.b[3].w) * glm::distance(one.curve.b[0], one.curve.b[3]);
+    };
+    double all = 0, some = 0;
+    for (const Capillary& one : whole) all += area(one);
+    const std::uint32_t size = grown.rules.treeSize(system, kLevels, true);
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const Capillary one = capillaryAt(scene, bed, side, kLevels, k, true);
+      some += area(one);
+      const auto same = std::ranges::find_if(whole, [&](const Capillary& other) {
+        return vec3(other.curve.b[1]) == vec3(one.curve.b[1]) && other.generation == one.generation;
+      });
+      REQUIRE(same != whole.end());
+      CHECK((one.generation + 1 == kLevels) == (one.curve.b[0].w > same->curve.b[0].w));
+    }
+    CHECK(size < 0.8 * double(whole.size()));
+    CHECK(some == doctest::Approx(all).epsilon(0.3));
+    ++trees;
+  });
+  CHECK(trees > 20);
+}
+
 TEST_CASE("Murray's law in the grown curves: r³ before a branching is the sum of r³ after it") {
   const test::GrownNetwork grown(test::windingNetwork(6, 9));
   const PosedNetwork posed = grown.posed();

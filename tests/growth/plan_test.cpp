@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
@@ -59,7 +60,8 @@ TEST_CASE("a plan has every tree once, whole, in batches that fit the ring") {
       const shared::GrowthJob& job = plan.jobs[batch.firstJob + j];
       const std::uint32_t end =
           j + 1 < batch.jobCount ? plan.jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
-      CHECK(end - job.firstCurve == grown.rules.treeSize(grown.beds.beds[job.bed].system, job.levels));
+      CHECK(end - job.firstCurve ==
+            grown.rules.treeSize(grown.beds.beds[job.bed].system, job.levels, job.sparse));
       CHECK(trees.insert({job.bed, job.side}).second);
     }
   }
@@ -126,6 +128,17 @@ TEST_CASE("trees thinner than a pixel are threads, unless all is to be drawn or 
   wish.edges = 0;
   wish.smallest = 0;
   CHECK(edgesAt(20) == 3);
+}
+
+TEST_CASE("of threads whose last generation is short every second curve is drawn") {
+  const test::GrownNetwork grown(test::windingNetwork(20, 6));
+  const auto sparseAt = [&](float width, float smallest) {
+    const auto plan = planOf(grown, viewOf(width, middleOf(grown)), {.levels = 3, .smallest = smallest});
+    return std::ranges::count_if(plan.jobs, [](const shared::GrowthJob& job) { return job.sparse != 0; });
+  };
+  CHECK(sparseAt(20, 0.5f) > 0);
+  CHECK(sparseAt(0.05f, 0.5f) == 0);
+  CHECK(sparseAt(20, 0) == 0);
 }
 
 TEST_CASE("beyond the budget the deepest generations go first, so that every bed keeps its stems") {

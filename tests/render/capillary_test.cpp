@@ -31,7 +31,7 @@ struct Difference {
   float place = 0;   // in the picture's half widths
   int colour = 0;    // of 255
   float across = 0;  // [rad], times the sine between curve and sight
-  std::uint64_t curves = 0, threads = 0;
+  std::uint64_t curves = 0, threads = 0, sparse = 0;
 };
 
 int byteDifference(std::uint32_t a, std::uint32_t b) {
@@ -88,17 +88,18 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
       const std::uint32_t end =
           j + 1 < batch.jobCount ? pass.plan().jobs[batch.firstJob + j + 1].firstCurve : batch.curves;
       const shared::GrowthBed& bed = grown.beds.beds[job.bed];
-      CHECK(end - job.firstCurve == grown.rules.treeSize(bed.system, job.levels));
+      CHECK(end - job.firstCurve == grown.rules.treeSize(bed.system, job.levels, job.sparse));
       const auto kind = grown.network.vessels()[grown.beds.spans[bed.stem[job.side].span].vessel].kind;
       for (std::uint32_t curve = job.firstCurve; curve < end; ++curve) {
         const Capillary capillary =
-            capillaryAt(scene, job.bed, kBedSides[job.side], job.levels, curve - job.firstCurve);
+            capillaryAt(scene, job.bed, kBedSides[job.side], job.levels, curve - job.firstCurve, job.sparse);
         const std::uint32_t root = packColour(colourOf(kind));
         if (batch.edges == shared::kThreads)
           writeThread(capillary, view, root, wanted);
         else
           writeRibbon(capillary, view, root, batch.edges, wanted);
         worst.threads += batch.edges == shared::kThreads;
+        worst.sparse += job.sparse;
         const bool thread = batch.edges == shared::kThreads;
         const std::uint32_t edges = !thread ? batch.edges : capillary.leaf ? 1 : shared::kThreadEdges;
         for (std::uint32_t v = 0; v < each; ++v) {
@@ -151,17 +152,19 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
   struct Case {
     std::uint32_t levels, edges, seed;
     bool perspective;
-    float distance = 2;
+    float distance = 2, smallest = 0;
   };
   for (const Case& c : {Case{1, 5, 1, true}, Case{3, 10, 7, true}, Case{3, 5, 7, false}, Case{4, 8, 3, true},
-                        Case{3, 0, 7, true, 30}, Case{2, 0, 7, false, 12}}) {
+                        Case{3, 0, 7, true, 30, 1e-6f}, Case{2, 0, 7, false, 12, 1e-6f},
+                        Case{3, 0, 7, true, 30, 0.05f}, Case{2, 0, 3, false, 12, 0.2f}}) {
     CAPTURE(c.levels);
     CAPTURE(c.edges);
     const CapillaryWish wish{
-        .levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.edges ? 0 : 1e-6f};
+        .levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.smallest};
     const Difference worst =
         deviceAgainstSpecification(rig, grown, lookingAt(grown, c.distance, c.perspective), wish, c.seed);
     CHECK(worst.threads == (c.edges ? 0 : worst.curves));
+    CHECK((worst.sparse > 0) == (c.smallest > 0.01f));
     CHECK(worst.curves > 200);
     CHECK(worst.place <= 1e-4f);
     CHECK(worst.colour <= 1);
