@@ -6,6 +6,7 @@
 # Made ready for drivers, which would do the same at each start, slower: calls inlined, variables to values, what is found
 # twice found once. No pass that rewrites arithmetic, so that CPU references and pictures hold to the bit.
 set(VASA_SPIRV_PASSES
+    --merge-return
     --inline-entry-points-exhaustive
     --eliminate-dead-functions
     --private-to-local
