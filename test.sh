@@ -2,6 +2,7 @@
 # Installs what is missing, builds, runs the tests.
 #   ./test.sh           the release build, all tests
 #   ./test.sh format    every source as clang-format has it under .clang-format, the rest without a word of cmake-lint, shellcheck and pyflakes
+#   ./test.sh tidy      clang-tidy over engine/ and apps/ with the checks of .clang-tidy: nothing found (half an hour)
 #   ./test.sh asan      the readers and the geometry under AddressSanitizer and UBSan, leaks too
 #   ./test.sh asan-all  every engine folder, those that draw too; the driver's own leaks are in tests/support/leaks.supp
 #   ./test.sh tsan      what runs in parallel under ThreadSanitizer
@@ -30,6 +31,14 @@ if [ "$preset" = format ]; then
   git ls-files -z '*.sh' .ci/run | xargs -0 shellcheck
   git ls-files -z '*.py' | xargs -0 pyflakes3
   echo "format: nothing to change"
+  exit 0
+fi
+if [ "$preset" = tidy ]; then
+  scripts/install-dependencies.sh clang-tidy
+  cmake --preset release -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+  cmake --build build/tidy --target vasa_gpu_shaders_spirv vasa_render_shaders_spirv apps/vasa/made/engine_print.h
+  git ls-files 'engine/*.cpp' 'apps/*.cpp' | xargs -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet
+  echo "tidy: nothing found"
   exit 0
 fi
 if [[ "$preset" = fuzz || "$preset" = compilers ]] && ! command -v clang++ > /dev/null; then scripts/install-dependencies.sh clang; fi

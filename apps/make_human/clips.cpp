@@ -235,6 +235,7 @@ Result<std::vector<Clip>> makeClips(const std::filesystem::path& clipsPath,
   const std::vector<Coupling> couplings = readCouplings(*couplingTable, rig);
   if (!couplingTable->state().ok()) return couplingTable->state().error();
   std::vector<Clip> result;
+  result.reserve(motions.size());
   for (const Motion& motion : motions) result.push_back(sample(motion, rig, couplings));
   return result;
 }

@@ -15,8 +15,7 @@ vasa::Result<void> generate(const std::filesystem::path& tables, const std::file
   Result<human::Human> made = human::makeHuman(tables, options);
   if (!made.ok()) return made.error();
   const std::vector<std::byte> body = human::writeGlb(made->rig, made->meshes, made->clips);
-  if (const Result<void> written = writeFileAtomically(out / "human.glb", body); !written.ok())
-    return written;
+  if (Result<void> written = writeFileAtomically(out / "human.glb", body); !written.ok()) return written;
   const Result<std::size_t> network = writeNetwork(out / "human.vasa", made->vessels, {quantise});
   if (!network.ok()) return network.error();
   if (const std::uint32_t sweeps = made->vessels.sweepCount(); float(sweeps) < 0.95f * float(options.sweeps))

@@ -47,7 +47,7 @@ std::vector<SoughtWeights> candidates(const SkinnedMesh& skin, const SkinSheet& 
   std::vector<std::vector<std::pair<float, std::uint16_t>>> found(count);
   std::vector<float> way(count);
   using Open = std::pair<float, std::uint32_t>;
-  for (std::uint16_t joint = 0; joint < joints; ++joint) {
+  for (std::size_t joint = 0; joint < joints; ++joint) {
     std::fill(way.begin(), way.end(), kJointReach);
     std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -58,7 +58,7 @@ std::vector<SoughtWeights> candidates(const SkinnedMesh& skin, const SkinSheet& 
       const auto [length, i] = open.top();
       open.pop();
       if (length > way[i]) continue;
-      found[i].emplace_back(length, joint);
+      found[i].emplace_back(length, std::uint16_t(joint));
       for (std::uint32_t j : sheet.neighbours(i)) {
         const float next = length + glm::distance(skin.mesh.positions[i], skin.mesh.positions[j]);
         if (next < way[j]) way[j] = next, open.emplace(next, j);

@@ -47,7 +47,7 @@ std::optional<Chosen> chosenOf(const Document& document, const ViewState& state)
 // The last line where it is of this kind and about this place.
 template <class Line>
 std::optional<Line> lineThere(const std::optional<Chosen>& chosen, const ViewState& state) {
-  const auto line = lastLine<Line>(state);
+  auto line = lastLine<Line>(state);
   if (!line || !chosen || line->vessel != chosen->vessel ||
       std::abs(placeOf(EditOperation(*line)) - chosen->share) > kSamePlace)
     return std::nullopt;
@@ -70,7 +70,7 @@ float radiusAt(const Network& network, const VesselPlace& place) {
 // A name that no vessel has.
 std::string newName(const Network& network, const std::string& stem) {
   for (int n = 1;; ++n) {
-    const std::string name = n == 1 ? stem : fmt::format("{} {}", stem, n);
+    std::string name = n == 1 ? stem : fmt::format("{} {}", stem, n);
     if (std::ranges::none_of(network.vessels(), [&](const Vessel& v) { return v.name == name; })) return name;
   }
 }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kSmallestWeight = 1e-3f;  // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
-constexpr float kSamePace = 1.0001f;  // of what is allowed: above rounding
-constexpr std::size_t kVesselGrain = 64;
+constexpr float kSamePace = 1.0001f;                 // of what is allowed: above rounding
+constexpr std::size_t kVesselGrain = 64;             // as many as are worth another thread
 constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
 float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
