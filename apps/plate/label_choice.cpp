@@ -203,8 +203,7 @@ std::vector<vec2> anchorsOf(std::vector<Stretch>& stretches) {
     const std::size_t count = std::min(kAnchors - anchors.size(), std::max<std::size_t>(1, kAnchors / 2 + 2));
     for (std::size_t k = 0; k < count; ++k) {
       // From the middle outwards.
-      const std::size_t ring = (k + 1) / 2, rings = count / 2 + 1;
-      const float step = float(ring) / float(rings) * (k % 2 ? 1.0f : -1.0f);
+      const float step = float((k + 1) / 2) / float(count / 2 + 1) * (k % 2 ? 1.0f : -1.0f);
       const float share = 0.5f + (0.5f - kEnds) * step;
       const auto at = std::size_t(std::lround(share * float(stretch.places.size() - 1)));
       if (std::ranges::find(anchors, stretch.places[at]) == anchors.end())

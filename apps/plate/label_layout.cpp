@@ -288,8 +288,7 @@ LabelLayout layOutLabels(std::span<const LabelWish> wishes, const LabelColumns& 
   Attempt best;
   for (int k = 0; k < kSplits; ++k) {
     // From the middle outwards, so that of equal ones the middle is taken.
-    const int ring = (k + 1) / 2, rings = kSplits / 2;
-    const float step = float(ring) / float(rings) * (k % 2 ? 1.0f : -1.0f);
+    const float step = float((k + 1) / 2) / float(kSplits / 2) * (k % 2 ? 1.0f : -1.0f);
     Attempt attempt = layOut(wishes, columns, middle + kSplitReach * half * step);
     if (k == 0 || attempt.cost < best.cost) best = std::move(attempt);
   }

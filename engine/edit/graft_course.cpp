@@ -292,7 +292,7 @@ GraftCourse leadGraft(const Draft& draft, const GraftTask& task) {
       if (kinks(bezierOfSpan(course.points, span))) return false;
     return true;
   };
-  const GraftCourse straight = attempt(vec3(0));
+  GraftCourse straight = attempt(vec3(0));
   if (good(straight) || !task.via.empty()) return straight;
   const vec3 from(evaluate(draft.line(task.from.vessel).points, task.from.parameter)),
       to(evaluate(draft.line(task.to.vessel).points, task.to.parameter));

@@ -50,7 +50,10 @@ Replay replayEdits(const Network& network, std::span<const Edit> edits) {
   }
   auto built = draft.build(&replay.origins);
   // Shapes alone were changed since the builder last agreed: ends are where they were, radii above 0.
-  replay.network = built ? std::move(*built) : network;
+  if (built)
+    replay.network = std::move(*built);
+  else
+    replay.network = network;
   if (!built) replay.rows.push_back({"", "", "", "", built.error().message});
   for (const Draft::Line& line : draft.lines)
     if (!line.gone) replay.redrawn.push_back(line.touched);

@@ -13,7 +13,7 @@ constexpr std::array<signed char, 256> kDigits = [] {
   std::array<signed char, 256> digits{};
   digits.fill(-1);
   for (std::size_t i = 0; i < kAlphabet.size(); ++i)
-    digits[std::size_t(kAlphabet[i])] = static_cast<signed char>(i);
+    digits[static_cast<unsigned char>(kAlphabet[i])] = static_cast<signed char>(i);
   return digits;
 }();
 

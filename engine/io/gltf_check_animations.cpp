@@ -29,14 +29,14 @@ Sampler checkSampler(const JsonView& sampler, const std::vector<JsonView>& acces
   if (method != "LINEAR" && method != "STEP" && method != "CUBICSPLINE")
     interpolation->fail("\"" + method + "\" must be LINEAR, STEP or CUBICSPLINE");
   const auto normalised = output.find("normalized");
-  const Sampler result{sampler,
-                       sampler.at("output"),
-                       output.at("type").text(),
-                       output.at("componentType").integer(0, 65535),
-                       input.at("count").integer(1, std::int64_t(1) << 40),
-                       output.at("count").integer(1, std::int64_t(1) << 40),
-                       normalised && normalised->boolean(),
-                       method == "CUBICSPLINE"};
+  Sampler result{sampler,
+                 sampler.at("output"),
+                 output.at("type").text(),
+                 output.at("componentType").integer(0, 65535),
+                 input.at("count").integer(1, std::int64_t(1) << 40),
+                 output.at("count").integer(1, std::int64_t(1) << 40),
+                 normalised && normalised->boolean(),
+                 method == "CUBICSPLINE"};
   if (result.cubic && result.keys < 2) sampler.at("input").fail("a cubic spline needs at least two keys");
   return result;
 }

@@ -187,7 +187,7 @@ std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::
 
 Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file) {
   if (file.clip.empty()) return nullptr;
-  const auto found = findClip(scene.body, file.clip);
+  auto found = findClip(scene.body, file.clip);
   if (!found) return found;
   clearArms(file, scene.body,
             std::span(scene.body.clips).subspan(std::size_t(*found - scene.body.clips.data()), 1));
