@@ -37,7 +37,9 @@ class Memory {
 
   VkDeviceMemory handle() const { return memory_.get(); }
   std::byte* mapped() const { return mapped_; }  ///< nullptr for MemoryRole::device
-  VkDeviceSize bytes() const { return size_; }   ///< as the device needs them: GPUs ask for some more than was wanted
+  VkDeviceSize bytes() const {
+    return size_;
+  }  ///< as the device needs them: GPUs ask for some more than was wanted
 
   /// Makes host writes to a range reach the device, and device writes the host. For coherent memory both do
   /// nothing.

@@ -13,7 +13,8 @@
 
 // The patches' pass against its CPU reference: 1e-6 m in position, 2e-4 in normals (they are packed to 7e-5),
 // triangles alike, and 4e-5 m where steps of smoothing start from packed normals that differ in their last
-// bit (processors stay within 2e-5, an NVIDIA GPU comes to 2.2e-5); and with the tubes' and forks' passes: one closed surface, bit for bit.
+// bit (processors stay within 2e-5, an NVIDIA GPU comes to 2.2e-5); and with the tubes' and forks' passes:
+// one closed surface, bit for bit.
 
 using namespace vasa;
 
