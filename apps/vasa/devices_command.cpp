@@ -93,7 +93,7 @@ std::string asTable(const Listing& listing) {
 Result<void> run(const Globals& globals) {
   const auto listing = list(globals.device);
   if (!listing) return listing.error();
-  const auto printed = globals.json ? printJson(asReport(*listing)) : printText(asTable(*listing));
+  auto printed = globals.json ? printJson(asReport(*listing)) : printText(asTable(*listing));
   if (!printed) return printed;
   if (!listing->chosen) return listing->refusal;
   return {};

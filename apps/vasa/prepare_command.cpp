@@ -69,7 +69,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   auto scene = loadScene(*choice, line->told());
   if (!scene) return scene.error();
   (*line)("preparing");
-  if (const auto made = makeAll(*scene, *choice, line->told()); !made) return made;
+  if (auto made = makeAll(*scene, *choice, line->told()); !made) return made;
   line.reset();
   std::uintmax_t bytes = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder, error))
