@@ -230,20 +230,20 @@ void ContactPool::sortIn(std::size_t before) {
 
 std::size_t ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
                              std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z) {
-  proposals_.resize(std::max(proposals_.size(), places.size()));
-  atBones_.resize(std::max(atBones_.size(), bones.size()));
-  parallelFor(places.size() + bones.size(), 16, [&](std::size_t k) {
-    const bool isBone = k >= places.size();
-    Proposals& found = isBone ? atBones_[k - places.size()] : proposals_[k];
+  proposals_.resize(std::max(proposals_.size(), bones.size() + places.size()));
+  const auto atBones = std::span(proposals_).first(bones.size()),
+             atPlaces = std::span(proposals_).subspan(bones.size(), places.size());
+  parallelFor(bones.size() + places.size(), 16, [&](std::size_t k) {
+    Proposals& found = proposals_[k];
     found.count = 0;
     found.rows.clear();
-    if (isBone)
-      propose(bones[k - places.size()], shape, found);
+    if (k < bones.size())
+      propose(bones[k], shape, found);
     else
-      propose(places[k].contact, shape, last, found);
+      propose(places[k - bones.size()].contact, shape, last, found);
   });
   const std::size_t before = constraints_.size();
-  for (Proposals& proposals : std::span(atBones_).first(bones.size())) {
+  for (const Proposals& proposals : atBones) {
     const Constraint& constraint = proposals.constraints[0];
     // A bone's surface is not flat: the plane goes along with the place, and takes its push along.
     if (Constraint* own = known(constraint, kSameWay)) {
@@ -255,7 +255,7 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
       take(constraint, proposals.rows, shape, z);
     }
   }
-  for (const Proposals& proposals : std::span(proposals_).first(places.size()))
+  for (const Proposals& proposals : atPlaces)
     for (const Constraint& constraint : std::span(proposals.constraints).first(proposals.count))
       take(constraint, proposals.rows, shape, z);
   const std::size_t added = constraints_.size() - before;

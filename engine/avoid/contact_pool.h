@@ -95,7 +95,7 @@ class ContactPool {
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
   std::size_t sorted_ = 0;               // of them; the others are of this round
   MotionSpace::Rows rows_;
-  std::vector<Proposals> proposals_, atBones_;
+  std::vector<Proposals> proposals_;
   std::vector<vec4> z_;  // while they ascend: four numbers are added at a time
 };
 

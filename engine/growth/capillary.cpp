@@ -184,7 +184,7 @@ Capillary capillaryAt(const GrowthScene& scene, std::uint32_t number, BedSide be
     else
       for (; branch + 1 < symbol.childCount; ++branch) {
         const GrowthSymbol& next = scene.tables.symbol[scene.tables.child[symbol.firstChild + branch].symbol];
-        const std::uint32_t size = sparse ? next.sparseSize[levels] : next.treeSize[levels];
+        const std::uint32_t size = treeSize(next, levels, sparse);
         if (curve < size) break;
         curve -= size;
       }

@@ -9,16 +9,20 @@
 
 namespace vasa {
 
+/// Curves of a tree that begins with a letter. @param sparse  with every second one of the last generation
+inline std::uint32_t treeSize(const shared::GrowthSymbol& symbol, std::uint32_t levels, bool sparse) {
+  return sparse ? symbol.sparseSize[levels] : symbol.treeSize[levels];
+}
+
 /// L-systems of capillaries, ready for growing, by the CPU and the shaders alike.
 struct GrowthRules {
   shared::GrowthTables tables{};
   std::vector<std::string> systems;  ///< names, as numbered in tables.system
   std::vector<std::string> symbols;  ///< letters, as numbered in tables.symbol
 
-  /// Curves of one tree of system `s`. @param sparse  with every second one of the last generation
+  /// Curves of one tree of system `s`.
   std::uint32_t treeSize(std::uint32_t s, std::uint32_t levels, bool sparse = false) const {
-    const shared::GrowthSymbol& axiom = tables.symbol[tables.system[s].axiom];
-    return sparse ? axiom.sparseSize[levels] : axiom.treeSize[levels];
+    return vasa::treeSize(tables.symbol[tables.system[s].axiom], levels, sparse);
   }
 };
 

@@ -42,6 +42,8 @@ struct Seen {
   float distance;  // the farthest come first
   std::uint32_t bed, levels, edges;
   bool sparse;  // of the last generation
+
+  bool isSparse(std::uint32_t drawnLevels) const { return sparse && drawnLevels == levels; }
 };
 
 // By the size of a bed in the picture.
@@ -83,12 +85,8 @@ class Planner {
   }
 
   std::uint32_t treeSize(const Seen& seen, std::uint32_t levels) const {
-    const shared::GrowthSymbol& axiom =
-        in_.tables.symbol[in_.tables.system[in_.beds.beds[seen.bed].system].axiom];
-    return isSparse(seen, levels) ? axiom.sparseSize[levels] : axiom.treeSize[levels];
-  }
-  static bool isSparse(const Seen& seen, std::uint32_t levels) {
-    return seen.sparse && levels == seen.levels;
+    return vasa::treeSize(in_.tables.symbol[in_.tables.system[in_.beds.beds[seen.bed].system].axiom], levels,
+                          seen.isSparse(levels));
   }
   std::uint64_t curvesOf(const Seen& seen, std::uint32_t most) const {
     return std::uint64_t(treesOf(in_.beds.beds[seen.bed])) * treeSize(seen, std::min(seen.levels, most));
@@ -140,12 +138,12 @@ class BatchWriter {
  public:
   explicit BatchWriter(CapillaryPlan& plan) : plan_(plan) {}
 
-  void add(const Seen& seen, std::uint32_t side, std::uint32_t levels, bool sparse, std::uint32_t size) {
+  void add(const Seen& seen, std::uint32_t side, std::uint32_t levels, std::uint32_t size) {
     if (plan_.batches.empty() || plan_.batches.back().edges != seen.edges ||
         shared::kRingCurves - plan_.batches.back().curves < size)
       plan_.batches.push_back({std::uint32_t(plan_.jobs.size()), 0, 0, seen.edges});
     CapillaryBatch& batch = plan_.batches.back();
-    plan_.jobs.push_back({batch.curves, seen.bed, side, levels, std::uint32_t(sparse)});
+    plan_.jobs.push_back({batch.curves, seen.bed, side, levels, std::uint32_t(seen.isSparse(levels))});
     ++batch.jobCount;
     batch.curves += size;
     plan_.curves += size;
@@ -201,7 +199,7 @@ void planCapillaries(const PlanInput& input, const CapillaryWish& wish, Capillar
     const std::uint32_t size = planner.treeSize(one, levels);
     for (const std::uint32_t side : {0u, 1u})
       if (input.beds.beds[one.bed].stem[side].from != shared::kNoStem && plan.curves + size <= wish.budget)
-        writer.add(one, side, levels, Planner::isSparse(one, levels), size);
+        writer.add(one, side, levels, size);
   }
 }
 

@@ -30,11 +30,8 @@ Difference compare(const Image& wanted, const Image& found) {
 
 bool same(const Difference& difference, const Drawn& drawn) {
   const bool coarse = drawn.subPixelBits < 8;
-  return difference.foreground > 100 &&
-         difference.mean <= (coarse        ? 4
-                             : drawn.byGpu ? 1.5
-                                           : 1) &&
-         difference.changed <= (coarse ? 0.1 : 0.01);
+  const double mostMean = coarse ? 4 : drawn.byGpu ? 1.5 : 1, mostChanged = coarse ? 0.1 : 0.01;
+  return difference.foreground > 100 && difference.mean <= mostMean && difference.changed <= mostChanged;
 }
 
 }  // namespace vasa::golden

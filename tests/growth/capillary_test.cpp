@@ -98,7 +98,8 @@ TEST_CASE("a sparse tree has every second of the last curves, and these cover as
     const std::uint32_t system = scene.beds[bed].system;
     const std::vector<Capillary> whole = treeOf(scene, bed, side);
     const auto area = [](const Capillary& one) {
-      return double(one.curve.b[0].w + one.curve.b[3].w) * glm::distance(one.curve.b[0], one.curve.b[3]);
+      return double(one.curve.b[0].w + one.curve.b[3].w) *
+             glm::distance(vec3(one.curve.b[0]), vec3(one.curve.b[3]));
     };
     double all = 0, some = 0;
     for (const Capillary& one : whole) all += area(one);

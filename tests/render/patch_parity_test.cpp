@@ -12,9 +12,9 @@
 #include "surface/visible.h"
 
 // The patches' pass against its CPU reference: 1e-6 m in position, 2e-4 in normals (they are packed to 7e-5),
-// triangles alike, and 4e-5 m where steps of smoothing start from packed normals that differ in their last
-// bit (processors stay within 2e-5, an NVIDIA GPU comes to 2.2e-5); and with the tubes' and forks' passes:
-// one closed surface, bit for bit.
+// triangles alike, and 2e-5 m (4e-5 on a GPU) where steps of smoothing start from packed normals that differ
+// in their last bit (an NVIDIA H200 comes to 2.2e-5); and with the tubes' and forks' passes: one closed
+// surface, bit for bit.
 
 using namespace vasa;
 
@@ -169,7 +169,7 @@ TEST_CASE(
       CHECK(std::ranges::any_of(table.patches,
                                 [&](const auto& patch) { return patchSmoothing(table, patch, joints) > 0; }));
       // Smoothing carries rounding on, and places this far apart turn a triangle of some millimetres by more.
-      checkAgainstReference(passes, 4e-5f, 1e-3f);
+      checkAgainstReference(passes, rig.device().isCpu() ? 2e-5f : 4e-5f, 1e-3f);
       CHECK(test::openEdgesDrawn(passes) == 0);
     }
   }
