@@ -11,9 +11,6 @@
 namespace vasa::cli {
 namespace {
 
-constexpr float kStationsOfRadius = 0.25f;  // of a vessel's least radius, apart: a lesion is longer than that
-constexpr float kFinestStation = 1e-4f, kFewestStations = 200;
-
 Report maybe(bool there, double value) { return there ? Report(value) : Report(nullptr); }
 
 double degrees(float radians) { return double(radians) * 180 / double(kPi); }
@@ -24,11 +21,7 @@ std::string cell(const Report& value, double factor, int digits) {
 
 Report oneVessel(const Vessel& vessel, std::span<const vec4> points) {
   const CourseMeasures course = measureCourse(points);
-  float thinnest = points[0].w;
-  for (const vec4& p : points) thinnest = std::min(thinnest, p.w);
-  const float step =
-      std::max(std::min(kStationsOfRadius * thinnest, course.arc / kFewestStations), kFinestStation);
-  const auto stations = stationsOf(points, step);
+  const auto stations = stationsOf(points, lesionStep(points));
   const auto [least, greatest] = std::ranges::minmax(stations, {}, &ProfileStation::radius);
   const auto stenosis = worstStenosis(stations);
   const auto aneurysm = widestAneurysm(stations);

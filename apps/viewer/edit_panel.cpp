@@ -44,16 +44,23 @@ void showTools(const PanelInput& in) {
   tool("graft", EditTool::graft);
   sameLineWithRoom(buttonWidth("Delete"));
   if (ImGui::Button("Delete")) state.wishDelete = true;
-  ImGui::TextDisabled("%s", state.editTool == EditTool::branch  ? "click where the branch is to end"
-                            : state.editTool == EditTool::graft ? "click the vessel where the graft is to end"
-                                                                : "drag the ring to move the vessel");
+  ImGui::TextDisabled("%s", state.editTool == EditTool::branch ? "click where the branch is to end"
+                            : state.editTool == EditTool::graft
+                                ? "click places that it passes, if any; then a vessel"
+                                : "drag the ring to move the vessel");
 }
 
+// The latest lines, cut where the panel ends: wrapped they would cover the vessels. All of one under the
+// pointer.
 void showJournal(const PanelInput& in) {
   constexpr std::size_t kShown = 5;
   const auto& journal = in.state.journal;
-  for (std::size_t i = journal.size() > kShown ? journal.size() - kShown : 0; i < journal.size(); ++i)
+  ImGui::PushTextWrapPos(-1);
+  for (std::size_t i = journal.size() > kShown ? journal.size() - kShown : 0; i < journal.size(); ++i) {
     ImGui::TextDisabled("%zu  %s", i + 1, journal[i].c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", journal[i].c_str());
+  }
+  ImGui::PopTextWrapPos();
 }
 
 // Over a smaller picture than this they would lie on most of it, and on what is below.
@@ -112,6 +119,12 @@ void showRefusal(const PanelInput& in) {
 
 void showEditHandle(const PanelInput& in) {
   if (!in.state.editing || !in.document || !in.body || !in.editor || !in.state.selected) return;
+  for (const vec3& passed : in.editor->passed(*in.document, *in.body, in.state))
+    if (const auto at = seenAt(passed, in.camera, in.layout.picture); at && in.layout.picture.holds(*at)) {
+      ImDrawList& list = *ImGui::GetBackgroundDrawList();
+      list.AddCircleFilled({at->x, at->y}, 5 * in.scale, IM_COL32(30, 30, 34, 255));
+      list.AddCircleFilled({at->x, at->y}, 3.5f * in.scale, IM_COL32(255, 190, 25, 255));
+    }
   const auto place =
       seenAt(centreOf(*in.document, *in.body, *in.state.selected), in.camera, in.layout.picture);
   if (!place || !in.layout.picture.holds(*place)) return;

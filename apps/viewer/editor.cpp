@@ -63,8 +63,9 @@ double lengthOf(const Network& network, VesselId vessel) {
   return 1e3 * ArcLength(network.pointsOf(network.vessel(vessel))).length();
 }
 
-float radiusAt(const Network& network, const VesselPlace& place) {
-  return evaluate(network.pointsOf(network.vessel(place.vessel)), place.parameter).w;
+// [m] centre and radius
+vec4 atRest(const Network& network, const VesselPlace& place) {
+  return evaluate(network.pointsOf(network.vessel(place.vessel)), place.parameter);
 }
 
 // A name that no vessel has.
@@ -105,6 +106,7 @@ quat turnSinceRest(const Document& document, const PosedBody& body, const Vessel
 
 bool Editor::feed(const InputEvent& event, const Document& document, const PosedBody& body,
                   const Camera& camera, const Rect& picture, ViewState& state) {
+  if (state.editTool != EditTool::graft) via_.clear();
   if (const auto* moved = std::get_if<PointerMoved>(&event)) {
     place_ = moved->place;
     if (!held_ || place_ == held_->pressed) return held();
@@ -131,7 +133,7 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
   held.back = glm::inverse(turnSinceRest(document, body, *state.selected));
   held.pressed = place_;
   held.leastFalloffMm =
-      decimals(kLeastFalloff * 1e3 * double(radiusAt(document.scene.network, *state.selected)), 1);
+      decimals(kLeastFalloff * 1e3 * double(atRest(document.scene.network, *state.selected).w), 1);
   return true;
 }
 
@@ -140,30 +142,35 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
   if (state.editTool == EditTool::change || !state.selected) return false;
   const Network& network = document.scene.network;
   const auto chosen = chosenOf(document, state);
-  const double radius = decimals(1e3 * double(radiusAt(network, *state.selected)), 2);
-  if (std::exchange(state.editTool, EditTool::change) == EditTool::graft) {
-    if (!hit) {
-      refusal = "There is no vessel where the graft is to end.";
-      return true;
-    }
-    const std::string& other = network.vessel(hit->vessel).name;
-    const double least = std::min(radius, decimals(1e3 * double(radiusAt(network, *hit)), 2));
-    write(state,
-          GraftEdit{chosen->vessel,
-                    chosen->share,
-                    other,
-                    shareOf(network, *hit),
-                    least,
-                    newName(network, "graft from " + chosen->vessel + " to " + other),
-                    {}},
-          false);
-    return true;
-  }
+  const double radius = decimals(1e3 * double(atRest(network, *state.selected).w), 2);
   const vec3 centre = centreOf(document, body, *state.selected);
   const auto seen = seenAt(centre, camera, picture);
+  const vec3 way = seen ? glm::inverse(turnSinceRest(document, body, *state.selected)) *
+                              wayInPlane(camera, centre, place - *seen, picture.height)
+                        : vec3(0);
+  if (state.editTool == EditTool::graft) {
+    if (!hit) {
+      if (seen) via_.push_back(vec3(atRest(network, *state.selected)) + way);
+      return true;
+    }
+    state.editTool = EditTool::change;
+    const std::string& other = network.vessel(hit->vessel).name;
+    const double least = std::min(radius, decimals(1e3 * double(atRest(network, *hit).w), 2));
+    GraftEdit line{chosen->vessel,
+                   chosen->share,
+                   other,
+                   shareOf(network, *hit),
+                   least,
+                   newName(network, "graft from " + chosen->vessel + " to " + other),
+                   {}};
+    for (const vec3& passed : std::exchange(via_, {}))
+      line.via.emplace_back(decimals(1e3 * double(passed.x), 1), decimals(1e3 * double(passed.y), 1),
+                            decimals(1e3 * double(passed.z), 1));
+    write(state, line, false);
+    return true;
+  }
+  state.editTool = EditTool::change;
   if (!seen) return true;
-  const vec3 way = glm::inverse(turnSinceRest(document, body, *state.selected)) *
-                   wayInPlane(camera, centre, place - *seen, picture.height);
   BranchEdit line{chosen->vessel, chosen->share, newName(network, "branch of " + chosen->vessel)};
   line.radiusMm = decimals(0.5 * radius, 2);
   line.lengthMm = decimals(1e3 * double(glm::length(way)), 2);
@@ -171,6 +178,17 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
     line.direction[axis] = decimals(double(way[axis]) / std::max(double(glm::length(way)), 1e-9), 3);
   write(state, line, false);
   return true;
+}
+
+std::vector<vec3> Editor::passed(const Document& document, const PosedBody& body,
+                                 const ViewState& state) const {
+  std::vector<vec3> now;
+  if (via_.empty() || !state.selected) return now;
+  const vec3 centre = centreOf(document, body, *state.selected),
+             rest = vec3(atRest(document.scene.network, *state.selected));
+  const quat turn = turnSinceRest(document, body, *state.selected);
+  for (const vec3& place : via_) now.push_back(centre + turn * (place - rest));
+  return now;
 }
 
 std::optional<StenosisEdit> Editor::stenosisThere(const Document& document, const ViewState& state) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "edit/journal.h"
 #include "viewer/document.h"
@@ -27,9 +28,13 @@ class Editor {
             const Rect& picture, ViewState& state);
   bool held() const { return held_.has_value(); }
 
-  /// A click where a branch or a graft is to end. @param hit  the vessel there. @return whether it meant that
+  /// A click where a branch or a graft is to end, or beside all vessels at a place that the graft is to pass,
+  /// as far from the eye as the chosen place. @param hit  the vessel there. @return whether it meant that
   bool click(vec2 place, const std::optional<VesselPlace>& hit, const Document& document,
              const PosedBody& body, const Camera& camera, const Rect& picture, ViewState& state);
+
+  /// Where such places are now [m].
+  std::vector<vec3> passed(const Document& document, const PosedBody& body, const ViewState& state) const;
 
   void setStenosis(double percent, const Document& document, ViewState& state) const;
   void setRadius(double factor, const Document& document, ViewState& state) const;
@@ -50,6 +55,7 @@ class Editor {
   float scale_;
   vec2 place_{0};
   std::optional<Held> held_;
+  std::vector<vec3> via_;  // [m] at rest
 };
 
 /// A place on a vessel as journals have it: a share of its arc length at rest.

@@ -8,6 +8,7 @@
 
 #include "curve/bspline.h"
 #include "network/measure_course.h"
+#include "network/measure_fork.h"
 #include "network/measure_lesion.h"
 #include "viewer/flow.h"
 #include "viewer/fuzzy.h"
@@ -89,10 +90,13 @@ class Facts {
   bool narrow_, open_;
 };
 
-constexpr float kStations = 1e-3f;  // [m] apart
+std::string winding(const CourseMeasures& course) {
+  return course.tortuosity > 0 ? fmt::format("{:.2f} x chord", course.tortuosity) : "its ends meet";
+}
 
-std::string winding(std::span<const vec4> points) {
-  return fmt::format("{:.2f} x chord", measureCourse(points).tortuosity);
+std::string leastBend(const CourseMeasures& course) {
+  if (!(course.leastBendRadius > 0)) return "straight";
+  return fmt::format("{:.1f} mm{}", 1000 * course.leastBendRadius, course.greatestKink >= 1 ? ", kinks" : "");
 }
 
 std::string narrowing(std::span<const ProfileStation> stations) {
@@ -105,7 +109,8 @@ std::string narrowing(std::span<const ProfileStation> stations) {
 std::string widening(std::span<const ProfileStation> stations) {
   const auto widest = widestAneurysm(stations);
   if (!widest || widest->ratio() < kNotableAneurysm) return "none";
-  return fmt::format("{:.1f} mm wide, {:.1f} times", 1000 * widest->diameter(), widest->ratio());
+  return fmt::format("{:.1f} mm wide, {:.1f} times, saccular index {:.1f}", 1000 * widest->diameter(),
+                     widest->ratio(), widest->saccularIndex());
 }
 
 void showFacts(const PanelInput& in, VesselId id) {
@@ -113,7 +118,9 @@ void showFacts(const PanelInput& in, VesselId id) {
   const Vessel& vessel = network.vessel(id);
   const auto posed = Network::pointsOf(vessel, in.body->points), asMade = network.pointsOf(vessel);
   const VesselMeasures now = measureVessel(posed), rest = measureVessel(asMade);
-  const auto stations = stationsOf(posed, kStations), restStations = stationsOf(asMade, kStations);
+  const CourseMeasures course = measureCourse(posed), restCourse = measureCourse(asMade);
+  const auto stations = stationsOf(posed, lesionStep(posed)),
+             restStations = stationsOf(asMade, lesionStep(asMade));
   const auto mm = [](float metres) { return fmt::format("{:.2f} mm", 1000 * metres); };
   const auto range = [](const VesselMeasures& m) {
     return fmt::format("{:.2f}–{:.2f} mm", 1000 * m.leastRadius, 1000 * m.greatestRadius);
@@ -125,9 +132,8 @@ void showFacts(const PanelInput& in, VesselId id) {
   facts.row("Mean", mm(now.meanRadius), mm(rest.meanRadius));
   facts.row("Volume", fmt::format("{:.3f} ml", 1e6 * now.volume),
             fmt::format("{:.3f} ml", 1e6 * rest.volume));
-  facts.row("Curvature", fmt::format("{:.0f} /m", now.greatestCurvature),
-            fmt::format("{:.0f} /m", rest.greatestCurvature));
-  facts.row("Winding", winding(posed), winding(asMade));
+  facts.row("Least bend", leastBend(course), leastBend(restCourse));
+  facts.row("Winding", winding(course), winding(restCourse));
   facts.row("Narrowing", narrowing(stations), narrowing(restStations));
   facts.row("Widening", widening(stations), widening(restStations));
   std::string clearance = "when paused";
@@ -138,13 +144,30 @@ void showFacts(const PanelInput& in, VesselId id) {
   facts.row("Clearance", clearance, "");
 }
 
-void showRelatives(const PanelInput& in, const char* title, std::span<const VesselId> relatives) {
+void tellArm(const ForkMeasures& fork, const ForkArm& arm) {
+  std::string text =
+      fmt::format("  {:.0f}° aside, {:.1f} mm wide", glm::degrees(arm.angle), 2000 * arm.radius);
+  if (fork.murray) text += fmt::format(", Murray {:.1f}", *fork.murray);
+  ImGui::PushTextWrapPos();
+  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PopTextWrapPos();
+  if (fork.murray && ImGui::IsItemHovered())
+    ImGui::SetTooltip("The fork's arms and trunk keep r^x for x = %.1f (Murray's law: 3)",
+                      double(*fork.murray));
+}
+
+// @param forks  where some of them leave the chosen vessel, in the present pose
+void showRelatives(const PanelInput& in, const char* title, std::span<const VesselId> relatives,
+                   std::span<const ForkMeasures> forks) {
   if (relatives.empty()) return;
   ImGui::TextDisabled("%s", title);
   for (const VesselId vessel : relatives) {
     ImGui::PushID(int(vessel.value));
     if (selectableLines(in.document->scene.network.vessel(vessel).name)) choose(in, vessel, false);
     ImGui::PopID();
+    for (const ForkMeasures& fork : forks)
+      for (const ForkArm& arm : fork.arms)
+        if (arm.vessel == vessel) tellArm(fork, arm);
   }
 }
 
@@ -206,8 +229,9 @@ void showInspectorSection(const PanelInput& in) {
     sameLineWithRoom(checkboxWidth("Only its tree (I)"));
     ImGui::Checkbox("Only its tree (I)", &in.state.isolate);
     const Relatives relatives = relativesOf(in.document->scene.network, id);
-    showRelatives(in, "comes from", relatives.parents);
-    showRelatives(in, "gives off", relatives.children);
+    showRelatives(in, "comes from", relatives.parents, {});
+    showRelatives(in, "gives off", relatives.children,
+                  measureForksOf(in.document->scene.network, in.body->points, id));
     if (!in.state.measuring)
       if (const auto way = profileOf(in.state, in.document->scene.network, in.body->points))
         showProfile(in, *way);

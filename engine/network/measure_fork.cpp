@@ -24,6 +24,62 @@ View viewFrom(std::span<const vec4> points, float parameter, bool forwards, floa
   return {evaluate(points, u).w, forwards ? tangent : -tangent};
 }
 
+float parameterOf(const Network& network, const VesselEnd& end) {
+  return end.last ? float(network.vessel(end.vessel).spanCount()) : 0.0f;
+}
+
+// The vessel that comes to a fork, and where on it the fork is.
+struct Trunk {
+  VesselId vessel;
+  float parameter;
+  std::optional<VesselEnd> end;  // none: the fork is on its side
+};
+
+// None where fewer than three arms meet.
+std::optional<Trunk> trunkOf(const Network& network, std::span<const vec4> points, const Node& node) {
+  if (node.valence() < 3) return std::nullopt;
+  if (node.host) return Trunk{node.host->vessel, node.host->parameter, std::nullopt};
+  // Files run from a trunk to its branches: of the vessels that end here the widest, or of all.
+  const auto ends = network.ends(node);
+  const bool anyLast = std::ranges::any_of(ends, &VesselEnd::last);
+  std::optional<VesselEnd> widest;
+  float most = 0;
+  for (const VesselEnd& end : ends) {
+    if (anyLast && !end.last) continue;
+    const float radius =
+        evaluate(Network::pointsOf(network.vessel(end.vessel), points), parameterOf(network, end)).w;
+    if (widest && !(radius > most)) continue;
+    widest = end;
+    most = radius;
+  }
+  return Trunk{widest->vessel, parameterOf(network, *widest), widest};
+}
+
+ForkMeasures forkAt(const Network& network, std::span<const vec4> points, const Node& node, const Trunk& at) {
+  const auto pointsOf = [&](VesselId vessel) { return Network::pointsOf(network.vessel(vessel), points); };
+  const float way = 2 * evaluate(pointsOf(at.vessel), at.parameter).w;
+  const bool backwards = !at.end || at.end->last;
+  const View trunk = viewFrom(pointsOf(at.vessel), at.parameter, !backwards, way);
+  ForkMeasures fork;
+  fork.node = {std::uint32_t(&node - network.nodes().data())};
+  fork.trunk = at.vessel;
+  fork.trunkParameter = at.parameter;
+  fork.trunkRadius = trunk.radius;
+  const auto add = [&](VesselId vessel, float parameter, bool last, bool host) {
+    const View arm = viewFrom(pointsOf(vessel), parameter, !last, way);
+    fork.arms.push_back({vessel, last, host, arm.radius,
+                         std::acos(std::clamp(glm::dot(arm.course, -trunk.course), -1.0f, 1.0f))});
+  };
+  if (!at.end && at.parameter < float(network.vessel(at.vessel).spanCount()))
+    add(at.vessel, at.parameter, false, true);
+  for (const VesselEnd& end : network.ends(node))
+    if (end != at.end) add(end.vessel, parameterOf(network, end), end.last, false);
+  std::vector<float> radii;
+  for (const ForkArm& arm : fork.arms) radii.push_back(arm.radius);
+  fork.murray = murrayExponent(fork.trunkRadius, radii);
+  return fork;
+}
+
 }  // namespace
 
 std::optional<float> murrayExponent(float trunk, std::span<const float> arms) {
@@ -44,48 +100,19 @@ std::optional<float> murrayExponent(float trunk, std::span<const float> arms) {
 
 std::vector<ForkMeasures> measureForks(const Network& network, std::span<const vec4> points) {
   std::vector<ForkMeasures> all;
-  for (std::uint32_t n = 0; n < network.nodes().size(); ++n) {
-    const Node& node = network.nodes()[n];
-    if (node.valence() < 3) continue;
-    const auto ends = network.ends(node);
-    const auto pointsOf = [&](VesselId vessel) { return Network::pointsOf(network.vessel(vessel), points); };
-    const auto parameterOf = [&](const VesselEnd& end) {
-      return end.last ? float(network.vessel(end.vessel).spanCount()) : 0.0f;
-    };
-    const auto endRadius = [&](const VesselEnd& end) {
-      return evaluate(pointsOf(end.vessel), parameterOf(end)).w;
-    };
-    ForkMeasures fork;
-    fork.node = {n};
-    std::optional<VesselEnd> trunkEnd;
-    if (node.host) {
-      fork.trunk = node.host->vessel, fork.trunkParameter = node.host->parameter;
-    } else {
-      // Files run from a trunk to its branches: of the vessels that end here the widest, or of all.
-      const bool anyLast = std::ranges::any_of(ends, &VesselEnd::last);
-      for (const VesselEnd& end : ends)
-        if ((end.last || !anyLast) && (!trunkEnd || endRadius(end) > endRadius(*trunkEnd))) trunkEnd = end;
-      fork.trunk = trunkEnd->vessel, fork.trunkParameter = parameterOf(*trunkEnd);
-    }
-    const float way = 2 * evaluate(pointsOf(fork.trunk), fork.trunkParameter).w;
-    const bool trunkBackwards = node.host || trunkEnd->last;
-    const View trunk = viewFrom(pointsOf(fork.trunk), fork.trunkParameter, !trunkBackwards, way);
-    fork.trunkRadius = trunk.radius;
-    const auto add = [&](VesselId vessel, float parameter, bool last, bool host) {
-      const View arm = viewFrom(pointsOf(vessel), parameter, !last, way);
-      fork.arms.push_back({vessel, last, host, arm.radius,
-                           std::acos(std::clamp(glm::dot(arm.course, -trunk.course), -1.0f, 1.0f))});
-    };
-    if (node.host && node.host->parameter < float(network.vessel(fork.trunk).spanCount()))
-      add(fork.trunk, fork.trunkParameter, false, true);
-    for (const VesselEnd& end : ends)
-      if (!trunkEnd || end != *trunkEnd) add(end.vessel, parameterOf(end), end.last, false);
-    std::vector<float> radii;
-    for (const ForkArm& arm : fork.arms) radii.push_back(arm.radius);
-    fork.murray = murrayExponent(fork.trunkRadius, radii);
-    all.push_back(std::move(fork));
-  }
+  for (const Node& node : network.nodes())
+    if (const auto trunk = trunkOf(network, points, node))
+      all.push_back(forkAt(network, points, node, *trunk));
   return all;
+}
+
+std::vector<ForkMeasures> measureForksOf(const Network& network, std::span<const vec4> points,
+                                         VesselId vessel) {
+  std::vector<ForkMeasures> its;
+  for (const Node& node : network.nodes())
+    if (const auto trunk = trunkOf(network, points, node); trunk && trunk->vessel == vessel)
+      its.push_back(forkAt(network, points, node, *trunk));
+  return its;
 }
 
 }  // namespace vasa

@@ -29,6 +29,9 @@ struct ForkMeasures {
 
 /// All forks of a network, in the order of its nodes. @param points  as Network::points(). O(nodes)
 std::vector<ForkMeasures> measureForks(const Network& network, std::span<const vec4> points);
+/// Those alone that one vessel is the trunk of. O(nodes), and what its own forks take
+std::vector<ForkMeasures> measureForksOf(const Network& network, std::span<const vec4> points,
+                                         VesselId trunk);
 
 /// The exponent alone, to a thousandth; none where there is none from 0.5 to 20.
 std::optional<float> murrayExponent(float trunk, std::span<const float> arms);

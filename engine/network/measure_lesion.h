@@ -26,6 +26,10 @@ constexpr float kTaper = 0.02f;  ///< [m of radius for a metre]: healthy vessels
 /// Stenosis::ecst() and Aneurysm::ratio() from which on people are told: less is a vessel's own taper.
 constexpr double kNotableStenosis = 0.1, kNotableAneurysm = 1.2;
 
+/// [m] > 0 between stations that no lesion is lost between: a quarter of the least radius of these de Boor
+/// points, a two-hundredth of their arc, whichever is less, and a tenth of a millimetre at least.
+float lesionStep(std::span<const vec4> points);
+
 /// The narrowing that takes most of the diameter away; none where the radius has no inner minimum (a vessel
 /// that is narrowest at its very end tells nothing of what it would be there).
 struct Stenosis : Lesion {

@@ -1,9 +1,8 @@
 #!/bin/sh
 # A person's session with a real mouse and keyboard, on a display without a screen: tests/view/mouse_session.sh VASA DATA
-# Drags the wrist, undoes and redoes it, chooses a vessel in the list, saves, opens again and saves again: the scene has to be the same to
-# the byte. Hides the vessel, changes colours by a menu, keeps a view, saves under another name, exports, opens what is damaged and then that
-# other scene by the dialog: saved again it has to be the same, too. What the app has understood is read from its window's title, which begins with a star while something is unsaved, and from
-# the scene.
+# Poses, finds, hides, names, colours, keeps, exports, edits, undoes and redoes, saves and opens as hands do it: each part tells what it
+# does. Whatever was saved has to be the same to the byte once it has been opened and saved again. What the app has understood is read from
+# its window's title, which begins with a star while something is unsaved, and from the scene.
 set -eu
 command -v xdotool >/dev/null || exit 77
 if [ -z "${MOUSE_SESSION_INSIDE:-}" ]; then
@@ -71,6 +70,7 @@ drag() {
   sleep 0.3
 }
 
+# The wrist is dragged, that is undone and redone, a vessel is chosen in the list.
 start "$folder/scene.json"
 point 480 600
 xdotool key p
@@ -112,6 +112,7 @@ type_file() {
   sleep 0.3
 }
 
+# A vessel is hidden, colours are changed by a menu, a view is kept, all is saved under another name and exported.
 start "$folder/scene.json"
 point 480 600
 xdotool key h
@@ -143,6 +144,7 @@ done
 cmp "$folder/first.json" "$folder/scene.json" || fail 'saving under another name changed the first scene'
 cp "$folder/second.json" "$folder/kept.json"
 
+# What is damaged is told, and another scene opened by the dialog.
 echo '{ "body": 3 }' >"$folder/bad.json"
 start "$folder/scene.json"
 xdotool key ctrl+o
@@ -203,3 +205,114 @@ paired() { grep -q 'pair/human.glb' "$folder/paired.json" && grep -q 'pair/human
 xdotool key Return
 wait_for 'saving what was opened together' paired
 end
+
+# Edits by hand: each is a line of the journal, goes with undo, comes back with redo; what is saved is the same once opened and saved again.
+cp "$folder/kept.json" "$folder/edited.json" # a pose, a hidden vessel, a kept view
+start "$folder/edited.json"
+journal="$folder/edited.vedit"
+point 480 600
+xdotool key ctrl+h ctrl+f # all vessels again
+sleep 0.3
+xdotool type --delay 60 'left femoral artery'
+sleep 0.3
+xdotool key Return
+sleep 0.5
+point 480 600
+xdotool key 1 f e
+sleep 1
+
+# lines N: N of them are saved. latest WORD: the last one saved begins with it
+lines() {
+  xdotool key ctrl+s
+  sleep 0.3
+  [ "$(grep -cv -e '^#' -e '^$' "$journal")" = "$1" ]
+}
+latest() { tail -n 1 "$journal" | grep -q "^$1 "; }
+
+# edited N WORD: the Nth line has come, and goes and comes by undo and redo
+edited() {
+  wait_for "$2 by hand" lines "$1"
+  latest "$2" || fail "instead of $2: $(tail -n 1 "$journal")"
+  point 480 600
+  xdotool key ctrl+z
+  wait_for "undoing $2" lines $(($1 - 1))
+  xdotool key ctrl+y
+  wait_for "redoing $2" lines "$1"
+  latest "$2" || fail "redone instead of $2: $(tail -n 1 "$journal")"
+}
+press() {
+  point "$1" "$2"
+  xdotool click 1
+  sleep 0.5
+}
+press 311 400 # a place on the artery
+drag 311 400 331 398
+edited 1 move
+press 106 157 # the slider for a stenosis
+edited 2 stenosis
+press 70 186 # the slider for the radius
+edited 3 radius
+press 112 244 # the tool for branches
+press 420 430
+edited 4 branch
+press 315 464 # another place
+press 184 244 # the tool for grafts
+press 400 540 # past a place beside all vessels
+press 331 568 # to the popliteal artery
+edited 5 graft
+tail -n 1 "$journal" | grep -q ' via ' || fail 'the graft does not pass where it was led'
+end
+cp "$folder/edited.json" "$folder/kept.json"
+cp "$journal" "$folder/kept.vedit"
+start "$folder/edited.json"
+wait_for 'saving the edited scene again' lines 5
+end
+cmp "$folder/kept.json" "$folder/edited.json" || fail 'opened and saved again, the edited scene is another'
+cmp "$folder/kept.vedit" "$journal" || fail 'opened and saved again, the journal is another'
+"$vasa" edit "$data/human.vasa" "$journal" -o "$folder/edited.vasa" >"$folder/log" || fail 'vasa edit refuses what the app saved'
+
+# A pose is copied, undone and pasted; several vessels are chosen by arrow keys, shown alone and named, and colours have a legend.
+cat >"$folder/posed.json" <<END
+{ "body": "$data/human.glb", "networks": ["$data/human.vasa"], "camera": { "view": "front" } }
+END
+start "$folder/posed.json"
+point 480 600
+xdotool key p
+sleep 0.3
+drag 403 316 443 210
+wait_for 'another pose' titled "$unsaved"
+xdotool key ctrl+c
+sleep 0.3
+xdotool key ctrl+z
+wait_for 'undoing the pose' titled "$saved"
+xdotool key ctrl+v
+wait_for 'pasting the pose' titled "$unsaved"
+xdotool key p o
+sleep 1
+press 100 50
+xdotool type --delay 60 'tibial'
+sleep 0.5
+press 100 106
+xdotool key Down shift+Down
+sleep 0.3
+point 480 600
+xdotool key shift+h
+sleep 0.3
+xdotool key n l
+sleep 0.3
+xdotool key ctrl+s
+wait_for 'saving pose and choice' titled "$saved"
+xdotool key F11
+sleep 0.5
+xdotool key F11
+sleep 0.5
+end
+for key in '"LeftArm"' '"hidden"' '"labels"' '"legend"'; do
+  grep -q "$key" "$folder/posed.json" || fail "there is no $key in the scene of a pose and a choice"
+done
+cp "$folder/posed.json" "$folder/kept.json"
+start "$folder/posed.json"
+xdotool key ctrl+s
+sleep 1
+end
+cmp "$folder/kept.json" "$folder/posed.json" || fail 'opened and saved again, the scene of a pose and a choice is another'

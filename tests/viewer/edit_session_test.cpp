@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "edit/replay.h"
+#include "network/file.h"
+#include "network/measure_profile.h"
 #include "scene/scene_file.h"
 #include "support/shared_data.h"
 #include "view/virtual_display.h"
@@ -125,5 +128,29 @@ TEST_CASE(
   REQUIRE(grown);
   CHECK(grown->name == "branch of left femoral artery");
   CHECK(grown->lengthMm > 50);
+
+  // Past a place beside all vessels, which lies as deep as the place that it begins at.
+  const TemporaryFolder third;
+  const std::string graft = click("185 244") + click("380 500") + click("331 568");
+  session(sceneIn(third.path(), "left femoral artery"), pick + graft + control("s"));
+  edits = readJournal(third.path() / "scene.vedit");
+  REQUIRE(edits);
+  REQUIRE(edits->size() == 1);
+  const auto* led = std::get_if<GraftEdit>(&edits->back().operation);
+  REQUIRE(led);
+  CHECK(led->vessel == "left femoral artery");
+  CHECK(led->other == "left popliteal artery");
+  REQUIRE(led->via.size() == 1);
+  const auto before = readNetwork(kData / "human.vasa");
+  REQUIRE(before);
+  const auto after = editNetwork(*before, *edits);
+  REQUIRE(after);
+  const auto made = findVessel(*after, led->name);
+  REQUIRE(made);
+  const vec3 passed = 1e-3f * vec3(led->via.front());
+  float nearest = 1;
+  for (const ProfileStation& station : stationsOf(after->pointsOf(after->vessel(*made)), 1e-3f))
+    nearest = std::min(nearest, glm::distance(station.centre, passed));
+  CHECK(nearest < 2e-3f);
   unsetenv("DISPLAY");
 }
