@@ -37,15 +37,15 @@ bool continues(const Network& before, const Network& after) {
          std::ranges::equal(old, all.first(old.size()), {}, &Vessel::name, &Vessel::name);
 }
 
-SweepTable tableOf(const Network& network, const Document& before, bool live) {
+std::shared_ptr<const SweepTable> tableOf(const Network& network, const Document& before, bool live) {
   if (live && sameLayout(network, before.scene.network)) return before.table;
   ForkPlan plan = live && continues(before.scene.network, network)
-                      ? planForksAs(network, before.table.ways, *before.forks)
+                      ? planForksAs(network, before.table->ways, *before.forks)
                       : planForks(network, *before.forks);
   PatchTable patches = takePatches(network, plan);
   SweepTable table = makeSweepTable(network, std::move(plan));
   table.patches = std::move(patches);
-  return table;
+  return std::make_shared<const SweepTable>(std::move(table));
 }
 
 // What each vessel was in the base, for Rebinder.
@@ -120,7 +120,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   told(what, 0, 0);
   parallelFor(3, 1, [&](std::size_t part) {
     if (part == 0)
-      document->table = makeSweepTable(document->scene.network);
+      document->table = std::make_shared<const SweepTable>(makeSweepTable(document->scene.network));
     else if (part == 1)
       document->clearedArms = clearArms(file, document->scene.body, document->scene.body.clips);
     else
@@ -135,7 +135,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   document->rules = folder;
   document->forks = std::make_shared<ForkMemory>();
   if (!journal.empty()) return editedDocument(*document, std::move(journal), false);
-  if (!folder.empty()) document->growth = GrowthBehind(std::move(*growth), document->scene, document->table);
+  if (!folder.empty()) document->growth = GrowthBehind(std::move(*growth), document->scene, *document->table);
   return std::shared_ptr<const Document>(std::move(document));
 }
 
@@ -173,12 +173,14 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   made->forks = document.forks;
   made->origins = std::move(replay.origins);
   made->table = tableOf(made->scene.network, document, live);
-  made->bounds = boundsOf(made->scene);
-  made->groups = std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
+  const bool dragged = made->table == document.table;  // what follows is seen to once it is let go
+  made->bounds = dragged ? document.bounds : boundsOf(made->scene);
+  made->groups = dragged ? document.groups
+                         : std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
   if (!made->rules.empty()) {
     auto growth = readGrowth(made->rules);
     if (!growth) return growth.error();
-    made->growth = GrowthBehind(std::move(*growth), made->scene, made->table, std::launch::deferred);
+    made->growth = GrowthBehind(std::move(*growth), made->scene, *made->table, std::launch::deferred);
   }
   return std::shared_ptr<const Document>(std::move(made));
 }

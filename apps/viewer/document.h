@@ -39,7 +39,7 @@ class GrowthBehind {
 struct Document {
   SceneFile file;
   Scene scene;
-  SweepTable table;                                   ///< of the network, with the forks planned
+  std::shared_ptr<const SweepTable> table;            ///< of the network, with the forks planned
   std::shared_ptr<const BodyLevels> levels;           ///< of the body's meshes
   std::shared_ptr<const Mannequin> mannequin;         ///< the body's skeleton as something to pose
   std::shared_ptr<const atlas::VesselGroups> groups;  ///< what its vessels belong to

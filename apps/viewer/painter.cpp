@@ -27,9 +27,12 @@ void Painter::choose(std::shared_ptr<const Document> document, const Detail& det
   // Edits leave the body as it is; with capillaries, which grow from the vessels, all is made anew.
   const bool edited = document_ && document && document->levels == document_->levels && detail == detail_ &&
                       timed == timed_ && detail.capillaries == 0;
+  // While one is dragged not even the vessels' layout changes.
+  const bool dragged = edited && document->table == document_->table;
   for (Brush* brush : {&live_, &still_}) {
+    if (dragged) continue;
     if (edited && brush->renderer)
-      brush->renderer->take(document->scene.network, document->table), brush->colours.clear();
+      brush->renderer->take(document->scene.network, *document->table), brush->colours.clear();
     else
       *brush = {};
   }
@@ -49,7 +52,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                                       : shot.fine        ? kAutoPixelError
                                                          : kMovingPixelError,
                         .levels = document_->levels.get(),
-                        .table = &document_->table,
+                        .table = document_->table.get(),
                         .bgra = true,
                         .occlusion = shot.fine,
                         .seed = seed_,

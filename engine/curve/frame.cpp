@@ -31,6 +31,16 @@ vec3 transport(vec3 u, vec3 from, vec3 fromTangent, vec3 to, vec3 toTangent) {
   return u;
 }
 
+// Of one span of a vessel; where that is a point, of the whole.
+vec3 tangentAt(const Bezier& segment, float t, std::span<const vec4> points) {
+  for (const vec3 candidate : {vec3(segment.derivative(t)), vec3(segment.b[3] - segment.b[0]),
+                               vec3(points.back() - points.front())}) {
+    const float length2 = glm::dot(candidate, candidate);
+    if (length2 > kTiny2) return candidate / std::sqrt(length2);
+  }
+  return {0, 0, 1};
+}
+
 quat toQuaternion(const Frame& frame) {
   return glm::normalize(glm::quat_cast(mat3(frame.u, frame.v, frame.tangent)));
 }
@@ -50,13 +60,7 @@ void minimisingFrames(std::span<const vec3> points, std::span<const vec3> tangen
 
 vec3 unitTangent(std::span<const vec4> points, float u) {
   const auto [span, t] = locate(u, spanCount(points));
-  const Bezier segment = bezierOfSpan(points, span);
-  for (const vec3 candidate : {vec3(segment.derivative(t)), vec3(segment.b[3] - segment.b[0]),
-                               vec3(points.back() - points.front())}) {
-    const float length2 = glm::dot(candidate, candidate);
-    if (length2 > kTiny2) return candidate / std::sqrt(length2);
-  }
-  return {0, 0, 1};
+  return tangentAt(bezierOfSpan(points, span), t, points);
 }
 
 void knotFrames(std::span<const vec4> points, vec3 start, std::span<quat> frames) {
@@ -65,11 +69,16 @@ void knotFrames(std::span<const vec4> points, vec3 start, std::span<quat> frames
   Frame frame = frameFrom(unitTangent(points, 0), start);
   vec3 position(points[0]);
   frames[0] = toQuaternion(frame);
+  Bezier segment = bezierOfSpan(points, 0);
   for (std::uint32_t span = 0; span < spans; ++span) {
     for (int step = 1; step <= kFrameSteps; ++step) {
-      const float u = float(span) + float(step) / kFrameSteps;
-      const vec3 next(evaluate(points, u));
-      const vec3 tangent = unitTangent(points, u);
+      float t = float(step) / kFrameSteps;
+      if (step == kFrameSteps &&
+          span + 1 < spans) {  // a knot is where the next span begins, as in evaluate()
+        segment = bezierOfSpan(points, span + 1);
+        t = 0;
+      }
+      const vec3 next(segment.at(t)), tangent = tangentAt(segment, t, points);
       frame = frameFrom(tangent, transport(frame.u, position, frame.tangent, next, tangent));
       position = next;
     }
