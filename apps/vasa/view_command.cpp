@@ -133,6 +133,8 @@ Report asReport(const viewer::ViewReport& view) {
           {"still_slices", view.slices},
           {"stills_given_up", view.stillsGivenUp},
           {"longest_slice_ms", view.longestSliceMs},
+          {"longest_turn_ms", view.longestTurnMs},
+          {"turns_over_100_ms", view.slowTurns},
           {"shown_ms", view.frameMs},
           {"fps", view.frameMs > 0 ? 1000 / view.frameMs : 0},
           {"edit_ms", view.editMs},

@@ -51,6 +51,9 @@ struct ViewReport {
   double firstSolvedMs = 0;                     ///< ... in which vessels are moved apart, too
   std::uint64_t slices = 0, stillsGivenUp = 0;  ///< of finer stills: slices made, and stills left half done
   double longestSliceMs = 0;
+  /// Of the turns after the first picture in which a person can be answered, a script's `live` seconds alone.
+  double longestTurnMs = 0;
+  std::uint64_t slowTurns = 0;  ///< of them over 100 ms
   double frameMs = 0;  ///< median between pictures shown while things moved
   double editMs = 0;   ///< median from an edit to the picture that shows it
   double shapeMs = 0, pictureMs = 0;

@@ -62,26 +62,52 @@ std::vector<Rebinder::Kept> keptOf(const Network& base, const Replay& replay) {
 
 }  // namespace
 
-GrowthBehind::GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table, std::launch when)
-    : settled_(std::async(when,
-                          [growth = std::make_unique<SceneGrowth>(std::move(rules)), &scene, &table,
-                           cancellation = cancellation_]() mutable -> std::unique_ptr<const SceneGrowth> {
-                            const CancellationScope scope(cancellation);
-                            const StageLog stage("behind the picture: settling where capillaries grow");
-                            giveWay();
-                            try {
-                              settleGrowth(*growth, scene, table);
-                            } catch (const Cancelled&) {
-                              return nullptr;
-                            }
-                            return std::move(growth);
-                          })) {}
+struct GrowthBehind::Work {
+  SceneGrowth growth;
+  const Scene& scene;
+  const SweepTable& table;
+  Cancellation cancellation;
+  std::future<bool> done;
+  std::optional<bool> whole;  // what came of it
+};
+
+GrowthBehind::GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table)
+    : work_(std::make_unique<Work>(Work{std::move(rules), scene, table, {}, {}, {}})) {}
+
+GrowthBehind::GrowthBehind() = default;
+GrowthBehind& GrowthBehind::operator=(GrowthBehind&&) noexcept = default;
 
 GrowthBehind::~GrowthBehind() {
-  if (!settled_.valid()) return;
-  if (settled_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred) return;
-  cancellation_.ask();
-  settled_.wait();
+  if (!work_ || !work_->done.valid()) return;
+  work_->cancellation.ask();
+  work_->done.wait();
+}
+
+void GrowthBehind::begin() const {
+  if (!work_ || work_->done.valid() || work_->whole) return;
+  work_->done = std::async(std::launch::async, [&work = *work_] {
+    const CancellationScope scope(work.cancellation);
+    const StageLog stage("behind the picture: settling where capillaries grow");
+    giveWay();
+    try {
+      settleGrowth(work.growth, work.scene, work.table);
+    } catch (const Cancelled&) {
+      return false;
+    }
+    return true;
+  });
+}
+
+bool GrowthBehind::settled() const {
+  if (!work_ || work_->whole) return true;
+  return work_->done.valid() && work_->done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+const SceneGrowth* GrowthBehind::get() const {
+  if (!work_) return nullptr;
+  begin();
+  if (!work_->whole) work_->whole = work_->done.get();
+  return *work_->whole ? &work_->growth : nullptr;
 }
 
 std::string titleOf(const SceneFile& file) {
@@ -135,7 +161,10 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
   document->rules = folder;
   document->forks = std::make_shared<ForkMemory>();
   if (!journal.empty()) return editedDocument(*document, std::move(journal), false);
-  if (!folder.empty()) document->growth = GrowthBehind(std::move(*growth), document->scene, *document->table);
+  if (!folder.empty()) {
+    document->growth = GrowthBehind(std::move(*growth), document->scene, *document->table);
+    document->growth.begin();
+  }
   return std::shared_ptr<const Document>(std::move(document));
 }
 
@@ -175,12 +204,12 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   made->table = tableOf(made->scene.network, document, live);
   const bool dragged = made->table == document.table;  // what follows is seen to once it is let go
   made->bounds = dragged ? document.bounds : boundsOf(made->scene);
-  made->groups = dragged ? document.groups
-                         : std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
+  made->groups =
+      dragged ? document.groups : std::make_shared<const atlas::VesselGroups>(atlas::groupsOf(made->scene));
   if (!made->rules.empty()) {
     auto growth = readGrowth(made->rules);
     if (!growth) return growth.error();
-    made->growth = GrowthBehind(std::move(*growth), made->scene, *made->table, std::launch::deferred);
+    made->growth = GrowthBehind(std::move(*growth), made->scene, *made->table);
   }
   return std::shared_ptr<const Document>(std::move(made));
 }

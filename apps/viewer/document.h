@@ -14,25 +14,27 @@
 
 namespace vasa::viewer {
 
-/// What capillaries grow from, settled on a thread of its own behind the first pictures, which need none.
+/// What capillaries grow from, settled on a thread of its own behind pictures that need none.
 class GrowthBehind {
  public:
-  GrowthBehind() = default;  ///< none
+  GrowthBehind();  ///< none
   /// @param rules  readGrowth(). Scene and table must outlive this
-  /// @param when  deferred: not before get()
-  GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table,
-               std::launch when = std::launch::async);
+  GrowthBehind(SceneGrowth rules, const Scene& scene, const SweepTable& table);
   ~GrowthBehind();  ///< cancels
   GrowthBehind(const GrowthBehind&) = delete;
-  GrowthBehind& operator=(GrowthBehind&&) = default;
+  GrowthBehind& operator=(GrowthBehind&&) noexcept;
 
-  bool any() const { return settled_.valid(); }
+  bool any() const { return work_ != nullptr; }
+  /// Begins to settle it, if that has not begun. One thread at a time calls this and what follows.
+  void begin() const;
+  /// Whether get() answers at once.
+  bool settled() const;
   /// Waits until it is settled; null without any.
-  const SceneGrowth* get() const { return any() ? settled_.get().get() : nullptr; }
+  const SceneGrowth* get() const;
 
  private:
-  Cancellation cancellation_;
-  std::shared_future<std::unique_ptr<const SceneGrowth>> settled_;
+  struct Work;
+  std::unique_ptr<Work> work_;
 };
 
 /// What is looked at: a scene, loaded, and what follows from it alone.

@@ -24,47 +24,56 @@ RenderInput inputOf(const Shot& shot) {
 void Painter::choose(std::shared_ptr<const Document> document, const Detail& detail, bool timed) {
   if (document == document_ && detail == detail_ && timed == timed_) return;
   last_ = nullptr;
-  // Edits leave the body as it is; with capillaries, which grow from the vessels, all is made anew.
-  const bool edited = document_ && document && document->levels == document_->levels && detail == detail_ &&
-                      timed == timed_ && detail.capillaries == 0;
-  // While one is dragged not even the vessels' layout changes.
-  const bool dragged = edited && document->table == document_->table;
-  for (Brush* brush : {&live_, &still_}) {
-    if (dragged) continue;
-    if (edited && brush->renderer)
-      brush->renderer->take(document->scene.network, *document->table), brush->colours.clear();
-    else
-      *brush = {};
-  }
   document_ = std::move(document);
   detail_ = detail;
   timed_ = timed;
 }
 
+// As it has to be for what is chosen now. Edits leave the body as it is, and one that goes on by dragging
+// even the vessels' layout.
 Painter::Brush& Painter::brush(const Shot& shot) {
   Brush& brush = shot.fine ? still_ : live_;
-  if (brush.renderer) return brush;
-  RenderOptions options{.width = shot.width,
-                        .height = shot.height,
-                        .samples = shot.fine ? 4u : 1u,
-                        .shape = {std::uint32_t(detail_.around), std::uint32_t(detail_.along)},
-                        .pixelError = !detail_.automatic ? 0
-                                      : shot.fine        ? kAutoPixelError
-                                                         : kMovingPixelError,
-                        .levels = document_->levels.get(),
-                        .table = document_->table.get(),
-                        .bgra = true,
-                        .occlusion = shot.fine,
-                        .seed = seed_,
-                        .timed = timed_};
-  if (detail_.capillaries > 0) options.growth = document_->growth.get();
   const CapillaryChoice& choice = document_->file.capillaries;
-  options.capillaries = {.levels = unsigned(detail_.capillaries),
-                         .edges = choice.edges,
-                         .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
-                         .smallest = choice.smallest};
-  brush.renderer =
-      std::make_unique<Renderer>(device_, document_->scene.network, document_->scene.body.meshes, options);
+  const RenderOptions options{.width = shot.width,
+                              .height = shot.height,
+                              .samples = shot.fine ? 4u : 1u,
+                              .shape = {std::uint32_t(detail_.around), std::uint32_t(detail_.along)},
+                              .pixelError = !detail_.automatic ? 0
+                                            : shot.fine        ? kAutoPixelError
+                                                               : kMovingPixelError,
+                              .levels = document_->levels.get(),
+                              .table = document_->table.get(),
+                              .bgra = true,
+                              .occlusion = shot.fine,
+                              .seed = seed_,
+                              .timed = timed_};
+  const bool made = brush.renderer && brush.timed == timed_ && brush.document->levels == document_->levels,
+             sameQuads = brush.detail.automatic == detail_.automatic &&
+                         brush.detail.around == detail_.around && brush.detail.along == detail_.along,
+             sameTubes = made && sameQuads && brush.document->table == document_->table,
+             anyGrowth = brush.detail.capillaries > 0 || detail_.capillaries > 0,
+             sameGrowth = sameTubes && (!anyGrowth || (brush.document == document_ &&
+                                                       brush.detail.capillaries == detail_.capillaries));
+  const Brush& other = shot.fine ? live_ : still_;
+  const Network& network = document_->scene.network;
+  if (!made && other.renderer && other.document->levels == document_->levels)
+    brush.renderer = std::make_unique<Renderer>(device_, network, *other.renderer, options);
+  else if (!made)
+    brush.renderer = std::make_unique<Renderer>(device_, network, document_->scene.body.meshes, options);
+  else if (!sameTubes)
+    brush.renderer->take(network, options);
+  if (!sameGrowth) {
+    if (anyGrowth)
+      brush.renderer->grow(detail_.capillaries > 0 ? document_->growth.get() : nullptr,
+                           {.levels = unsigned(detail_.capillaries),
+                            .edges = choice.edges,
+                            .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
+                            .smallest = choice.smallest});
+    brush.colours.clear();
+  }
+  brush.document = document_;
+  brush.detail = detail_;
+  brush.timed = timed_;
   return brush;
 }
 

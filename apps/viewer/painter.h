@@ -20,8 +20,8 @@ struct Shot {
 };
 
 /// Draws a document's pictures with two renderers: a fast one for what moves, with few capillaries, and one
-/// for stills, which are made in slices. They are made when they are first needed and when the detail
-/// changes.
+/// for stills, which are made in slices. Each is made when it is first needed, and follows what is chosen
+/// when it is used again.
 class Painter {
  public:
   Painter(gpu::Device& device, std::uint32_t seed) : device_(device), seed_(seed) {}
@@ -47,6 +47,10 @@ class Painter {
   struct Brush {
     std::unique_ptr<Renderer> renderer;
     std::vector<std::uint32_t> colours;
+    // What it was made for.
+    std::shared_ptr<const Document> document;
+    Detail detail;
+    bool timed = false;
   };
   Brush& brush(const Shot& shot);
   Renderer& prepared(const Shot& shot);

@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.h"
+#include "core/clock.h"
 #include "core/log.h"
 #include "core/stage_log.h"
 #include "gpu/error.h"
 #include "viewer/pose_text.h"
 
 namespace vasa::viewer {
+namespace {
+
+constexpr double kSlowTurn = 100;  // [ms] Nielsen 1993: what takes longer is felt as a delay
+
+}  // namespace
 
 Session::Session(const ViewOptions& options, const Settings& settings, Window& window, Loader& loader)
     : options_(options),
@@ -83,6 +89,7 @@ Error Session::keepWhatIsThere(Error error) {
 Result<ViewReport> Session::go() {
   while (!ending_ && !options_.stopped()) {
     const auto start = Clock::now();
+    const bool answers = !steady() && shown_;
     now_ += pass();
     gather();
     openFiles();
@@ -103,7 +110,12 @@ Result<ViewReport> Session::go() {
     profile();
     watchLoading();
     if (failure_) return *failure_;
-    rest(std::chrono::duration<double>(Clock::now() - start).count());
+    const double ms = msSince(start);
+    if (answers && !steady()) {
+      report_.longestTurnMs = std::max(report_.longestTurnMs, ms);
+      report_.slowTurns += ms > kSlowTurn ? 1 : 0;
+    }
+    rest(ms / 1000);
   }
   if (!ending_)
     if (const std::string told = keepUnsaved(); !told.empty()) logWarning(told);
@@ -235,7 +247,7 @@ void Session::rest(double drawn) {
     return;
   }
   const bool waiting = worker_.busy() || reshaper_.busy() || (shown_ && !shown_->fine && state_.fineStills) ||
-                       now_ < messageUntil_ || movedAt_ >= 0;
+                       now_ < messageUntil_ || movedAt_ >= 0 || detail_ != state_.detail;
   const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0)
                          : moving || due           ? std::max(kFrame - drawn, 0.0)
                          : waiting                 ? 0.05

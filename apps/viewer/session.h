@@ -115,6 +115,7 @@ class Session {
   Aabb bodyBox() const;
   Shot shotNow();
   void moveCamera();
+  Detail detailNow() const;
   bool drawScene();
   bool makeStill(const Shot& fine);
   void leaveStill();

@@ -125,12 +125,21 @@ void Session::moveCamera() {
   state_.wishFocus = false;
 }
 
+// Capillaries come once it is settled what they grow from; nobody waits for that before the window.
+Detail Session::detailNow() const {
+  Detail detail = state_.detail;
+  if (detail.capillaries == 0 || steady()) return detail;
+  if (!document_->live) document_->growth.begin();
+  if (!document_->growth.settled()) detail.capillaries = 0;
+  return detail;
+}
+
 // True where there is a new picture.
 bool Session::drawScene() {
   if (!document_ || !body_) return false;
   moveCamera();
   const Detail before = detail_;
-  painter_.choose(document_, detail_ = state_.detail, state_.timing);
+  painter_.choose(document_, detail_ = detailNow(), state_.timing);
   if (!painter_.picture() || before != detail_) {
     shown_.reset();
     leaveStill();

@@ -70,40 +70,10 @@ shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32
 
 CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target, const TubeSet& tubes,
                              const GrowthRules& rules, const CapillaryBeds& beds, const CapillaryWish& wish)
-    : tubes_(tubes), beds_(beds), rules_(rules), wish_(wish) {
+    : device_(&device), target_(target), tubes_(tubes), beds_(beds), rules_(rules), wish_(wish) {
   assert(beds.spans.size() == tubes.table().spanCount);
   if (wish.levels == 0) return;
   grow_ = gpu::ComputePipeline(device, {spirv::capillary_comp, sizeof(shared::CapillaryPush)});
-  const RibbonLayout layout;
-  for (const LookStyle style : {LookStyle::atlas, LookStyle::clinical, LookStyle::xray}) {
-    gpu::GraphicsSpec spec{.name = "capillaries",
-                           .vertex = spirv::capillary_vert,
-                           .fragment = spirv::capillary_frag,
-                           .pushBytes = sizeof(shared::DrawPush),
-                           .vertexInput = &layout.info,
-                           .colour = target.colour,
-                           .depth = target.depth,
-                           .samples = target.samples,
-                           .cull = VK_CULL_MODE_NONE,
-                           .depthTest = VK_COMPARE_OP_GREATER,
-                           .blend = gpu::Blend::premultiplied};
-    spec.constants.set(0, std::uint32_t(style));
-    if (style == LookStyle::xray) {
-      spec.depthTest = VK_COMPARE_OP_ALWAYS;
-      spec.depthWrite = false;
-      spec.blend = gpu::Blend::add;
-    }
-    for (auto& kind : draw_) {
-      Pipelines& own = kind[std::size_t(style)];
-      gpu::GraphicsSpec partial = spec;
-      partial.constants.set(1, std::uint32_t(target.samples));
-      own.whole = gpu::GraphicsPipeline(device, spec);
-      own.partial = gpu::GraphicsPipeline(device, partial);
-      // What is thinner than a pixel hides little, and its fading edges less than that: thin curves lie over
-      // one another, the farthest first, and would glitter if they hid one another.
-      spec.depthWrite = false;
-    }
-  }
   for (gpu::Buffer& ring : rings_) ring = ringBuffer(device);
   for (std::size_t i = 0; i < kEdges.size(); ++i) {
     const auto indices = ribbonIndices(kEdges[i], shared::kRingCurves);
@@ -116,6 +86,35 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
   const VkDeviceSize frameBytes = sizeof(shared::GrowthView) + mostJobs(beds) * sizeof(shared::GrowthJob);
   host_ = gpu::Buffer(device, {"capillary frame, host", frameBytes, gpu::MemoryRole::upload});
   frame_ = gpu::Buffer(device, {"capillary frame", frameBytes});
+}
+
+// Most runs need one or two of the twelve.
+const gpu::GraphicsPipeline& CapillaryPass::pipelineFor(bool thin, LookStyle style, bool partial) const {
+  auto& made = draw_[thin][std::size_t(style)][partial];
+  if (made) return *made;
+  const RibbonLayout layout;
+  gpu::GraphicsSpec spec{.name = "capillaries",
+                         .vertex = spirv::capillary_vert,
+                         .fragment = spirv::capillary_frag,
+                         .pushBytes = sizeof(shared::DrawPush),
+                         .vertexInput = &layout.info,
+                         .colour = target_.colour,
+                         .depth = target_.depth,
+                         .samples = target_.samples,
+                         .cull = VK_CULL_MODE_NONE,
+                         .depthTest = VK_COMPARE_OP_GREATER,
+                         .blend = gpu::Blend::premultiplied};
+  spec.constants.set(0, std::uint32_t(style));
+  if (partial) spec.constants.set(1, std::uint32_t(target_.samples));
+  // What is thinner than a pixel hides little, and its fading edges less than that: thin curves lie over one
+  // another, the farthest first, and would glitter if they hid one another.
+  if (thin) spec.depthWrite = false;
+  if (style == LookStyle::xray) {
+    spec.depthTest = VK_COMPARE_OP_ALWAYS;
+    spec.depthWrite = false;
+    spec.blend = gpu::Blend::add;
+  }
+  return made.emplace(*device_, spec);
 }
 
 void CapillaryPass::setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours) {
@@ -162,8 +161,7 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  const Pipelines& own = draw_[batch.edges <= kThinEdges][std::size_t(input.style)];
-  (input.partial ? own.partial : own.whole).bind(commands, input.draw);
+  pipelineFor(batch.edges <= kThinEdges, input.style, input.partial).bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);

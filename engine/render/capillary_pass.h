@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 
 #include "gpu/compute_pipeline.h"
 #include "gpu/graphics_pipeline.h"
@@ -17,7 +18,8 @@ namespace vasa {
 shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32_t seed);
 
 /// Grows capillaries on the device and draws them, a batch after another through two fixed rings of vertices:
-/// the memory does not depend on how many there are. CPU reference: growth/capillary.h and ribbon.h.
+/// the memory does not depend on how many there are. The device must outlive this. CPU reference:
+/// growth/capillary.h and ribbon.h.
 class CapillaryPass {
  public:
   /// @param wish  levels are the most that record() may be asked for, budget the most curves; 0 levels: takes
@@ -52,16 +54,19 @@ class CapillaryPass {
   std::uint64_t ringBytes() const;  ///< of vertices
 
  private:
+  const gpu::GraphicsPipeline& pipelineFor(bool thin, LookStyle style, bool partial) const;
+
+  gpu::Device* device_;
+  gpu::TargetSpec target_;
   const TubeSet& tubes_;
   const CapillaryBeds& beds_;
   const GrowthRules& rules_;
   CapillaryWish wish_;
   CapillaryPlan plan_;
   gpu::ComputePipeline grow_;
-  struct Pipelines {
-    gpu::GraphicsPipeline whole, partial;
-  };
-  std::array<std::array<Pipelines, 3>, 2> draw_;  // of wide curves, of thin ones; one a LookStyle
+  // Of wide curves, of thin ones; one a LookStyle; for whole frames and partial ones; made when first drawn
+  // with.
+  mutable std::array<std::array<std::array<std::optional<gpu::GraphicsPipeline>, 2>, 3>, 2> draw_;
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 5> indices_;  // of threads, and of ribbons of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, bedBuffer_, spans_, colours_, host_, frame_;

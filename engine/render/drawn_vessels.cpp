@@ -9,20 +9,18 @@ namespace {
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
-TubeDetail with(TubeDetail detail, const SweepTable* table) {
-  detail.table = table;
-  return detail;
+TubeDetail detailOf(const RenderOptions& options) {
+  return {options.shape, options.pixelError, options.forks, options.table};
 }
 
 }  // namespace
 
 DrawnVessels::DrawnVessels(gpu::Device& device, const Network& network, const RenderOptions& options)
     : device_(&device),
-      detail_{options.shape, options.pixelError, options.forks, nullptr},
       samples_(options.samples),
       templateBytes_(options.templateBytes),
       ownColours_(kindColours(network)),
-      tubes_(device, network, with(detail_, options.table), templateBytes_),
+      tubes_(device, network, detailOf(options), templateBytes_),
       forks_(device, tubes_.table(), tubes_.detail(), templateBytes_),
       comingForkPass_(
           std::async(std::launch::async, [this] { return ForkPass(*device_, samples_, forks_); })),
@@ -40,10 +38,15 @@ void DrawnVessels::settle() {
   if (comingForkPass_.valid()) forkPass_ = comingForkPass_.get();
 }
 
-void DrawnVessels::take(const Network& network, const SweepTable& table) {
+bool DrawnVessels::isSettled(std::chrono::milliseconds within) const {
+  return !comingForkPass_.valid() || comingForkPass_.wait_for(within) == std::future_status::ready;
+}
+
+void DrawnVessels::take(const Network& network, const RenderOptions& options) {
+  settle();
   gpu::Device& device = *device_;
   ownColours_ = kindColours(network);
-  tubes_ = TubeSet(device, network, with(detail_, &table), templateBytes_);
+  tubes_ = TubeSet(device, network, detailOf(options), templateBytes_);
   forks_ = ForkSet(device, tubes_.table(), tubes_.detail(), templateBytes_);
   patches_ = PatchSet(device, tubes_.table().patches);
   if (filling_.groupSweeps() != tubes_.groupSweeps()) tubePass_ = TubePass(device, samples_, tubes_);
@@ -115,7 +118,8 @@ void DrawnVessels::recordStaticPatches(VkCommandBuffer commands) const {
 }
 
 std::uint64_t DrawnVessels::triangleCount() const {
-  const std::uint64_t patches = detail_.automatic() ? 0 : patches_.triangleCount(detail_.shape.around);
+  const TubeDetail& detail = tubes_.detail();
+  const std::uint64_t patches = detail.automatic() ? 0 : patches_.triangleCount(detail.shape.around);
   return tubes_.triangleCount() + forks_.triangleCount() + patches;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <future>
 #include <optional>
 #include <span>
@@ -22,12 +23,15 @@ class DrawnVessels {
   DrawnVessels(gpu::Device& device, const Network& network, const RenderOptions& options);
   DrawnVessels(const DrawnVessels&) = delete;
   DrawnVessels& operator=(const DrawnVessels&) = delete;
-  /// Until all is made. A driver takes as long for the forks' shader as for all others: it is made beside
-  /// the rest of a renderer.
+  /// Waits until all is made; nothing may be recorded before. A driver takes as long for the forks' shader as
+  /// for all others: it is made beside them.
   void settle();
+  /// Whether it is made, or will be within so long.
+  bool isSettled(std::chrono::milliseconds within) const;
 
-  /// Another network. Pipelines stay where it asks for no others. Colours are those of its vessels' kinds.
-  void take(const Network& network, const SweepTable& table);
+  /// Another network, or the same with other quads. Pipelines stay where it asks for no others. Colours are
+  /// those of its vessels' kinds.
+  void take(const Network& network, const RenderOptions& options);
   /// Of the spans; Renderer::setSweepColours(). @return what they are now
   std::vector<std::uint32_t> setColours(std::span<const std::uint32_t> given);
 
@@ -67,7 +71,6 @@ class DrawnVessels {
   const Template& templateOf(std::uint32_t round) const { return round % 2 == 0 ? first_ : *second_; }
 
   gpu::Device* device_;
-  TubeDetail detail_;  // but for the table
   std::uint32_t samples_, templateBytes_;
   std::vector<std::uint32_t> ownColours_;  // of the spans, by their vessels' kinds
   TubeSet tubes_;

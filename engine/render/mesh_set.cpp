@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/parallel.h"
 #include "gpu/transfer.h"
 #include "render/picture.h"
 #include "scene/beat.h"
@@ -59,48 +60,71 @@ bool shown(MeshRole role, const Look& look) {
 
 }  // namespace
 
-MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels) {
+MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels)
+    : MeshSet(device, std::make_shared<const AtRest>(atRest(device, meshes, levels))) {}
+
+MeshSet::MeshSet(gpu::Device& device, std::shared_ptr<const AtRest> rest)
+    : rest_(std::move(rest)),
+      posed_(device, {.name = "posed mesh vertices",
+                      .bytes = rest_->vertexCount * sizeof(shared::TubeVertex),
+                      .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT}) {}
+
+MeshSet::AtRest MeshSet::atRest(gpu::Device& device, std::span<const SkinnedMesh> meshes,
+                                const BodyLevels& levels) {
+  AtRest rest;
   assert(levels.size() == meshes.size());
-  std::vector<shared::SkinVertex> vertices;
-  std::vector<uvec3> triangles;
   std::vector<std::uint32_t> colours;
+  std::size_t triangleCount = 0;
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const SkinnedMesh& mesh = meshes[k];
     assert(mesh.normals.size() == mesh.mesh.positions.size() &&
            mesh.influences.size() == mesh.normals.size());
     const MeshRole role = roleNamed(mesh.name);
-    Part& part = parts_.emplace_back(Part{.role = role,
-                                          .opacity = mesh.colour.a < 1 ? mesh.colour.a : kOrganOpacity,
-                                          .levels = {},
-                                          .closed = levels[k].closed,
-                                          .balls = {}});
+    Part& part = rest.parts.emplace_back(Part{.role = role,
+                                              .opacity = mesh.colour.a < 1 ? mesh.colour.a : kOrganOpacity,
+                                              .levels = {},
+                                              .closed = levels[k].closed,
+                                              .balls = {}});
     for (const MeshLevel& level : levels[k].levels) {
-      part.levels.push_back({level.error, std::uint32_t(3 * triangles.size()),
-                             std::uint32_t(3 * level.triangles.size()), std::uint32_t(vertices.size()),
+      part.levels.push_back({level.error, std::uint32_t(3 * triangleCount),
+                             std::uint32_t(3 * level.triangles.size()), std::uint32_t(rest.vertexCount),
                              std::uint32_t(level.vertices.size()), true});
-      triangles.insert(triangles.end(), level.triangles.begin(), level.triangles.end());
-      for (std::size_t i = 0; i < level.vertices.size(); ++i)
-        vertices.push_back(restVertex(mesh, level.vertices[i], level.normals[i]));
+      rest.vertexCount += level.vertices.size();
+      triangleCount += level.triangles.size();
     }
-    part.balls = jointBalls(mesh);
-    for (const SkinInfluence& influence : mesh.influences)
-      for (const std::uint16_t joint : influence.joints) jointCount_ = std::max(jointCount_, joint + 1u);
-    if (role == MeshRole::heart && heart_.part >= meshes.size()) heart_ = {k, meshCentre(mesh)};
+    if (role == MeshRole::heart && rest.heart.part >= meshes.size()) rest.heart = {k, meshCentre(mesh)};
     colours.push_back(meshColour(mesh, role));
   }
-  rest_ = gpu::makeBuffer(device, "mesh vertices at rest", std::span<const shared::SkinVertex>(vertices));
-  posed_ = gpu::Buffer(device, {.name = "posed mesh vertices",
-                                .bytes = vertices.size() * sizeof(shared::TubeVertex),
-                                .moreUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
-  indices_ = gpu::makeBuffer(device, "mesh indices", std::span<const uvec3>(triangles));
-  colours_ = gpu::makeBuffer(device, "mesh colours", std::span<const std::uint32_t>(colours));
+  std::vector<shared::SkinVertex> vertices(rest.vertexCount);
+  std::vector<uvec3> triangles(triangleCount);
+  std::vector<std::uint32_t> jointCounts(meshes.size());
+  parallelFor(meshes.size(), 1, [&](std::size_t k) {
+    const SkinnedMesh& mesh = meshes[k];
+    rest.parts[k].balls = jointBalls(mesh);
+    for (const SkinInfluence& influence : mesh.influences)
+      for (const std::uint16_t joint : influence.joints)
+        jointCounts[k] = std::max(jointCounts[k], joint + 1u);
+    for (std::size_t l = 0; l < levels[k].levels.size(); ++l) {
+      const MeshLevel& level = levels[k].levels[l];
+      const Level& at = rest.parts[k].levels[l];
+      std::ranges::copy(level.triangles, triangles.begin() + at.firstIndex / 3);
+      for (std::size_t i = 0; i < level.vertices.size(); ++i)
+        vertices[at.firstVertex + i] = restVertex(mesh, level.vertices[i], level.normals[i]);
+    }
+  });
+  for (const std::uint32_t count : jointCounts) rest.jointCount = std::max(rest.jointCount, count);
+  rest.vertices =
+      gpu::makeBuffer(device, "mesh vertices at rest", std::span<const shared::SkinVertex>(vertices));
+  rest.indices = gpu::makeBuffer(device, "mesh indices", std::span<const uvec3>(triangles));
+  rest.colours = gpu::makeBuffer(device, "mesh colours", std::span<const std::uint32_t>(colours));
+  return rest;
 }
 
 std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices,
                                                const Camera& camera, std::uint32_t pictureHeight,
                                                float pixels) const {
   std::vector<Level> chosen;
-  for (const Part& part : parts_) {
+  for (const Part& part : rest_->parts) {
     if (!shown(part.role, look)) {
       chosen.emplace_back();
       continue;

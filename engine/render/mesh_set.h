@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,26 +35,35 @@ class MeshSet {
   };
   /// @param levels  of each mesh (mesh_levels.h)
   MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels);
+  /// The same meshes in poses of their own, on the same device: what is at rest is there once.
+  static MeshSet sharing(gpu::Device& device, const MeshSet& other) { return {device, other.rest_}; }
 
-  std::span<const Part> parts() const { return parts_; }
+  std::span<const Part> parts() const { return rest_->parts; }
   /// For every part that `look` shows the coarsest level whose error shows as `pixels` at most, the mesh
   /// itself for 0 pixels; for every other part an empty level.
   std::vector<Level> levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
                                std::uint32_t pictureHeight, float pixels) const;
-  const Heart& heart() const { return heart_; }
-  std::uint32_t jointCount() const {
-    return jointCount_;
-  }  ///< joints that the meshes use: highest number + 1
-  VkDeviceAddress rest() const { return rest_.address(); }
+  const Heart& heart() const { return rest_->heart; }
+  /// Joints that the meshes use: highest number + 1.
+  std::uint32_t jointCount() const { return rest_->jointCount; }
+  VkDeviceAddress rest() const { return rest_->vertices.address(); }
   const gpu::Buffer& posed() const { return posed_; }  ///< shared::TubeVertex
-  const gpu::Buffer& indices() const { return indices_; }
-  VkDeviceAddress colours() const { return colours_.address(); }  ///< one a part
+  const gpu::Buffer& indices() const { return rest_->indices; }
+  VkDeviceAddress colours() const { return rest_->colours.address(); }  ///< one a part
 
  private:
-  std::vector<Part> parts_;
-  Heart heart_;
-  std::uint32_t jointCount_ = 0;
-  gpu::Buffer rest_, posed_, indices_, colours_;
+  struct AtRest {
+    std::vector<Part> parts;
+    Heart heart;
+    std::uint32_t jointCount = 0;
+    std::size_t vertexCount = 0;
+    gpu::Buffer vertices, indices, colours;
+  };
+  MeshSet(gpu::Device& device, std::shared_ptr<const AtRest> rest);
+  static AtRest atRest(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels);
+
+  std::shared_ptr<const AtRest> rest_;
+  gpu::Buffer posed_;
 };
 
 }  // namespace vasa

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/clock.h"
 #include "gpu/barrier.h"
@@ -23,11 +24,10 @@
 //   picture, first stretch: clear, bones and heart
 //   for each round k: write the next groups of tubes and forks into the other template, as many as it has
 //   room for; draw template k; barrier stretch: patches, if the network has some, which were posed with round
-//   0 ambient occlusion of what is there batch by batch: capillaries; between two of them a picture that is
-//   made in slices rests picture, last stretch: skin; resolve
-// Stretches with nothing between them are one. One barrier a round keeps both templates apart: whatever wrote
-// or read one of them before it is finished after it. Between two barriers a device may write one template
-// while it draws the other.
+//   0 ambient occlusion of what is there batch by batch: capillaries picture, last stretch: skin; resolve
+// Stretches with nothing between them are one; a picture in slices rests behind each. One barrier a round
+// keeps both templates apart: whatever wrote or read one of them before it is finished after it. Between two
+// barriers a device may write one template while it draws the other.
 namespace vasa {
 using namespace stage;
 namespace {
@@ -36,7 +36,8 @@ constexpr VkPipelineStageFlags2 kTemplateStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | gpu::kAttachmentStages |
     VK_PIPELINE_STAGE_2_TRANSFER_BIT;
-constexpr float kOcclusionReach = 0.03f;  // [m] about a vertebra
+constexpr std::chrono::milliseconds kPatience{10};  // of a step, with pipelines that are still being made
+constexpr float kOcclusionReach = 0.03f;            // [m] about a vertebra
 std::array<float, 4> clearColour(const Look& look) {
   if (look.transparent) return {0, 0, 0, 0};
   const vec4 c = linearColour(look.background);
@@ -45,13 +46,12 @@ std::array<float, 4> clearColour(const Look& look) {
 
 bool anyVessels(const Look& look) { return look.drawArteries || look.drawVeins || look.drawOtherVessels; }
 
-BodyLevels levelsOf(std::span<const SkinnedMesh> meshes, const RenderOptions& options) {
-  if (options.pixelError <= 0) {
-    BodyLevels all;
-    for (const SkinnedMesh& mesh : meshes) all.push_back(oneLevel(mesh));
-    return all;
-  }
-  return options.levels ? *options.levels : bodyLevels(meshes, options.skeleton);
+MeshSet meshSetOf(gpu::Device& device, std::span<const SkinnedMesh> meshes, const RenderOptions& options) {
+  if (options.levels) return {device, meshes, *options.levels};
+  if (options.pixelError > 0) return {device, meshes, bodyLevels(meshes, options.skeleton)};
+  BodyLevels all;
+  for (const SkinnedMesh& mesh : meshes) all.push_back(oneLevel(mesh));
+  return {device, meshes, all};
 }
 
 gpu::TargetSpec targetSpec(const RenderOptions& options) {
@@ -75,21 +75,19 @@ gpu::BufferSpec readBackSpec(const gpu::Target& target) {
 }  // namespace
 
 struct Renderer::State {
-  State(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> skinned,
-        const RenderOptions& chosen);
+  State(gpu::Device& device, const Network& network, MeshSet posable, const RenderOptions& chosen);
 
-  /// Everything, or what comes before the capillaries where there are some: those wait until it is known that
-  /// all vessels have had their room, since they cost more than all else.
-  void record(VkCommandBuffer commands, const RenderInput& input);
-  void drawFirst(const RenderInput& input);
-  /// The next batches of the picture's capillaries, and with the last one what comes behind them.
-  void recordSlice(VkCommandBuffer commands, std::size_t batches);
-  void drawSlice(std::size_t batches);
+  /// All at once. Capillaries wait until it is known that all vessels have had their room, since they cost
+  /// more than all else.
+  void draw(const RenderInput& input);
+  void begin(const RenderInput& input);
+  bool step();
   bool settleRounds(const Look& look);
-  void take(const Network& network, const SweepTable& table);
+  void take(const Network& network, const RenderOptions& other);
+  void grow(const Growth* growth, const CapillaryWish& wish);
   /// @param tubes  written by DrawnVessels::recordStatic()
   double timeStatic(const StaticTubes& tubes, const RenderInput& input);
-  shared::DetailView viewOf(const RenderInput& input) const;
+  shared::DetailView viewOf(const Camera& camera, const Look& look) const;
 
   gpu::Device& device;
   RenderOptions options;
@@ -112,32 +110,47 @@ struct Renderer::State {
   bool transparent = false;
   bool partial = false, cull = true;  // of this frame
 
+  enum class Part { start, meshes, rounds, patches, occlusion, capillaries, end, done };
   struct Frame {
     shared::DrawPush push;
+    Camera camera;
     Look look;
     std::vector<MeshSet::Level> levels;
+    float heartScale;
     std::uint32_t rounds;  // of tubes and forks
-    bool wholeEnd;         // nothing comes between the last round and what is translucent
+    bool patched, occludes, grows;
+    bool sliced;    // a slice at a time is recorded
+    bool split;     // bones and heart are a stretch of their own
+    bool wholeEnd;  // nothing comes between the last round and what is translucent
+    Part next = Part::start;
+    std::uint32_t round = 0;  // the next one
+    std::size_t batch = 0;    // likewise, of capillaries
   };
-  std::optional<Frame> begun;    // a picture in slices
-  std::size_t drawnBatches = 0;  // of its capillaries
+  std::optional<Frame> begun;  // a picture in slices
 
  private:
-  void recordOpaque(VkCommandBuffer commands, const Frame& frame);
-  void recordRounds(VkCommandBuffer commands, const Frame& frame);
+  /// Takes what is in the input's spans.
+  Frame start(const RenderInput& input, bool sliced);
+  void makeRoom();
+  /// What comes next.
+  void record(VkCommandBuffer commands, Frame& frame);
+  /// What comes next, and more until a part is next.
+  void drawUntil(Part part, Frame& frame);
+  void recordStart(VkCommandBuffer commands, const Frame& frame);
+  void recordMeshes(VkCommandBuffer commands, const Frame& frame);
+  void recordRound(VkCommandBuffer commands, Frame& frame);
   void recordEnd(VkCommandBuffer commands, const Frame& frame);
   void recordPatches(VkCommandBuffer commands, const Frame& frame);
   DrawnVessels::Frame ofVessels() { return {upload, *timer, cull}; }
-  void recordOcclusion(VkCommandBuffer commands, const RenderInput& input);
+  void recordOcclusion(VkCommandBuffer commands, const Frame& frame);
   void recordCapillaries(VkCommandBuffer commands, const Frame& frame, std::size_t from, std::size_t to);
 };
 
-Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const SkinnedMesh> skinned,
-                       const RenderOptions& chosen)
+Renderer::State::State(gpu::Device& dev, const Network& network, MeshSet posable, const RenderOptions& chosen)
     : device(dev),
       options(chosen),
       vessels(device, network, options),
-      meshes(device, skinned, levelsOf(skinned, chosen)),
+      meshes(std::move(posable)),
       upload(uploadOf(device, vessels, meshes)),
       skinPass(device),
       target(device, targetSpec(chosen)),
@@ -146,11 +159,7 @@ Renderer::State::State(gpu::Device& dev, const Network& network, std::span<const
       staticTimer(device, 1) {
   timer.emplace(device, chosen.timed ? kScopes + kScopesOfRound : 0);
   if (chosen.occlusion) occlusionPass.emplace(device, target);
-  if (options.growth && options.capillaries.levels > 0)
-    capillaries.emplace(device, target.spec(), vessels.tubes(), options.growth->rules, options.growth->beds,
-                        options.capillaries);
-  setColours({});
-  vessels.settle();
+  grow(chosen.growth, chosen.capillaries);
 }
 
 void Renderer::State::setColours(std::span<const std::uint32_t> given) {
@@ -158,7 +167,18 @@ void Renderer::State::setColours(std::span<const std::uint32_t> given) {
   if (capillaries) capillaries->setSpanColours(device, colours);
 }
 
-void Renderer::State::recordOpaque(VkCommandBuffer commands, const Frame& frame) {
+void Renderer::State::recordStart(VkCommandBuffer commands, const Frame& frame) {
+  const bool any = anyVessels(frame.look);
+  upload.record(commands);
+  if (any) vessels.recordStart(commands, ofVessels(), viewOf(frame.camera, frame.look));
+  if (any) vessels.recordFill(commands, ofVessels(), 0);
+  if (frame.patched) vessels.recordPatches(commands, ofVessels());
+  const auto scope = timer->scope(commands, kMeshes);
+  skinPass.record(commands, meshes, frame.levels, upload.joints(), upload.jointCount(), frame.heartScale);
+  gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+}
+
+void Renderer::State::recordMeshes(VkCommandBuffer commands, const Frame& frame) {
   const auto scope = timer->scope(commands, kMeshes);
   target.begin(commands, clearColour(frame.look), 0, gpu::Stretch::first);
   surfacePass.recordOpaque(commands, frame.push, meshes, frame.levels, frame.look, partial);
@@ -166,14 +186,13 @@ void Renderer::State::recordOpaque(VkCommandBuffer commands, const Frame& frame)
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
-void Renderer::State::recordRounds(VkCommandBuffer commands, const Frame& frame) {
-  const bool timed = options.timed;
-  if (timed) recordOpaque(commands, frame);
-  const std::uint32_t stretches = timed ? frame.rounds : std::max(frame.rounds, 1u);
-  for (std::uint32_t k = 0; k < stretches; ++k) {
-    if (k + 1 < frame.rounds) vessels.recordFill(commands, ofVessels(), k + 1);
+void Renderer::State::recordRound(VkCommandBuffer commands, Frame& frame) {
+  const std::uint32_t k = frame.round++;
+  if (k + 1 < frame.rounds) vessels.recordFill(commands, ofVessels(), k + 1);
+  const bool starts = k == 0 && !frame.split, last = frame.round >= frame.rounds,
+             ends = last && frame.wholeEnd;
+  {
     const auto scope = timer->scope(commands, kDraw);
-    const bool starts = k == 0 && !timed, ends = k + 1 == stretches && frame.wholeEnd;
     target.begin(commands, clearColour(frame.look), 0,
                  starts ? (ends ? gpu::Stretch::only : gpu::Stretch::first)
                  : ends ? gpu::Stretch::last
@@ -181,10 +200,14 @@ void Renderer::State::recordRounds(VkCommandBuffer commands, const Frame& frame)
     if (starts) surfacePass.recordOpaque(commands, frame.push, meshes, frame.levels, frame.look, partial);
     if (frame.rounds > 0)
       surfacePass.recordVessels(commands, frame.push, vessels.drawsOfRound(k), frame.look, partial);
-    if (ends) return recordEnd(commands, frame);
-    target.pause(commands);
-    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+    if (ends) {
+      recordEnd(commands, frame);
+    } else {
+      target.pause(commands);
+      gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
+    }
   }
+  if (last && anyVessels(frame.look)) vessels.recordEnd(commands);
 }
 
 void Renderer::State::recordEnd(VkCommandBuffer commands, const Frame& frame) {
@@ -201,9 +224,9 @@ void Renderer::State::recordPatches(VkCommandBuffer commands, const Frame& frame
 }
 
 // Before the capillaries: curves thinner than a pixel would only lay noise over one another.
-void Renderer::State::recordOcclusion(VkCommandBuffer commands, const RenderInput& input) {
+void Renderer::State::recordOcclusion(VkCommandBuffer commands, const Frame& frame) {
   const auto scope = timer->scope(commands, kMeshes);
-  occlusionPass->record(commands, target, input.camera, kOcclusionReach, input.look.occlusion);
+  occlusionPass->record(commands, target, frame.camera, kOcclusionReach, frame.look.occlusion);
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
@@ -223,80 +246,92 @@ void Renderer::State::recordCapillaries(VkCommandBuffer commands, const Frame& f
   gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
-shared::DetailView Renderer::State::viewOf(const RenderInput& input) const {
-  return detailView(input.camera, input.look, target.spec().size, vessels.tubes().detail(),
+shared::DetailView Renderer::State::viewOf(const Camera& camera, const Look& look) const {
+  return detailView(camera, look, target.spec().size, vessels.tubes().detail(),
                     detailSnap(device, target.spec().size));
 }
 
-void Renderer::State::record(VkCommandBuffer commands, const RenderInput& input) {
+// For as many rounds as come next.
+void Renderer::State::makeRoom() {
   if (rounds.next() > 1) vessels.makeRoom();
   if (options.timed && timedRounds < rounds.next())
     timer.emplace(device, kScopes + kScopesOfRound * (timedRounds = rounds.next()));
+}
+
+Renderer::State::Frame Renderer::State::start(const RenderInput& input, bool sliced) {
+  const auto from = Clock::now();
+  upload.write(input.points, input.knotFrames, input.jointMatrices);
+  if (capillaries)
+    capillaries->prepare(input.points, input.knotFrames,
+                         growthView(input.camera, target.spec().size, options.seed));
+  times = {.upload = msSince(from)};
+  transparent = input.look.transparent;
+  makeRoom();
   const bool any = anyVessels(input.look);
   partial = isPartial(input.camera, input.look);
   // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss
   // triangles.
   cull = options.cull && !input.camera.cut && device.limits().standardSampleLocations;
-  // Depth of what is translucent is grain.
-  const bool occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) &&
-                        input.look.style != LookStyle::xray;
-  const bool grows = capillaries && any && input.look.capillaryOpacity > 0,
-             patched = any && vessels.anyPatches();
   Frame frame{
       .push = drawConstants(input.camera, input.look, target.spec().size),
+      .camera = input.camera,
       .look = input.look,
       .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
                                  meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
+      .heartScale = input.heartScale,
       .rounds = any ? rounds.next() : 0,
-      .wholeEnd = !(options.timed || patched || occludes || grows)};
-  timer->begin(commands);
-  upload.record(commands);
-  if (any) vessels.recordStart(commands, ofVessels(), viewOf(input));
-  if (any) vessels.recordFill(commands, ofVessels(), 0);
-  if (patched) vessels.recordPatches(commands, ofVessels());
-  {
-    const auto scope = timer->scope(commands, kMeshes);
-    skinPass.record(commands, meshes, frame.levels, upload.joints(), upload.jointCount(), input.heartScale);
-    gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
-  }
-  recordRounds(commands, frame);
-  if (any) vessels.recordEnd(commands);
-  if (frame.wholeEnd) return;
-  if (patched) recordPatches(commands, frame);
-  if (occludes) recordOcclusion(commands, input);
-  if (grows && capillaries->batches() > 0) {
-    begun = std::move(frame);
-    return;
-  }
-  const auto scope = timer->scope(commands, kMeshes);
-  target.begin(commands, {}, 0, gpu::Stretch::last);
-  recordEnd(commands, frame);
+      .patched = any && vessels.anyPatches(),
+      // Depth of what is translucent is grain.
+      .occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) &&
+                  input.look.style != LookStyle::xray,
+      .grows = capillaries && any && input.look.capillaryOpacity > 0 && capillaries->batches() > 0,
+      .sliced = sliced,
+      .split = options.timed || sliced,
+      .wholeEnd = false};
+  frame.wholeEnd = !(frame.split || frame.patched || frame.occludes || frame.grows);
+  return frame;
 }
 
-void Renderer::State::recordSlice(VkCommandBuffer commands, std::size_t batches) {
-  timer->begin(commands);
-  const std::size_t from = drawnBatches;
-  drawnBatches = std::min(from + batches, capillaries->batches());
-  {
-    const auto scope = timer->scope(commands, kCapillaries);
-    recordCapillaries(commands, *begun, from, drawnBatches);
+void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
+  switch (frame.next) {
+    case Part::start:
+      recordStart(commands, frame);
+      frame.next = frame.split ? Part::meshes : Part::rounds;
+      return;
+    case Part::meshes:
+      recordMeshes(commands, frame);
+      frame.next = frame.rounds > 0 ? Part::rounds : Part::patches;
+      return;
+    case Part::rounds:
+      recordRound(commands, frame);
+      if (frame.round >= frame.rounds) frame.next = frame.wholeEnd ? Part::done : Part::patches;
+      return;
+    case Part::patches:
+      if (frame.patched) recordPatches(commands, frame);
+      frame.next = Part::occlusion;
+      return;
+    case Part::occlusion:
+      if (frame.occludes) recordOcclusion(commands, frame);
+      frame.next = frame.grows ? Part::capillaries : Part::end;
+      return;
+    case Part::capillaries: {
+      const auto scope = timer->scope(commands, kCapillaries);
+      const std::size_t to = frame.sliced ? frame.batch + 1 : capillaries->batches();
+      recordCapillaries(commands, frame, std::exchange(frame.batch, to), to);
+      if (to == capillaries->batches()) frame.next = Part::end;
+      return;
+    }
+    case Part::end: {
+      const auto scope = timer->scope(commands, kMeshes);
+      target.begin(commands, {}, 0, gpu::Stretch::last);
+      recordEnd(commands, frame);
+      frame.next = Part::done;
+      return;
+    }
+    case Part::done:
+      return;
   }
-  if (drawnBatches < capillaries->batches()) return;
-  const auto scope = timer->scope(commands, kMeshes);
-  target.begin(commands, {}, 0, gpu::Stretch::last);
-  recordEnd(commands, *begun);
-  begun.reset();
 }
-
-void Renderer::State::drawSlice(std::size_t batches) {
-  const auto start = Clock::now();
-  gpu::Commands commands = device.queue().begin("slice");
-  recordSlice(commands, batches);
-  device.queue().wait(device.queue().submit(std::move(commands)));
-  times.total += msSince(start);
-  addTo(times, *timer);
-}
-
 // Whether the frame's rounds did for all of its vessels.
 bool Renderer::State::settleRounds(const Look& look) {
   if (anyVessels(look)) return rounds.settle(vessels.filling(), vessels.range());
@@ -332,7 +367,11 @@ double Renderer::State::timeStatic(const StaticTubes& tubesAtOnce, const RenderI
 
 Renderer::Renderer(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> meshes,
                    const RenderOptions& options)
-    : state_(std::make_unique<State>(device, network, meshes, options)) {}
+    : state_(std::make_unique<State>(device, network, meshSetOf(device, meshes, options), options)) {}
+Renderer::Renderer(gpu::Device& device, const Network& network, const Renderer& sameBody,
+                   const RenderOptions& options)
+    : state_(std::make_unique<State>(device, network, MeshSet::sharing(device, sameBody.state_->meshes),
+                                     options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -342,46 +381,68 @@ void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
   state_->setColours(colours);
 }
 
-void Renderer::State::drawFirst(const RenderInput& input) {
-  const auto start = Clock::now();
-  begun.reset();
-  drawnBatches = 0;
-  upload.write(input.points, input.knotFrames, input.jointMatrices);
-  if (capillaries)
-    capillaries->prepare(input.points, input.knotFrames,
-                         growthView(input.camera, target.spec().size, options.seed));
-  times = {.upload = msSince(start)};
-  transparent = input.look.transparent;
-  do {
-    gpu::Commands commands = device.queue().begin("frame");
-    record(commands, input);
-    device.queue().wait(device.queue().submit(std::move(commands)));
-  } while (!settleRounds(input.look));
-  times.total = msSince(start);
+void Renderer::State::drawUntil(Part part, Frame& frame) {
+  vessels.settle();
+  const auto from = Clock::now();
+  const bool vesselsCame = frame.next < Part::patches;
+  gpu::Commands commands = device.queue().begin("frame");
+  timer->begin(commands);
+  do record(commands, frame);
+  while (frame.next < part);
+  device.queue().wait(device.queue().submit(std::move(commands)));
+  times.total += msSince(from);
   addTo(times, *timer);
+  if (!vesselsCame || frame.next < Part::patches || settleRounds(frame.look)) return;
+  // Once more, with as many rounds as it takes.
+  makeRoom();
+  frame.rounds = rounds.next();
+  frame.round = 0;
+  frame.next = Part::start;
 }
 
-void Renderer::draw(const RenderInput& input) {
-  state_->drawFirst(input);
-  if (state_->begun) state_->drawSlice(state_->capillaries->batches());
+void Renderer::State::draw(const RenderInput& input) {
+  begun.reset();
+  Frame frame = start(input, false);
+  times.total = times.upload;
+  while (frame.next < Part::capillaries) drawUntil(Part::capillaries, frame);
+  if (frame.next < Part::done) drawUntil(Part::done, frame);
 }
 
-void Renderer::begin(const RenderInput& input) { state_->drawFirst(input); }
-
-bool Renderer::step() {
-  if (!state_->begun) return false;
-  state_->drawSlice(1);
-  return state_->begun.has_value();
+void Renderer::State::begin(const RenderInput& input) {
+  begun = start(input, true);
+  times.total = times.upload;
 }
 
-void Renderer::State::take(const Network& network, const SweepTable& table) {
+bool Renderer::State::step() {
+  if (!begun) return false;
+  if (!vessels.isSettled(kPatience)) return true;
+  drawUntil(Part::start, *begun);
+  if (begun->next == Part::done) begun.reset();
+  return begun.has_value();
+}
+
+void Renderer::draw(const RenderInput& input) { state_->draw(input); }
+void Renderer::begin(const RenderInput& input) { state_->begin(input); }
+bool Renderer::step() { return state_->step(); }
+
+void Renderer::State::take(const Network& network, const RenderOptions& other) {
+  options.shape = other.shape;
+  options.pixelError = other.pixelError;
+  vessels.take(network, other);
+  upload = uploadOf(device, vessels, meshes);
+  grow(nullptr, {});
+}
+
+void Renderer::State::grow(const Growth* growth, const CapillaryWish& wish) {
   begun.reset();
   capillaries.reset();
-  vessels.take(network, table);
-  upload = uploadOf(device, vessels, meshes);
+  if (growth && wish.levels > 0)
+    capillaries.emplace(device, target.spec(), vessels.tubes(), growth->rules, growth->beds, wish);
+  setColours({});
 }
 
-void Renderer::take(const Network& network, const SweepTable& table) { state_->take(network, table); }
+void Renderer::take(const Network& network, const RenderOptions& options) { state_->take(network, options); }
+void Renderer::grow(const Growth* growth, const CapillaryWish& wish) { state_->grow(growth, wish); }
 
 void Renderer::resize(std::uint32_t width, std::uint32_t height) {
   State& s = *state_;
@@ -421,11 +482,12 @@ CapillaryCounts Renderer::capillaryCounts() const {
 
 double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   State& s = *state_;
+  s.vessels.settle();
   const StaticTubes tubes = s.vessels.makeStatic();
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);
   gpu::Commands commands = s.device.queue().begin("static vertices");
   s.upload.record(commands);
-  s.vessels.recordStatic(commands, {s.upload, *s.timer}, s.viewOf(input), tubes);
+  s.vessels.recordStatic(commands, {s.upload, *s.timer}, s.viewOf(input.camera, input.look), tubes);
   s.device.queue().wait(s.device.queue().submit(std::move(commands)));
   double best = s.timeStatic(tubes, input);
   for (unsigned i = 1; i < repeats; ++i) best = std::min(best, s.timeStatic(tubes, input));

@@ -100,6 +100,9 @@ class Renderer {
   /// @param meshes   read, not kept
   Renderer(gpu::Device& device, const Network& network, std::span<const SkinnedMesh> meshes,
            const RenderOptions& options);
+  /// With the meshes of another renderer of the same device and body, and their levels, which are there once.
+  Renderer(gpu::Device& device, const Network& network, const Renderer& sameBody,
+           const RenderOptions& options);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -112,16 +115,21 @@ class Renderer {
   /// Draws and waits until the picture is done.
   void draw(const RenderInput& input);
 
-  /// The same picture in slices, so that a program can do something else between them: begin() draws what
-  /// comes before the capillaries, each step() some thousands of those. False: the picture is whole. Until
-  /// then there is none; draw(), begin(), resize() or setSweepColours() leaves it as it is.
+  /// The same picture in slices, so that a program can do something else between them: begin() takes the
+  /// input, each step() draws meshes, some of the vessels, their shade, some thousands of capillaries, or
+  /// what is translucent. False: the picture is whole. Until then there is none; draw(), begin(), resize() or
+  /// setSweepColours() leaves it as it is.
   void begin(const RenderInput& input);
   bool step();
 
-  /// Another network in the same body from the next frame on, without capillaries: meshes, pipelines and size
-  /// stay, so that it takes as long as its tables take to upload.
-  /// @param table  of the network; read, not kept
-  void take(const Network& network, const SweepTable& table);
+  /// Another network in the same body from the next frame on, or the same with other quads: meshes, pipelines
+  /// and size stay, so that it takes as long as its tables take to upload. Without capillaries: grow().
+  /// @param options  of which shape, pixelError and table count; where it may be taken, `levels` are given at
+  ///                 construction
+  void take(const Network& network, const RenderOptions& options);
+  /// Other capillaries from the next frame on.
+  /// @param growth  of the network; must outlive the renderer; nullptr: none
+  void grow(const Growth* growth, const CapillaryWish& wish);
 
   /// Pictures of another size from the next frame on. Network, meshes and pipelines stay.
   void resize(std::uint32_t width, std::uint32_t height);

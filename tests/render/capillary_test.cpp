@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <set>
 
 #include "core/hash.h"
 #include "gpu/gpu_rig.h"
@@ -8,6 +9,7 @@
 #include "render/capillary_pass.h"
 #include "render/renderer.h"
 #include "support/growth.h"
+#include "support/meshes.h"
 #include "support/networks.h"
 
 // Capillaries on the device against their CPU specification, and in pictures.
@@ -271,8 +273,69 @@ TEST_CASE(
   CHECK(hashOfPicture(renderer.readBack()) == wanted);
   RenderInput bare = input;
   bare.look.capillaryOpacity = 0;
+  renderer.draw(bare);
+  const std::uint64_t bareWanted = hashOfPicture(renderer.readBack());
+  std::size_t fewer = 1;
   renderer.begin(bare);
-  CHECK(!renderer.step());  // nothing to wait for
+  while (renderer.step()) ++fewer;
+  CHECK(fewer < slices);
+  CHECK(hashOfPicture(renderer.readBack()) == bareWanted);
+  bare.look.drawArteries = bare.look.drawVeins = bare.look.drawOtherVessels = false;
+  renderer.begin(bare);
+  while (renderer.step()) {
+  }
+  const std::uint64_t empty = hashOfPicture(renderer.readBack());
+  renderer.draw(bare);
+  CHECK(hashOfPicture(renderer.readBack()) == empty);
+}
+
+TEST_CASE("what a renderer takes later looks as if it had been made with it; meshes can be another's") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork first(test::windingNetwork(40, 5)), second(test::branchingNetwork(50, 3));
+  const Growth growth = growthOf(first), otherGrowth = growthOf(second);
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.2f, -0.2f, 0.2f}, {0.2f, 0.2f, 0.6f})};
+  const BodyLevels levels = bodyLevels(meshes, nullptr);
+  const std::vector<mat4> joints{mat4(1)};
+  RenderOptions options{.width = 120, .height = 90, .levels = &levels};
+  options.timed = false;
+  const auto pictureBy = [&](Renderer& renderer, const test::GrownNetwork& grown) {
+    const RenderInput input{grown.points, grown.frames, joints, lookingAt(grown, 2, true), {}};
+    renderer.draw(input);
+    return hashOfPicture(renderer.readBack());
+  };
+  const CapillaryWish few{.levels = 2}, many{.levels = 4};
+  Renderer renderer(rig.device(), first.network, meshes, options);
+  const auto same = [&](const test::GrownNetwork& grown, const RenderOptions& with, const Growth* grows,
+                        const CapillaryWish& wish) {
+    RenderOptions own = with;
+    own.growth = grows;
+    own.capillaries = wish;
+    Renderer fresh(rig.device(), grown.network, meshes, own);
+    Renderer sharing(rig.device(), grown.network, renderer, own);
+    const std::uint64_t wanted = pictureBy(fresh, grown);
+    CHECK(pictureBy(sharing, grown) == wanted);
+    CHECK(pictureBy(renderer, grown) == wanted);
+    return wanted;
+  };
+  std::set<std::uint64_t> pictures;
+  pictures.insert(same(first, options, nullptr, {}));
+  renderer.grow(&growth, few);
+  pictures.insert(same(first, options, &growth, few));
+  renderer.grow(&growth, many);
+  pictures.insert(same(first, options, &growth, many));
+  RenderOptions coarse = options;
+  coarse.shape = {4, 3};
+  renderer.take(first.network, coarse);
+  pictures.insert(same(first, coarse, nullptr, {}));
+  RenderOptions bySize = options;
+  bySize.pixelError = 1;
+  renderer.take(second.network, bySize);
+  pictures.insert(same(second, bySize, nullptr, {}));
+  renderer.grow(&otherGrowth, few);
+  pictures.insert(same(second, bySize, &otherGrowth, few));
+  renderer.grow(nullptr, {});
+  same(second, bySize, nullptr, {});
+  CHECK(pictures.size() == 6);
 }
 
 TEST_CASE("threads look as ribbons do") {
