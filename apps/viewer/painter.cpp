@@ -24,6 +24,8 @@ RenderInput inputOf(const Shot& shot) {
 void Painter::choose(std::shared_ptr<const Document> document, const Detail& detail, bool timed) {
   if (document == document_ && detail == detail_ && timed == timed_) return;
   last_ = nullptr;
+  for (Brush* brush : {&live_, &still_})
+    if (document && brush->levels != document->levels) *brush = {};  // of another body
   document_ = std::move(document);
   detail_ = detail;
   timed_ = timed;
@@ -47,31 +49,32 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                               .occlusion = shot.fine,
                               .seed = seed_,
                               .timed = timed_};
-  const bool made = brush.renderer && brush.timed == timed_ && brush.document->levels == document_->levels,
+  const bool anyGrowth = detail_.capillaries > 0,
+             made = brush.renderer && brush.timed == timed_ && brush.levels == document_->levels,
              sameQuads = brush.detail.automatic == detail_.automatic &&
                          brush.detail.around == detail_.around && brush.detail.along == detail_.along,
-             sameTubes = made && sameQuads && brush.document->table == document_->table,
-             anyGrowth = brush.detail.capillaries > 0 || detail_.capillaries > 0,
-             sameGrowth = sameTubes && (!anyGrowth || (brush.document == document_ &&
-                                                       brush.detail.capillaries == detail_.capillaries));
+             sameTubes = made && sameQuads && brush.table == document_->table,
+             sameGrowth = sameTubes && brush.detail.capillaries == detail_.capillaries &&
+                          (!anyGrowth || brush.grown == document_);
   const Brush& other = shot.fine ? live_ : still_;
   const Network& network = document_->scene.network;
-  if (!made && other.renderer && other.document->levels == document_->levels)
+  if (!made && other.renderer && other.levels == document_->levels)
     brush.renderer = std::make_unique<Renderer>(device_, network, *other.renderer, options);
   else if (!made)
     brush.renderer = std::make_unique<Renderer>(device_, network, document_->scene.body.meshes, options);
   else if (!sameTubes)
     brush.renderer->take(network, options);
   if (!sameGrowth) {
-    if (anyGrowth)
-      brush.renderer->grow(detail_.capillaries > 0 ? document_->growth.get() : nullptr,
-                           {.levels = unsigned(detail_.capillaries),
-                            .edges = choice.edges,
-                            .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
-                            .smallest = choice.smallest});
+    brush.renderer->grow(anyGrowth ? document_->growth.get() : nullptr,
+                         {.levels = unsigned(detail_.capillaries),
+                          .edges = choice.edges,
+                          .budget = shot.fine ? choice.budget : std::min(choice.budget, kMovingCapillaries),
+                          .smallest = choice.smallest});
     brush.colours.clear();
   }
-  brush.document = document_;
+  brush.levels = document_->levels;
+  brush.table = document_->table;
+  brush.grown = anyGrowth ? document_ : nullptr;
   brush.detail = detail_;
   brush.timed = timed_;
   return brush;

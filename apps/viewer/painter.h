@@ -47,8 +47,10 @@ class Painter {
   struct Brush {
     std::unique_ptr<Renderer> renderer;
     std::vector<std::uint32_t> colours;
-    // What it was made for.
-    std::shared_ptr<const Document> document;
+    // What it was made for. It holds no more of a document than it needs: another one may have been opened.
+    std::shared_ptr<const BodyLevels> levels;
+    std::shared_ptr<const SweepTable> table;
+    std::shared_ptr<const Document> grown;  // where its capillaries grow
     Detail detail;
     bool timed = false;
   };
