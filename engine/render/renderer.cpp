@@ -19,15 +19,17 @@
 #include "render/rounds.h"
 #include "render/skin_pass.h"
 
-// A frame:
-//   copy the frame's points, knot frames and joints; choose m and n; pose the meshes; write template 0
-//   picture, first stretch: clear, bones and heart
-//   for each round k: write the next groups of tubes and forks into the other template, as many as it has
-//   room for; draw template k; barrier stretch: patches, if the network has some, which were posed with round
-//   0 ambient occlusion of what is there batch by batch: capillaries picture, last stretch: skin; resolve
-// Stretches with nothing between them are one; a picture in slices rests behind each. One barrier a round
-// keeps both templates apart: whatever wrote or read one of them before it is finished after it. Between two
-// barriers a device may write one template while it draws the other.
+// A frame's parts (Part), in their order:
+// - start: copy its points, knot frames and joints; choose m and n; pose the meshes; write template 0.
+// - meshes: clear the picture, draw bones and heart.
+// - rounds, one by one: write the next groups of tubes and forks into the other template, as many as it has
+//   room for; draw this one; barrier.
+// - patches, if the network has some, which were posed with template 0; ambient occlusion of what is there.
+// - capillaries, batch by batch.
+// - end: what is translucent; resolve.
+// Each but the first is a stretch of the picture, and those with nothing between them are one stretch. One
+// barrier a round keeps both templates apart: whatever wrote or read one of them before it is finished after
+// it. Between two barriers a device may write one template while it draws the other.
 namespace vasa {
 using namespace stage;
 namespace {
@@ -332,6 +334,7 @@ void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
       return;
   }
 }
+
 // Whether the frame's rounds did for all of its vessels.
 bool Renderer::State::settleRounds(const Look& look) {
   if (anyVessels(look)) return rounds.settle(vessels.filling(), vessels.range());
@@ -404,7 +407,8 @@ void Renderer::State::draw(const RenderInput& input) {
   begun.reset();
   Frame frame = start(input, false);
   times.total = times.upload;
-  while (frame.next < Part::capillaries) drawUntil(Part::capillaries, frame);
+  const Part first = frame.grows ? Part::capillaries : Part::done;
+  while (frame.next < first) drawUntil(first, frame);
   if (frame.next < Part::done) drawUntil(Part::done, frame);
 }
 
