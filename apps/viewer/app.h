@@ -54,8 +54,8 @@ struct ViewReport {
   /// Of the turns after the first picture in which a person can be answered, a script's `live` seconds alone.
   double longestTurnMs = 0;
   std::uint64_t slowTurns = 0;  ///< of them over 100 ms
-  double frameMs = 0;  ///< median between pictures shown while things moved
-  double editMs = 0;   ///< median from an edit to the picture that shows it
+  double frameMs = 0;           ///< median between pictures shown while things moved
+  double editMs = 0;            ///< median from an edit to the picture that shows it
   double shapeMs = 0, pictureMs = 0;
   std::vector<std::pair<std::string, double>> stages;  ///< medians [ms], as the timing panel has them
   std::string device, selected, title;
