@@ -98,7 +98,7 @@ constexpr Action kActions[] = {
      [](State& s, Shown, int) { editWith(s, EditTool::change); }, anyChosen},
     {branch, MenuId::edit, "Branch...", {}, "a branch from the chosen place to where you click",
      [](State& s, Shown, int) { editWith(s, EditTool::branch); }, anyChosen},
-    {graft, MenuId::edit, "Graft...", {}, "a graft from the chosen place to the vessel that you click",
+    {graft, MenuId::edit, "Graft...", {}, "a graft from the chosen place to the vessel that you click, past places that you click before",
      [](State& s, Shown, int) { editWith(s, EditTool::graft); }, anyChosen},
     {remove, MenuId::edit, "Delete vessel", {plain(Key::del)}, "delete the chosen vessel, while editing",
      [](State& s, Shown, int) { s.wishDelete = true; }, editable},

@@ -106,7 +106,7 @@ quat turnSinceRest(const Document& document, const PosedBody& body, const Vessel
 
 bool Editor::feed(const InputEvent& event, const Document& document, const PosedBody& body,
                   const Camera& camera, const Rect& picture, ViewState& state) {
-  if (state.editTool != EditTool::graft) via_.clear();
+  if (!keepsWay(document, state)) way_ = {};
   if (const auto* moved = std::get_if<PointerMoved>(&event)) {
     place_ = moved->place;
     if (!held_ || place_ == held_->pressed) return held();
@@ -149,8 +149,13 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
                               wayInPlane(camera, centre, place - *seen, picture.height)
                         : vec3(0);
   if (state.editTool == EditTool::graft) {
+    if (!hit && !seen) {
+      refusal = "The place where the graft begins is not in the picture.";
+      return true;
+    }
+    if (!keepsWay(document, state)) way_ = {document.base, *state.selected, {}};
     if (!hit) {
-      if (seen) via_.push_back(vec3(atRest(network, *state.selected)) + way);
+      way_.via.push_back(vec3(atRest(network, *state.selected)) + way);
       return true;
     }
     state.editTool = EditTool::change;
@@ -163,7 +168,7 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
                    least,
                    newName(network, "graft from " + chosen->vessel + " to " + other),
                    {}};
-    for (const vec3& passed : std::exchange(via_, {}))
+    for (const vec3& passed : std::exchange(way_, {}).via)
       line.via.emplace_back(decimals(1e3 * double(passed.x), 1), decimals(1e3 * double(passed.y), 1),
                             decimals(1e3 * double(passed.z), 1));
     write(state, line, false);
@@ -183,12 +188,23 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
 std::vector<vec3> Editor::passed(const Document& document, const PosedBody& body,
                                  const ViewState& state) const {
   std::vector<vec3> now;
-  if (via_.empty() || !state.selected) return now;
+  if (!keepsWay(document, state)) return now;
   const vec3 centre = centreOf(document, body, *state.selected),
              rest = vec3(atRest(document.scene.network, *state.selected));
   const quat turn = turnSinceRest(document, body, *state.selected);
-  for (const vec3& place : via_) now.push_back(centre + turn * (place - rest));
+  for (const vec3& place : way_.via) now.push_back(centre + turn * (place - rest));
   return now;
+}
+
+bool Editor::keepsWay(const Document& document, const ViewState& state) const {
+  return state.editing && state.editTool == EditTool::graft && state.selected && document.base == way_.base &&
+         state.selected->vessel == way_.begin.vessel && state.selected->parameter == way_.begin.parameter;
+}
+
+bool Editor::dropPassed(const Document& document, const ViewState& state) {
+  if (!keepsWay(document, state) || way_.via.empty()) return false;
+  way_.via.pop_back();
+  return true;
 }
 
 std::optional<StenosisEdit> Editor::stenosisThere(const Document& document, const ViewState& state) const {

@@ -35,6 +35,8 @@ class Editor {
 
   /// Where such places are now [m].
   std::vector<vec3> passed(const Document& document, const PosedBody& body, const ViewState& state) const;
+  /// Takes the last of them back. @return whether there was one
+  bool dropPassed(const Document& document, const ViewState& state);
 
   void setStenosis(double percent, const Document& document, ViewState& state) const;
   void setRadius(double factor, const Document& document, ViewState& state) const;
@@ -44,6 +46,8 @@ class Editor {
   std::optional<RadiusEdit> radiusThere(const Document& document, const ViewState& state) const;
 
  private:
+  bool keepsWay(const Document& document, const ViewState& state) const;
+
   struct Held {
     MoveEdit line;
     vec3 from;     // [m] in the posed world
@@ -55,7 +59,13 @@ class Editor {
   float scale_;
   vec2 place_{0};
   std::optional<Held> held_;
-  std::vector<vec3> via_;  // [m] at rest
+  // Places that a graft is to pass; gone with the tool, and where it begins elsewhere.
+  struct Way {
+    std::shared_ptr<const Network> base;  // Document::base
+    VesselPlace begin;
+    std::vector<vec3> via;  // [m] at rest
+  };
+  Way way_;
 };
 
 /// A place on a vessel as journals have it: a share of its arc length at rest.

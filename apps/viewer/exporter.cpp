@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/clock.h"
 #include "io/png.h"
 #include "scene/exporting.h"
 #include "viewer/paint.h"
@@ -211,7 +212,9 @@ bool Exporter::drawFrame(Job& job) {
     job.drawing = true;
     return true;
   }
-  if (job.painter->step()) return true;
+  const auto turn = Clock::now();
+  while (job.painter->step())
+    if (msSince(turn) >= kSliceTime) return true;
   job.drawing = false;
   if (const auto written = writeFrame(job); !written) {
     finish(written.error());

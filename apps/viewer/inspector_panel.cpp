@@ -94,6 +94,10 @@ std::string winding(const CourseMeasures& course) {
   return course.tortuosity > 0 ? fmt::format("{:.2f} x chord", course.tortuosity) : "its ends meet";
 }
 
+std::string inflections(const CourseMeasures& course) {
+  return fmt::format("{}, {:.0f}°/cm", course.inflections, glm::degrees(course.sumOfAngles) / 100);
+}
+
 std::string leastBend(const CourseMeasures& course) {
   if (!(course.leastBendRadius > 0)) return "straight";
   return fmt::format("{:.1f} mm{}", 1000 * course.leastBendRadius, course.greatestKink >= 1 ? ", kinks" : "");
@@ -134,6 +138,7 @@ void showFacts(const PanelInput& in, VesselId id) {
             fmt::format("{:.3f} ml", 1e6 * rest.volume));
   facts.row("Least bend", leastBend(course), leastBend(restCourse));
   facts.row("Winding", winding(course), winding(restCourse));
+  facts.row("Inflections", inflections(course), inflections(restCourse));
   facts.row("Narrowing", narrowing(stations), narrowing(restStations));
   facts.row("Widening", widening(stations), widening(restStations));
   std::string clearance = "when paused";

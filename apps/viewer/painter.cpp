@@ -24,8 +24,14 @@ RenderInput inputOf(const Shot& shot) {
 void Painter::choose(std::shared_ptr<const Document> document, const Detail& detail, bool timed) {
   if (document == document_ && detail == detail_ && timed == timed_) return;
   last_ = nullptr;
-  for (Brush* brush : {&live_, &still_})
+  for (Brush* brush : {&live_, &still_}) {
     if (document && brush->levels != document->levels) *brush = {};  // of another body
+    if (!brush->grown || brush->grown == document) continue;
+    brush->renderer->grow(nullptr, {});
+    brush->grown = nullptr;
+    brush->detail.capillaries = 0;
+    brush->colours.clear();
+  }
   document_ = std::move(document);
   detail_ = detail;
   timed_ = timed;

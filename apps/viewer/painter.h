@@ -19,6 +19,9 @@ struct Shot {
   bool fine = false;                    ///< a still: 4 samples a pixel and ambient occlusion
 };
 
+/// [ms] that slices of a picture may take before a person's wishes are looked for again.
+constexpr double kSliceTime = 10;
+
 /// Draws a document's pictures with two renderers: a fast one for what moves, with few capillaries, and one
 /// for stills, which are made in slices. Each is made when it is first needed, and follows what is chosen
 /// when it is used again.

@@ -246,8 +246,9 @@ void Session::rest(double drawn) {
     window_.wait(0);
     return;
   }
+  const bool growing = body_ && state_.detail.capillaries > 0 && !document_->growth.settled();
   const bool waiting = worker_.busy() || reshaper_.busy() || (shown_ && !shown_->fine && state_.fineStills) ||
-                       now_ < messageUntil_ || movedAt_ >= 0 || detail_ != state_.detail;
+                       now_ < messageUntil_ || movedAt_ >= 0 || growing;
   const double longest = loader_.busy() && !moving ? std::max(kScriptFrame - drawn, 0.0)
                          : moving || due           ? std::max(kFrame - drawn, 0.0)
                          : waiting                 ? 0.05

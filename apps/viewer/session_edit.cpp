@@ -28,6 +28,10 @@ std::optional<VesselPlace> carriedOver(const std::optional<VesselPlace>& place, 
 void Session::travel() {
   if (!document_) return;
   if (std::exchange(state_.wishDelete, false) && state_.editing) editor_.remove(*document_, state_);
+  if (state_.wishUndo && editor_.dropPassed(*document_, state_)) {
+    state_.wishUndo = false;
+    panelFrames_ = kRestingFrames;
+  }
   const bool undo = std::exchange(state_.wishUndo, false), redo = std::exchange(state_.wishRedo, false);
   // Where the camera begins is no step, nor an edit that may yet be refused.
   const bool held = state_.wishHome || state_.wishFocus || pointer_.dragging() || poseTool_.held() ||
@@ -80,7 +84,9 @@ void Session::reshape() {
   }
   editor_.refusal = outcome->made.error().message;
   panelFrames_ = kRestingFrames;
-  if (!live && outcome->wish.journal == state_.journal) state_.journal = wanted_ = document_->journal;
+  if (live || outcome->wish.journal != state_.journal) return;
+  state_.journal = wanted_ = document_->journal;
+  wantedLive_ = document_->live;  // one that a drag made is made anew as it stays
 }
 
 void Session::changeTo(std::shared_ptr<const Document> edited) {

@@ -173,6 +173,7 @@ bool Session::drawScene() {
 // A slice of a finer still, so that whoever sits before the window is answered between two of them; all of
 // them where time goes on in steps. True with the last one.
 bool Session::makeStill(const Shot& fine) {
+  const auto turn = Clock::now();
   for (bool more = true; more;) {
     const auto start = Clock::now();
     if (making_ && same(*making_, fine)) {
@@ -184,7 +185,7 @@ bool Session::makeStill(const Shot& fine) {
     }
     ++report_.slices;
     report_.longestSliceMs = std::max(report_.longestSliceMs, msBetween(start, Clock::now()));
-    if (more && !steady()) return false;
+    if (more && !steady() && msSince(turn) >= kSliceTime) return false;
   }
   ++report_.pictures;
   lastShown_.reset();

@@ -134,6 +134,7 @@ struct Renderer::State {
   /// Takes what is in the input's spans.
   Frame start(const RenderInput& input, bool sliced);
   void makeRoom();
+  static Part afterRounds(const Frame& frame, Part from);
   /// What comes next.
   void record(VkCommandBuffer commands, Frame& frame);
   /// What comes next, and more until a part is next.
@@ -294,6 +295,13 @@ Renderer::State::Frame Renderer::State::start(const RenderInput& input, bool sli
   return frame;
 }
 
+// The first part from one on that a picture has.
+Renderer::State::Part Renderer::State::afterRounds(const Frame& frame, Part from) {
+  if (from <= Part::patches && frame.patched) return Part::patches;
+  if (from <= Part::occlusion && frame.occludes) return Part::occlusion;
+  return frame.grows ? Part::capillaries : Part::end;
+}
+
 void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
   switch (frame.next) {
     case Part::start:
@@ -302,19 +310,20 @@ void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
       return;
     case Part::meshes:
       recordMeshes(commands, frame);
-      frame.next = frame.rounds > 0 ? Part::rounds : Part::patches;
+      frame.next = frame.rounds > 0 ? Part::rounds : afterRounds(frame, Part::patches);
       return;
     case Part::rounds:
       recordRound(commands, frame);
-      if (frame.round >= frame.rounds) frame.next = frame.wholeEnd ? Part::done : Part::patches;
+      if (frame.round >= frame.rounds)
+        frame.next = frame.wholeEnd ? Part::done : afterRounds(frame, Part::patches);
       return;
     case Part::patches:
-      if (frame.patched) recordPatches(commands, frame);
-      frame.next = Part::occlusion;
+      recordPatches(commands, frame);
+      frame.next = afterRounds(frame, Part::occlusion);
       return;
     case Part::occlusion:
-      if (frame.occludes) recordOcclusion(commands, frame);
-      frame.next = frame.grows ? Part::capillaries : Part::end;
+      recordOcclusion(commands, frame);
+      frame.next = afterRounds(frame, Part::capillaries);
       return;
     case Part::capillaries: {
       const auto scope = timer->scope(commands, kCapillaries);
@@ -386,17 +395,16 @@ void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
 
 void Renderer::State::drawUntil(Part part, Frame& frame) {
   vessels.settle();
-  const auto from = Clock::now();
   const bool vesselsCame = frame.next < Part::patches;
   gpu::Commands commands = device.queue().begin("frame");
   timer->begin(commands);
   do record(commands, frame);
   while (frame.next < part);
   device.queue().wait(device.queue().submit(std::move(commands)));
-  times.total += msSince(from);
   addTo(times, *timer);
   if (!vesselsCame || frame.next < Part::patches || settleRounds(frame.look)) return;
   // Once more, with as many rounds as it takes.
+  times = {.upload = times.upload, .total = times.total};
   makeRoom();
   frame.rounds = rounds.next();
   frame.round = 0;
@@ -404,23 +412,28 @@ void Renderer::State::drawUntil(Part part, Frame& frame) {
 }
 
 void Renderer::State::draw(const RenderInput& input) {
+  const auto from = Clock::now();
   begun.reset();
   Frame frame = start(input, false);
-  times.total = times.upload;
   const Part first = frame.grows ? Part::capillaries : Part::done;
   while (frame.next < first) drawUntil(first, frame);
   if (frame.next < Part::done) drawUntil(Part::done, frame);
+  times.total = msSince(from);
 }
 
 void Renderer::State::begin(const RenderInput& input) {
+  const auto from = Clock::now();
+  begun.reset();
   begun = start(input, true);
-  times.total = times.upload;
+  times.total = msSince(from);
 }
 
 bool Renderer::State::step() {
   if (!begun) return false;
   if (!vessels.isSettled(kPatience)) return true;
+  const auto from = Clock::now();
   drawUntil(Part::start, *begun);
+  times.total += msSince(from);
   if (begun->next == Part::done) begun.reset();
   return begun.has_value();
 }
@@ -430,8 +443,10 @@ void Renderer::begin(const RenderInput& input) { state_->begin(input); }
 bool Renderer::step() { return state_->step(); }
 
 void Renderer::State::take(const Network& network, const RenderOptions& other) {
+  begun.reset();
   options.shape = other.shape;
   options.pixelError = other.pixelError;
+  options.forks = other.forks;
   vessels.take(network, other);
   upload = uploadOf(device, vessels, meshes);
   grow(nullptr, {});
@@ -486,6 +501,7 @@ CapillaryCounts Renderer::capillaryCounts() const {
 
 double Renderer::staticDraw(const RenderInput& input, unsigned repeats) {
   State& s = *state_;
+  s.begun.reset();
   s.vessels.settle();
   const StaticTubes tubes = s.vessels.makeStatic();
   s.upload.write(input.points, input.knotFrames, input.jointMatrices);

@@ -37,8 +37,8 @@ struct RenderOptions {
   /// used. Bones, heart and skin are drawn with fewer triangles too, within meshPixelError(), half that with
   /// 4 samples.
   float pixelError = 0;
-  /// Of the meshes where pixelError asks for them, read at construction: several renderers of a body can
-  /// share them. nullptr: made.
+  /// Of the meshes, read at construction; without pixelError the finest is drawn. nullptr: made where
+  /// pixelError asks for them.
   const BodyLevels* levels = nullptr;
   const Skeleton* skeleton = nullptr;  ///< of the meshes, for those that are made; nullptr: they stay at rest
   /// Vessels join smoothly, or as the network's patches have it; false: they end inside one another.
@@ -61,7 +61,7 @@ struct RenderOptions {
   bool timed = true;
 };
 
-/// One frame. All spans are read before draw() returns.
+/// One frame. All spans are read before draw() or begin() returns.
 struct RenderInput {
   std::span<const vec4> points;         ///< de Boor points, as Network::points()
   std::span<const quat> knotFrames;     ///< networkFrames() of them (surface/sweep_table.h)
@@ -117,18 +117,19 @@ class Renderer {
 
   /// The same picture in slices, so that a program can do something else between them: begin() takes the
   /// input, each step() draws meshes, some of the vessels, their shade, some thousands of capillaries, or
-  /// what is translucent. False: the picture is whole. Until then there is none; draw(), begin(), resize() or
-  /// setSweepColours() leaves it as it is.
+  /// what is translucent. False: the picture is whole. Until then there is none; draw(), begin() and what
+  /// changes the renderer leave it as it is.
   void begin(const RenderInput& input);
   bool step();
 
   /// Another network in the same body from the next frame on, or the same with other quads: meshes, pipelines
   /// and size stay, so that it takes as long as its tables take to upload. Without capillaries: grow().
-  /// @param options  of which shape, pixelError and table count; where it may be taken, `levels` are given at
+  /// @param options  of which shape, pixelError, forks and table count; who takes other quads gives `levels`
+  /// at
   ///                 construction
   void take(const Network& network, const RenderOptions& options);
-  /// Other capillaries from the next frame on.
-  /// @param growth  of the network; must outlive the renderer; nullptr: none
+  /// Other capillaries from the next frame on; colours are those of the vessels' kinds again.
+  /// @param growth  of the network; must outlive the renderer, or stay until others are taken; nullptr: none
   void grow(const Growth* growth, const CapillaryWish& wish);
 
   /// Pictures of another size from the next frame on. Network, meshes and pipelines stay.
