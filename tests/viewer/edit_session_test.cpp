@@ -152,5 +152,17 @@ TEST_CASE(
   for (const ProfileStation& station : stationsOf(after->pointsOf(after->vessel(*made)), 1e-3f))
     nearest = std::min(nearest, glm::distance(station.centre, passed));
   CHECK(nearest < 2e-3f);
+
+  // Undo takes such a place back, and nothing else.
+  const TemporaryFolder fourth;
+  session(sceneIn(fourth.path(), "left femoral artery"), pick + slide + click("185 244") + click("380 500") +
+                                                             control("z") + click("331 568") + control("s"));
+  edits = readJournal(fourth.path() / "scene.vedit");
+  REQUIRE(edits);
+  REQUIRE(edits->size() == 2);
+  CHECK(std::holds_alternative<StenosisEdit>(edits->front().operation));
+  const auto* straight = std::get_if<GraftEdit>(&edits->back().operation);
+  REQUIRE(straight);
+  CHECK(straight->via.empty());
   unsetenv("DISPLAY");
 }
