@@ -26,6 +26,7 @@
 //   room for; draw this one; barrier.
 // - patches, if the network has some, which were posed with template 0; ambient occlusion of what is there.
 // - capillaries, batch by batch.
+// - organs, where a picture is made in slices; else they belong to the end.
 // - end: what is translucent; resolve.
 // Each but the first is a stretch of the picture, and those with nothing between them are one stretch. One
 // barrier a round keeps both templates apart: whatever wrote or read one of them before it is finished after
@@ -112,7 +113,7 @@ struct Renderer::State {
   bool transparent = false;
   bool partial = false, cull = true;  // of this frame
 
-  enum class Part { start, meshes, rounds, patches, occlusion, capillaries, end, done };
+  enum class Part { start, meshes, rounds, patches, occlusion, capillaries, organs, end, done };
   struct Frame {
     shared::DrawPush push;
     Camera camera;
@@ -143,6 +144,8 @@ struct Renderer::State {
   void recordMeshes(VkCommandBuffer commands, const Frame& frame);
   void recordRound(VkCommandBuffer commands, Frame& frame);
   void recordEnd(VkCommandBuffer commands, const Frame& frame);
+  void recordTranslucent(VkCommandBuffer commands, const Frame& frame, MeshRole role);
+  void recordOrgans(VkCommandBuffer commands, const Frame& frame);
   void recordPatches(VkCommandBuffer commands, const Frame& frame);
   DrawnVessels::Frame ofVessels() { return {upload, *timer, cull}; }
   void recordOcclusion(VkCommandBuffer commands, const Frame& frame);
@@ -214,8 +217,21 @@ void Renderer::State::recordRound(VkCommandBuffer commands, Frame& frame) {
 }
 
 void Renderer::State::recordEnd(VkCommandBuffer commands, const Frame& frame) {
-  surfacePass.recordTranslucent(commands, frame.push, meshes, frame.levels, frame.look, partial);
+  if (!frame.sliced) recordTranslucent(commands, frame, MeshRole::organs);
+  recordTranslucent(commands, frame, MeshRole::skin);
   target.end(commands);
+}
+
+void Renderer::State::recordTranslucent(VkCommandBuffer commands, const Frame& frame, MeshRole role) {
+  surfacePass.recordTranslucent(commands, frame.push, meshes, frame.levels, role, frame.look, partial);
+}
+
+void Renderer::State::recordOrgans(VkCommandBuffer commands, const Frame& frame) {
+  const auto scope = timer->scope(commands, kMeshes);
+  target.begin(commands, {}, 0, gpu::Stretch::middle);
+  recordTranslucent(commands, frame, MeshRole::organs);
+  target.pause(commands);
+  gpu::stageBarrier(commands, kTemplateStages, kTemplateStages);
 }
 
 void Renderer::State::recordPatches(VkCommandBuffer commands, const Frame& frame) {
@@ -299,7 +315,8 @@ Renderer::State::Frame Renderer::State::start(const RenderInput& input, bool sli
 Renderer::State::Part Renderer::State::afterRounds(const Frame& frame, Part from) {
   if (from <= Part::patches && frame.patched) return Part::patches;
   if (from <= Part::occlusion && frame.occludes) return Part::occlusion;
-  return frame.grows ? Part::capillaries : Part::end;
+  if (from <= Part::capillaries && frame.grows) return Part::capillaries;
+  return frame.sliced ? Part::organs : Part::end;
 }
 
 void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
@@ -329,9 +346,13 @@ void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
       const auto scope = timer->scope(commands, kCapillaries);
       const std::size_t to = frame.sliced ? frame.batch + 1 : capillaries->batches();
       recordCapillaries(commands, frame, std::exchange(frame.batch, to), to);
-      if (to == capillaries->batches()) frame.next = Part::end;
+      if (to == capillaries->batches()) frame.next = afterRounds(frame, Part::organs);
       return;
     }
+    case Part::organs:
+      recordOrgans(commands, frame);
+      frame.next = Part::end;
+      return;
     case Part::end: {
       const auto scope = timer->scope(commands, kMeshes);
       target.begin(commands, {}, 0, gpu::Stretch::last);

@@ -232,22 +232,20 @@ void SurfacePass::recordOpaque(VkCommandBuffer commands, shared::DrawPush push, 
 }
 
 void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                                    std::span<const MeshSet::Level> levels, const Look& look,
+                                    std::span<const MeshSet::Level> levels, MeshRole role, const Look& look,
                                     bool partial) const {
   const Pipelines& own = pipelines(look, partial);
   const bool xray = look.style == LookStyle::xray;
   push.shiftAndOpacities = shiftAndOpacities(kWholePart, 1);
   bindMeshes(commands, meshes);
-  for (const MeshRole role : {MeshRole::organs, MeshRole::skin}) {
-    std::vector<std::uint32_t> parts = partsOf(meshes, levels, role);
-    std::ranges::stable_sort(parts, std::greater{}, [&](std::uint32_t i) { return levels[i].depth; });
-    for (const std::uint32_t i : parts) {
-      const float opacity =
-          role == MeshRole::skin ? look.skinOpacity : meshes.parts()[i].opacity * look.otherOpacity;
-      push.opacity = opacity * (xray ? xrayLight(role) : 1);
-      if (!xray) drawPart(commands, push, meshes, levels[i], i, own.skinDepth);
-      drawPart(commands, push, meshes, levels[i], i, own.skinColour);
-    }
+  std::vector<std::uint32_t> parts = partsOf(meshes, levels, role);
+  std::ranges::stable_sort(parts, std::greater{}, [&](std::uint32_t i) { return levels[i].depth; });
+  for (const std::uint32_t i : parts) {
+    const float opacity =
+        role == MeshRole::skin ? look.skinOpacity : meshes.parts()[i].opacity * look.otherOpacity;
+    push.opacity = opacity * (xray ? xrayLight(role) : 1);
+    if (!xray) drawPart(commands, push, meshes, levels[i], i, own.skinDepth);
+    drawPart(commands, push, meshes, levels[i], i, own.skinColour);
   }
 }
 

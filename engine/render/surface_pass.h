@@ -43,10 +43,10 @@ class SurfacePass {
   /// @param levels  MeshSet::levelsFor()
   void recordOpaque(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
                     std::span<const MeshSet::Level> levels, const Look& look, bool partial = false) const;
-  /// Organs, the farthest first, then the skin: of each the depth of its nearest side, then that side's
-  /// colour over what lies behind.
+  /// Organs, the farthest first, or the skin, which comes behind them: of each the depth of its nearest side,
+  /// then that side's colour over what lies behind.
   void recordTranslucent(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& meshes,
-                         std::span<const MeshSet::Level> levels, const Look& look,
+                         std::span<const MeshSet::Level> levels, MeshRole role, const Look& look,
                          bool partial = false) const;
 
  private:

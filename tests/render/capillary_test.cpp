@@ -293,15 +293,22 @@ TEST_CASE("what a renderer takes later looks as if it had been made with it; mes
   VASA_REQUIRE_GPU(rig);
   const test::GrownNetwork first(test::windingNetwork(40, 5)), second(test::branchingNetwork(50, 3));
   const Growth growth = growthOf(first), otherGrowth = growthOf(second);
-  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.2f, -0.2f, 0.2f}, {0.2f, 0.2f, 0.6f})};
+  const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.2f, -0.2f, 0.2f}, {0.2f, 0.2f, 0.6f}),
+                                        test::boxMesh("organs", {-0.3f, -0.3f, 0.1f}, {0.3f, 0.3f, 0.7f}),
+                                        test::boxMesh("skin", {-0.5f, -0.4f, 0}, {0.5f, 0.4f, 1})};
   const BodyLevels levels = bodyLevels(meshes, nullptr);
   const std::vector<mat4> joints{mat4(1)};
   RenderOptions options{.width = 120, .height = 90, .levels = &levels};
   options.timed = false;
   const auto pictureBy = [&](Renderer& renderer, const test::GrownNetwork& grown) {
     const RenderInput input{grown.points, grown.frames, joints, lookingAt(grown, 2, true), {}};
+    renderer.begin(input);
+    while (renderer.step()) {
+    }
+    const std::uint64_t sliced = hashOfPicture(renderer.readBack());
     renderer.draw(input);
-    return hashOfPicture(renderer.readBack());
+    CHECK(hashOfPicture(renderer.readBack()) == sliced);
+    return sliced;
   };
   const CapillaryWish few{.levels = 2}, many{.levels = 4};
   Renderer renderer(rig.device(), first.network, meshes, options);
