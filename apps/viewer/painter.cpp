@@ -59,9 +59,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
              made = brush.renderer && brush.timed == timed_ && brush.levels == document_->levels,
              sameQuads = brush.detail.automatic == detail_.automatic &&
                          brush.detail.around == detail_.around && brush.detail.along == detail_.along,
-             sameTubes = made && sameQuads && brush.table == document_->table,
-             sameGrowth = sameTubes && brush.detail.capillaries == detail_.capillaries &&
-                          (!anyGrowth || brush.grown == document_);
+             sameTubes = made && sameQuads && brush.table == document_->table;
   const Brush& other = shot.fine ? live_ : still_;
   const Network& network = document_->scene.network;
   if (!made && other.renderer && other.levels == document_->levels)
@@ -70,7 +68,11 @@ Painter::Brush& Painter::brush(const Shot& shot) {
     brush.renderer = std::make_unique<Renderer>(device_, network, document_->scene.body.meshes, options);
   else if (!sameTubes)
     brush.renderer->take(network, options);
-  if (!sameGrowth) {
+  if (!sameTubes) {  // without capillaries, in the kinds' colours
+    brush.detail.capillaries = 0;
+    brush.colours.clear();
+  }
+  if (brush.detail.capillaries != detail_.capillaries || (anyGrowth && brush.grown != document_)) {
     brush.renderer->grow(anyGrowth ? document_->growth.get() : nullptr,
                          {.levels = unsigned(detail_.capillaries),
                           .edges = choice.edges,

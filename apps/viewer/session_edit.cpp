@@ -85,8 +85,9 @@ void Session::reshape() {
   editor_.refusal = outcome->made.error().message;
   panelFrames_ = kRestingFrames;
   if (live || outcome->wish.journal != state_.journal) return;
+  // One that a drag made is made anew as it stays, unless that is what was refused.
+  wantedLive_ = document_->live && outcome->wish.journal != document_->journal;
   state_.journal = wanted_ = document_->journal;
-  wantedLive_ = document_->live;  // one that a drag made is made anew as it stays
 }
 
 void Session::changeTo(std::shared_ptr<const Document> edited) {
