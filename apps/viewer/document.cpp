@@ -1,7 +1,10 @@
 #include "viewer/document.h"
 
 #include <algorithm>
+#include <future>
+#include <optional>
 
+#include "core/cancellation.h"
 #include "core/parallel.h"
 #include "core/stage_log.h"
 #include "edit/replay.h"

@@ -1,11 +1,9 @@
 #pragma once
-#include <future>
 #include <memory>
 #include <string>
 
 #include "atlas/vessel_groups.h"
 #include "body/rebind.h"
-#include "core/cancellation.h"
 #include "render/mesh_levels.h"
 #include "scene/growth.h"
 #include "scene/scene.h"

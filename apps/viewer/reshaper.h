@@ -3,6 +3,7 @@
 #include <future>
 #include <optional>
 
+#include "core/cancellation.h"
 #include "core/clock.h"
 #include "viewer/document.h"
 

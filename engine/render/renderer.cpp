@@ -135,7 +135,7 @@ struct Renderer::State {
   /// Takes what is in the input's spans.
   Frame start(const RenderInput& input, bool sliced);
   void makeRoom();
-  static Part afterRounds(const Frame& frame, Part from);
+  static Part partFrom(const Frame& frame, Part from);
   /// What comes next.
   void record(VkCommandBuffer commands, Frame& frame);
   /// What comes next, and more until a part is next.
@@ -312,7 +312,7 @@ Renderer::State::Frame Renderer::State::start(const RenderInput& input, bool sli
 }
 
 // The first part from one on that a picture has.
-Renderer::State::Part Renderer::State::afterRounds(const Frame& frame, Part from) {
+Renderer::State::Part Renderer::State::partFrom(const Frame& frame, Part from) {
   if (from <= Part::patches && frame.patched) return Part::patches;
   if (from <= Part::occlusion && frame.occludes) return Part::occlusion;
   if (from <= Part::capillaries && frame.grows) return Part::capillaries;
@@ -327,26 +327,26 @@ void Renderer::State::record(VkCommandBuffer commands, Frame& frame) {
       return;
     case Part::meshes:
       recordMeshes(commands, frame);
-      frame.next = frame.rounds > 0 ? Part::rounds : afterRounds(frame, Part::patches);
+      frame.next = frame.rounds > 0 ? Part::rounds : partFrom(frame, Part::patches);
       return;
     case Part::rounds:
       recordRound(commands, frame);
       if (frame.round >= frame.rounds)
-        frame.next = frame.wholeEnd ? Part::done : afterRounds(frame, Part::patches);
+        frame.next = frame.wholeEnd ? Part::done : partFrom(frame, Part::patches);
       return;
     case Part::patches:
       recordPatches(commands, frame);
-      frame.next = afterRounds(frame, Part::occlusion);
+      frame.next = partFrom(frame, Part::occlusion);
       return;
     case Part::occlusion:
       recordOcclusion(commands, frame);
-      frame.next = afterRounds(frame, Part::capillaries);
+      frame.next = partFrom(frame, Part::capillaries);
       return;
     case Part::capillaries: {
       const auto scope = timer->scope(commands, kCapillaries);
       const std::size_t to = frame.sliced ? frame.batch + 1 : capillaries->batches();
       recordCapillaries(commands, frame, std::exchange(frame.batch, to), to);
-      if (to == capillaries->batches()) frame.next = afterRounds(frame, Part::organs);
+      if (to == capillaries->batches()) frame.next = partFrom(frame, Part::organs);
       return;
     }
     case Part::organs:
