@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "avoid/sides.h"
+#include "check_loads.h"
 #include "check_text.h"
 #include "commands.h"
 #include "core/cancellation.h"
@@ -138,10 +139,11 @@ class SideCheck {
 
 // What is looked at beside the maker's own report; some of it remembers the frame before.
 struct Looks {
-  explicit Looks(const Network& network) : steps(network), sides(network) {}
+  explicit Looks(const Network& network) : steps(network), sides(network), loads(network) {}
   CorrectionChange change;
   CorrectionSteps steps;
   SideCheck sides;
+  ClipLoads loads;
   std::optional<PaperLook> paper;  // with --method paper
 };
 
@@ -313,6 +315,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     checkpoint();
     maker.make(setting->clip, setting->timeOf(frame));
     report["frames"].push_back(frameReport(setting->scene, maker, looks, frame, options));
+    looks.loads.look(frame, maker.points(), *maker.avoider());
     progress.update(frame - first + 1, last - first + 1);
   }
   if (auto saved = track->save(); !saved) return saved;
@@ -321,6 +324,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
   report["summary"]["obstacle_rest_contacts"] = maker.avoider()->restBoneContactCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
+  report["summary"].update(looks.loads.report());
   report["summary"]["certificate"] = certificateReport(*maker.avoider());
   return globals.json ? printJson(report) : printText(checkText(report));
 }
@@ -348,6 +352,9 @@ void addCheck(CLI::App& app, Command& command) {
       "before. More than 1.5 mm, and more than the body alone moves any vessel near by (50 mm along each axis), looks\n"
       "like a jump: correction_step_excess counts such places, in the summary over all frames, and\n"
       "correction_step_worst is the one farthest beyond its bound.\n"
+      "kinked, strained, fast: vessels that a frame bends to a kink (bend: radius by bending radius, 1 or more, and more than\n"
+      "at rest), makes longer or shorter than at rest by more than 40 %, or than in the frame before by more than 5 %; each\n"
+      "with its worst frame.\n"
       "--method paper looks at each frame's shapes, before and after vessels are moved apart, by the source paper's detection,\n"
       "too (a tree of spheres over line-swept spheres, tolerance 1e-3 of the body height, one thread): the pairs that it\n"
       "reports, those of them that do not intersect (paper_false_pairs), and its time beside the exact detection's.");

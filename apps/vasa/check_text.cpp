@@ -41,6 +41,15 @@ std::string frameTable(const Report& frames) {
   return head + "\n" + rows;
 }
 
+// "left popliteal vein (frame 14), ..." of a list of vessels.
+std::string vesselsOf(const Report& list) {
+  std::string text;
+  for (const Report& vessel : list)
+    text += fmt::format("{}{} (frame {})", text.empty() ? "" : ", ", plainText(vessel["vessel"]),
+                        vessel["frame"].get<std::uint32_t>());
+  return text.empty() ? "none" : text;
+}
+
 std::string counted(std::size_t count, const char* one, const char* several) {
   return fmt::format("{} {}", count, count == 1 ? one : several);
 }
@@ -85,7 +94,7 @@ std::string checkText(const Report& report) {
   std::string text = frameTable(report["frames"]) + "\n";
   for (const auto& [key, value] : report["summary"].items()) {
     const auto [name, shown] = inMillimetres(key, value);
-    text += fmt::format("{:<32}{}\n", name, plainText(shown));
+    text += fmt::format("{:<32}{}\n", name, shown.is_array() ? vesselsOf(shown) : plainText(shown));
   }
   return text + "\n" + verdict(report) + "\n";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include "body/bowing.h"
 #include "core/parallel.h"
@@ -20,6 +21,9 @@ constexpr float kSlidingLength = 0.13f, kOfRadius = 3e-3f;
 // Over so much of its arc a branch gives way to the shift of what it hangs on: what is shorter comes along.
 constexpr float kCarried =
     0.05f;  // [m] of 0.03 to 0.2 the one with which no clip jumps, at 30 and 120 frames a second
+// Of the radius of the thinner of two vessels that go on in one another at a fork: what is thicker holds it, as the
+// anterior tibial artery, which goes through its membrane, holds the popliteal (0.81).
+constexpr float kSideBranch = 0.8f;
 constexpr std::uint32_t kSamples = 6;  // a span
 constexpr float kUnstrained =
     2e-4f;  // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
@@ -63,6 +67,11 @@ Sampled sample(const Network& network, const Pieces& pieces, std::span<const vec
   return course;
 }
 
+float endRadius(const Network& network, VesselEnd end) {
+  const auto own = network.pointsOf(network.vessel(end.vessel));
+  return end.last ? own.back().w : own.front().w;
+}
+
 vec3 placeAt(const Sampled& course, float along, std::size_t from) {
   from = std::min(from, course.along.size() - 2);
   while (from > 0 && course.along[from] > along) --from;
@@ -82,11 +91,16 @@ VesselSlider::VesselSlider(const Network& network, const Binding* binding) : net
     const Vessel& vessel = network.vessel(end.vessel);
     return end.last ? vessel.end : vessel.start;
   };
-  // The end that a vessel's end goes on in.
+  // The end that a vessel's end goes on in: at a fork the two thickest, where the third is a side branch of theirs.
   const auto onward = [&](VesselEnd end) -> std::optional<VesselEnd> {
     const NodeId node = nodeOf(end);
-    if (!node.valid() || network.node(node).host || network.node(node).endCount != 2) return std::nullopt;
-    const auto ends = network.ends(network.node(node));
+    if (!node.valid() || network.node(node).host || network.node(node).endCount < 2) return std::nullopt;
+    const auto at = network.ends(network.node(node));
+    std::vector<VesselEnd> ends(at.begin(), at.end());
+    std::ranges::stable_sort(ends, std::greater(), [&](VesselEnd of) { return endRadius(network, of); });
+    if (ends.size() > 2 && endRadius(network, ends[2]) > kSideBranch * endRadius(network, ends[1]))
+      return std::nullopt;
+    if (ends[0] != end && ends[1] != end) return std::nullopt;
     const VesselEnd other = ends[ends[0] == end ? 1 : 0];
     return other.vessel == end.vessel ? std::nullopt : std::optional(other);
   };
@@ -128,10 +142,7 @@ void VesselSlider::settleOrder() {
   std::vector<std::uint32_t> courseOf(network.vessels().size());
   for (std::uint32_t c = 0; c < courses_.size(); ++c)
     for (const Piece& piece : courses_[c].pieces) courseOf[piece.vessel.value] = c;
-  const auto radiusOf = [&](VesselEnd end) {
-    const auto own = network.pointsOf(network.vessel(end.vessel));
-    return end.last ? own.back().w : own.front().w;
-  };
+  const auto radiusOf = [&](VesselEnd end) { return endRadius(network, end); };
   const auto holdOf = [&](VesselEnd end) -> Hold {
     const Vessel& vessel = network.vessel(end.vessel);
     const NodeId id = end.last ? vessel.end : vessel.start;
