@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "avoid/sides.h"
-#include "check_loads.h"
 #include "check_text.h"
 #include "commands.h"
 #include "core/cancellation.h"
@@ -13,6 +12,7 @@
 #include "network/kinks.h"
 #include "network/measure.h"
 #include "paper_look.h"
+#include "realism/clip_loads.h"
 #include "report.h"
 #include "scene/correction_step.h"
 #include "scene/frame.h"
@@ -295,6 +295,22 @@ Report certificateReport(const Avoider& avoider) {
           {"capillaries", false}, {"skin", false}};
 }
 
+Report listOf(const Network& network, std::span<const VesselBeyond> vessels, const char* of) {
+  Report list = Report::array();
+  for (const VesselBeyond& vessel : vessels)
+    list.push_back(
+        {{"vessel", network.vessel(vessel.vessel).name}, {of, vessel.value}, {"frame", vessel.frame}});
+  return list;
+}
+
+void addLoads(const Network& network, const ClipLoads& loads, Report& summary) {
+  const std::vector<VesselBeyond> kinked = loads.kinked();
+  summary["kinked"] = listOf(network, kinked, "bend");
+  for (std::size_t k = 0; k < kinked.size(); ++k) summary["kinked"][k]["at"] = kinked[k].place;
+  summary["strained"] = listOf(network, loads.strained(), "length_change");
+  summary["fast"] = listOf(network, loads.fast(), "length_step");
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
@@ -324,7 +340,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
   report["summary"]["obstacle_rest_contacts"] = maker.avoider()->restBoneContactCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
-  report["summary"].update(looks.loads.report());
+  addLoads(setting->scene.network, looks.loads, report["summary"]);
   report["summary"]["certificate"] = certificateReport(*maker.avoider());
   return globals.json ? printJson(report) : printText(checkText(report));
 }

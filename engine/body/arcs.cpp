@@ -15,6 +15,8 @@ constexpr float kStill = 5 * kDegree;  // a joint that bends less in all clips
 constexpr float kSmallestAngle = 40 * kDegree;
 constexpr float kLargestAngle = 150 * kDegree;
 constexpr float kLongestArc = 0.45f;  // of the way to a neighbouring joint
+constexpr float kHasItsSay =
+    0.75f;  // a neighbour that is so near by the vessels' distance still has all of it
 constexpr float kAngleMargin = 1.1f;
 constexpr float kSteepestSlope = 1.5f * 1.1f;  // of smoothstep, and of how the way from a joint is measured
 constexpr float kOverallReach = 0.5f;          // of a vessel's distance from the link in any direction
@@ -110,7 +112,8 @@ std::vector<float> vesselReaches(const SpineSet& spines, const BoneField& bones,
 }
 
 /// Shortens arcs that would reach beyond the next joint of their limb, unless that is closer than the vessels
-/// are.
+/// are. A joint that is about as far away as they are loses its say step by step: a vessel more or less must
+/// not turn the bends of a whole trunk into others.
 void shortenArcs(SpineSet& spines, std::span<const float> reach, std::span<const LargestBend> bends) {
   std::vector<float> longest(spines.joints.size(), BoneField::kFar);
   for (std::size_t j = 0; j < spines.joints.size(); ++j) {
@@ -118,11 +121,14 @@ void shortenArcs(SpineSet& spines, std::span<const float> reach, std::span<const
     for (JointId at = spines.joints[j].parent; at.valid(); at = spines.joints[at.value].parent) {
       const float apart = glm::distance(spines.joints[j].centre, spines.joints[at.value].centre);
       const std::size_t above = at.value;
-      if (apart < std::max(reach[j], reach[above]) || !bends[above].moves) continue;
-      longest[j] = std::min(longest[j], kLongestArc * apart);
+      const float reached = std::max(reach[j], reach[above]);
+      if (apart <= reached || !bends[above].moves) continue;
+      const float say = 1 - glm::smoothstep(kHasItsSay, 1.0f, reached / apart),
+                  limit = kLongestArc * apart / say;
+      longest[j] = std::min(longest[j], limit);
       if (spines.joints[above].next == JointId{std::uint32_t(j)})
-        longest[above] = std::min(longest[above], kLongestArc * apart);
-      break;
+        longest[above] = std::min(longest[above], limit);
+      if (say == 1) break;
     }
   }
   for (std::size_t j = 0; j < spines.joints.size(); ++j)

@@ -21,8 +21,8 @@ constexpr float kSlidingLength = 0.13f, kOfRadius = 3e-3f;
 // Over so much of its arc a branch gives way to the shift of what it hangs on: what is shorter comes along.
 constexpr float kCarried =
     0.05f;  // [m] of 0.03 to 0.2 the one with which no clip jumps, at 30 and 120 frames a second
-// Of the radius of the thinner of two vessels that go on in one another at a fork: what is thicker holds it, as the
-// anterior tibial artery, which goes through its membrane, holds the popliteal (0.81).
+// Of the radius of the thinner of two vessels that go on in one another at a fork: what is thicker holds it,
+// as the anterior tibial artery, which goes through its membrane, holds the popliteal (0.81).
 constexpr float kSideBranch = 0.8f;
 constexpr std::uint32_t kSamples = 6;  // a span
 constexpr float kUnstrained =
@@ -91,7 +91,8 @@ VesselSlider::VesselSlider(const Network& network, const Binding* binding) : net
     const Vessel& vessel = network.vessel(end.vessel);
     return end.last ? vessel.end : vessel.start;
   };
-  // The end that a vessel's end goes on in: at a fork the two thickest, where the third is a side branch of theirs.
+  // The end that a vessel's end goes on in: at a fork the two thickest, where the third is a side branch of
+  // theirs.
   const auto onward = [&](VesselEnd end) -> std::optional<VesselEnd> {
     const NodeId node = nodeOf(end);
     if (!node.valid() || network.node(node).host || network.node(node).endCount < 2) return std::nullopt;

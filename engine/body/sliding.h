@@ -10,7 +10,8 @@ namespace vasa {
 
 /// Lets vessels slide in their beds. Posed point by point a vessel is as short behind a bent knee as its bed,
 /// and unchanged a hand's breadth above; a living one shifts along its course and evens that out. Along each
-/// course (vessels joined end to end, up to forks, which hold) the shift a [m] is least in
+/// course (vessels joined end to end, past side branches, up to forks, which hold) the shift a [m] is least
+/// in
 ///   ½ ∫ (da/ds + λ - 1)² ds + ½ ∫ a² / ℓ² ds,
 /// with λ the stretch that the pose makes and s the arc at rest: a rod of elastic wall tied to its bed. So
 /// strain becomes its mean over some ℓ to both sides, lengths between what holds stay, and nothing is shifted

@@ -156,6 +156,20 @@ TEST_CASE("twist is spread along the link") {
   CHECK(largest < 1.6f * 1.6f * 0.06f);
 }
 
+TEST_CASE("where a joint has bent whole and its link's twist has not begun, nothing is twisted") {
+  // Close behind another joint the arc is short, and ends where the link has hardly begun.
+  const Body body = chainBody({{0, 0, 0}, {0, 1, 0}, {0, 1.06f, 0}, {0, 2.06f, 0}, {0, 2.5f, 0}});
+  std::vector<vec4> rest;
+  for (int i = 0; i <= 40; ++i) rest.emplace_back(0.04f, 1.06f + 0.002f * float(i), 0, 0.001f);
+  const Result<Binding> binding = bindPoints(body, rest, "net.vasa");
+  REQUIRE(binding);
+  const std::vector<vec4> out =
+      deformed(*binding, rest, turned(body, {{2, glm::angleAxis(1.6f, vec3(0, 1, 0))}}));
+  for (std::size_t i = 1; i < out.size(); ++i)
+    CHECK(glm::distance(vec3(out[i]), vec3(out[i - 1])) == doctest::Approx(0.002f).epsilon(0.01));
+  CHECK(std::atan2(-out.back().z, out.back().x) < 0.05f);
+}
+
 TEST_CASE("a bundle that is bent sharply keeps its order, and linear blend skinning loses it") {
   Body body = chainBody(kStraight);
   body.clips.push_back(turningClip(1, glm::angleAxis(145 * kPi / 180, vec3(1, 0, 0))));

@@ -130,6 +130,33 @@ TEST_CASE("what branches off goes along with its host and stays on it") {
   }
 }
 
+TEST_CASE("a vessel slides past a side branch at a fork, and two that are alike hold it") {
+  const auto shiftWith = [](float branchRadius) {
+    NetworkBuilder builder;
+    const auto line = [&](vec3 from, vec3 way, float radius) {
+      std::vector<vec4> points;
+      for (const float u : {0.0f, 1 / 3.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5 - 1 / 3.0f, 5.0f})
+        points.emplace_back(from + 0.02f * u * way, radius);
+      return builder.addVessel({"part", "", VesselKind::vein}, points);
+    };
+    const VesselId trunk = line({0, 0, 0}, {1, 0, 0}, 1.2f * kRadius),
+                   onward = line({0.1f, 0, 0}, {1, 0, 0}, kRadius),
+                   branch = line({0.1f, 0, 0}, {0, 1, 0}, branchRadius);
+    builder.joinEnds({{trunk, true}, {onward, false}, {branch, false}});
+    auto network = builder.build(1.75f);
+    REQUIRE(network.ok());
+    std::vector<vec4> points =
+        squeezed(*network, 0, 0.1f, 2.0f);  // the trunk is stretched, what lies beyond is not
+    VesselSlider(*network).run(points);
+    const vec3 start(points[network->vessels()[2].firstPoint]),
+        fork(points[network->vessels()[1].firstPoint]);
+    CHECK(start == fork);
+    return fork.x - 0.2f;
+  };
+  CHECK(shiftWith(0.7f * kRadius) < -0.01f);
+  CHECK(shiftWith(0.9f * kRadius) == doctest::Approx(0));
+}
+
 TEST_CASE("sliding is continuous in the pose") {
   const Network network = lineNetwork(5);
   const VesselSlider slider(network);
