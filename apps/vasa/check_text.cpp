@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace vasa::cli {
 namespace {
 
@@ -41,13 +43,19 @@ std::string frameTable(const Report& frames) {
   return head + "\n" + rows;
 }
 
-// "left popliteal vein (frame 14), ..." of a list of vessels.
-std::string vesselsOf(const Report& list) {
-  std::string text;
+// "3, worst left popliteal vein (1.05, frame 14)" of a list of vessels.
+std::string vesselsOf(const Report& list, const char* of) {
+  const Report* worst = nullptr;
   for (const Report& vessel : list)
-    text += fmt::format("{}{} (frame {})", text.empty() ? "" : ", ", plainText(vessel["vessel"]),
-                        vessel["frame"].get<std::uint32_t>());
-  return text.empty() ? "none" : text;
+    if (!worst || std::abs(vessel[of].get<double>()) > std::abs((*worst)[of].get<double>())) worst = &vessel;
+  if (!worst) return "0";
+  return fmt::format("{}, worst {} ({:.2f}, frame {})", list.size(), plainText((*worst)["vessel"]),
+                     (*worst)[of].get<double>(), (*worst)["frame"].get<std::uint32_t>());
+}
+
+std::string shownText(const std::string& key, const Report& value) {
+  if (!value.is_array()) return plainText(value);
+  return vesselsOf(value, key == "kinked" ? "bend" : key == "strained" ? "length_change" : "length_step");
 }
 
 std::string counted(std::size_t count, const char* one, const char* several) {
@@ -94,7 +102,7 @@ std::string checkText(const Report& report) {
   std::string text = frameTable(report["frames"]) + "\n";
   for (const auto& [key, value] : report["summary"].items()) {
     const auto [name, shown] = inMillimetres(key, value);
-    text += fmt::format("{:<32}{}\n", name, shown.is_array() ? vesselsOf(shown) : plainText(shown));
+    text += fmt::format("{:<32}{}\n", name, shownText(key, shown));
   }
   return text + "\n" + verdict(report) + "\n";
 }

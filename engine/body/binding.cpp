@@ -93,7 +93,8 @@ class PointBinder {
       const float measured = phase(phases_.bend, at.value);
       const float bend = joint.parent.valid() ? 1 - (1 - measured) * (1 - reached) : 1.0f;
       const float twist = bend * (1 - (1 - phase(phases_.twist, at.value)) * (1 - reached));
-      // Where the link begins its bend is whole and its twist has not begun: a station, too.
+      // Where the link begins its bend is whole and its twist has not begun: a station, too. A root does not
+      // turn.
       const bool twists = twist > kSmallestTurn || bend >= 1 - kSmallestTurn;
       if (joint.spreadsTwist && joint.parent.valid() && twists && twist < 1 - kSmallestTurn)
         limb.stations.push_back({at, 1 + twist});

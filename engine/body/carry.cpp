@@ -234,7 +234,8 @@ class Carrier {
       bool starts = true;
       for (std::uint32_t left = kWholeShare; left > 0; ++r) {
         const BindingRecord& record = binding_.records[r];
-        const float along = record.station().along, share = along <= 1 ? along : along - 1;
+        // Beyond the arc all is the joint's own: between two bodies at rest there is no twist to spread.
+        const float share = std::min(record.station().along, 1.0f);
         limb = glm::mix(before(record.joint, p), starts ? after(record.joint, p) : limb, share);
         mean += float(record.share) / float(kWholeShare) * limb;
         starts = record.share != 0;

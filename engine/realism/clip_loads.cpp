@@ -24,7 +24,7 @@ void ClipLoads::look(std::uint32_t frame, std::span<const vec4> points, const Av
     const float length = 1 + loads[v].strain;
     keepWorst(kinks_[v], loads[v].kink, loads[v].kinkPlace, frame);
     keepWorst(strains_[v], loads[v].strain, 0, frame);
-    if (follows) keepWorst(steps_[v], length / lengths_[v] - 1, 0, frame);
+    if (follows && lengths_[v] > 0) keepWorst(steps_[v], length / lengths_[v] - 1, 0, frame);
     lengths_[v] = length;
   }
 }

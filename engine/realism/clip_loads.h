@@ -12,7 +12,8 @@ struct VesselBeyond {
 };
 
 /// Which vessels a motion bends to a kink, makes longer or shorter than at rest, or lengthens or shortens
-/// fast.
+/// fast. Lengths of vessels up to 5 mm are not looked at, nor bends as sharp as at rest
+/// (realism/vessel_load.h).
 ///
 ///   ClipLoads loads(network);
 ///   for (std::uint32_t frame = 0; frame < count; ++frame) {
@@ -22,7 +23,8 @@ struct VesselBeyond {
 ///   for (const VesselBeyond& vessel : loads.kinked()) ...
 class ClipLoads {
  public:
-  /// Of a vessel's length, from one frame to the next: what looks like a jerk at 30 frames a second.
+  /// Of a vessel's length, from one frame to the next, whatever the rate: what looks like a jerk at 30 a
+  /// second.
   static constexpr float kFast = 0.05f;
 
   /// @param network  at rest; must outlive this

@@ -21,6 +21,8 @@ TEST_CASE("check has a row a frame and the worst of each in its summary") {
   }
   for (const char* key : {"frames_with_penetration_after", "excluded_pairs", "depth_after_m", "certificate"})
     CHECK_MESSAGE(report["summary"].contains(key), key);
+  for (const char* list : {"kinked", "strained", "fast"})
+    CHECK_MESSAGE(report["summary"][list].empty(), list);
 }
 
 TEST_CASE("check tells how far corrections step from frame to frame, at the rate that is asked for") {
@@ -45,6 +47,23 @@ TEST_CASE("check tells how far corrections step from frame to frame, at the rate
   CHECK(own["frames"][0]["contacts_before"] == report["frames"][0]["contacts_before"]);
   CHECK(own["frames"][0]["moved_max_m"] == report["frames"][0]["moved_max_m"]);
   CHECK(!own["summary"].contains("correction_step_excess"));
+}
+
+TEST_CASE(
+    "check names vessels that change their length fast: each with its worst frame, the worst of them for people") {
+  // A thirtieth of the frames: from one to the next arms are raised.
+  const auto outcome = runProgram({"check", "--clip", "arms_overhead", "--fps", "1", "--json"});
+  REQUIRE(outcome.exit == 0);
+  const auto report = outcome.json();
+  const auto& fast = report["summary"]["fast"];
+  REQUIRE(!fast.empty());
+  for (const auto& vessel : fast) {
+    CHECK(std::abs(vessel["length_step"].get<double>()) > 0.05);
+    CHECK(vessel["frame"] < report["frames"].size());
+    CHECK(!vessel["vessel"].get<std::string>().empty());
+  }
+  const auto text = runProgram({"check", "--clip", "arms_overhead", "--fps", "1"});
+  CHECK(text.out.find(", worst ") != std::string::npos);
 }
 
 TEST_CASE("check --method paper looks by the paper's detection, too, which misses nothing and reports more") {
