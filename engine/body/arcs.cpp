@@ -15,8 +15,8 @@ constexpr float kStill = 5 * kDegree;  // a joint that bends less in all clips
 constexpr float kSmallestAngle = 40 * kDegree;
 constexpr float kLargestAngle = 150 * kDegree;
 constexpr float kLongestArc = 0.45f;  // of the way to a neighbouring joint
-constexpr float kHasItsSay =
-    0.75f;  // a neighbour that is so near by the vessels' distance still has all of it
+// Vessels' distance by the way to a neighbouring joint: up to this the neighbour has all of its say.
+constexpr float kHasItsSay = 0.75f;
 constexpr float kAngleMargin = 1.1f;
 constexpr float kSteepestSlope = 1.5f * 1.1f;  // of smoothstep, and of how the way from a joint is measured
 constexpr float kOverallReach = 0.5f;          // of a vessel's distance from the link in any direction
