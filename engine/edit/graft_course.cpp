@@ -7,6 +7,7 @@
 #include "curve/fit.h"
 #include "curve/frame.h"
 #include "math/aabb.h"
+#include "math/closest_point.h"
 #include "math/segment_distance.h"
 #include "network/kinks.h"
 
@@ -82,6 +83,24 @@ class Band {
     result.points = fitSpline(samples, {{0.1f, 5e-5f, 4e-4f}, {0.01f, 1e-6f, 1e-4f}, 4096});
     for (vec4& p : result.points) p.w = task_.radius;
     return result;
+  }
+
+  // An end lies so deep in a vessel beside its host that no course gets clear of it. Of the other end's host
+  // only where a course is sure to have left its reach, of which it takes an eighth for a step.
+  bool endsInside() const {
+    const float apart = glm::distance(hosts_[0].centre, hosts_[1].centre);
+    for (int end = 0; end < 2; ++end) {
+      const HostPlace &host = hosts_[end], &other = hosts_[1 - end];
+      const bool left = 0.875f * apart - step_ > clearOf(other);
+      for (const Obstacle& obstacle : obstacles_) {
+        if (obstacle.vessel == host.vessel || (obstacle.vessel == other.vessel && !left)) continue;
+        const float t = closestOnSegment(host.centre, obstacle.a, obstacle.b);
+        const float lumen = std::lerp(obstacle.radiusA, obstacle.radiusB, t);
+        if (glm::distance(host.centre, glm::mix(obstacle.a, obstacle.b, t)) < task_.radius + lumen)
+          return true;
+      }
+    }
+    return false;
   }
 
   std::vector<VesselId> inTheWay(std::span<const vec4> points) const {
@@ -294,6 +313,7 @@ GraftCourse leadGraft(const Draft& draft, const GraftTask& task) {
   };
   GraftCourse straight = attempt(vec3(0));
   if (good(straight) || !task.via.empty()) return straight;
+  if (Band(draft, task, obstacles, vec3(0)).endsInside()) return straight;  // as every other would be stuck
   const vec3 from(evaluate(draft.line(task.from.vessel).points, task.from.parameter)),
       to(evaluate(draft.line(task.to.vessel).points, task.to.parameter));
   const float length = glm::distance(from, to);

@@ -69,6 +69,17 @@ TEST_CASE("a graft passes the places that it is led through") {
   CHECK(nearest < 0.001f);
 }
 
+// Where one hangs on another's side its middle line is within that one.
+TEST_CASE("a graft to or from a place that lies in another vessel is refused") {
+  const Network tree = smallTree();
+  CHECK(refusalOf(tree, "graft far 0.5 side 0 1").find("no way was found around \"trunk\"") !=
+        std::string::npos);
+  CHECK(refusalOf(tree, "graft side 0 far 0.5 1").find("no way was found around \"trunk\"") !=
+        std::string::npos);
+  CHECK(refusalOf(tree, "graft trunk 1 side 0 1").find("no way was found around \"trunk\"") !=
+        std::string::npos);
+}
+
 TEST_CASE("a graft that is led far out of all vessels is refused before it is looked for") {
   const std::string refusal = refusalOf(smallTree(), "graft trunk 0.2 far 0.8 2 by via 4040 0 6");
   CHECK(refusal.find("its way is ") != std::string::npos);
