@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.h"
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/log.h"
 #include "core/stage_log.h"
 #include "gpu/error.h"
@@ -109,6 +110,7 @@ Result<ViewReport> Session::go() {
     record();
     profile();
     watchLoading();
+    tidy();
     if (failure_) return *failure_;
     const double ms = msSince(start);
     if (answers && !steady()) {
@@ -274,6 +276,7 @@ ViewReport Session::report() const {
 }
 
 Result<ViewReport> view(const ViewOptions& options) {
+  keepHeapSmall();
   Settings settings;
   if (!options.script) loadSettings(settings);
   if (options.width > 0) settings.width = options.width, settings.height = options.height;

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <deque>
+#include <future>
 
 #include "gpu/swapchain.h"
 #include "render/profiler.h"
@@ -91,6 +92,7 @@ class Session {
   void adopt();
   void cancelLoading();
   void watchLoading();
+  void tidy();
   void takeChoices();
   void orderShape();
   void takeShape();
@@ -183,7 +185,9 @@ class Session {
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
   Clock::time_point loadStart_, lastWatched_;
-  bool arriving_ = false;                 // loaded, but not seen yet
+  bool arriving_ = false;                                          // loaded, but not seen yet
+  enum class Untidy { no, growing, loaded } untidy_ = Untidy::no;  // what has left freed memory behind
+  std::future<void> tidying_;
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;

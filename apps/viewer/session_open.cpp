@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "atlas/scene_look.h"
+#include "core/heap.h"
 #include "edit/replay.h"
 #include "viewer/session.h"
 
@@ -91,11 +92,23 @@ void Session::watchLoading() {
   lastWatched_ = now;
 }
 
+// What loading took, and the scene before held, goes back once the new one stands; what it takes to settle
+// where its capillaries grow goes once they are settled. On a thread of its own: it takes longer than a slice
+// of a picture.
+void Session::tidy() {
+  if (!shown_ || shown_->body->provisional || loader_.busy()) return;
+  const Untidy left = document_->growth.settled() ? Untidy::no : Untidy::growing;
+  if (left >= untidy_) return;
+  untidy_ = left;
+  tidying_ = std::async(std::launch::async, returnFreedMemory);
+}
+
 // A document that has been loaded takes the place of the one before.
 void Session::adopt() {
   if (loader_.busy() && options_.script && settling_) loader_.wait();
   const auto answer = loader_.take();
   if (!answer) return;
+  untidy_ = Untidy::loaded;
   report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
   if (!*answer) {
     constexpr double kTimeToRead = 15;
