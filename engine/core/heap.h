@@ -8,7 +8,7 @@ namespace vasa {
 /// what is free; and of each heap it keeps up to 64 MiB that are free at its end. From here on blocks of 4
 /// MiB and more go back to the system as they are freed, and 16 MiB are kept: what a picture or a dragged
 /// edit takes and gives back fits in, or each would have its pages made anew. With 1 and 8 MiB dragging takes
-/// a sixth more processor time; with glibc's own 128 KiB at a heap's end so does every picture, and more.
+/// a fifth more processor time; with glibc's own 128 KiB at a heap's end so does every picture, and more.
 void keepHeapSmall();
 
 /// Gives back what is free in the middle of the heaps, too. glibc has one for every few threads: what several
