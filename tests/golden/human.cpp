@@ -155,7 +155,7 @@ std::vector<Picture> humanMutations() {
       picture("parts/arteries", {.parts = "av"}),
       picture("presets/clinical", {.preset = "atlas", .subject = "Head"}),
       picture("poses/walk", {.clip = "walk", .frame = 13}),
-      picture("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 1}),
+      picture("regions/head", {.subject = "Head", .parts = "abo", .growLevels = 2}),
   };
 }
 
