@@ -17,6 +17,7 @@
 #include "scene/correction_step.h"
 #include "scene/frame.h"
 #include "scene_options.h"
+#include "tissue_options.h"
 #include "track_option.h"
 
 // vasa check: what is wrong with each frame of a clip, before vessels are moved apart and after.
@@ -27,7 +28,8 @@ struct Options {
   SceneOptions scene;
   std::string frames, track, method = "exact";
   double fps = 0;
-  bool noVolume = false, noSlide = false, places = false, skinWall = false;
+  TissueOptions tissue;
+  bool places = false, skinWall = false;
 };
 
 struct Setting {
@@ -65,7 +67,8 @@ struct VolumeErrors {
   std::uint32_t gaveWayCount = 0;
 };
 
-VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, const Avoider& avoider) {
+VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, const Avoider& avoider,
+                          Keep keep) {
   constexpr double kNegligible = 1e-4;
   VolumeErrors errors;
   std::vector<char> narrow(network.vessels().size(), 0);
@@ -76,10 +79,10 @@ VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, 
     if (!(rest > 0)) continue;
     const double error = std::abs(volumeOf(Network::pointsOf(vessel, points)) - rest) / rest;
     bool atLimit = narrow[v];
+    const VolumeKeeper::Range range = VolumeKeeper::rangeOf(vessel.kind, keep);
     for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p) {
       const float factor = points[p].w / network.points()[p].w;
-      atLimit |=
-          factor < 1.001f * VolumeKeeper::kLowestFactor || factor > 0.999f * VolumeKeeper::kHighestFactor;
+      atLimit |= factor < 1.001f * range.lowest || factor > 0.999f * range.highest;
     }
     if (atLimit && error > kNegligible)
       ++errors.gaveWayCount, errors.gaveWay = std::max(errors.gaveWay, error);
@@ -148,9 +151,9 @@ struct Looks {
 };
 
 // As the body alone moves the network, before vessels were moved apart.
-std::vector<vec4> unmoved(const Network& network, const FrameMaker& maker, bool keepVolume) {
+std::vector<vec4> unmoved(const Network& network, const FrameMaker& maker, Keep keep) {
   std::vector<vec4> points(maker.posedPoints().begin(), maker.posedPoints().end());
-  if (keepVolume) VolumeKeeper(network).run(points);
+  if (keep != Keep::radii) VolumeKeeper(network, keep).run(points);
   return points;
 }
 
@@ -200,7 +203,8 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
                    const Options& options) {
   const AvoidReport& avoid = maker.report().avoid;
   const PosedLook before = maker.lookAtPosed();
-  const VolumeErrors volume = volumeErrors(scene.network, maker.points(), *maker.avoider());
+  const VolumeErrors volume =
+      volumeErrors(scene.network, maker.points(), *maker.avoider(), options.tissue.kept());
   const CorrectionChange::Change change = looks.change.next(scene.network, maker);
   Report row{{"frame", frame},
              {"contacts_before", before.vessels.contacts},
@@ -238,7 +242,7 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
              {"certify_ms", avoid.certifyMs}};
   addSteps(scene.network, looks.steps.next(maker.posedPoints(), maker.points()), row);
   if (looks.paper) {
-    const PaperLook::Pairs posed = looks.paper->at(unmoved(scene.network, maker, !options.noVolume));
+    const PaperLook::Pairs posed = looks.paper->at(unmoved(scene.network, maker, options.tissue.kept()));
     addPaperLook(posed, looks.paper->at(maker.points()), row);
   }
   if (options.places) addPlaces(scene, *maker.avoider(), looks.sides.changed(), row);
@@ -314,8 +318,8 @@ void addLoads(const Network& network, const ClipLoads& loads, Report& summary) {
 Result<void> run(const Globals& globals, const Options& options) {
   const auto setting = prepare(options);
   if (!setting) return setting.error();
-  FrameOptions frameOptions{.keepVolume = !options.noVolume,
-                            .slide = !options.noSlide,
+  FrameOptions frameOptions{.keep = options.tissue.kept(),
+                            .slide = !options.tissue.noSlide,
                             .avoid = true,
                             .avoidance = {.skinWall = options.skinWall}};
   const auto track =
@@ -382,8 +386,7 @@ void addCheck(CLI::App& app, Command& command) {
   sub->add_option("--method", options->method, "exact, or paper: the source paper's detection beside it")
       ->check(CLI::IsMember({"exact", "paper"}))
       ->capture_default_str();
-  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
+  addTissueOptions(*sub, options->tissue);
   sub->add_flag("--skin-wall", options->skinWall,
                 "Hold vessels below the skin, too; without it skin_contacts are 0");
   sub->add_flag("--places", options->places,

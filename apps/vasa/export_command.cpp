@@ -7,6 +7,7 @@
 #include "report.h"
 #include "scene/exporting.h"
 #include "scene_options.h"
+#include "tissue_options.h"
 #include "track_option.h"
 
 // vasa export: vessels in motion as files that other programs read.
@@ -19,7 +20,8 @@ struct Options {
   double fps = 0, budgetMegabytes = 100, toleranceMillimetres = 0.05, betweenMillimetres = 1,
          clearanceMillimetres = 5;
   std::uint32_t samples = 2;
-  bool noVolume = false, noSlide = false, avoid = true, flat = false;
+  TissueOptions tissue;
+  bool avoid = true, flat = false;
 };
 
 struct Job {
@@ -47,7 +49,7 @@ Result<Job> prepare(const Options& options) {
   Job job{std::move(*scene),
           nullptr,
           {},
-          {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = options.avoid}};
+          {.keep = options.tissue.kept(), .slide = !options.tissue.noSlide, .avoid = options.avoid}};
   const auto clip = sceneClip(job.scene, *choice);
   if (!clip) return clip.error();
   job.clip = *clip;
@@ -175,8 +177,7 @@ void addExport(CLI::App& app, Command& command) {
   sub->add_flag("--flat", options->flat, "Leave normals out of a .glb: half the size, shaded facet by facet");
   sub->add_flag("--avoid,!--no-avoid", options->avoid,
                 "Move vessels apart that run through one another or through bones (the default)");
-  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
+  addTissueOptions(*sub, options->tissue);
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

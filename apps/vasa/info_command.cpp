@@ -274,7 +274,7 @@ Result<Report> sceneReport(const SceneFile& file, bool vessels, bool joints) {
     names += (names.empty() ? "" : ", ") + path.filename().string();
     networks.push_back(std::move(*network));
   }
-  const auto scene = makeScene(std::move(*body), std::move(networks), file.edits, names);
+  const auto scene = makeScene(std::move(*body), std::move(networks), file, names);
   if (!scene) return scene.error();
   if (!file.edits.empty()) {
     report["edited"] = networkReport(scene->network, 0, vessels);

@@ -20,6 +20,7 @@
 #include "realism/pose_map.h"
 #include "report.h"
 #include "scene_options.h"
+#include "tissue_options.h"
 
 // vasa poses: which poses kink, squeeze, stretch or press which vessel.
 namespace vasa::cli {
@@ -32,7 +33,8 @@ struct Options {
   std::vector<std::string> joints, pair;
   std::string ranges, output, shard = "0/1";
   double step = 10, kink = 1, lumen = 50, strain = 40, depth = 1;
-  bool resume = false, noVolume = false, noSlide = false;
+  TissueOptions tissue;
+  bool resume = false;
 
   LoadLimits limits() const {
     return {float(kink), float(lumen / 100), float(strain / 100), float(depth / 1000)};
@@ -160,7 +162,7 @@ class PoseWork {
       }
       if (!own) continue;
       if (!map)
-        map.emplace(scene_, FrameOptions{.keepVolume = !options_.noVolume, .slide = !options_.noSlide},
+        map.emplace(scene_, FrameOptions{.keep = options_.tissue.kept(), .slide = !options_.tissue.noSlide},
                     options_.limits(), glm::radians(float(options_.step)));
       const auto walked = map->walk(rays_[r]);
       if (!walked) return walked.error();
@@ -305,8 +307,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   std::string settings;
   for (const PoseRay& ray : *rays) settings += ray.name() + "|";
   settings += fmt::format("{} {} {} {} {} {} {} {:016x} {:016x}", options.step, options.kink, options.lumen,
-                          options.strain, options.depth, options.noVolume, options.noSlide, files.hash(),
-                          hashOf(scene->network.points()));
+                          options.strain, options.depth, int(options.tissue.kept()), options.tissue.noSlide,
+                          files.hash(), hashOf(scene->network.points()));
   const fs::path folder = options.output;
   if (!options.output.empty()) {
     if (auto made = makeOutputFolder(folder / "rays"); !made) return made;
@@ -387,8 +389,7 @@ void addPoses(CLI::App& app, Command& command) {
   sub->add_option("--shard", options->shard, "i/n: walk only every n-th way, from the i-th on")
       ->capture_default_str();
   sub->add_flag("--resume", options->resume, "Keep what the folder has from the same run");
-  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
+  addTissueOptions(*sub, options->tissue);
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -11,6 +11,7 @@
 #include "realism_page.h"
 #include "report.h"
 #include "scene_options.h"
+#include "tissue_options.h"
 
 // vasa realism: the deformation beside figures that were measured in living people and cadavers.
 namespace vasa::cli {
@@ -20,7 +21,7 @@ struct Options {
   SceneOptions scene;
   std::string protocol, output;
   double least = 0;
-  bool noVolume = false, noSlide = false;
+  TissueOptions tissue;
 };
 
 Report scoreReport(const RealismScore& score) {
@@ -122,7 +123,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
   const RealismStudy study = studyRealism(
-      *scene, *protocol, {.keepVolume = !options.noVolume, .slide = !options.noSlide, .avoid = true});
+      *scene, *protocol, {.keep = options.tissue.kept(), .slide = !options.tissue.noSlide, .avoid = true});
   const Report report = reportOf(*scene, *file, *protocol, study);
   if (!options.output.empty()) {
     const std::filesystem::path out = options.output;
@@ -166,8 +167,7 @@ void addRealism(CLI::App& app, Command& command) {
   sub->add_option("--least", options->least,
                   "End with 1 where less than this share of the figures is within two standard deviations")
       ->check(CLI::Range(0.0, 1.0));
-  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
+  addTissueOptions(*sub, options->tissue);
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -22,6 +22,7 @@
 #include "output_folder.h"
 #include "report.h"
 #include "scene_options.h"
+#include "tissue_options.h"
 #include "track_option.h"
 
 // vasa render: frames of a clip to PNG files and a video.
@@ -40,8 +41,8 @@ struct Options {
   std::string settings;  // see settingsOf
   std::uint32_t supersample = 1;
   bool beat = false;
-  bool resume = false, transparent = false, noVolume = false, noSlide = false, avoid = true,
-       highlightContacts = false, skinWall = false;
+  TissueOptions tissue;
+  bool resume = false, transparent = false, avoid = true, highlightContacts = false, skinWall = false;
 };
 
 constexpr float kScreenDpi = 96;  // of a picture of 1280 by 720 with labels: letters of 11 pixels
@@ -71,8 +72,8 @@ Result<void> checkLabels(const Options& options) {
 }
 
 FrameOptions frameOptions(const Options& options) {
-  FrameOptions frame{.keepVolume = !options.noVolume,
-                     .slide = !options.noSlide,
+  FrameOptions frame{.keep = options.tissue.kept(),
+                     .slide = !options.tissue.noSlide,
                      .avoid = options.avoid || options.highlightContacts,
                      .beat = options.beat};
   frame.avoidance.skinWall = options.skinWall;
@@ -375,8 +376,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_flag("--highlight-contacts", options->highlightContacts,
                 "Vessels grey; yellow where they ran through one another, red where they still do");
   sub->add_flag("--skin-wall", options->skinWall, "Hold vessels below the skin, too");
-  sub->add_flag("--no-volume", options->noVolume, "Do not keep the vessels' volumes");
-  sub->add_flag("--no-slide", options->noSlide, "Leave every vessel glued to its bed, point by point");
+  addTissueOptions(*sub, options->tissue);
   sub->callback([options, &command, sub] {
     options->settings = settingsOf(*sub);
     command.run = [options, &command] { return run(command.globals, *options); };

@@ -48,6 +48,8 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options) {
                  "Journal of edits to the vessels (.vedit, see vasa help edits); may be given several times")
       ->take_all()
       ->allow_extra_args(false);
+  sub.add_option("--holds", options.holds,
+                 "Table of the places where vessels are held in their beds (vasa help scenes)");
   sub.add_option("--clip", options.clip, "Motion: a clip's name or a unique beginning of it, or a .bvh file");
   sub.add_option(
       "--joint-map", options.jointMap,
@@ -65,6 +67,7 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
   if (options.body.empty()) named.push_back(scene.body);
   if (options.networks.empty()) named.insert(named.end(), scene.networks.begin(), scene.networks.end());
   if (options.edits.empty()) named.insert(named.end(), scene.edits.begin(), scene.edits.end());
+  if (options.holds.empty()) named.push_back(scene.holds);
   if (options.clip.empty() && isMotionFile(scene.clip)) named.emplace_back(scene.clip);
   if (options.jointMap.empty()) named.push_back(scene.jointMap);
   std::error_code ignored;
@@ -88,6 +91,7 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
   if (!options.body.empty()) scene.body = options.body;
   if (!options.networks.empty()) scene.networks.assign(options.networks.begin(), options.networks.end());
   if (!options.edits.empty()) scene.edits.assign(options.edits.begin(), options.edits.end());
+  if (!options.holds.empty()) scene.holds = options.holds;
   if (!options.clip.empty()) scene.clip = options.clip;
   if (!options.jointMap.empty()) scene.jointMap = options.jointMap;
   scene.asRecorded |= options.asRecorded;
@@ -100,7 +104,10 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
     const auto folder = dataFolder();
     if (!folder) return folder.error();
     scene.body = *folder / "human.glb";
-    if (scene.networks.empty()) scene.networks = {*folder / "human.vasa"};
+    if (scene.networks.empty()) {
+      scene.networks = {*folder / "human.vasa"};
+      if (scene.holds.empty()) scene.holds = *folder / "human.holds.csv";
+    }
   }
   return scene;
 }

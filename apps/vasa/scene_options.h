@@ -13,6 +13,7 @@ struct SceneOptions {
   std::string scene;  ///< a scene file; empty: the built-in human
   std::string body;
   std::vector<std::string> networks;
+  std::string holds;
   std::string clip;
   std::string jointMap;
   bool asRecorded = false;
@@ -26,7 +27,7 @@ Result<std::filesystem::path> dataFolder();
 /// either.
 std::filesystem::path cacheFolder();
 
-/// Declares SCENE, --body, --network, --edits, --clip, --joint-map and --as-recorded.
+/// Declares SCENE, --body, --network, --edits, --holds, --clip, --joint-map and --as-recorded.
 void addSceneOptions(CLI::App& sub, SceneOptions& options);
 
 /// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes

@@ -47,12 +47,12 @@ Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& no
     const auto summary = checkGltf(path);
     if (!summary) return summary.error();
     if (summary->skins == 0)
-      scene.networks = {path};
+      scene.networks = {path}, scene.holds.clear();
     else
       scene.body = path;
     if (summary->skins > 0 && !isMotionFile(scene.clip)) scene.clip.clear();
   } else if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) {
-    scene.networks = {path};
+    scene.networks = {path}, scene.holds.clear();
   } else {
     return Error{Fault::usage, path.string() + ": " + kDroppable};
   }

@@ -96,9 +96,10 @@ Result<std::filesystem::path> SceneKeeper::save(const Document& document, const 
     if (const auto written = writeFileAtomically(journal, lines); !written) return written.error();
   SceneFile written = file;
   if (!builtIn_.empty() && file.body == builtIn_ / "human.glb" &&
-      file.networks == std::vector{builtIn_ / "human.vasa"}) {
+      file.networks == std::vector{builtIn_ / "human.vasa"} && file.holds == builtIn_ / "human.holds.csv") {
     written.body.clear();
     written.networks.clear();
+    written.holds.clear();
   }
   if (const auto done = writeFileAtomically(file.path, sceneText(written, file.path.parent_path())); !done)
     return done.error();

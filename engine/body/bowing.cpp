@@ -62,9 +62,8 @@ void bow(const BowCourse& course, std::span<vec3> aside) {
                 last = std::min(at + kBowWave / 2, course.along.back());
     const float squeezed = (lostUpTo(last) - lostUpTo(first)) / (last - first), bed = 1 - squeezed;
     if (!(squeezed > 0) || !(bed > 0)) continue;
-    float ends = 1;
-    if (course.holdsFirst) ends *= glm::smoothstep(0.0f, kBowWave / 2, at);
-    if (course.holdsLast) ends *= glm::smoothstep(0.0f, kBowWave / 2, course.along.back() - at);
+    float free = 1;
+    for (const float hold : course.holds) free *= glm::smoothstep(0.0f, kBowWave / 2, std::abs(at - hold));
     const std::size_t before = k > 0 ? k - 1 : 0, after = std::min(k + 1, n - 1);
     const float apart =
         std::abs(course.rest[after][axis] - course.rest[before][axis]) / float(after - before);
@@ -73,7 +72,7 @@ void bow(const BowCourse& course, std::span<vec3> aside) {
     const float radius = std::sqrt(longer * longer - 1) * bed * kBowWave / (2 * kPi);
     const float phase = 2 * kPi * course.rest[k][axis] / kBowWave;
     const vec3 out = course.outwards[k];
-    aside[k] = ends * radius * drawn(2 * kPi * apart / kBowWave) *
+    aside[k] = free * radius * drawn(2 * kPi * apart / kBowWave) *
                glm::smoothstep(kBowRadius / 2, kBowRadius, course.rest[k].w) *
                (course.turned[k] * (std::cos(phase) * out - std::sin(phase) * glm::cross(upwards, out)));
   }

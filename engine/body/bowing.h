@@ -26,7 +26,7 @@ struct BowCourse {
   std::span<const vec4> rest;      ///< (x, y, z, r)
   std::span<const vec3> outwards;  ///< outwardsOf()
   std::span<const quat> turned;    ///< how the bed of each has turned
-  bool holdsFirst, holdsLast;      ///< whether its ends stay where they are
+  std::span<const float> holds;    ///< [m] along it where it stays in its bed: forks at its ends, tunnels
 };
 
 /// How far each control point [m] moves when a course that is squeezed bows out of its bed.
@@ -34,8 +34,8 @@ struct BowCourse {
 /// Of what a pose takes from a vessel's length a quarter goes into a helix about its course: it shortens by
 /// less, bends and twists more, as living arteries do. The helix turns with the height (or whatever axis of
 /// rest the course mainly follows), right-handed on one side of the body and left-handed on the other, so
-/// that vessels that run side by side bow together. Nothing bows at rest or where it is stretched; ends that
-/// hold stay. Continuous in the pose. O(points)
+/// that vessels that run side by side bow together. Nothing bows at rest, where it is stretched, or where it
+/// is held. Continuous in the pose. O(points)
 void bow(const BowCourse& course, std::span<vec3> aside);
 
 }  // namespace vasa

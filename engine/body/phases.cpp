@@ -30,6 +30,10 @@ constexpr float kSkinMargin = 0.08f;  // shares of the skin below this and above
 // Of the link before a joint, or its arc: so far back a bone that hangs over from behind the joint begins to
 // lose its say, and has lost it.
 constexpr float kOverhangFrom = 0.25f, kOverhangTo = 0.75f;
+// Of a link's length: how far from its axis flesh is all of that link's (half a thigh's or an upper arm's
+// thickness is 0.15 of its length); at twice that none is. Wider, and the shoulder's vessels are torn from
+// the chest.
+constexpr float kFleshOfLink = 0.12f;
 constexpr float kTwistTilt = 8;  // largest ratio by which nearness to one bone tilts the spread of twist
 constexpr float kSlope = 1.5f * 1.25f;  // over an arc
 constexpr float kTwistSlope = 6;        // over a link
@@ -127,7 +131,20 @@ class PhaseMeter {
         (1 - overhang(j, p)) *
         smoothstep(0.5f + beyond(favour * before_[j], behind_[j]) / glm::mix(joint.arc, narrow, alongside));
     const float told = std::clamp((skinShares_[j] - kSkinMargin) / (1 - 2 * kSkinMargin), 0.0f, 1.0f);
-    return glm::mix(measured, told, trustInSkin(j, p));
+    const float share = glm::mix(measured, told, trustInSkin(j, p));
+    const float beyondPlane = smoothstep(0.5f + glm::dot(p - joint.centre, joint.axis) / joint.arc);
+    return glm::mix(share, std::max(share, beyondPlane), besideLink(j, p));
+  }
+
+  /// 1 in the flesh around the link after a joint, where the bone before the joint reaches beside it and is
+  /// about as near: the seat bone does not hold back what runs along the thigh.
+  float besideLink(std::size_t j, vec3 p) const {
+    const SpineJoint& joint = spines_.joints[j];
+    if (joint.spreadsTwist || !joint.next.valid() || !(joint.link > 0)) return 0;
+    const vec3 arm = p - joint.centre;
+    const float aside = glm::length(arm - glm::dot(arm, joint.axis) * joint.axis);
+    return undecided(j) * smoothstep(2 * skinShares_[j]) *
+           smoothstep(2 - aside / (kFleshOfLink * joint.link));
   }
 
   /// Not so of bones that slide under the skin, as the knee cap does.

@@ -29,10 +29,11 @@ struct Phases {
 /// joint (an arm beside the chest) the arc narrows, so that each bone keeps what is on it, and what lies
 /// close to the limb goes with it. Around a joint, where the bones before and behind are about equally near
 /// (the hip bone reaches far beside the thigh's), the skin that is near decides with them: vessels must move
-/// as the flesh does, also where another bone is nearer. Where the skin around a point belongs to limbs, it
-/// also tells which of them take part, so that one leg has no share in the other. Twist grows along the link,
-/// sooner near the joint's own bone and later near the one that runs beside it. O(points · joints), in
-/// parallel.
+/// as the flesh does, also where another bone is nearer. Flesh around the link after the joint is
+/// at least as far on as on a straight limb (the seat bone reaches far down beside the thigh). Where the skin
+/// around a point belongs to limbs, it also tells which of them take part, so that one leg has no share in
+/// the other. Twist grows along the link, sooner near the joint's own bone and later near the one that runs
+/// beside it. O(points · joints), in parallel.
 /// @param skin  of the same body; without one, bones alone decide
 Phases measurePhases(const SpineSet& spines, const BoneField& bones, const SkinField& skin,
                      std::span<const vec4> points);

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "body/binding.h"
@@ -8,10 +9,16 @@
 
 namespace vasa {
 
+/// A place where a vessel is held: a tunnel, a hiatus, a band over it.
+struct VesselHold {
+  std::string vessel;  ///< its name
+  float at = 0;        ///< share of its parameter, 0 to 1
+};
+
 /// Lets vessels slide in their beds. Posed point by point a vessel is as short behind a bent knee as its bed,
 /// and unchanged a hand's breadth above; a living one shifts along its course and evens that out. Along each
-/// course (vessels joined end to end, past side branches, up to forks, which hold) the shift a [m] is least
-/// in
+/// course (vessels joined end to end, past side branches, up to forks and other places that hold) the shift a
+/// [m] is least in
 ///   ½ ∫ (da/ds + λ - 1)² ds + ½ ∫ a² / ℓ² ds,
 /// with λ the stretch that the pose makes and s the arc at rest: a rod of elastic wall tied to its bed. So
 /// strain becomes its mean over some ℓ to both sides, lengths between what holds stay, and nothing is shifted
@@ -23,7 +30,9 @@ class VesselSlider {
  public:
   /// @param network  at rest; must outlive this
   /// @param binding  of its points; without it nothing bows out
-  explicit VesselSlider(const Network& network, const Binding* binding = nullptr);
+  /// @param holds    where vessels are held besides forks; names that no vessel bears hold nothing
+  explicit VesselSlider(const Network& network, const Binding* binding = nullptr,
+                        std::span<const VesselHold> holds = {});
 
   /// @param points  a posed network's points, ends on their nodes; radii stay. O(points), parallel over
   /// courses
@@ -49,7 +58,8 @@ class VesselSlider {
     std::vector<std::uint32_t>
         points;                // of the network, in order; where vessels join the one point is there for both
     std::vector<float> along;  // [m] at rest, of each
-    std::vector<float> tether;  // 1/ℓ², of each
+    std::vector<float> tether;  // 1/ℓ², of each; infinite where it is held
+    std::vector<float> holds;   // [m] along it
     Hold start, finish;
   };
   void slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const;

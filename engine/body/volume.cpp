@@ -48,10 +48,16 @@ Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points, const 
 
 }  // namespace
 
-VolumeKeeper::VolumeKeeper(const Network& network) : network_(&network) {
+VolumeKeeper::VolumeKeeper(const Network& network, Keep keep) : network_(&network), keep_(keep) {
   for (const Vessel& vessel : network.vessels())
     restVolumes_.push_back(
         quadraticOf(vessel, network.pointsOf(vessel), [](std::uint32_t) { return 0.0f; }).volume);
+}
+
+VolumeKeeper::Range VolumeKeeper::rangeOf(VesselKind kind, Keep keep) {
+  if (keep != Keep::wall) return {kLowestFactor, kHighestFactor};
+  if (kind == VesselKind::artery) return {0.9f, 1.1f};
+  return {kLowestFactor, 1};
 }
 
 void VolumeKeeper::Outcome::add(const Outcome& other) {
@@ -97,6 +103,7 @@ void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const flo
                         Outcome& outcome) const {
   const Vessel& vessel = network_->vessel(id);
   const double restVolume = restVolumes_[id.value];
+  const Range range = rangeOf(vessel.kind, keep_);
   const auto own = Network::pointsOf(vessel, points);
   const auto rest = network_->pointsOf(vessel);
   const auto limit = [&](std::uint32_t l) {
@@ -118,8 +125,8 @@ void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const flo
       if (held(l)) continue;
       const double now = own[l].w;
       if (now > 0)
-        kept = std::clamp(kept, kLowestFactor * rest[l].w / now - 1,
-                          std::max(kHighestFactor * rest[l].w / now - 1, 0.0));
+        kept = std::clamp(kept, range.lowest * rest[l].w / now - 1,
+                          std::max(range.highest * rest[l].w / now - 1, 0.0));
     }
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
       if (held(l)) continue;

@@ -5,6 +5,15 @@
 
 namespace vasa {
 
+/// What a vessel keeps while a pose changes its length.
+enum class Keep : std::uint8_t {
+  volume,  ///< its volume, exactly: the paper's way
+  wall,    ///< arteries their volume as far as their radii change by 10 % at the most (living arteries: 10 to
+         ///< 15); veins theirs as far as they do not widen: they give way where they are drawn out and do not
+         ///< fill where they are shortened
+  radii,
+};
+
 /// Keeps each vessel's volume as its centre line is stretched, squeezed and bent: radii inside the vessel
 /// change, r_l <- r_l + λ w_l r_l, while the rings at its nodes stay as they are (w = 0), so that vessels
 /// still fit where they meet. One λ a vessel, from a quadratic in closed form: exact to the quadrature (4
@@ -13,7 +22,8 @@ namespace vasa {
 class VolumeKeeper {
  public:
   /// The volumes of the network at rest are the ones to keep.
-  explicit VolumeKeeper(const Network& network);
+  /// @param keep  volume or wall
+  explicit VolumeKeeper(const Network& network, Keep keep = Keep::volume);
 
   struct Outcome {
     float largestError = 0;          ///< |V - V0| / V0 of the worst vessel whose radii could do it
@@ -38,11 +48,16 @@ class VolumeKeeper {
   /// The same for one vessel; its errors are added to an outcome.
   void keep(VesselId vessel, std::span<vec4> points, std::span<const float> most, Outcome& outcome) const;
 
-  /// How far radii may go: between half and twice those at rest.
-  static constexpr float kLowestFactor = 0.5f, kHighestFactor = 2.0f;
+  /// How far radii may go, by those at rest.
+  struct Range {
+    float lowest, highest;
+  };
+  static Range rangeOf(VesselKind kind, Keep keep);
+  static constexpr float kLowestFactor = 0.5f, kHighestFactor = 2.0f;  ///< the widest of these ranges
 
  private:
   const Network* network_;
+  Keep keep_;
   std::vector<double> restVolumes_;  // one a vessel
 };
 

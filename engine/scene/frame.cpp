@@ -33,9 +33,9 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
     : scene_(&scene),
       options_(options),
       deformer_(scene.binding),
-      slider_(scene.network, &scene.binding),
+      slider_(scene.network, &scene.binding, scene.holds),
       kinks_(scene.network),
-      volume_(scene.network),
+      volume_(scene.network, options.keep),
       beat_(options.beat ? HeartBeat(scene) : HeartBeat()),
       avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance)
                              : nullptr),
@@ -131,7 +131,7 @@ bool FrameMaker::step(const Stride& stride) {
   } else {
     points_ = posedPoints_;
     StageClock clock(report_.volumeMs);
-    if (options_.keepVolume) report_.volume = volume_.run(points_);
+    if (keeper()) report_.volume = volume_.run(points_);
   }
   ++report_.steps;
   return true;
@@ -213,7 +213,7 @@ void FrameMaker::put(std::span<const vec4> points) {
 
 PosedLook FrameMaker::lookAtPosed() {
   std::vector<vec4> points(posedPoints_);
-  if (options_.keepVolume) volume_.run(points);
+  if (keeper()) volume_.run(points);
   return avoider_->look({posedPoints_, rotations_, jointMatrices_}, points);
 }
 

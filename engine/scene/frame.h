@@ -27,7 +27,7 @@ struct FrameReport {
 };
 
 struct FrameOptions {
-  bool keepVolume = true;
+  Keep keep = Keep::volume;
   bool slide = true;       ///< vessels slide in their beds (body/sliding.h)
   bool avoid = false;      ///< move vessels apart that run through one another
   bool beat = false;       ///< the heart beats (scene/beat.h)
@@ -77,7 +77,7 @@ class FrameMaker {
  private:
   void deform(const Pose& pose, float time);
   bool step(const Stride& stride);
-  const VolumeKeeper* keeper() const { return options_.keepVolume ? &volume_ : nullptr; }
+  const VolumeKeeper* keeper() const { return options_.keep == Keep::radii ? nullptr : &volume_; }
   void walk(const Pose& target, float fromTime, float time, float seconds);
   void startAtRest();
   void start(const Correction& correction);

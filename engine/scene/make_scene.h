@@ -1,6 +1,4 @@
 #pragma once
-#include <filesystem>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -8,10 +6,10 @@
 
 namespace vasa {
 
-/// The second half of loadScene(): merges vessels, replays journals of edits onto them and binds them to the
-/// body.
+/// The second half of loadScene(): merges vessels, replays the file's journals of edits onto them, binds them
+/// to the body and reads where they are held.
 /// @param names  of their files, for messages
-Result<Scene> makeScene(Body body, std::vector<Network> networks,
-                        std::span<const std::filesystem::path> edits, std::string_view names);
+Result<Scene> makeScene(Body body, std::vector<Network> networks, const SceneFile& file,
+                        std::string_view names);
 
 }  // namespace vasa

@@ -89,12 +89,13 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
   }
   for (const Skeleton::Joint& joint : scene.body.skeleton.joints)
     hash = hashed(joint.inverseBind, hashed(joint.parent.value, hash));
+  for (const VesselHold& hold : scene.holds) hash = hashed(hold.at, hashOf(std::span(hold.vessel), hash));
   for (std::uint32_t frame = 0; frame < clip.frameCount(); ++frame) {
     const Pose pose = samplePose(scene.body.skeleton, clip, clip.timeOfFrame(frame));
     hash = hashOf(std::span(std::as_const(pose.world)), hash);
   }
   hash = hashed(std::array{clip.start, clip.end, clip.framesPerSecond, options.avoidance.bending}, hash);
-  return hashed(std::array{unsigned(options.keepVolume), unsigned(options.slide), unsigned(options.beat),
+  return hashed(std::array{unsigned(options.keep), unsigned(options.slide), unsigned(options.beat),
                            options.avoidance.rounds, options.avoidance.sweeps, options.avoidance.lumenRounds,
                            unsigned(options.avoidance.skinWall)},
                 hash);

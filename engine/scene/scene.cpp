@@ -16,6 +16,7 @@
 #include "io/gltf.h"
 #include "network/measure.h"
 #include "network/merge.h"
+#include "scene/holds.h"
 #include "scene/make_scene.h"
 #include "scene/vessel_files.h"
 
@@ -118,18 +119,24 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
   tell("binding vessels to the body");
   std::string names;
   for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
-  return makeScene(std::move(*body), std::move(networks), file.edits, names);
+  return makeScene(std::move(*body), std::move(networks), file, names);
 }
 
-Result<Scene> makeScene(Body body, std::vector<Network> networks,
-                        std::span<const std::filesystem::path> edits, std::string_view names) {
+Result<Scene> makeScene(Body body, std::vector<Network> networks, const SceneFile& file,
+                        std::string_view names) {
   auto network =
       networks.size() == 1 ? Result<Network>(std::move(networks.front())) : mergeNetworks(networks);
-  if (network && !edits.empty()) network = replayJournals(*network, edits);
+  std::vector<VesselHold> holds;
+  if (network && !file.holds.empty()) {
+    auto read = readHolds(file.holds, *network);
+    if (!read) return read.error();
+    holds = std::move(*read);
+  }
+  if (network && !file.edits.empty()) network = replayJournals(*network, file.edits);
   if (!network) return network.error();
   auto binding = vasa::bind(body, *network, names);
   if (!binding) return binding.error();
-  return Scene{std::move(body), std::move(*network), std::move(*binding)};
+  return Scene{std::move(body), std::move(*network), std::move(*binding), std::move(holds)};
 }
 
 Result<const Clip*> findClip(const Body& body, std::string_view name) {

@@ -2,6 +2,7 @@
 #include "body/binding.h"
 #include "body/body.h"
 #include "body/limb_clearance.h"
+#include "body/sliding.h"
 #include "network/network.h"
 #include "scene/reading.h"
 #include "scene/scene_file.h"
@@ -13,6 +14,7 @@ struct Scene {
   Body body;
   Network network;  ///< all networks of the scene, merged
   Binding binding;
+  std::vector<VesselHold> holds;  ///< where vessels are held in their beds, besides forks
 };
 
 /// The body alone; where the clip is a .bvh file, with that motion carried to it (body/retarget.h) among its

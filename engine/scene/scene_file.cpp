@@ -239,6 +239,7 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
       {{"body", reader.path(scene.body)},
        {"networks", reader.paths(scene.networks)},
        {"edits", reader.paths(scene.edits)},
+       {"holds", reader.path(scene.holds)},
        {"clip", reader.text(scene.clip)},
        {"joint_map", reader.path(scene.jointMap)},
        {"as_recorded", reader.flag(scene.asRecorded)},

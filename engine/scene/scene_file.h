@@ -66,7 +66,7 @@ struct ViewChoice {
 
 /// What a scene is made of. JSON, all keys optional, paths relative to the file:
 ///   { "body": "body.glb", "networks": ["arteries.vasa", "veins.vasa"], "edits": ["lesions.vedit"],
-///     "clip": "walk" | "walk.bvh", "joint_map": "joints.txt", "as_recorded": false,
+///     "holds": "holds.csv", "clip": "walk" | "walk.bvh", "joint_map": "joints.txt", "as_recorded": false,
 ///     "camera": { "view": "front" | "position": [x,y,z], "target": [x,y,z], "angle": 30, "focus": "aorta",
 ///     "orthographic": true },
 ///     "look": { "preset": "atlas" | "clinical" | "xray", "background": [r,g,b,a], "skin": true, "bones":
@@ -85,7 +85,9 @@ struct SceneFile {
   std::filesystem::path body;
   std::vector<std::filesystem::path> networks;
   std::vector<std::filesystem::path>
-      edits;         ///< journals (edit/journal.h), replayed in order onto all networks together
+      edits;  ///< journals (edit/journal.h), replayed in order onto all networks together
+  std::filesystem::path
+      holds;         ///< where vessels are held in their beds (scene/holds.h); empty: at forks alone
   std::string clip;  ///< a clip's name or the beginning of it, or a .bvh file
   std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
   bool asRecorded = false;         ///< arms that pass through the body stay there (body/limb_clearance.h)

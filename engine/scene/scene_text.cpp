@@ -111,6 +111,7 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   if (!scene.body.empty()) json["body"] = named(scene.body, folder);
   add("networks", names(scene.networks));
   add("edits", names(scene.edits));
+  if (!scene.holds.empty()) json["holds"] = named(scene.holds, folder);
   if (!scene.clip.empty()) json["clip"] = isMotionFile(scene.clip) ? named(scene.clip, folder) : scene.clip;
   if (!scene.jointMap.empty()) json["joint_map"] = named(scene.jointMap, folder);
   if (scene.asRecorded) json["as_recorded"] = true;

@@ -109,6 +109,26 @@ TEST_CASE("flesh at the root of a limb follows the limb, though the bone before 
   CHECK(clad.bend[clad.at(1, 1)] < 0.1f);
 }
 
+TEST_CASE(
+    "the bone before a joint, where it reaches far down beside the link after it, holds no flesh back") {
+  Body body = chainBody({{0, 0, 0}, {0, 1, 0}, {0, 2, 0}});
+  SkinnedMesh& bones = body.meshes.emplace_back();
+  addBone(bones, 0, {0, 0, 0}, {0, 1, 0});
+  addBone(bones, 0, {0.1f, 0.9f, 0.05f}, {0.1f, 1.3f, 0.05f});  // as the seat bone does
+  addBone(bones, 1, {0, 1, 0}, {0, 2, 0});
+  SkinnedMesh skin;
+  addSkin(skin, {0, 0, 0}, 2, 0.2f, 0, 1, [](float y) { return 0.5f + 10 * (y - 1); });
+  body.meshes.push_back(skin);
+  Result<SpineSet> spines = deriveSpines(body.skeleton, body.name);
+  REQUIRE(spines);
+  for (SpineJoint& joint : spines->joints) joint.arc = 0.3f, joint.spreadsTwist = false;
+  const std::vector<vec4> points{{0.08f, 1.15f, 0, 1}, {0.1f, 1.15f, 0.045f, 1}, {0.08f, 0.85f, 0, 1}};
+  const Phases phases = measurePhases(*spines, BoneField(body, *spines), SkinField(body), points);
+  CHECK(phases.bend[phases.at(1, 0)] > 0.95f);
+  CHECK(phases.bend[phases.at(1, 1)] < 0.2f);  // on that bone
+  CHECK(phases.bend[phases.at(1, 2)] < 0.1f);
+}
+
 TEST_CASE("inside one leg's skin the other leg has no share") {
   Body body = chainBody({{0, 0, 0}, {0.1f, 0, 0}, {0.1f, -1, 0}, {-0.1f, 0, 0}, {-0.1f, -1, 0}});
   body.skeleton.joints[3].parent = {0};

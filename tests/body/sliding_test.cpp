@@ -71,10 +71,10 @@ TEST_CASE("sliding leaves the rest pose as it is, to the bit, and what is only m
 TEST_CASE(
     "strain evens out over the sliding length, across vessels joined end to end, in whichever direction they run") {
   for (const bool backwards : {false, true}) {
-    const Network network = lineNetwork(8, backwards);
-    std::vector<vec4> points = squeezed(network, 0.35f, 0.45f, 0.5f);
-    const float before = stretchOf(network, points, 3, backwards ? 1.0f : 6.0f, backwards ? 4.0f : 9.0f),
-                length = 0.75f;
+    const Network network = lineNetwork(24, backwards);
+    std::vector<vec4> points = squeezed(network, 1.15f, 1.25f, 0.5f);
+    const float before = stretchOf(network, points, 11, backwards ? 1.0f : 6.0f, backwards ? 4.0f : 9.0f),
+                length = 2.35f;
     CHECK(before == doctest::Approx(0.5f).epsilon(0.01));
     VesselSlider(network).run(points);
     // A rod tied to its bed: the mean of the strain, weighted by e^(-distance / ℓ) / 2ℓ.
@@ -83,16 +83,16 @@ TEST_CASE(
       const auto integral = [&](float t) {
         return t < s ? 0.5f * std::exp((t - s) / l) : 1 - 0.5f * std::exp((s - t) / l);
       };
-      return 1 - 0.5f * (integral(0.45f) - integral(0.35f));
+      return 1 - 0.5f * (integral(1.25f) - integral(1.15f));
     };
-    CHECK(stretchOf(network, points, 3, backwards ? 3.0f : 6.0f, backwards ? 4.0f : 7.0f) ==
-          doctest::Approx(expected(0.365f)).epsilon(0.02));
-    CHECK(stretchOf(network, points, 2, 4, 6) == doctest::Approx(expected(0.25f)).epsilon(0.02));
-    CHECK(stretchOf(network, points, 6, 4, 6) == doctest::Approx(expected(0.65f)).epsilon(0.03));
+    CHECK(stretchOf(network, points, 11, backwards ? 3.0f : 6.0f, backwards ? 4.0f : 7.0f) ==
+          doctest::Approx(expected(1.165f)).epsilon(0.02));
+    CHECK(stretchOf(network, points, 10, 4, 6) == doctest::Approx(expected(1.05f)).epsilon(0.02));
+    CHECK(stretchOf(network, points, 14, 4, 6) == doctest::Approx(expected(1.45f)).epsilon(0.03));
     // Between the ends, beyond which there is nothing to slide into, nothing is gained or lost, and no point
     // leaves the line.
     float whole = 0;
-    for (std::uint32_t v = 0; v < 8; ++v) whole += lengthOf(Network::pointsOf(network.vessels()[v], points));
+    for (std::uint32_t v = 0; v < 24; ++v) whole += lengthOf(Network::pointsOf(network.vessels()[v], points));
     CHECK(whole == doctest::Approx(length).epsilon(1e-4));
     CHECK(points[network.vessels()[0].firstPoint].x == network.points()[network.vessels()[0].firstPoint].x);
     for (std::uint32_t i = 0; i < network.vessels().back().firstPoint; ++i)
@@ -155,6 +155,24 @@ TEST_CASE("a vessel slides past a side branch at a fork, and two that are alike 
   };
   CHECK(shiftWith(0.7f * kRadius) < -0.01f);
   CHECK(shiftWith(0.9f * kRadius) == doctest::Approx(0));
+}
+
+TEST_CASE("where a vessel is held it stays in its bed, whichever way it runs, and strain evens out between") {
+  for (const bool backwards : {false, true}) {
+    const Network network = lineNetwork(3, backwards);
+    const std::vector<vec4> bed = squeezed(network, 0.1f, 0.2f, 0.5f);
+    const std::vector<VesselHold> holds{{"part", 0.4f}, {"no vessel of this network", 0.5f}};
+    std::vector<vec4> free = bed, held = bed;
+    VesselSlider(network).run(free);
+    VesselSlider(network, nullptr, holds).run(held);
+    for (std::uint32_t part = 0; part < 3; ++part) {
+      const std::uint32_t point = network.vessels()[part].firstPoint + 5;  // u = 4
+      CHECK(held[point].x == doctest::Approx(bed[point].x).epsilon(1e-6));
+      CHECK(std::abs(free[point].x - bed[point].x) > 1e-3f);
+    }
+    CHECK(stretchOf(network, bed, 1, 5, 9) == doctest::Approx(0.5f).epsilon(0.01));
+    CHECK(stretchOf(network, held, 1, 5, 9) == doctest::Approx(backwards ? 0.6f : 0.7f).epsilon(0.05));
+  }
 }
 
 TEST_CASE("sliding is continuous in the pose") {

@@ -24,7 +24,7 @@ struct Body {
   fs::path cache = folder.path() / "cache", kept = cache / "vasa";
 
   Body() {
-    for (const char* name : {"human.glb", "human.vasa", "growth"})
+    for (const char* name : {"human.glb", "human.vasa", "human.holds.csv", "growth"})
       fs::create_symlink(humanBody().parent_path() / name, folder.path() / name);
   }
   ProgramOptions with(const fs::path& where) const {

@@ -25,6 +25,7 @@ const Human& human() {
     SceneFile file;
     file.body = VASA_GOLDEN_DATA "/human.glb";
     file.networks = {VASA_GOLDEN_DATA "/human.vasa"};
+    file.holds = VASA_GOLDEN_DATA "/human.holds.csv";
     Scene scene = taken(loadScene(file));
     SceneGrowth growth = taken(loadGrowth(scene, VASA_GOLDEN_DATA "/growth"));
     return Human{std::move(scene), std::move(growth)};

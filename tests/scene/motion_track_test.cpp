@@ -130,7 +130,10 @@ TEST_CASE("a track of another motion and a damaged one are refused") {
     return readTrack(file, human(), clip, wanted).error().fault;
   };
   CHECK(faultOf(trackKey(human(), run, solved.options)) == Fault::resumeMismatch);
-  CHECK(faultOf(trackKey(human(), clip, {.keepVolume = false, .avoid = true})) == Fault::resumeMismatch);
+  Scene freed = human();
+  freed.holds.clear();
+  CHECK(faultOf(trackKey(freed, clip, solved.options)) == Fault::resumeMismatch);
+  CHECK(faultOf(trackKey(human(), clip, {.keep = Keep::wall, .avoid = true})) == Fault::resumeMismatch);
   const auto whole = readFile(file);
   REQUIRE(whole.ok());
   for (std::size_t at = 0; at < whole->size(); at += whole->size() / 40 + 1) {

@@ -162,7 +162,7 @@ TEST_CASE("each fault is told with its place") {
   CHECK(messageOf("[1]") == "x.json: / must be an object");
   CHECK(
       messageOf(R"({"boddy": 1})") ==
-      "x.json: /boddy is not a known key; use one of as_recorded, body, camera, capillaries, chosen, clip, edits, hidden, joint_map, labels, look, networks, pose, time, views");
+      "x.json: /boddy is not a known key; use one of as_recorded, body, camera, capillaries, chosen, clip, edits, hidden, holds, joint_map, labels, look, networks, pose, time, views");
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");

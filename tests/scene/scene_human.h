@@ -11,6 +11,7 @@ inline const Scene& human() {
     SceneFile file;
     file.body = VASA_HUMAN_DATA "/human.glb";
     file.networks = {VASA_HUMAN_DATA "/human.vasa"};
+    file.holds = VASA_HUMAN_DATA "/human.holds.csv";
     return loadScene(file);
   }();
   if (!scene.ok()) FAIL(scene.error().message);
