@@ -171,7 +171,8 @@ TEST_CASE("where a vessel is held it stays in its bed, whichever way it runs, an
       CHECK(std::abs(free[point].x - bed[point].x) > 1e-3f);
     }
     CHECK(stretchOf(network, bed, 1, 5, 9) == doctest::Approx(0.5f).epsilon(0.01));
-    CHECK(stretchOf(network, held, 1, 5, 9) == doctest::Approx(backwards ? 0.6f : 0.7f).epsilon(0.05));
+    // From 4 cm to 14 or, where that part runs backwards, 16 cm, and from there to 24 cm.
+    CHECK(stretchOf(network, held, 1, 5, 9) == doctest::Approx(backwards ? 0.75f : 0.7f).epsilon(0.005));
   }
 }
 

@@ -52,6 +52,27 @@ TEST_CASE("stretched and squeezed vessels keep their volume to 1e-5, rings at fo
   }
 }
 
+TEST_CASE("like walls: an artery's radii stay within a tenth, a vein gives way and does not fill") {
+  const Network network = sample();
+  const VolumeKeeper keeper(network, Keep::wall);
+  for (const float factor : {0.7f, 0.95f, 1.05f, 1.3f}) {
+    CAPTURE(factor);
+    auto points = stretched(network, factor);
+    keeper.run(points);
+    for (const Vessel& vessel : network.vessels()) {
+      if (vessel.end.valid()) continue;
+      const float change = Network::pointsOf(vessel, points).back().w / network.pointsOf(vessel).back().w;
+      const float wanted = 1 / std::sqrt(factor);
+      if (vessel.kind == VesselKind::artery) {
+        CHECK(change >= 0.9f * 0.9999f);
+        CHECK(change <= 1.1f * 1.0001f);
+        CHECK((change > 1) == (factor < 1));
+      } else
+        CHECK(change == doctest::Approx(std::min(wanted, 1.0f)).epsilon(1e-4));
+    }
+  }
+}
+
 TEST_CASE("beyond sane radii the rest is reported") {
   const Network network = sample();
   auto points = stretched(network, 30);
