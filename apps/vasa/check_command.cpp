@@ -80,7 +80,9 @@ VolumeErrors volumeErrors(const Network& network, std::span<const vec4> points, 
     const double error = std::abs(volumeOf(Network::pointsOf(vessel, points)) - rest) / rest;
     bool atLimit = narrow[v];
     const VolumeKeeper::Range range = VolumeKeeper::rangeOf(vessel.kind, keep);
-    for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p) {
+    const std::uint32_t first = vessel.firstPoint + vessel.start.valid(),  // rings at nodes keep their radii
+        end = vessel.firstPoint + vessel.pointCount - vessel.end.valid();
+    for (std::uint32_t p = first; p < end; ++p) {
       const float factor = points[p].w / network.points()[p].w;
       atLimit |= factor < 1.001f * range.lowest || factor > 0.999f * range.highest;
     }

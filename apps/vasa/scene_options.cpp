@@ -67,7 +67,7 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
   if (options.body.empty()) named.push_back(scene.body);
   if (options.networks.empty()) named.insert(named.end(), scene.networks.begin(), scene.networks.end());
   if (options.edits.empty()) named.insert(named.end(), scene.edits.begin(), scene.edits.end());
-  if (options.holds.empty()) named.push_back(scene.holds);
+  if (options.holds.empty() && options.networks.empty()) named.push_back(scene.holds);
   if (options.clip.empty() && isMotionFile(scene.clip)) named.emplace_back(scene.clip);
   if (options.jointMap.empty()) named.push_back(scene.jointMap);
   std::error_code ignored;
@@ -89,7 +89,10 @@ Result<SceneFile> chooseScene(const SceneOptions& options) {
     if (auto checked = checkNamed(scene, options); !checked) return checked.error();
   }
   if (!options.body.empty()) scene.body = options.body;
-  if (!options.networks.empty()) scene.networks.assign(options.networks.begin(), options.networks.end());
+  if (!options.networks.empty()) {
+    scene.networks.assign(options.networks.begin(), options.networks.end());
+    scene.holds.clear();  // of other vessels
+  }
   if (!options.edits.empty()) scene.edits.assign(options.edits.begin(), options.edits.end());
   if (!options.holds.empty()) scene.holds = options.holds;
   if (!options.clip.empty()) scene.clip = options.clip;

@@ -69,6 +69,9 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   }
   SceneOptions scene = options.scene;
   if (const std::filesystem::path file = scene.scene; !file.empty() && extensionOf(file) != ".json") {
+    if (!scene.holds.empty())
+      return Error{Fault::usage,
+                   "--holds is of vessels that --network gives; add --network " + file.string()};
     view.dropped = {file};
     scene.scene.clear();
   }

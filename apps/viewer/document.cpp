@@ -197,6 +197,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   made->rules = document.rules;
   made->journal = std::move(journal);
   made->scene.body = document.scene.body;
+  made->scene.holds = document.scene.holds;
   made->scene.binding = document.rebinder->rebind(*document.baseBinding, replay.network.points(),
                                                   keptOf(*document.base, replay));
   made->scene.network = std::move(replay.network);

@@ -11,7 +11,9 @@ struct Forces {
 
 /// @param contacts  places where vessels touch are wanted even where they are not moved apart
 inline FrameOptions frameOptions(const Forces& forces, bool contacts) {
-  FrameOptions options{.keep = forces.volume ? Keep::volume : Keep::radii, .avoid = forces.avoid || contacts, .beat = forces.beat};
+  FrameOptions options{.keep = forces.volume ? Keep::volume : Keep::radii,
+                       .avoid = forces.avoid || contacts,
+                       .beat = forces.beat};
   if (!forces.avoid) options.avoidance.rounds = options.avoidance.lumenRounds = 0;  // only look
   return options;
 }

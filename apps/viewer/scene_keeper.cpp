@@ -95,11 +95,12 @@ Result<std::filesystem::path> SceneKeeper::save(const Document& document, const 
   if (named || !lines.empty())
     if (const auto written = writeFileAtomically(journal, lines); !written) return written.error();
   SceneFile written = file;
+  // Without a table of holds these vessels have the built-in one: then what lacks it is named.
   if (!builtIn_.empty() && file.body == builtIn_ / "human.glb" &&
-      file.networks == std::vector{builtIn_ / "human.vasa"} && file.holds == builtIn_ / "human.holds.csv") {
+      file.networks == std::vector{builtIn_ / "human.vasa"} && !file.holds.empty()) {
     written.body.clear();
     written.networks.clear();
-    written.holds.clear();
+    if (file.holds == builtIn_ / "human.holds.csv") written.holds.clear();
   }
   if (const auto done = writeFileAtomically(file.path, sceneText(written, file.path.parent_path())); !done)
     return done.error();

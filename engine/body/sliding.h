@@ -12,7 +12,7 @@ namespace vasa {
 /// A place where a vessel is held: a tunnel, a hiatus, a band over it.
 struct VesselHold {
   std::string vessel;  ///< its name
-  float at = 0;        ///< share of its parameter, 0 to 1
+  float at = 0;        ///< share of its length at rest, 0 to 1
 };
 
 /// Lets vessels slide in their beds. Posed point by point a vessel is as short behind a bent knee as its bed,

@@ -8,9 +8,9 @@ namespace vasa {
 /// What a vessel keeps while a pose changes its length.
 enum class Keep : std::uint8_t {
   volume,  ///< its volume, exactly: the paper's way
-  wall,    ///< arteries their volume as far as their radii change by 10 % at the most (living arteries: 10 to
-         ///< 15); veins theirs as far as they do not widen: they give way where they are drawn out and do not
-         ///< fill where they are shortened
+  wall,    ///< arteries their volume as far as their radii change by 10 % at the most (areas of carotid
+         ///< arteries in turned heads change by less, Aristokleous 2011); veins theirs as far as they do not
+         ///< widen: they give way where they are drawn out and do not fill where they are shortened
   radii,
 };
 
@@ -22,7 +22,7 @@ enum class Keep : std::uint8_t {
 class VolumeKeeper {
  public:
   /// The volumes of the network at rest are the ones to keep.
-  /// @param keep  volume or wall
+  /// @param keep  wall, or else volume
   explicit VolumeKeeper(const Network& network, Keep keep = Keep::volume);
 
   struct Outcome {

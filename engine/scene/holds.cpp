@@ -21,9 +21,13 @@ Result<std::vector<VesselHold>> readHolds(const std::filesystem::path& path, con
       table->fault(r, "no vessel is called " + csv::quoted(hold.vessel) + "; " +
                           didYouMean(hold.vessel, names, "vasa info NET --vessels lists them"));
     holds.push_back(hold);
-    if (hasSide(hold.vessel)) holds.push_back({mirrored(hold.vessel), hold.at});
   }
   if (!table->state()) return table->state().error();
+  const std::vector<VesselHold> rows = holds;
+  for (const VesselHold& hold : rows)
+    if (const std::string other = mirrored(hold.vessel);
+        hold.vessel.starts_with("left ") && std::ranges::find(rows, other, &VesselHold::vessel) == rows.end())
+      holds.push_back({other, hold.at});
   return holds;
 }
 

@@ -15,7 +15,7 @@ namespace vasa {
 namespace {
 
 // The numeral goes up whenever a frame comes out otherwise for the same input.
-constexpr std::array<char, 8> kMagic{'v', 'a', 's', 'a', 't', 'r', 'k', '3'};
+constexpr std::array<char, 8> kMagic{'v', 'a', 's', 'a', 't', 'r', 'k', '4'};
 
 struct Header {
   std::array<char, 8> magic;

@@ -90,6 +90,16 @@ Result<Network> replayJournals(const Network& network, std::span<const std::file
   return editNetwork(network, edits);
 }
 
+// Holds go by names: what an edit renamed or cut off is held no more.
+void tellFreed(const Network& edited, std::span<const VesselHold> holds) {
+  std::string freed;
+  for (const VesselHold& hold : holds)
+    if (std::ranges::find(edited.vessels(), hold.vessel, &Vessel::name) == edited.vessels().end())
+      freed += (freed.empty() ? "" : ", ") + hold.vessel;
+  if (!freed.empty())
+    logWarning("after the edits no vessel bears these names, and none is held there: " + freed);
+}
+
 }  // namespace
 
 Result<Body> loadBody(const SceneFile& file) {
@@ -133,6 +143,7 @@ Result<Scene> makeScene(Body body, std::vector<Network> networks, const SceneFil
     holds = std::move(*read);
   }
   if (network && !file.edits.empty()) network = replayJournals(*network, file.edits);
+  if (network) tellFreed(*network, holds);
   if (!network) return network.error();
   auto binding = vasa::bind(body, *network, names);
   if (!binding) return binding.error();

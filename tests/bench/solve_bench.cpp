@@ -24,7 +24,9 @@ int main(int argc, char** argv) {
   if (argc < 4) return std::fputs(kUsage, stderr), 2;
   setThreadCount(argc > 4 ? unsigned(std::atoi(argv[4])) : 1);
   const int rounds = argc > 5 ? std::atoi(argv[5]) : 10;
-  const Scene scene = taken(loadScene({.body = argv[1], .networks = {argv[2]}}));
+  std::filesystem::path holds = std::filesystem::path(argv[2]).replace_extension(".holds.csv");
+  if (!std::filesystem::exists(holds)) holds.clear();
+  const Scene scene = taken(loadScene({.body = argv[1], .networks = {argv[2]}, .holds = holds}));
   const Clip* const clip = taken(findClip(scene.body, argv[3]));
   const std::uint32_t frames =
       argc > 6 ? std::min(clip->frameCount() - 1, std::uint32_t(std::atoi(argv[6]))) : clip->frameCount() - 1;

@@ -74,3 +74,50 @@ TEST_CASE("BVH files and joint maps that do not fit are refused") {
            "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n}\nMOTION\nFrames: 1\nFrame Time: 1\n0 0 0\n")},
       3, "joints in common");
 }
+
+TEST_CASE("vessels are held where a table says, which is refused where it names none") {
+  const TemporaryFolder folder;
+  const auto table = [&](const char* name, const std::string& row) {
+    REQUIRE(writeFileAtomically(folder.path() / name, "vessel,at,held_by\n" + row + "\n").ok());
+    return (folder.path() / name).string();
+  };
+  const auto told = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"check", "--clip", "walk", "--frames", "5", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments);
+  };
+  const std::vector<std::string> human{"--body", humanBody().string(), "--network", humanVessels().string()};
+  const auto withHuman = [&](std::vector<std::string> more) {
+    more.insert(more.end(), human.begin(), human.end());
+    return told(more);
+  };
+  const auto moved = [](const Outcome& outcome) {
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    return outcome.json()["summary"]["moved_rms_m"].get<double>();
+  };
+  const auto own = (humanBody().parent_path() / "human.holds.csv").string();
+  CHECK(moved(told({})) == moved(withHuman({"--holds", own})));  // the built-in human has its own
+  CHECK(moved(told({})) != moved(withHuman({})));
+  const auto wrong = told({"--holds", table("wrong.csv", "left anterior tibial artry,0.9,band")});
+  CHECK(wrong.exit == 3);
+  CHECK_MESSAGE(wrong.err.find("wrong.csv:2") != std::string::npos, wrong.err);
+  CHECK_MESSAGE(wrong.err.find("did you mean \"left anterior tibial artery\"") != std::string::npos,
+                wrong.err);
+  CHECK(told({"--holds", (folder.path() / "absent.csv").string()}).exit == 6);
+}
+
+TEST_CASE("what vessels keep is a choice of three") {
+  const auto volumeError = [](const char* keep) {
+    const auto outcome = runProgram({"check", "--clip", "squat", "--frames", "45", "--keep", keep, "--json"});
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    const auto summary = outcome.json()["summary"];
+    CHECK(summary["certified"] == true);
+    return std::pair(summary["volume_error"].get<double>(), summary["volume_gave_way"].get<int>());
+  };
+  const auto volume = volumeError("volume"), wall = volumeError("wall"), radii = volumeError("radii");
+  CHECK(volume.first < 1e-4);
+  CHECK(wall.second > volume.second);  // radii at a wall's limits
+  CHECK(wall.first < radii.first);
+  CHECK(runProgram({"check", "--keep", "shape"}).exit == 2);
+  CHECK(runProgram({"check", "--keep", "wall", "--no-volume"}).exit == 2);
+}

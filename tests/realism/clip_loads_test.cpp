@@ -56,7 +56,8 @@ TEST_CASE(
 TEST_CASE(
     "no motion of the built-in human kinks a vessel, strains one over 5 mm by 40 % or changes its length by 5 % in a frame") {
   const std::filesystem::path data = VASA_HUMAN_DATA;
-  const auto scene = loadScene({.body = data / "human.glb", .networks = {data / "human.vasa"}, .holds = data / "human.holds.csv"});
+  const auto scene = loadScene(
+      {.body = data / "human.glb", .networks = {data / "human.vasa"}, .holds = data / "human.holds.csv"});
   REQUIRE_MESSAGE(scene.ok(), scene.error().message);
   for (const Clip& clip : scene->body.clips) {
     FrameMaker maker(*scene, {.avoid = true});

@@ -45,10 +45,13 @@ TEST_CASE("a full scene is read, paths relative to the file") {
 
 TEST_CASE("a motion file's path is relative to the scene, a clip's name is no path") {
   const auto scene =
-      parseScene(R"({"clip": "walk.bvh", "joint_map": "map.txt", "as_recorded": true})", "/here", "x.json");
+      parseScene(R"({"clip": "walk.bvh", "joint_map": "map.txt", "holds": "h.csv", "as_recorded": true})",
+                 "/here", "x.json");
   REQUIRE(scene.ok());
   CHECK(scene->clip == "/here/walk.bvh");
   CHECK(scene->jointMap == "/here/map.txt");
+  CHECK(scene->holds == "/here/h.csv");
+  CHECK(parseScene(sceneText(*scene, "/here"), "/here", "x.json")->holds == scene->holds);
   CHECK(scene->asRecorded);
   CHECK(parseScene(sceneText(*scene, "/here"), "/here", "x.json")->asRecorded);
   CHECK(isMotionFile(scene->clip));

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     return std::fprintf(stderr, "there is no such clip, or no such vessel\n"), 1;
 
   // Pose the joints, carry the vessels along, keep their volumes, move them apart where they touch.
-  vasa::FrameMaker maker(*scene, {.keepVolume = true, .avoid = true});
+  vasa::FrameMaker maker(*scene, {.avoid = true});
   maker.make(*clip, std::strtof(argv[4], nullptr));
 
   // The vessel's B-spline: de Boor points x y z and radius, in metres.

@@ -31,7 +31,7 @@ int draw(Host& host, char** argv) {
       {host.instance, host.physical, host.device, host.queue, host.queueFamily, host.enabled});
   vasa::Renderer renderer(device, scene->network, scene->body.meshes, {.width = kWidth, .height = kHeight});
 
-  vasa::FrameMaker maker(*scene, {.keepVolume = true, .avoid = true});
+  vasa::FrameMaker maker(*scene, {.avoid = true});
   maker.make(*clip, std::strtof(argv[4], nullptr));
   const vasa::Camera camera =
       vasa::cameraFrom(vasa::View::front, vasa::motionBounds(*scene, *clip), float(kWidth) / kHeight);
