@@ -21,6 +21,7 @@ const Document& human() {
     SceneFile file;
     file.body = kData / "human.glb";
     file.networks = {kData / "human.vasa"};
+    file.holds = kData / "human.holds.csv";
     const auto document = loadDocument(file, {}, [](const char*, std::size_t, std::size_t) {});
     REQUIRE_MESSAGE(document, (document ? "" : document.error().message));
     return *document;
@@ -47,6 +48,13 @@ std::size_t rowNamed(std::span<const OutlinerRow> rows, std::string_view name) {
 }
 
 }  // namespace
+
+TEST_CASE("an edited document's vessels are held where they were") {
+  const auto edited = editedDocument(human(), {R"(stenosis "left femoral artery" 0.5 10 70)"}, false);
+  REQUIRE_MESSAGE(edited, (edited ? "" : edited.error().message));
+  CHECK(!human().scene.holds.empty());
+  CHECK((*edited)->scene.holds.size() == human().scene.holds.size());
+}
 
 TEST_CASE("the list is folded by system and region, and a search lists what answers, best first") {
   ViewState state;
