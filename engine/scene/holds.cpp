@@ -26,7 +26,8 @@ Result<std::vector<VesselHold>> readHolds(const std::filesystem::path& path, con
   const std::vector<VesselHold> rows = holds;
   for (const VesselHold& hold : rows)
     if (const std::string other = mirrored(hold.vessel);
-        hold.vessel.starts_with("left ") && std::ranges::find(rows, other, &VesselHold::vessel) == rows.end())
+        hold.vessel.starts_with("left ") && std::ranges::find(names, other) != names.end() &&
+        std::ranges::find(rows, other, &VesselHold::vessel) == rows.end())
       holds.push_back({other, hold.at});
   return holds;
 }

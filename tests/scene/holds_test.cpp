@@ -10,9 +10,9 @@ using namespace vasa;
 
 namespace {
 
-Network twoArteries() {
+Network arteries(std::initializer_list<float> sides = {-0.1f, 0.1f}) {
   NetworkBuilder builder;
-  for (const float x : {-0.1f, 0.1f}) {
+  for (const float x : sides) {
     std::vector<vec4> points;
     for (int i = 0; i < 6; ++i) points.emplace_back(x, 0.01f * float(i), 0, 0.002f);
     builder.addVessel({x > 0 ? "left ulnar artery" : "right ulnar artery", "", VesselKind::artery}, points);
@@ -28,12 +28,13 @@ TEST_CASE("a table of holds: what is said of the left is held on the right, too"
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "holds.csv";
   REQUIRE(writeFileAtomically(path, "# bands\nvessel,at,held_by\nleft ulnar artery,0.9,ulnar canal\n"));
-  const auto holds = readHolds(path, twoArteries());
+  const auto holds = readHolds(path, arteries());
   REQUIRE_MESSAGE(holds.ok(), holds.error().message);
   REQUIRE(holds->size() == 2);
   CHECK((*holds)[0].vessel == "left ulnar artery");
   CHECK((*holds)[1].vessel == "right ulnar artery");
   CHECK((*holds)[1].at == 0.9f);
+  CHECK(readHolds(path, arteries({0.1f}))->size() == 1);  // where there is one
 }
 
 TEST_CASE("a hold that is nowhere is refused with its line and a name that was likely meant") {
@@ -41,7 +42,7 @@ TEST_CASE("a hold that is nowhere is refused with its line and a name that was l
   const auto path = folder.path() / "holds.csv";
   const auto refusal = [&](std::string_view row) {
     REQUIRE(writeFileAtomically(path, "vessel,at,held_by\n" + std::string(row) + "\n"));
-    const auto holds = readHolds(path, twoArteries());
+    const auto holds = readHolds(path, arteries());
     REQUIRE(!holds.ok());
     CHECK(holds.error().fault == Fault::badInput);
     return holds.error().message;
