@@ -19,6 +19,7 @@
 #include "pose_pictures.h"
 #include "realism/pose_map.h"
 #include "report.h"
+#include "scene/motion_track.h"
 #include "scene_options.h"
 #include "tissue_options.h"
 
@@ -306,9 +307,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!scene) return scene.error();
   std::string settings;
   for (const PoseRay& ray : *rays) settings += ray.name() + "|";
-  settings += fmt::format("{} {} {} {} {} {} {} {:016x} {:016x}", options.step, options.kink, options.lumen,
-                          options.strain, options.depth, int(options.tissue.kept()), options.tissue.noSlide,
-                          files.hash(), hashOf(scene->network.points()));
+  settings +=
+      fmt::format("{} {} {} {} {} {} {} {} {:016x} {:016x}", kMotionEdition, options.step, options.kink,
+                  options.lumen, options.strain, options.depth, int(options.tissue.kept()),
+                  options.tissue.noSlide, files.hash(), hashOf(scene->network.points()));
   const fs::path folder = options.output;
   if (!options.output.empty()) {
     if (auto made = makeOutputFolder(folder / "rays"); !made) return made;

@@ -21,6 +21,7 @@
 #include "look_options.h"
 #include "output_folder.h"
 #include "report.h"
+#include "scene/motion_track.h"
 #include "scene_options.h"
 #include "tissue_options.h"
 #include "track_option.h"
@@ -87,7 +88,7 @@ std::string settingsOf(const CLI::App& sub) {
   static const std::set<std::string> otherwise{"SCENE",       "--body",   "--network", "--clip",
                                                "--joint-map", "--growth", "--output",  "--frames",
                                                "--video",     "--shard",  "--resume",  "--track"};
-  std::string settings = VASA_VERSION;
+  std::string settings = fmt::format("{} {}", VASA_VERSION, kMotionEdition);
   for (const CLI::Option* option : sub.get_options()) {
     if (otherwise.contains(option->get_name())) continue;
     settings += fmt::format(

@@ -19,7 +19,7 @@ namespace {
 constexpr float kCompliance = 1e-3f;           // α as a share of a·g
 constexpr float kOverRelaxation = 1.3f;        // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
 constexpr unsigned kPlainSweeps = 5;           // at the end: between walls an over-relaxed step goes too far
-constexpr float kSettled = 1e-6f;              // [m]
+constexpr float kSettled = 1e-6f;              // [m] a step that moves a place by less is not made
 constexpr float kClearanceShare = 0.02f;       // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;       // [m]
 constexpr float kBoneClearance = 1e-4f;        // [m]
@@ -27,6 +27,7 @@ constexpr float kSameParameter = 0.04f;        // constraints of one pair closer
 constexpr float kSameDirection = 0.98f;        // ... if their normals are about the same too
 constexpr float kSameWay = 0.7f;               // ... of a bone, whose planes turn
 constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::carried)
+constexpr float kSameSide = 0.5f;              // cosine between a gap and what the last one has become
 constexpr float kNegligible = 2e-6f;           // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;        // below it nothing that may move can mend the place
 // How far a multiplier may push on its own: times what is lacking and the radii.
@@ -64,9 +65,24 @@ vec3 wayApart(vec3 gap, vec3 before, float distance, vec3 otherwise) {
   return unitOr(gap + sure * (turn * distance - std::min(beyond, 0.0f)) * side, unitOr(before, otherwise));
 }
 
+// The gap of two places in the last shape, as the motion has carried it along, without what lies along the
+// tubes.
+vec3 gapBefore(const Contact& at, std::span<const Bezier> shape, const LastShape& last) {
+  const vec3 apart = vec3(last.tubes[at.i].at(at.s)) - vec3(last.tubes[at.j].at(at.t));
+  return sideways(0.5f * (last.turns[at.i] * apart + last.turns[at.j] * apart),
+                  unitOr(vec3(shape[at.i].derivative(at.s)), vec3(0)),
+                  unitOr(vec3(shape[at.j].derivative(at.t)), vec3(0)));
+}
+
 auto keyOf(const Constraint& constraint) { return std::pair{constraint.i, constraint.other}; }
 
 }  // namespace
+
+bool keepsSide(const Contact& at, std::span<const Bezier> shape, const LastShape& last) {
+  const vec3 gap = vec3(shape[at.i].at(at.s)) - vec3(shape[at.j].at(at.t)),
+             before = gapBefore(at, shape, last);
+  return glm::dot(gap, before) > kSameSide * glm::length(gap) * glm::length(before);
+}
 
 ContactPool::ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides)
     : space_(&space), interference_(&interference), sides_(&sides) {}
@@ -138,12 +154,9 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     Constraint constraint{.i = i, .other = j, .s = s, .t = t};
     constraint.clearance = clearanceFor(constraint, a.w + b.w);
     const float distance = a.w + b.w + constraint.clearance;
-    const vec3 apart = vec3(last.tubes[i].at(s)) - vec3(last.tubes[j].at(t));
     const vec3 before = last.anew[i] || last.anew[j]
                             ? 0.5f * distance * sides_->carried({i, j, s, t}, shape, last.rotations)
-                            : sideways(0.5f * (last.turns[i] * apart + last.turns[j] * apart),
-                                       unitOr(vec3(shape[i].derivative(s)), vec3(0)),
-                                       unitOr(vec3(shape[j].derivative(t)), vec3(0)));
+                            : gapBefore({i, j, s, t}, shape, last);
     constraint.normal = wayApart(gap, before, distance, contactNormal);
     const float lack = distance - glm::dot(constraint.normal, gap);
     if (lack <= kNegligible) continue;
@@ -167,8 +180,8 @@ void ContactPool::propose(const BoneContact& place, std::span<const Bezier> shap
                 .s = place.s,
                 .normal = place.normal,
                 .point = place.point};
-  constraint.clearance =
-      place.allowed < 0 ? place.allowed : std::max(kClearanceShare * radius, kBoneClearance);
+  constraint.clearance = place.allowed + std::max(kClearanceShare * radius,
+                                                  place.allowed < 0 ? kLeastClearance : kBoneClearance);
   constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
   giveRow(constraint, found.rows);
 }
@@ -281,7 +294,7 @@ float ContactPool::ascend(Constraint& constraint, float relaxation) {
   const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
   const float step = std::clamp(relaxation * lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
                                 std::max(constraint.limit - constraint.multiplier, 0.0f));
-  if (step == 0) return 0;
+  if (std::abs(step) * diagonal < kSettled) return 0;
   constraint.multiplier += step;
   push<vec4>(constraint, vec4(step * constraint.normal, 0), z_);
   return std::abs(step) * diagonal;
@@ -294,7 +307,7 @@ void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
     float largest = 0;
     const float relaxation = sweep + kPlainSweeps < sweeps ? kOverRelaxation : 1;
     for (Constraint& constraint : constraints_) largest = std::max(largest, ascend(constraint, relaxation));
-    if (largest < kSettled) break;
+    if (largest == 0) break;
   }
   std::ranges::transform(z_, z.begin(), [](vec4 own) { return vec3(own); });
 }

@@ -19,6 +19,9 @@ struct LastShape {
   std::span<const char> anew;       ///< a tube each: 1 where the shape at rest decides instead
 };
 
+/// Whether two tubes lie about as they lay in the last shape, at a place of both.
+bool keepsSide(const Contact& at, std::span<const Bezier> shape, const LastShape& last);
+
 /// n · (C_i(s) - C_j(t)) >= distance for one pair of parameters of two tubes; or a fixed point of a bone in
 /// place of C_j.
 struct Constraint {
@@ -58,7 +61,8 @@ class ContactPool {
   /// To be called before add() in every round: distances for the radii of the given shape.
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
 
-  /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves anything.
+  /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves its place by a
+  /// micrometre; a lack of less is left.
   void ascend(unsigned sweeps, std::span<vec3> z);
 
   std::size_t size() const { return constraints_.size(); }

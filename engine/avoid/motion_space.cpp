@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kSmallestWeight = 1e-3f;  // what a place owes to hosts of hosts is followed down to this
 constexpr float kSmallestResponse = 1e-3f;
-constexpr float kSamePace = 1.0001f;                 // of what is allowed: above rounding
+constexpr float kSamePace = 1.0001f;                 // below what is allowed by that much: above rounding
 constexpr std::size_t kVesselGrain = 64;             // as many as are worth another thread
 constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
 
@@ -200,8 +200,8 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z,
   difference_.resize(z.size());
   for (std::size_t v = 0; v < z.size(); ++v) difference_[v] = z[v] - other[v];
   const auto shorten = [&](vec3& variable, std::uint32_t point, vec3 motion) {
-    const float length = glm::length(motion), most = allowed(point, length);
-    if (!(length > kSamePace * most)) return false;
+    const float length = glm::length(motion), limit = allowed(point, length), most = limit / kSamePace;
+    if (!(length > limit)) return false;
     variable += (most / length - 1) * motion;
     return true;
   };

@@ -23,8 +23,14 @@ constexpr float kWidening = 0.3f;
 constexpr float kMargin = 1e-4f;  // [m] contacts are held from here on, not only once they overlap
 // Cosine of the angle from which on vessels that roll around one another are turned back.
 constexpr float kRolled = 0;
-// Of the radii: a step in which something comes deeper into another is too long.
+// Of the radii: a step in which something comes deeper into another, and no more lies as it lay, is too long.
 constexpr float kDeepest = 0.5f;
+// Of the radius, counted as a millimetre at least (a bone has no lumen to give way, and its field is no
+// finer): likewise in a bone, where the way out that was found is about the nearest one, and where it is not.
+// With 1 for both the scanned body's walk takes a sixth more detections; without a bound on the first it has
+// a jump of 16 mm.
+constexpr float kDeepestInBone = 1.5f, kDeepestUnsure = 1, kLeastRadius = 1e-3f;
+constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
 // [m/s] at which a vessel may be moved aside among others that stand still
 constexpr float kPace = 0.04f;
 // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
@@ -44,9 +50,11 @@ std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
   return tubesOf(contacts, [](const BoneContact&) { return true; });
 }
 
+// A bone in which the tube was not at rest.
+bool isEntered(const BoneContact& contact) { return contact.allowed == 0; }
+
 BoneReport reportOf(std::span<const BoneContact> contacts) {
-  const auto atRest = [](const BoneContact& contact) { return contact.allowed < 0; };
-  BoneReport report{tubesOf(contacts, std::not_fn(atRest)), tubesOf(contacts, atRest)};
+  BoneReport report{tubesOf(contacts, isEntered), tubesOf(contacts, std::not_fn(isEntered))};
   for (const BoneContact& contact : contacts)
     report.depth = std::max(report.depth, contact.allowed - contact.f);
   return report;
@@ -93,21 +101,25 @@ struct Avoider::State {
   void carry(std::span<const quat> rotations);
   void keepPace(const Input& in);
   vec3 onCurve(std::span<const vec4> points, std::size_t point) const;
-  bool isTooLong() const;
+  bool isTooLong(const Input& in) const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
-  using Trouble =
-      std::pair<std::size_t, std::size_t>;  // places where vessels interfere; and where they are in bones
+  // Places where vessels interfere; and where they entered bones. What lay in one at rest and comes deeper is
+  // held back as well as it goes, and is no reason to begin anew: data that have a vessel in a bone are wrong
+  // there by more than that.
+  using Trouble = std::pair<std::size_t, std::size_t>;
   enum class Look { first, again, certain };
   void look(const Input& in, std::span<const vec4> points, Look how);
   void lookAtSolids(const Input& in, Bones::Which which);
   bool settled() const;
   void separate(const Input& in);
-  void giveWay(const Input& in, Look how);
+  void giveWay(const Input& in, bool isLast);
   void solve(const Input& in, bool isLast);
   void solveAnew(const Input& in, bool isLast, float reach);
   void chooseAnew(std::span<const vec4> points, float reach);
-  Trouble trouble() const { return {remaining.size(), boneContacts.size()}; }
+  Trouble trouble() const { return {remaining.size(), std::ranges::count_if(boneContacts, isEntered)}; }
+  bool isInTrouble() const { return trouble() > Trouble{}; }
+  bool mayHalvesHelp() const;
   void accept(const PosedVessels& posed);
   void sumUp(const Input& in);
 
@@ -120,6 +132,7 @@ struct Avoider::State {
   RestSides sides;
   ContactPool pool;
   Correction accepted, correction;  // of the last step, and of this one
+  Trouble acceptedTrouble;          // likewise
   std::vector<Bezier> lastTubes;    // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
@@ -138,6 +151,7 @@ struct Avoider::State {
   std::vector<BoneContact> left;                  // in bones, after the last step
   std::vector<Contact> changed;
   std::vector<NarrowPlace> narrowed;
+  AvoidReport refused;  // what steps took that were not made, since the last one that was
   VolumeKeeper::Outcome volumeOutcome;
   VolumeKeeper::Memory volumes;  // of the last round's shape: most vessels are not moved again
 };
@@ -271,15 +285,14 @@ void Avoider::State::separate(const Input& in) {
 
 // Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the
 // end, where that only moves the trouble about, volume is given up for the certificate.
-void Avoider::State::giveWay(const Input& in, Look how) {
+void Avoider::State::giveWay(const Input& in, bool isLast) {
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
     const bool lastResort = 2 * round >= options.lumenRounds;
-    if (remaining.empty() && boneContacts.empty()) return;
+    if (!isInTrouble()) return;
     {
       StageClock clock(in.report.solveMs);
       std::vector<BoneContact> entered;
-      std::ranges::copy_if(boneContacts, std::back_inserter(entered),
-                           [](const BoneContact& contact) { return contact.allowed == 0; });
+      std::ranges::copy_if(boneContacts, std::back_inserter(entered), isEntered);
       if (lastResort)
         for (const Interference::Place& place : remaining)
           for (const std::uint32_t tube : {place.contact.i, place.contact.j}) {
@@ -293,7 +306,7 @@ void Avoider::State::giveWay(const Input& in, Look how) {
              correction.widest);
       place(in);
     }
-    look(in, in.points, how);
+    look(in, in.points, isLast ? Look::certain : Look::again);
   }
 }
 
@@ -304,7 +317,6 @@ void Avoider::State::solve(const Input& in, bool isLast) {
     separate(in);
     look(in, in.points, Look::certain);
   }
-  giveWay(in, isLast ? Look::certain : Look::again);
 }
 
 // The vessels within reach of the places that are in trouble.
@@ -313,7 +325,8 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
   std::vector<vec3> centres;
   for (const Interference::Place& place : remaining)
     centres.push_back(vec3(tubes[place.contact.i].at(place.contact.s)));
-  for (const BoneContact& contact : boneContacts) centres.push_back(vec3(tubes[contact.tube].at(contact.s)));
+  for (const BoneContact& contact : boneContacts)
+    if (isEntered(contact)) centres.push_back(vec3(tubes[contact.tube].at(contact.s)));
   for (const Vessel& vessel : network.vessels()) {
     const bool isNear = std::ranges::any_of(Network::pointsOf(vessel, points), [&](const vec4& point) {
       return std::ranges::any_of(centres,
@@ -344,6 +357,7 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   place(in);
   look(in, in.points, Look::first);
   solve(in, isLast);
+  giveWay(in, isLast);
   std::ranges::fill(anewTubes, false);
   std::ranges::fill(anewPoints, false);
   if (trouble() < before) return;
@@ -352,19 +366,21 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   look(in, in.points, isLast ? Look::certain : Look::first);
 }
 
-// Whether the motion has brought something so far into one another's way that the side it came from is a
+// Whether the motion has brought something so far into something else's way that the side it came from is a
 // guess.
-bool Avoider::State::isTooLong() const {
+bool Avoider::State::isTooLong(const Input& in) const {
+  const std::span<const Bezier> tubes = interference.tubes();
+  const LastShape last{lastTubes, turns, in.posed.rotations, anewTubes};
   return std::ranges::any_of(remaining,
                              [&](const Interference::Place& place) {
-                               const Contact& contact = place.contact;
-                               const float radii = interference.tubes()[contact.i].at(contact.s).w +
-                                                   interference.tubes()[contact.j].at(contact.t).w;
-                               return place.excess() > kDeepest * radii;
+                               const auto& [i, j, s, t, f, normal] = place.contact;
+                               return place.excess() > kDeepest * (tubes[i].at(s).w + tubes[j].at(t).w) &&
+                                      !keepsSide(place.contact, tubes, last);
                              }) ||
          std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
-           return contact.allowed - contact.f >
-                  kDeepest * 2 * std::max(interference.tubes()[contact.tube].at(contact.s).w, 1e-3f);
+           const float radius = std::max(tubes[contact.tube].at(contact.s).w, kLeastRadius);
+           const bool isSure = glm::dot(contact.normal, contact.nearestNormal) > kSureOfBone;
+           return contact.allowed - contact.f > (isSure ? kDeepestInBone : kDeepestUnsure) * radius;
          });
 }
 
@@ -373,8 +389,12 @@ void Avoider::State::accept(const PosedVessels& posed) {
   std::ranges::copy(posed.rotations, lastRotations.begin());
   std::ranges::copy(posed.points, lastPosed.begin());
   accepted = correction;
+  acceptedTrouble = trouble();
   if (bones) bones->keepPose();
 }
+
+// Not where nothing is ever moved apart, and not for what the last step could not mend either.
+bool Avoider::State::mayHalvesHelp() const { return options.rounds > 0 && trouble() > acceptedTrouble; }
 
 void Avoider::State::sumUp(const Input& in) {
   AvoidReport& report = in.report;
@@ -426,6 +446,7 @@ AvoidReport Avoider::start(const Correction& correction, const PosedVessels& pos
   }
   AvoidReport report;
   const State::Input in{posed, volume, state.shape, report};
+  state.refused = {};
   state.pool.clear();
   state.pose(posed);
   state.place(in);
@@ -452,11 +473,18 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
     state.carry(posed.rotations);
     state.place(in);
   }
+  const auto refuse = [&] {
+    state.refused.addTimes(report);
+    return std::optional<AvoidReport>();
+  };
   state.look(in, state.shape, State::Look::first);
-  if (!stride.atAnyLength && state.isTooLong()) return {};
+  if (!stride.atAnyLength && state.isTooLong(in)) return refuse();
   state.solve(in, stride.isLast);
-  if (state.trouble() > State::Trouble{}) state.solveAnew(in, stride.isLast, kNear);
+  if (!stride.atAnyLength && state.mayHalvesHelp()) return refuse();
+  state.giveWay(in, stride.isLast);
+  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNear);
   if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
+  report.addTimes(std::exchange(state.refused, {}));
   state.accept(posed);
   state.sumUp(in);
   std::ranges::copy(state.shape, points.begin());

@@ -40,12 +40,12 @@ struct AvoidReport {
   Certificate after;
   BoneReport bonesAfter;
   std::uint32_t skinContactsAfter = 0;
-  std::uint32_t constraints = 0;                 ///< in the pool at the end
-  std::uint32_t rounds = 0;                      ///< detections that asked for a correction
-  float movedMax = 0, movedRms = 0;              ///< [m] of de Boor points, by the correction
-  VolumeKeeper::Outcome volume;                  ///< after the last change of radii
-  std::uint32_t narrowSpans = 0;                 ///< spans whose lumen gave way
-  float leastLumen = 1;                          ///< the thinnest of them, by the radius at rest
+  std::uint32_t constraints = 0;     ///< in the pool at the end
+  std::uint32_t rounds = 0;          ///< detections that asked for a correction, also in steps not made
+  float movedMax = 0, movedRms = 0;  ///< [m] of de Boor points, by the correction
+  VolumeKeeper::Outcome volume;      ///< after the last change of radii
+  std::uint32_t narrowSpans = 0;     ///< spans whose lumen gave way
+  float leastLumen = 1;              ///< the thinnest of them, by the radius at rest
   double detectMs = 0, boneMs = 0, solveMs = 0;  ///< over all rounds; bones are looked at apart
   double certifyMs = 0;                          ///< the last look, which is the certificate
   /// Of a frame that took several steps.
@@ -55,7 +55,8 @@ struct AvoidReport {
 /// How a pose is reached from the one before.
 struct Stride {
   float seconds = 0;  ///< since then
-  /// False: where that brings something far into something else's way it is not made.
+  /// False: where it would be a guess on which side of one another something comes to lie, or something is
+  /// left in something's way, it is not made.
   bool atAnyLength = false;
   bool isLast = false;  ///< the result is shown: it is certified by a query of its own
 };
@@ -73,9 +74,10 @@ struct Correction {
 /// with z0 the faded correction and W as in avoid/motion_space.h, so that branches stay joined. Contacts lie
 /// on the side on which the last admissible shape had them, so that no vessel passes through another. Method:
 /// dual coordinate ascent (Hildreth 1957) over a pool of contacts that is detected anew each round and only
-/// grows; then, where there is no room, thinner vessels. The certificate by an exact query comes last.
-/// Budgets are fixed and the order is that of the pairs: a step depends on the correction before and the two
-/// poses alone.
+/// grows. A step that may be refused is, where that leaves something in something's way; else, where there is
+/// no room, vessels become thinner, and what is caught starts anew from the pose. The certificate by an exact
+/// query comes last. Budgets are fixed and the order is that of the pairs: a step depends on the correction
+/// before and the two poses alone.
 class Avoider {
  public:
   /// @param network  must outlive this
@@ -94,7 +96,8 @@ class Avoider {
   /// @param posed    the posed network, before any correction
   /// @param volume   keeps the vessels' volume while they are moved, or null
   /// @param points   caller-owned; the result on return
-  /// @return nothing if the step was not made, which leaves everything as it was
+  /// @return nothing if the step was not made, which leaves everything as it was but for the times that the
+  /// next report tells
   std::optional<AvoidReport> step(const PosedVessels& posed, const VolumeKeeper* volume, const Stride& stride,
                                   std::span<vec4> points);
 

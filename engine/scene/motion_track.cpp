@@ -14,8 +14,8 @@
 namespace vasa {
 namespace {
 
-// The numeral goes up whenever a frame comes out otherwise for the same input.
-constexpr std::array<char, 8> kMagic{'v', 'a', 's', 'a', 't', 'r', 'k', '4'};
+constexpr std::array<char, 8> kMagic{'v', 'a', 's', 'a', 't', 'r', 'k', char('0' + kMotionEdition)};
+static_assert(kMotionEdition < 10);
 
 struct Header {
   std::array<char, 8> magic;
@@ -160,8 +160,13 @@ Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& sc
       badInput(path.string() + ": is no whole track of a motion; remove it and it is made anew");
   ByteReader reader(*bytes);
   Header header;
-  if (!reader.take(header) || header.magic != kMagic || header.hash != hashOfFile(header, reader.rest()))
-    return damaged;
+  const bool isWhole = reader.take(header);
+  if (isWhole && header.magic != kMagic && std::equal(kMagic.begin(), kMagic.end() - 1, header.magic.begin()))
+    return Error{Fault::resumeMismatch,
+                 path.string() +
+                     ": was made by another version of vasa, whose frames come out otherwise; "
+                     "choose another file, or remove it and it is made anew"};
+  if (!isWhole || header.magic != kMagic || header.hash != hashOfFile(header, reader.rest())) return damaged;
   if (header.key != key)
     return Error{Fault::resumeMismatch, path.string() +
                                             ": is the track of another motion (other vessels, body, clip or "

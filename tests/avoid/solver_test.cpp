@@ -406,7 +406,33 @@ TEST_CASE("a step that is refused leaves everything as it was, and so does a loo
     REQUIRE(asked.step(motion.at(float(k) / 30), nullptr, {1 / 30.0f, true, true}, again));
     CHECK(again == points);
   }
-  CHECK(refused > 10);
+  CHECK(refused > 5);
+}
+
+TEST_CASE("a step that leaves vessels in one another is refused once solved, and told with the next one") {
+  const Turning motion;
+  const AvoidOptions idle{.rounds = 1, .sweeps = 0};  // finds, and moves nothing
+  Avoider avoider(motion.network, nullptr, idle), asked(motion.network, nullptr, idle);
+  std::vector<vec4> points(motion.network.points().size()), again(points);
+  avoider.start({}, motion.at(0), nullptr, points);
+  asked.start({}, motion.at(0), nullptr, again);
+  std::uint32_t refused = 0;
+  for (int k = 1; k < 13; ++k) {
+    CAPTURE(k);
+    const test::Posed next = motion.at(float(k) / 10);
+    const std::vector<vec4> before = again;
+    const bool isMade = asked.step(next, nullptr, {0.1f, false, false}, again).has_value();
+    const auto report = avoider.step(next, nullptr, {0.1f, true, false}, points);
+    REQUIRE(report);
+    if (!isMade) {
+      CHECK(again == before);
+      const auto told = asked.step(next, nullptr, {0.1f, true, false}, again);
+      REQUIRE(told);
+      refused += told->rounds > report->rounds;
+    }
+    CHECK(again == points);
+  }
+  CHECK(refused > 0);
 }
 
 TEST_CASE("a motion does not depend on threads or on the motions before it") {
