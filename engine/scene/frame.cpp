@@ -17,8 +17,8 @@ namespace {
 // leaves something in something's way, is made in halves. 8 and 12 degrees were measured, too: up to a
 // quarter more work, and no fewer jumps.
 constexpr float kLongestTurn = 16 * kPi / 180;
-// Of that. Quarters and eighths were measured, too: what passes through one another in the pose is caught
-// more often by them, and takes up to four times as long; whole steps alone leave more in one another's way.
+// Of that. Quarters and eighths were measured with steps of 8 degrees, too: what passes through one another
+// in the pose is caught more often by them, and takes up to four times as long.
 constexpr float kShortestStep = 0.5f;
 // Steps on end that leave vessels in one another, after which the rest of the way is made at once: in a pose
 // that no body takes (limbs through the trunk, by a wrong map of joints) small steps cost as much as large
