@@ -119,7 +119,7 @@ struct Avoider::State {
   void chooseAnew(std::span<const vec4> points, float reach);
   Trouble trouble() const { return {remaining.size(), std::ranges::count_if(boneContacts, isEntered)}; }
   bool isInTrouble() const { return trouble() > Trouble{}; }
-  bool mayHalvesHelp() const;
+  bool halvesMayHelp() const;
   void accept(const PosedVessels& posed);
   void sumUp(const Input& in);
 
@@ -394,7 +394,7 @@ void Avoider::State::accept(const PosedVessels& posed) {
 }
 
 // Not where nothing is ever moved apart, and not for what the last step could not mend either.
-bool Avoider::State::mayHalvesHelp() const { return options.rounds > 0 && trouble() > acceptedTrouble; }
+bool Avoider::State::halvesMayHelp() const { return options.rounds > 0 && trouble() > acceptedTrouble; }
 
 void Avoider::State::sumUp(const Input& in) {
   AvoidReport& report = in.report;
@@ -480,7 +480,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   state.look(in, state.shape, State::Look::first);
   if (!stride.atAnyLength && state.isTooLong(in)) return refuse();
   state.solve(in, stride.isLast);
-  if (!stride.atAnyLength && state.mayHalvesHelp()) return refuse();
+  if (!stride.atAnyLength && state.halvesMayHelp()) return refuse();
   state.giveWay(in, stride.isLast);
   if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNear);
   if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
