@@ -101,6 +101,7 @@ struct Avoider::State {
   void carry(std::span<const quat> rotations);
   void keepPace(const Input& in);
   vec3 onCurve(std::span<const vec4> points, std::size_t point) const;
+  LastShape lastShape(const Input& in) const { return {lastTubes, turns, in.posed.rotations, anewTubes}; }
   bool isTooLong(const Input& in) const;
   quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
@@ -261,8 +262,7 @@ void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
     sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
-    pool.addSides(changed, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes},
-                  correction.motions);
+    pool.addSides(changed, interference.tubes(), lastShape(in), correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
@@ -270,8 +270,7 @@ void Avoider::State::separate(const Input& in) {
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
-      pool.add(places, solids, interference.tubes(), {lastTubes, turns, in.posed.rotations, anewTubes},
-               correction.motions);
+      pool.add(places, solids, interference.tubes(), lastShape(in), correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       pool.ascend(options.sweeps, correction.motions);
@@ -370,7 +369,7 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
 // guess.
 bool Avoider::State::isTooLong(const Input& in) const {
   const std::span<const Bezier> tubes = interference.tubes();
-  const LastShape last{lastTubes, turns, in.posed.rotations, anewTubes};
+  const LastShape last = lastShape(in);
   return std::ranges::any_of(remaining,
                              [&](const Interference::Place& place) {
                                const auto& [i, j, s, t, f, normal] = place.contact;

@@ -22,8 +22,9 @@ std::array<Bezier, 2> pairAt(float degrees, float distance) {
   return {straight(vec3(0), along), straight(aside, aside + along)};
 }
 
-bool keepsSideFrom(float before, float degrees, float distance, quat turn = quat(1, 0, 0, 0)) {
-  const std::array<Bezier, 2> last = pairAt(before, 0.003f), now = pairAt(degrees, distance);
+// From a place at 0 degrees.
+bool keepsSideAt(float degrees, float distance, quat turn = quat(1, 0, 0, 0)) {
+  const std::array<Bezier, 2> last = pairAt(0, 0.003f), now = pairAt(degrees, distance);
   const std::array<quat, 2> turns{turn, turn};
   const std::array<char, 2> anew{0, 0};
   return keepsSide({0, 1, 0.5f, 0.5f}, now, {last, turns, {}, anew});
@@ -32,15 +33,15 @@ bool keepsSideFrom(float before, float degrees, float distance, quat turn = quat
 }  // namespace
 
 TEST_CASE("a vessel keeps its side as long as it lies within sixty degrees of where it lay") {
-  CHECK(keepsSideFrom(0, 0, 0.001f));
-  CHECK(keepsSideFrom(0, 55, 0.001f));
-  CHECK_FALSE(keepsSideFrom(0, 65, 0.001f));
-  CHECK_FALSE(keepsSideFrom(0, 180, 0.001f));  // it has passed through
-  CHECK_FALSE(keepsSideFrom(0, 0, 0));
+  CHECK(keepsSideAt(0, 0.001f));
+  CHECK(keepsSideAt(55, 0.001f));
+  CHECK_FALSE(keepsSideAt(65, 0.001f));
+  CHECK_FALSE(keepsSideAt(180, 0.001f));  // it has passed through
+  CHECK_FALSE(keepsSideAt(0, 0));
 }
 
 TEST_CASE("a limb that turns takes the side along") {
   const quat quarter = glm::angleAxis(glm::radians(90.0f), vec3(0, 0, 1));
-  CHECK(keepsSideFrom(0, 90, 0.001f, quarter));
-  CHECK_FALSE(keepsSideFrom(0, 0, 0.001f, quarter));
+  CHECK(keepsSideAt(90, 0.001f, quarter));
+  CHECK_FALSE(keepsSideAt(0, 0.001f, quarter));
 }
