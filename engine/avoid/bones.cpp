@@ -92,7 +92,8 @@ struct Bones::State {
   };
   struct Tubes {
     std::span<const Bezier> now, last;
-    std::span<const char> anew;
+    std::span<const char> anew, moved;
+    bool stays(std::uint32_t tube) const { return !moved.empty() && !moved[tube]; }
   };
   std::vector<Bezier> rest;  // tubes
   std::vector<Solid> solids;
@@ -266,7 +267,7 @@ bool Bones::State::look(Near& at, const Bezier& shape, const Tubes& tubes,
 void Bones::State::findNewlyNear(std::size_t task, const Tubes& tubes) {
   const std::size_t begin = task * kTubesPerTask, end = std::min(tubes.now.size(), begin + kTubesPerTask);
   for (std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
-    if (distanceMoved(tubes.now[i], base[i]) < kMovedFar) continue;
+    if (tubes.stays(i) || distanceMoved(tubes.now[i], base[i]) < kMovedFar) continue;
     const Aabb box = tubes.now[i].bounds();
     for (std::uint32_t part = 0; part < solids.size(); ++part) {
       if (!boxes[part].overlaps(box)) continue;
@@ -290,6 +291,7 @@ void Bones::State::lookAtAll(std::size_t task, const Tubes& tubes, std::vector<B
   std::swap(seen[task], seenBefore[task]);
   seen[task].clear();
   near[task].clear();
+  out.clear();
   auto last = seenBefore[task].begin();
   const auto lastEnd = seenBefore[task].end();
   const std::size_t begin = task * kTubesPerTask, end = std::min(now.size(), begin + kTubesPerTask);
@@ -319,11 +321,13 @@ void Bones::State::lookAtAll(std::size_t task, const Tubes& tubes, std::vector<B
   }
 }
 
-// What was not moved as far as it was from entering has not entered.
+// What was not moved as far as it was from entering has not entered. @param out  what was found last
 void Bones::State::lookAtNear(std::size_t task, const Tubes& tubes, std::vector<BoneContact>& out) {
   findNewlyNear(task, tubes);
+  std::erase_if(out, [&](const BoneContact& contact) { return !tubes.stays(contact.tube); });
   for (Near at : near[task])
-    if (at.f - at.allowed <= kSteepest * distanceMoved(tubes.now[at.tube], base[at.tube]))
+    if (!tubes.stays(at.tube) &&
+        at.f - at.allowed <= kSteepest * distanceMoved(tubes.now[at.tube], base[at.tube]))
       look(at, inPart(at.part, tubes.now[at.tube]), tubes, out);
 }
 
@@ -397,7 +401,8 @@ void Bones::pose(std::span<const mat4> jointMatrices) {
 }
 
 std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std::span<const Bezier> last,
-                                             Which which, std::span<const char> anew) {
+                                             Which which, std::span<const char> anew,
+                                             std::span<const char> moved) {
   State& state = *state_;
   if (which == Which::all) state.base.assign(tubes.begin(), tubes.end());
   const std::size_t tasks = (tubes.size() + kTubesPerTask - 1) / kTubesPerTask;
@@ -406,11 +411,10 @@ std::span<const BoneContact> Bones::contacts(std::span<const Bezier> tubes, std:
   state.seen.resize(tasks);
   state.seenBefore.resize(tasks);
   parallelFor(tasks, 1, [&](std::size_t task) {
-    state.found[task].clear();
     if (which == Which::all)
-      state.lookAtAll(task, {tubes, last, anew}, state.found[task]);
+      state.lookAtAll(task, {tubes, last, anew, moved}, state.found[task]);
     else
-      state.lookAtNear(task, {tubes, last, anew}, state.found[task]);
+      state.lookAtNear(task, {tubes, last, anew, moved}, state.found[task]);
   });
   state.contacts.clear();
   for (std::size_t task = 0; task < tasks; ++task)

@@ -20,6 +20,9 @@ constexpr float kCompliance = 1e-3f;           // α as a share of a·g
 constexpr float kOverRelaxation = 1.3f;        // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
 constexpr unsigned kPlainSweeps = 5;           // at the end: between walls an over-relaxed step goes too far
 constexpr float kSettled = 1e-6f;              // [m] a step that moves a place by less is not made
+// [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
+// again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
+constexpr float kStill = 3e-6f;
 constexpr float kClearanceShare = 0.02f;       // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;       // [m]
 constexpr float kBoneClearance = 1e-4f;        // [m]
@@ -241,8 +244,9 @@ void ContactPool::sortIn(std::size_t before) {
   sorted_ = constraints_.size();
 }
 
-std::size_t ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-                             std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z) {
+void ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
+                      std::span<const Bezier> shape, const LastShape& last,
+                      const std::function<bool(TubePair)>& isNew, std::span<vec3> z) {
   proposals_.resize(std::max(proposals_.size(), bones.size() + places.size()));
   const auto atBones = std::span(proposals_).first(bones.size()),
              atPlaces = std::span(proposals_).subspan(bones.size(), places.size());
@@ -250,10 +254,9 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
     Proposals& found = proposals_[k];
     found.count = 0;
     found.rows.clear();
-    if (k < bones.size())
-      propose(bones[k], shape, found);
-    else
-      propose(places[k - bones.size()].contact, shape, last, found);
+    if (k < bones.size()) return propose(bones[k], shape, found);
+    const Contact& contact = places[k - bones.size()].contact;
+    if (isNew({contact.i, contact.j})) propose(contact, shape, last, found);
   });
   const std::size_t before = constraints_.size();
   for (const Proposals& proposals : atBones) {
@@ -271,9 +274,7 @@ std::size_t ContactPool::add(std::span<const Interference::Place> places, std::s
   for (const Proposals& proposals : atPlaces)
     for (const Constraint& constraint : std::span(proposals.constraints).first(proposals.count))
       take(constraint, proposals.rows, shape, z);
-  const std::size_t added = constraints_.size() - before;
   sortIn(before);
-  return added;
 }
 
 template <class Vector>
@@ -286,22 +287,36 @@ void ContactPool::push(const Constraint& constraint, Vector force, std::span<Vec
   }
 }
 
+// It asked for no step, and nothing that it depends on has changed since.
+bool ContactPool::isSettled(const Constraint& constraint) const {
+  return constraint.settled > 0 && std::ranges::all_of(rows_.runsOf(constraint.row), [&](const auto& run) {
+           return changed_[space_->blockOf(run.first)] <= constraint.settled;
+         });
+}
+
 // Returns how far that moved the place.
 float ContactPool::ascend(Constraint& constraint, float relaxation) {
+  if (isSettled(constraint)) return 0;
   const vec3 motion(motionOf<vec4>(constraint, z_));
   const float diagonal = constraint.row.diagonal,
               present = constraint.start + glm::dot(constraint.normal, motion);
   const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
   const float step = std::clamp(relaxation * lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
                                 std::max(constraint.limit - constraint.multiplier, 0.0f));
-  if (std::abs(step) * diagonal < kSettled) return 0;
+  constraint.settled = std::abs(step) * diagonal < kSettled ? clock_ : 0;
+  if (constraint.settled > 0) return 0;
   constraint.multiplier += step;
   push<vec4>(constraint, vec4(step * constraint.normal, 0), z_);
+  ++clock_;
+  for (const auto& run : rows_.runsOf(constraint.row)) changed_[space_->blockOf(run.first)] = clock_;
   return std::abs(step) * diagonal;
 }
 
 void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
   z_.resize(z.size());
+  clock_ = 1;
+  changed_.assign(space_->blockCount(), 0);
+  for (Constraint& constraint : constraints_) constraint.settled = 0;
   std::ranges::transform(z, z_.begin(), [](vec3 own) { return vec4(own, 0); });
   for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
     float largest = 0;
@@ -309,7 +324,8 @@ void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
     for (Constraint& constraint : constraints_) largest = std::max(largest, ascend(constraint, relaxation));
     if (largest == 0) break;
   }
-  std::ranges::transform(z_, z.begin(), [](vec4 own) { return vec3(own); });
+  for (std::size_t v = 0; v < z.size(); ++v)
+    if (glm::distance(vec3(z_[v]), z[v]) > kStill) z[v] = vec3(z_[v]);
 }
 
 }  // namespace vasa

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct Constraint {
   float start = 0;       ///< n · (C_i(s) - C_j(t)) where all variables are 0
   float multiplier = 0;  ///< >= 0
   float limit = 0;       ///< of the multiplier
+  std::uint32_t settled = 0;  ///< ContactPool::clock_ when it asked for no step
   MotionSpace::Row row;
   bool isBone() const { return other >= kBone; }
   static constexpr std::uint32_t kBone = 0x80000000u;
@@ -50,9 +52,10 @@ class ContactPool {
   void clear();
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes
   /// that run side by side, at some more. @param shape  in which they were found @param z  its variables
-  /// @return how many were added
-  std::size_t add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-                  std::span<const Bezier> shape, const LastShape& last, std::span<vec3> z);
+  /// @param isNew  of a pair of tubes: false where an add() since the last clear() was given the same place
+  void add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
+           std::span<const Bezier> shape, const LastShape& last,
+           const std::function<bool(TubePair)>& isNew, std::span<vec3> z);
 
   /// Turns vessels back that have rolled around one another. @param changed  RestSides::findChanged
   void addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last,
@@ -62,7 +65,7 @@ class ContactPool {
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
 
   /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves its place by a
-  /// micrometre; a lack of less is left.
+  /// micrometre; a lack of less is left. Variables that it would change by less than 3 µm stay what they are.
   void ascend(unsigned sweeps, std::span<vec3> z);
 
   std::size_t size() const { return constraints_.size(); }
@@ -91,6 +94,7 @@ class ContactPool {
   template <class Vector>
   Vector motionOf(const Constraint& constraint, std::span<const Vector> z) const;
   void sortIn(std::size_t before);
+  bool isSettled(const Constraint& constraint) const;
   float ascend(Constraint& constraint, float relaxation);
 
   const MotionSpace* space_;
@@ -101,6 +105,8 @@ class ContactPool {
   MotionSpace::Rows rows_;
   std::vector<Proposals> proposals_;
   std::vector<vec4> z_;  // while they ascend: four numbers are added at a time
+  std::uint32_t clock_ = 0;             // steps of all constraints, in one ascent
+  std::vector<std::uint32_t> changed_;  // the clock when a block of variables was changed last
 };
 
 }  // namespace vasa

@@ -195,11 +195,12 @@ void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
   pinEnds(*network_, points);
 }
 
-void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z,
+void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, float always,
                            const std::function<float(std::uint32_t, float)>& allowed) {
   difference_.resize(z.size());
   for (std::size_t v = 0; v < z.size(); ++v) difference_[v] = z[v] - other[v];
   const auto shorten = [&](vec3& variable, std::uint32_t point, vec3 motion) {
+    if (glm::dot(motion, motion) <= always * always) return false;
     const float length = glm::length(motion), limit = allowed(point, length), most = limit / kSamePace;
     if (!(length > limit)) return false;
     variable += (most / length - 1) * motion;

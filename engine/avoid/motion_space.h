@@ -24,6 +24,12 @@ class MotionSpace {
 
   /// One number a point, then one a node; those of fixed ends and hosted nodes stay 0.
   std::uint32_t variableCount() const { return std::uint32_t(pointCount_ + nodeWeight_.size()); }
+  /// Which block of W a variable belongs to: a vessel's, or a node's.
+  std::uint32_t blockOf(std::uint32_t variable) const {
+    return variable < pointCount_ ? vesselOf_[variable]
+                                  : std::uint32_t(blocks_.size() + variable - pointCount_);
+  }
+  std::uint32_t blockCount() const { return std::uint32_t(blocks_.size() + nodeWeight_.size()); }
 
   /// A linear function of the variables, the same for x, y and z, with its W⁻¹ times: what a force on it
   /// does.
@@ -64,9 +70,10 @@ class MotionSpace {
   void apply(std::span<const vec3> z, std::span<vec4> points);
 
   /// Draws z nearer to another motion where a point would be farther from it than it may.
-  /// @param allowed  (point, distance [m]) -> what it may be; for a node, that of an end there. Called by
-  /// several threads at once.
-  void keepNear(std::span<const vec3> other, std::span<vec3> z,
+  /// @param always   [m] so far any may be
+  /// @param allowed  (point, distance [m]) -> what it may be where it is farther; for a node, that of an end
+  /// there. Called by several threads at once.
+  void keepNear(std::span<const vec3> other, std::span<vec3> z, float always,
                 const std::function<float(std::uint32_t, float)>& allowed);
 
  private:

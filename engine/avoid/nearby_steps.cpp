@@ -1,47 +1,43 @@
 #include "avoid/nearby_steps.h"
 
-#include <algorithm>
-#include <bit>
-#include <limits>
-
 namespace vasa {
 namespace {
 
-// A power of two, so that dividing by it rounds nothing; what is near lies in the same cell or a neighbouring
-// one.
+// What is near lies in the same cell or a neighbouring one.
 constexpr float kCell = 0.0625f;
-constexpr float kLongest = std::numeric_limits<float>::infinity();
+constexpr std::uint32_t kBuckets = 1 << 12;  // a power of two
 
-// Places so far out (32 m) that their cells have no number of their own share the outermost.
 ivec3 cellOf(vec3 place) {
-  constexpr float kOutermost = float(1 << 9) - 2;
+  constexpr float kOutermost = 1 << 20;  // beyond it cells have no number of their own
   return ivec3(glm::clamp(glm::floor(place / kCell), -kOutermost, kOutermost));
 }
 
-// Sorts by cells, and within a cell by length, the longest first.
-std::uint64_t keyOf(ivec3 cell, float length) {
-  const auto axis = [](int c) { return std::uint64_t(c + (1 << 9)); };
-  return axis(cell.x) << 52 | axis(cell.y) << 42 | axis(cell.z) << 32 |
-         std::uint32_t(~std::bit_cast<std::uint32_t>(length));
+// Teschner et al. 2003. Cells that share a bucket only cost time.
+std::uint32_t bucketOf(ivec3 cell) {
+  const uvec3 c(cell);
+  return (c.x * 73856093u ^ c.y * 19349663u ^ c.z * 83492791u) % kBuckets;
 }
 
 }  // namespace
 
-void NearbySteps::add(vec3 place, float length) {
-  steps_.push_back({keyOf(cellOf(place), length), length, place});
+void NearbySteps::fillBuckets() {
+  firsts_.assign(kBuckets + 1, 0);
+  for (const Step& step : given_) ++firsts_[bucketOf(cellOf(step.place)) + 1];
+  for (std::uint32_t bucket = 0; bucket < kBuckets; ++bucket) firsts_[bucket + 1] += firsts_[bucket];
+  steps_.resize(given_.size());
+  for (const Step& step : given_) steps_[firsts_[bucketOf(cellOf(step.place))]++] = step;
+  firsts_.insert(firsts_.begin(), 0);  // each has come to where the next begins
 }
-
-void NearbySteps::sort() { std::ranges::sort(steps_, {}, &Step::key); }
 
 float NearbySteps::longest(vec3 place, float enough) const {
   float found = least_;
   const ivec3 middle = cellOf(place);
   for (int k = 0; k < 27 && found < enough; ++k) {
-    const ivec3 cell = middle + ivec3(k / 9, k / 3 % 3, k % 3) - 1;
-    const std::uint64_t last = keyOf(cell, 0);
-    for (auto step = std::ranges::lower_bound(steps_, keyOf(cell, kLongest), {}, &Step::key);
-         step != steps_.end() && step->key <= last && step->length > found; ++step)
-      if (glm::all(glm::lessThan(glm::abs(step->place - place), vec3(near_)))) found = step->length;
+    const std::uint32_t bucket = bucketOf(middle + ivec3(k / 9, k / 3 % 3, k % 3) - 1);
+    for (std::uint32_t s = firsts_[bucket]; s < firsts_[bucket + 1]; ++s)
+      if (steps_[s].length > found &&
+          glm::all(glm::lessThan(glm::abs(steps_[s].place - place), vec3(near_))))
+        found = steps_[s].length;
   }
   return found;
 }

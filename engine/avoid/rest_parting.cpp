@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "avoid/lumen.h"
 
 // Each step solves the whole problem anew about the present shape, for all motion from rest and not for one
 // more bit of it:
@@ -107,7 +106,7 @@ void RestParting::thin(std::span<const Interference::Place> places, const Networ
       const NetworkTubes::Address at = layout.address(tube);
       const std::uint32_t first = network_->vessel(at.vessel).firstPoint + at.span;
       for (std::uint32_t p = first; p < first + 4; ++p) {
-        const float least = std::max(kLeastLumen, 1 - kMostThinning / network_->points()[p].w);
+        const float least = std::max(kLeastShare, 1 - kMostThinning / network_->points()[p].w);
         shares_[p] = std::min(shares_[p], std::max(least, shares_[p] * factor));
       }
     }

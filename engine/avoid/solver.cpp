@@ -215,12 +215,11 @@ void Avoider::State::keepPace(const Input& in) {
       const vec3 place = onCurve(in.posed.points, k);
       return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
     });
-  space.keepNear(accepted.motions, correction.motions, [&](std::uint32_t point, float distance) {
-    if (distance <= slow || (mayJump && anewPoints[point])) return distance;
-    return posedSteps.longest(vec3(in.posed.points[point]), distance);
+  space.keepNear(accepted.motions, correction.motions, slow, [&](std::uint32_t point, float distance) {
+    return mayJump && anewPoints[point] ? distance
+                                        : posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
-  space.keepNear(none, correction.motions,
-                 [](std::uint32_t, float distance) { return std::min(distance, kFarthest); });
+  space.keepNear(none, correction.motions, kFarthest, [](std::uint32_t, float) { return kFarthest; });
 }
 
 // The shape that belongs to a correction.
@@ -248,7 +247,7 @@ void Avoider::State::look(const Input& in, std::span<const vec4> points, Look ho
 void Avoider::State::lookAtSolids(const Input& in, Bones::Which which) {
   if (!bones) return;
   StageClock clock(in.report.boneMs);
-  boneContacts = bones->contacts(interference.tubes(), lastTubes, which, anewTubes);
+  boneContacts = bones->contacts(interference.tubes(), lastTubes, which, anewTubes, interference.moved());
   if (!wall) return;
   skinContacts.clear();
   wall->addContacts(interference.tubes(), bones->partCount(), skinContacts);
@@ -270,7 +269,9 @@ void Avoider::State::separate(const Input& in) {
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
-      pool.add(places, solids, interference.tubes(), lastShape(in), correction.motions);
+      const std::span<const char> moved = interference.moved();
+      const auto isNew = [&](TubePair pair) { return round == 0 || moved[pair.i] || moved[pair.j]; };
+      pool.add(places, solids, interference.tubes(), lastShape(in), isNew, correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       pool.ascend(options.sweeps, correction.motions);

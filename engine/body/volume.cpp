@@ -1,6 +1,7 @@
 #include "body/volume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,32 @@ struct Quadratic {
   double at(double lambda) const { return (a * lambda + b) * lambda + volume; }
 };
 
+// A place of a span for the quadrature: what its four de Boor points weigh in C and in C', and its share of
+// an integral over u.
+struct Place {
+  vec4 weights, slopes;
+  float share;
+};
+using Places = std::array<Place, kGauss4.size()>;
+
+// They depend on how near the ends are, no farther than two spans (curve/bspline.cpp).
+const Places& placesOf(std::uint32_t span, std::uint32_t spans) {
+  constexpr std::uint32_t kNear = 2;
+  static const auto places = [] {
+    std::array<std::array<Places, kNear + 1>, kNear + 1> table{};
+    for (std::uint32_t before = 0; before <= kNear; ++before)
+      for (std::uint32_t behind = 0; behind <= kNear; ++behind) {
+        const mat4 matrix = spanToBezier(before, before + 1 + behind);
+        for (std::size_t k = 0; k < kGauss4.size(); ++k) {
+          const auto [t, weight] = kGauss4[k];
+          table[before][behind][k] = {bernstein(t) * matrix, bernsteinDerivative(t) * matrix, kPi * weight};
+        }
+      }
+    return table;
+  }();
+  return places[std::min(span, kNear)][std::min(spans - 1 - span, kNear)];
+}
+
 bool pinned(const Vessel& vessel, std::uint32_t point) {
   return (point == 0 && vessel.start.valid()) || (point + 1 == vessel.pointCount && vessel.end.valid());
 }
@@ -29,18 +56,17 @@ bool pinned(const Vessel& vessel, std::uint32_t point) {
 template <class Weight>
 Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points, const Weight& weightOf) {
   Quadratic q;
-  for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {
-    const mat4 matrix = spanToBezier(span, vessel.spanCount());
-    Bezier segment = bezierOfSpan(points, span);
-    vec4 weighted;
-    for (std::uint32_t l = 0; l < 4; ++l) weighted[int(l)] = weightOf(span + l);
-    const vec4 delta = matrix * weighted;
-    for (const auto& [t, weight] : kGauss4) {
-      const double r = segment.at(t).w, d = glm::dot(delta, bernstein(t));
-      const double share = double(weight) * double(kPi) * glm::length(vec3(segment.derivative(t)));
-      q.a += share * d * d;
-      q.b += share * 2 * r * d;
-      q.volume += share * r * r;
+  const std::uint32_t spans = vessel.spanCount();
+  for (std::uint32_t span = 0; span < spans; ++span) {
+    const vec4* const own = &points[span];
+    const vec4 radii(own[0].w, own[1].w, own[2].w, own[3].w),
+        deltas(weightOf(span), weightOf(span + 1), weightOf(span + 2), weightOf(span + 3));
+    for (const auto& [w, slopes, share] : placesOf(span, spans)) {
+      const vec4 along = slopes.x * own[0] + slopes.y * own[1] + slopes.z * own[2] + slopes.w * own[3];
+      const double r = glm::dot(w, radii), d = glm::dot(w, deltas), g = share * glm::length(vec3(along));
+      q.a += g * d * d;
+      q.b += g * 2 * r * d;
+      q.volume += g * r * r;
     }
   }
   return q;

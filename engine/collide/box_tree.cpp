@@ -15,6 +15,7 @@ BoxTree::BoxTree(std::span<const Bezier> rest) : tubeCount(std::uint32_t(rest.si
        groups = groups > 1 ? (groups + kGroup - 1) / kGroup : 0)
     levelStart.push_back(levelStart.back() + groups);
   boxes.resize(levelStart.back());
+  moved.resize(boxes.size());
   for (std::uint32_t slot = 0; slot < slots(); ++slot)
     boxes[slot / kGroup].tubes[slot % kGroup] = order[std::min(slot, tubeCount - 1)];
 }

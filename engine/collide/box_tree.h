@@ -33,6 +33,7 @@ struct BoxTreeView {
   std::uint32_t tubeCount, levels;
   const std::uint32_t* levelStart;
   BoxGroup* boxes;
+  const std::uint8_t* moved;  ///< a group each: bit k where lane k holds something that moved
   const Bezier* tubes;  ///< the caller's
   float grow;           ///< [m] what their radii are to be larger by
   BoxGrid grid;
@@ -52,6 +53,7 @@ struct BoxTree {
   std::uint32_t tubeCount = 0;
   std::vector<std::uint32_t> levelStart;  ///< first group of each level, and the end; at least level 0
   LargeVector<BoxGroup> boxes;            ///< all levels
+  std::vector<std::uint8_t> moved;        ///< BoxTreeView::moved
   std::span<const Bezier> tubes;
   float grow = 0;
   BoxGrid grid;
@@ -61,9 +63,9 @@ struct BoxTree {
   std::uint32_t slots() const { return tubeCount > 0 ? groups(0) * kGroup : 0; }
   std::uint32_t tubeAt(std::uint32_t slot) const { return boxes[slot / kGroup].tubes[slot % kGroup]; }
   BoxTreeView view() {
-    return {tubeCount, levels(), levelStart.data(), boxes.data(), tubes.data(), grow, grid};
+    return {tubeCount, levels(), levelStart.data(), boxes.data(), moved.data(), tubes.data(), grow, grid};
   }
-  std::size_t bytes() const { return boxes.size() * sizeof(BoxGroup); }
+  std::size_t bytes() const { return boxes.size() * (sizeof(BoxGroup) + sizeof(moved[0])); }
 };
 
 }  // namespace vasa

@@ -14,7 +14,7 @@
 namespace vasa {
 namespace {
 
-constexpr int kPieces = 4;
+constexpr std::size_t kPieces = 4;
 constexpr int kSteps = 8;
 
 struct Curve {
@@ -47,17 +47,38 @@ State evaluate(const Curve& a, const Curve& b, double s, double t) {
   return {s, t, glm::length(gap) - p.w - q.w, gap};
 }
 
-State chordStart(const Curve& a, const Curve& b) {
-  dvec4 pa[kPieces + 1], pb[kPieces + 1];
-  for (int k = 0; k <= kPieces; ++k) pa[k] = a.at(double(k) / kPieces), pb[k] = b.at(double(k) / kPieces);
-  double best = std::numeric_limits<double>::infinity(), s = 0, t = 0;
-  for (int i = 0; i < kPieces; ++i)
-    for (int j = 0; j < kPieces; ++j) {
-      const auto near = closestOnSegments(dvec3(pa[i]), dvec3(pa[i + 1]), dvec3(pb[j]), dvec3(pb[j + 1]));
-      const double f =
-          near.distance - glm::mix(pa[i].w, pa[i + 1].w, near.s) - glm::mix(pb[j].w, pb[j + 1].w, near.t);
-      if (f < best) best = f, s = (i + near.s) / kPieces, t = (j + near.t) / kPieces;
+// A curve's chords, and a ball around each with its radii.
+struct Chords {
+  std::array<dvec4, kPieces + 1> ends;
+  std::array<dvec4, kPieces> balls;
+
+  explicit Chords(const Curve& curve) {
+    for (std::size_t k = 0; k <= kPieces; ++k) ends[k] = curve.at(double(k) / kPieces);
+    for (std::size_t k = 0; k < kPieces; ++k) {
+      const dvec4 half = 0.5 * (ends[k + 1] - ends[k]);
+      balls[k] = {dvec3(ends[k] + half), glm::length(dvec3(half)) + std::max(ends[k].w, ends[k + 1].w)};
     }
+  }
+};
+
+State chordStart(const Curve& a, const Curve& b) {
+  const Chords pa(a), pb(b);
+  std::array<double, kPieces * kPieces> least;  // what a pair of chords cannot come below
+  for (std::size_t k = 0; k < least.size(); ++k) {
+    const dvec4 &p = pa.balls[k / kPieces], &q = pb.balls[k % kPieces];
+    least[k] = glm::distance(dvec3(p), dvec3(q)) - p.w - q.w;
+  }
+  double best = std::numeric_limits<double>::infinity(), s = 0, t = 0;
+  const auto look = [&](std::size_t k) {
+    if (!(least[k] < best)) return;
+    const std::size_t i = k / kPieces, j = k % kPieces;
+    const auto &p0 = pa.ends[i], &p1 = pa.ends[i + 1], &q0 = pb.ends[j], &q1 = pb.ends[j + 1];
+    const auto near = closestOnSegments(dvec3(p0), dvec3(p1), dvec3(q0), dvec3(q1));
+    const double f = near.distance - glm::mix(p0.w, p1.w, near.s) - glm::mix(q0.w, q1.w, near.t);
+    if (f < best) best = f, s = (double(i) + near.s) / kPieces, t = (double(j) + near.t) / kPieces;
+  };
+  look(std::size_t(std::ranges::min_element(least) - least.begin()));
+  for (std::size_t k = 0; k < least.size(); ++k) look(k);
   return evaluate(a, b, s, t);
 }
 

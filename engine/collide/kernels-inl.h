@@ -247,10 +247,19 @@ HWY_INLINE LanePairs overlaps(const BoxGroup& a, const BoxGroup& b) {
 constexpr LanePairs kUpper = 0x80c0e0f0f8fcfeull;          // q > p
 constexpr LanePairs kUpperOrSelf = 0x80c0e0f0f8fcfeffull;  // q >= p
 
+// Pairs of which one has moved, or both. @param a, b  BoxTreeView::moved
+HWY_INLINE LanePairs movedPairs(std::uint8_t a, std::uint8_t b) {
+  constexpr LanePairs kOnes = 0x0101010101010101ull, kDiagonal = 0x8040201008040201ull;
+  // Bit p of a, alone in byte p, to all bits of that byte.
+  const LanePairs own = ((a * kOnes & kDiagonal) + 0x7f * kOnes) >> 7 & kOnes;
+  return own * 0xff | b * kOnes;
+}
+
 // The pairs of children whose boxes meet. @param out  room for kGroupPairs
 HWY_INLINE std::size_t openPair(const BoxTreeView& tree, const GroupPair& pair, GroupPair* out) {
-  const BoxGroup* boxes = &tree.boxes[tree.levelStart[pair.level]];
-  LanePairs pairs = overlaps(boxes[pair.a], boxes[pair.b]);
+  const std::uint32_t first = tree.levelStart[pair.level];
+  LanePairs pairs = overlaps(tree.boxes[first + pair.a], tree.boxes[first + pair.b]) &
+                    movedPairs(tree.moved[first + pair.a], tree.moved[first + pair.b]);
   if (pair.a == pair.b) pairs &= kUpperOrSelf;
   std::size_t count = 0;
   for (; pairs; pairs &= pairs - 1) {
@@ -296,7 +305,8 @@ HWY_INLINE std::size_t meetLeaves(const Traversal& work, GroupPair* leaves, std:
   for (std::size_t k = 0; k < count; ++k) {
     const GroupPair pair = leaves[k];
     const LanePairs once = pair.a == pair.b ? kUpper : ~LanePairs(0);
-    const LanePairs pairs = overlaps(work.tree.boxes[pair.a], work.tree.boxes[pair.b]) & once;
+    const LanePairs pairs = overlaps(work.tree.boxes[pair.a], work.tree.boxes[pair.b]) &
+                            movedPairs(work.tree.moved[pair.a], work.tree.moved[pair.b]) & once;
     leaves[kept] = pair;
     meeting[kept] = pairs & ~excludedPairs(work, pair);
     kept += meeting[kept] != 0;

@@ -20,7 +20,8 @@ struct ExcludedGroups {
 };
 constexpr std::uint32_t kNoGroup = ~0u;
 
-/// Two groups of one level that are to be tested against one another, a <= b.
+/// Two groups of one level that are to be tested against one another, a <= b. Only what holds something that
+/// moved is opened.
 struct GroupPair {
   std::uint32_t level, a, b;
 };

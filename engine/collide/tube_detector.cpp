@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cstring>
 
 #include "collide/closest_tubes.h"
 #include "collide/contact_search.h"
@@ -51,12 +52,18 @@ void sortPairs(std::vector<TubePair>& pairs, std::vector<TubePair>& scratch, std
 
 struct TubeDetector::State {
   State(std::span<const Bezier> rest, const Exclusions& exclusions, DetectorOptions chosen)
-      : options(chosen), kernels(chosen.scalar ? scalarKernels() : fastKernels()), tree(rest) {
+      : options(chosen),
+        kernels(chosen.scalar ? scalarKernels() : fastKernels()),
+        tree(rest),
+        lastTubes(rest.begin(), rest.end()),
+        moved(rest.size(), true) {
     groupExclusions(exclusions);
   }
 
   void groupExclusions(const Exclusions& exclusions);
   void update(std::span<const Bezier> shape, float margin);
+  void markMoved(std::uint32_t begin, std::uint32_t end);
+  bool haveMoved(TubePair pair) const { return moved[pair.i] || moved[pair.j]; }
   void findTasks();
   void run(Worker& worker, std::span<const GroupPair> work);
 
@@ -69,9 +76,10 @@ struct TubeDetector::State {
   std::vector<Worker> workers;
   std::size_t workersUsed = 0;
   std::vector<TubePair> pairs, sortScratch;
-  std::vector<Contact> contacts, lastContacts;
-  std::vector<Bezier> lastTubes;  // in which lastContacts were found, with lastGrow
-  float lastGrow = 0;
+  std::vector<Contact> contacts, lastContacts;  // of the last two detect(); empty where nobody asked
+  std::vector<Bezier> lastTubes;                // as the last detect() saw them, with lastGrow
+  float lastGrow = -1;
+  std::vector<char> moved;  // since then, a tube each
 };
 
 void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
@@ -100,6 +108,18 @@ void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
   }
 }
 
+// In the groups [begin, end) of level 0.
+void TubeDetector::State::markMoved(std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t group = begin; group < end; ++group) {
+    tree.moved[group] = 0;
+    for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
+      const std::uint32_t tube = tree.boxes[group].tubes[lane];
+      moved[tube] = std::memcmp(&tree.tubes[tube], &lastTubes[tube], sizeof(Bezier)) != 0;
+      tree.moved[group] |= std::uint8_t((moved[tube] || tree.grow != lastGrow) << lane);
+    }
+  }
+}
+
 void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   assert(shape.size() == tree.tubeCount);
   if (shape.empty()) return;
@@ -107,8 +127,9 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   const BoxTreeView view = tree.view();
   const std::uint32_t groups = tree.groups(0);
   const auto fitBlock = [&](std::size_t block) {
-    const std::uint32_t begin = std::uint32_t(block) * kLeafBlock;
-    kernels.fitLeaves(view, begin, std::min(groups, begin + kLeafBlock));
+    const std::uint32_t begin = std::uint32_t(block) * kLeafBlock, end = std::min(groups, begin + kLeafBlock);
+    kernels.fitLeaves(view, begin, end);
+    markMoved(begin, end);
   };
   const std::size_t blocks = (groups + kLeafBlock - 1) / kLeafBlock;
   if (blocks > 2) {
@@ -116,8 +137,14 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   } else {
     for (std::size_t block = 0; block < blocks; ++block) fitBlock(block);
   }
-  for (std::uint32_t level = 1; level < tree.levels(); ++level)
+  for (std::uint32_t level = 1; level < tree.levels(); ++level) {
     kernels.fitLevel(view, level, 0, tree.groups(level));
+    std::uint8_t* const own = tree.moved.data() + tree.levelStart[level];
+    std::fill_n(own, tree.groups(level), std::uint8_t(0));
+    for (std::uint32_t child = 0; child < tree.groups(level - 1); ++child)
+      own[child / kGroup] |=
+          std::uint8_t((tree.moved[tree.levelStart[level - 1] + child] != 0) << child % kGroup);
+  }
 }
 
 void TubeDetector::State::findTasks() {
@@ -169,25 +196,29 @@ void TubeDetector::update(std::span<const Bezier> tubes, float margin) { state_-
 
 std::span<const TubePair> TubeDetector::detect() {
   State& state = *state_;
-  state.pairs.clear();
   if (state.tree.tubes.empty()) return {};
+  if (state.tree.grow != state.lastGrow) state.pairs.clear(), state.contacts.clear();
+  std::erase_if(state.pairs, [&](TubePair pair) { return state.haveMoved(pair); });
+  state.contacts.swap(state.lastContacts);
+  state.contacts.clear();
   state.findTasks();
   const std::span<const GroupPair> tasks = state.tasks;
-  const std::size_t blocks = threadCount() > 1 ? std::min(tasks.size(), kTasksPerThread * threadCount()) : 1;
+  const std::size_t blocks = std::min(tasks.size(), threadCount() > 1 ? kTasksPerThread * threadCount() : 1);
   if (state.workers.size() < blocks) state.workers.resize(blocks);
   const auto run = [&](std::size_t block) {
     const std::size_t begin = tasks.size() * block / blocks, end = tasks.size() * (block + 1) / blocks;
     state.run(state.workers[block], tasks.subspan(begin, end - begin));
   };
-  if (blocks > 1) {
-    parallelFor(blocks, 1, run);
-  } else {
+  if (blocks == 1)
     run(0);
-  }
+  else
+    parallelFor(blocks, 1, run);
   state.workersUsed = blocks;
   for (const Worker& worker : std::span(state.workers.data(), blocks))
     state.pairs.insert(state.pairs.end(), worker.pairs.begin(), worker.pairs.end());
   sortPairs(state.pairs, state.sortScratch, state.tree.tubeCount);
+  std::ranges::copy(state.tree.tubes, state.lastTubes.begin());
+  state.lastGrow = state.tree.grow;
   return state.pairs;
 }
 
@@ -195,13 +226,10 @@ std::span<const Contact> TubeDetector::contacts() {
   State& state = *state_;
   const std::span<const Bezier> tubes = state.tree.tubes;
   const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
-  const bool sameMargin = state.lastTubes.size() == tubes.size() && state.lastGrow == state.tree.grow;
-  const auto stays = [&](std::uint32_t tube) { return tubes[tube].b == state.lastTubes[tube].b; };
-  state.contacts.swap(state.lastContacts);
   state.contacts.resize(state.pairs.size());
   parallelFor(state.pairs.size(), 64, [&](std::size_t k) {
     const TubePair pair = state.pairs[k];
-    if (sameMargin && stays(pair.i) && stays(pair.j)) {
+    if (!state.haveMoved(pair)) {
       const auto last = std::ranges::lower_bound(state.lastContacts, pair, {}, pairOf);
       if (last != state.lastContacts.end() && pairOf(*last) == pair) {
         state.contacts[k] = *last;
@@ -217,10 +245,10 @@ std::span<const Contact> TubeDetector::contacts() {
     contact.j = pair.j;
     state.contacts[k] = contact;
   });
-  state.lastTubes.assign(tubes.begin(), tubes.end());
-  state.lastGrow = state.tree.grow;
   return state.contacts;
 }
+
+std::span<const char> TubeDetector::moved() const { return state_->moved; }
 
 TubeDetector::Statistics TubeDetector::statistics() const {
   Statistics sum;

@@ -20,7 +20,8 @@ struct DetectorOptions {
 /// Method: an implicit 8-ary box tree of fixed topology, refit each frame; group-against-group traversal in
 /// vector registers; chord capsules; then line-swept spheres around ever shorter pieces (Filip, Magedson,
 /// Markot 1986), one level of all open pairs at a time, accepted early where the true curves at the nearest
-/// parameters meet; what single precision leaves open goes to a certified branch and bound in double.
+/// parameters meet; what single precision leaves open goes to a certified branch and bound in double. What
+/// two tubes were found to do holds for as long as neither moves: only what has moved is tested again.
 ///
 ///   TubeDetector detector(restTubes, exclusions);
 ///   each frame:  detector.update(tubes);  for (TubePair pair : detector.detect()) ...
@@ -47,9 +48,11 @@ class TubeDetector {
 
   /// The nearest place of each pair that the last detect() returned, in its order: where the two come
   /// deepest. Found by Newton steps from the nearest of 4x4 chords, and where these end elsewhere than
-  /// where the pair was found, by closestOfTubes(); the value is f there exactly. A pair of the last call of
-  /// which neither has moved since is not looked at again. Valid until the next call.
+  /// where the pair was found, by closestOfTubes(); the value is f there exactly. Valid until the next call.
   std::span<const Contact> contacts();
+
+  /// A tube each: 1 where it is not what it was at the detect() before the last.
+  std::span<const char> moved() const;
 
   /// What the last detect() did.
   using Statistics = NarrowPhase::Statistics;
