@@ -287,36 +287,22 @@ void ContactPool::push(const Constraint& constraint, Vector force, std::span<Vec
   }
 }
 
-// It asked for no step, and nothing that it depends on has changed since.
-bool ContactPool::isSettled(const Constraint& constraint) const {
-  return constraint.settled > 0 && std::ranges::all_of(rows_.runsOf(constraint.row), [&](const auto& run) {
-           return changed_[space_->blockOf(run.first)] <= constraint.settled;
-         });
-}
-
 // Returns how far that moved the place.
 float ContactPool::ascend(Constraint& constraint, float relaxation) {
-  if (isSettled(constraint)) return 0;
   const vec3 motion(motionOf<vec4>(constraint, z_));
   const float diagonal = constraint.row.diagonal,
               present = constraint.start + glm::dot(constraint.normal, motion);
   const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
   const float step = std::clamp(relaxation * lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
                                 std::max(constraint.limit - constraint.multiplier, 0.0f));
-  constraint.settled = std::abs(step) * diagonal < kSettled ? clock_ : 0;
-  if (constraint.settled > 0) return 0;
+  if (std::abs(step) * diagonal < kSettled) return 0;
   constraint.multiplier += step;
   push<vec4>(constraint, vec4(step * constraint.normal, 0), z_);
-  ++clock_;
-  for (const auto& run : rows_.runsOf(constraint.row)) changed_[space_->blockOf(run.first)] = clock_;
   return std::abs(step) * diagonal;
 }
 
 void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
   z_.resize(z.size());
-  clock_ = 1;
-  changed_.assign(space_->blockCount(), 0);
-  for (Constraint& constraint : constraints_) constraint.settled = 0;
   std::ranges::transform(z, z_.begin(), [](vec3 own) { return vec4(own, 0); });
   for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
     float largest = 0;

@@ -36,7 +36,6 @@ struct Constraint {
   float start = 0;       ///< n · (C_i(s) - C_j(t)) where all variables are 0
   float multiplier = 0;  ///< >= 0
   float limit = 0;       ///< of the multiplier
-  std::uint32_t settled = 0;  ///< ContactPool::clock_ when it asked for no step
   MotionSpace::Row row;
   bool isBone() const { return other >= kBone; }
   static constexpr std::uint32_t kBone = 0x80000000u;
@@ -94,7 +93,6 @@ class ContactPool {
   template <class Vector>
   Vector motionOf(const Constraint& constraint, std::span<const Vector> z) const;
   void sortIn(std::size_t before);
-  bool isSettled(const Constraint& constraint) const;
   float ascend(Constraint& constraint, float relaxation);
 
   const MotionSpace* space_;
@@ -105,8 +103,6 @@ class ContactPool {
   MotionSpace::Rows rows_;
   std::vector<Proposals> proposals_;
   std::vector<vec4> z_;  // while they ascend: four numbers are added at a time
-  std::uint32_t clock_ = 0;             // steps of all constraints, in one ascent
-  std::vector<std::uint32_t> changed_;  // the clock when a block of variables was changed last
 };
 
 }  // namespace vasa

@@ -24,12 +24,6 @@ class MotionSpace {
 
   /// One number a point, then one a node; those of fixed ends and hosted nodes stay 0.
   std::uint32_t variableCount() const { return std::uint32_t(pointCount_ + nodeWeight_.size()); }
-  /// Which block of W a variable belongs to: a vessel's, or a node's.
-  std::uint32_t blockOf(std::uint32_t variable) const {
-    return variable < pointCount_ ? vesselOf_[variable]
-                                  : std::uint32_t(blocks_.size() + variable - pointCount_);
-  }
-  std::uint32_t blockCount() const { return std::uint32_t(blocks_.size() + nodeWeight_.size()); }
 
   /// A linear function of the variables, the same for x, y and z, with its W⁻¹ times: what a force on it
   /// does.
