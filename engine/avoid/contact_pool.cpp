@@ -157,6 +157,7 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     Constraint constraint{.i = i, .other = j, .s = s, .t = t};
     constraint.clearance = clearanceFor(constraint, a.w + b.w);
     const float distance = a.w + b.w + constraint.clearance;
+    if (glm::dot(gap, gap) > distance * distance) continue;
     const vec3 before = last.anew[i] || last.anew[j]
                             ? 0.5f * distance * sides_->carried({i, j, s, t}, shape, last.rotations)
                             : gapBefore({i, j, s, t}, shape, last);

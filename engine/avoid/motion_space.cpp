@@ -221,6 +221,16 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, float
                             [](vec3 motion) { return motion != vec3(0); });
   std::ranges::fill(nodeMotion_, vec3(0));
   const auto changed = [&](NodeId node) { return node.valid() && nodeChanged_[node.value]; };
+  // No point of a vessel moves farther: its shares of the two nodes' motions add up to 1 at the most.
+  const auto reach = [&](const Vessel& vessel) {
+    const auto lengthOf = [&](NodeId node) {
+      return node.valid() ? glm::length(nodeMotion_[node.value]) : 0.0f;
+    };
+    float farthest = 0;
+    for (const vec3& own : std::span(difference_).subspan(vessel.firstPoint, vessel.pointCount))
+      farthest = std::max(farthest, glm::dot(own, own));
+    return std::sqrt(farthest) + std::max(lengthOf(vessel.start), lengthOf(vessel.end));
+  };
   // What hangs on a vessel's side goes along with it, so that is known only once its host has been drawn
   // nearer. A vessel is looked at anew where it, or a node that it hangs on, has changed.
   do {
@@ -228,6 +238,7 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, float
     parallelFor(vessels.size(), kVesselGrain, [&](std::size_t v) {
       const Vessel& vessel = vessels[v];
       if (!std::exchange(again_[v], false) && !changed(vessel.start) && !changed(vessel.end)) return;
+      if (reach(vessel) <= always) return;
       for (std::uint32_t l = vessel.start.valid(); l + vessel.end.valid() < vessel.pointCount; ++l)
         again_[v] |= shorten(difference_[vessel.firstPoint + l], vessel.firstPoint + l,
                              motionOf(vessel, l, difference_));
