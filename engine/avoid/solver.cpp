@@ -380,7 +380,7 @@ bool Avoider::State::isTooLong(const Input& in) const {
          std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
            const float radius = std::max(tubes[contact.tube].at(contact.s).w, kLeastRadius);
            const bool isSure = glm::dot(contact.normal, contact.nearestNormal) > kSureOfBone;
-           return contact.allowed - contact.f > (isSure ? kDeepestInBone : kDeepestUnsure) * radius;
+           return isEntered(contact) && -contact.f > (isSure ? kDeepestInBone : kDeepestUnsure) * radius;
          });
 }
 
