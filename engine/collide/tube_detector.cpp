@@ -62,7 +62,7 @@ struct TubeDetector::State {
 
   void groupExclusions(const Exclusions& exclusions);
   void update(std::span<const Bezier> shape, float margin);
-  void markMoved(std::uint32_t begin, std::uint32_t end);
+  void markMoved();
   bool haveMoved(TubePair pair) const { return moved[pair.i] || moved[pair.j]; }
   void findTasks();
   void run(Worker& worker, std::span<const GroupPair> work);
@@ -108,16 +108,18 @@ void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
   }
 }
 
-// In the groups [begin, end) of level 0.
-void TubeDetector::State::markMoved(std::uint32_t begin, std::uint32_t end) {
-  for (std::uint32_t group = begin; group < end; ++group) {
-    tree.moved[group] = 0;
-    for (std::uint32_t lane = 0; lane < kGroup; ++lane) {
-      const std::uint32_t tube = tree.boxes[group].tubes[lane];
-      moved[tube] = std::memcmp(&tree.tubes[tube], &lastTubes[tube], sizeof(Bezier)) != 0;
-      tree.moved[group] |= std::uint8_t((moved[tube] || tree.grow != lastGrow) << lane);
-    }
-  }
+// Tubes, and the groups above them.
+void TubeDetector::State::markMoved() {
+  const bool all = tree.grow != lastGrow;
+  for (std::uint32_t tube = 0; tube < tree.tubeCount; ++tube)
+    moved[tube] = std::memcmp(&tree.tubes[tube], &lastTubes[tube], sizeof(Bezier)) != 0;
+  std::ranges::fill(tree.moved, std::uint8_t(0));
+  for (std::uint32_t slot = 0; slot < tree.slots(); ++slot)
+    tree.moved[slot / kGroup] |= std::uint8_t((all || moved[tree.tubeAt(slot)]) << slot % kGroup);
+  for (std::uint32_t level = 1; level < tree.levels(); ++level)
+    for (std::uint32_t child = 0; child < tree.groups(level - 1); ++child)
+      tree.moved[tree.levelStart[level] + child / kGroup] |=
+          std::uint8_t((tree.moved[tree.levelStart[level - 1] + child] != 0) << child % kGroup);
 }
 
 void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
@@ -127,9 +129,8 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   const BoxTreeView view = tree.view();
   const std::uint32_t groups = tree.groups(0);
   const auto fitBlock = [&](std::size_t block) {
-    const std::uint32_t begin = std::uint32_t(block) * kLeafBlock, end = std::min(groups, begin + kLeafBlock);
-    kernels.fitLeaves(view, begin, end);
-    markMoved(begin, end);
+    const std::uint32_t begin = std::uint32_t(block) * kLeafBlock;
+    kernels.fitLeaves(view, begin, std::min(groups, begin + kLeafBlock));
   };
   const std::size_t blocks = (groups + kLeafBlock - 1) / kLeafBlock;
   if (blocks > 2) {
@@ -137,14 +138,9 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   } else {
     for (std::size_t block = 0; block < blocks; ++block) fitBlock(block);
   }
-  for (std::uint32_t level = 1; level < tree.levels(); ++level) {
+  for (std::uint32_t level = 1; level < tree.levels(); ++level)
     kernels.fitLevel(view, level, 0, tree.groups(level));
-    std::uint8_t* const own = tree.moved.data() + tree.levelStart[level];
-    std::fill_n(own, tree.groups(level), std::uint8_t(0));
-    for (std::uint32_t child = 0; child < tree.groups(level - 1); ++child)
-      own[child / kGroup] |=
-          std::uint8_t((tree.moved[tree.levelStart[level - 1] + child] != 0) << child % kGroup);
-  }
+  markMoved();
 }
 
 void TubeDetector::State::findTasks() {
