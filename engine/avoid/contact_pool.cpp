@@ -16,10 +16,10 @@
 namespace vasa {
 namespace {
 
-constexpr float kCompliance = 1e-3f;           // α as a share of a·g
-constexpr float kOverRelaxation = 1.3f;        // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
-constexpr unsigned kPlainSweeps = 5;           // at the end: between walls an over-relaxed step goes too far
-constexpr float kSettled = 1e-6f;              // [m] a step that moves a place by less is not made
+constexpr float kCompliance = 1e-3f;     // α as a share of a·g
+constexpr float kOverRelaxation = 1.3f;  // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
+constexpr unsigned kPlainSweeps = 5;     // at the end: between walls an over-relaxed step goes too far
+constexpr float kSettled = 1e-6f;        // [m] a step that moves a place by less is not made
 // [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
 // again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
 constexpr float kStill = 3e-6f;

@@ -53,8 +53,8 @@ class ContactPool {
   /// that run side by side, at some more. @param shape  in which they were found @param z  its variables
   /// @param isNew  of a pair of tubes: false where an add() since the last clear() was given the same place
   void add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-           std::span<const Bezier> shape, const LastShape& last,
-           const std::function<bool(TubePair)>& isNew, std::span<vec3> z);
+           std::span<const Bezier> shape, const LastShape& last, const std::function<bool(TubePair)>& isNew,
+           std::span<vec3> z);
 
   /// Turns vessels back that have rolled around one another. @param changed  RestSides::findChanged
   void addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last,

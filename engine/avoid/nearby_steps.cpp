@@ -35,8 +35,7 @@ float NearbySteps::longest(vec3 place, float enough) const {
   for (int k = 0; k < 27 && found < enough; ++k) {
     const std::uint32_t bucket = bucketOf(middle + ivec3(k / 9, k / 3 % 3, k % 3) - 1);
     for (std::uint32_t s = firsts_[bucket]; s < firsts_[bucket + 1]; ++s)
-      if (steps_[s].length > found &&
-          glm::all(glm::lessThan(glm::abs(steps_[s].place - place), vec3(near_))))
+      if (steps_[s].length > found && glm::all(glm::lessThan(glm::abs(steps_[s].place - place), vec3(near_))))
         found = steps_[s].length;
   }
   return found;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 // Each step solves the whole problem anew about the present shape, for all motion from rest and not for one
 // more bit of it:
 //   least ½ zᵀ W z   with   n · J z >= clearance - f + n · J z_now   at each place,

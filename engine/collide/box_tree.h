@@ -34,8 +34,8 @@ struct BoxTreeView {
   const std::uint32_t* levelStart;
   BoxGroup* boxes;
   const std::uint8_t* moved;  ///< a group each: bit k where lane k holds something that moved
-  const Bezier* tubes;  ///< the caller's
-  float grow;           ///< [m] what their radii are to be larger by
+  const Bezier* tubes;        ///< the caller's
+  float grow;                 ///< [m] what their radii are to be larger by
   BoxGrid grid;
 };
 

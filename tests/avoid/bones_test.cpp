@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "avoid/walk.h"
 #include "collide/network_tubes.h"
 #include "network/builder.h"
@@ -274,10 +276,10 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
     const NetworkTubes layout(setting.network);
     std::vector<vec4> thick(setting.network.points().begin(), setting.network.points().end());
     for (vec4& p : thick) p.w = radiusAndHeight.x;
-    std::vector<Bezier> rest(layout.count()), now(rest), later(rest);
+    std::vector<Bezier> rest(layout.count()), now(rest), later(rest), latest(rest);
     layout.shape(thick, rest);
     Bones kept(setting.body, rest);
-    std::size_t found = 0;
+    std::size_t found = 0, stayed = 0;
     for (int step = 0; step < 60; ++step) {
       const float down = 0.011f * (1 - std::cos(0.21f * float(step))) + (step % 7 == 0 ? 0.004f : 0.0f);
       const std::vector<mat4> joints{glm::rotate(mat4(1), 0.02f * float(step % 11), vec3(0, 0, 1))};
@@ -301,7 +303,21 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
       const auto c = kept.contacts(later, now, Bones::Which::nearAtLast), d = fresh.contacts(later, now);
       REQUIRE(c.size() == d.size());
       for (std::size_t k = 0; k < c.size(); ++k) CHECK(c[k].f == d[k].f);
+      // Half of it moves once more; the rest is told to have stayed.
+      for (std::size_t p = points.size() / 2; p < points.size(); ++p) points[p].y -= 0.0005f;
+      layout.shape(points, latest);
+      std::vector<char> moved;
+      for (std::size_t t = 0; t < latest.size(); ++t) moved.push_back(latest[t].b != later[t].b);
+      stayed += std::size_t(std::ranges::count(moved, 0));
+      const auto e = kept.contacts(latest, now, Bones::Which::nearAtLast, {}, moved),
+                 f = fresh.contacts(latest, now);
+      REQUIRE(e.size() == f.size());
+      for (std::size_t k = 0; k < e.size(); ++k) {
+        CHECK(e[k].tube == f[k].tube);
+        CHECK(e[k].f == f[k].f);
+      }
     }
+    CHECK(stayed > 20);
     CHECK(found > 20);
   }
 }

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
+
+#include "network/builder.h"
 
 using namespace vasa;
 
@@ -44,4 +47,45 @@ TEST_CASE("a limb that turns takes the side along") {
   const quat quarter = glm::angleAxis(glm::radians(90.0f), vec3(0, 0, 1));
   CHECK(keepsSideAt(90, 0.001f, quarter));
   CHECK_FALSE(keepsSideAt(0, 0.001f, quarter));
+}
+
+TEST_CASE("what an ascent would hardly move stays where it is, to the bit") {
+  // Two vessels of a metre side by side, pressed into one another at one place.
+  NetworkBuilder builder;
+  for (const float x : {0.0f, 0.0021f}) {
+    std::vector<vec4> points;
+    for (int k = 0; k < 201; ++k) points.emplace_back(x, 0.005f * float(k), 0, 0.001f);
+    builder.addVessel({"vessel", "", VesselKind::artery}, points);
+  }
+  const auto network = builder.build(1);
+  REQUIRE(network.ok());
+  Interference interference(*network);
+  const MotionSpace space(*network, 200);
+  const RestSides sides(*network, interference);
+  ContactPool pool(space, interference, sides);
+  std::vector<vec4> pressed(network->points().begin(), network->points().end());
+  for (std::size_t p = 98; p < 103; ++p) pressed[p].x += 0.0005f;
+  const auto places = interference.find(pressed, 1e-4f);
+  REQUIRE_FALSE(places.empty());
+  const std::vector<quat> still(pressed.size(), quat(1, 0, 0, 0));
+  const std::vector<char> anew(interference.tubes().size(), 0);
+  std::vector<vec3> z(space.variableCount(), vec3(0));
+  pool.refresh(interference.tubes(), z);
+  pool.add(
+      places, {}, interference.tubes(), {interference.restTubes(), still, still, anew},
+      [](TubePair) { return true; }, z);
+  CHECK(pool.size() > 0);
+  pool.ascend(200, z);
+  std::size_t moved = 0, here = 0;
+  for (const vec3& motion : z) {
+    CHECK((motion == vec3(0) || glm::length(motion) > 3e-6f));
+    moved += motion != vec3(0);
+  }
+  for (std::size_t p = 98; p < 103; ++p) here += z[p] != vec3(0);
+  CHECK(here == 5);
+  CHECK(moved < z.size() / 2);
+  const std::vector<vec3> before = z;
+  pool.refresh(interference.tubes(), std::vector<vec3>(z.size(), vec3(0)));
+  pool.ascend(200, z);
+  CHECK(z == before);
 }
