@@ -33,13 +33,15 @@ std::size_t countOnlyInFirst(std::span<const TubePair> first, std::span<const Tu
 
 PaperLook::PaperLook(const Network& network)
     : layout_(network),
-      tubes_(shapeOf(layout_, network.points())),
-      exact_(tubes_, layout_.neighbours().exclusions()),
-      paper_(tubes_, layout_.neighbours().exclusions(), kPaperTolerance * network.bodyHeight()) {}
+      rest_(shapeOf(layout_, network.points())),
+      tubes_(rest_),
+      paper_(rest_, layout_.neighbours().exclusions(), kPaperTolerance * network.bodyHeight()) {}
 
 PaperLook::Pairs PaperLook::at(std::span<const vec4> points) {
   layout_.shape(points, tubes_);
-  const auto [exact, exactMs] = timed(exact_, tubes_);
+  TubeDetector detector(rest_,
+                        layout_.neighbours().exclusions());  // a new one: it knows of nothing that stayed
+  const auto [exact, exactMs] = timed(detector, tubes_);
   const auto [paper, paperMs] = timed(paper_, tubes_);
   return {exact.size(), paper.size(), countOnlyInFirst(paper, exact), countOnlyInFirst(exact, paper),
           exactMs,      paperMs};

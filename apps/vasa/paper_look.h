@@ -24,8 +24,7 @@ class PaperLook {
 
  private:
   NetworkTubes layout_;
-  std::vector<Bezier> tubes_;
-  TubeDetector exact_;
+  std::vector<Bezier> rest_, tubes_;
   PaperDetector paper_;
 };
 

@@ -53,7 +53,7 @@ class Bones {
   enum class Which { all, nearAtLast };
   /// @param anew   a tube each: 1 where the way out is to the side of a part on which it was at rest; or none
   /// @param moved  a tube each: 0 where it is what it was at the last call, so that nearAtLast has no need to
-  ///               look again; or none
+  ///               look again, if pose, `last` and `anew` are those of then; or none
   std::span<const BoneContact> contacts(std::span<const Bezier> tubes, std::span<const Bezier> last,
                                         Which which = Which::all, std::span<const char> anew = {},
                                         std::span<const char> moved = {});

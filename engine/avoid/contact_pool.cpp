@@ -10,19 +10,16 @@
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
 //   Δλ = (d - n·(C_i - C_j) - αλ) / (a·g + α),   λ <- max(0, λ + Δλ),   z += Δλ n g,
-// so that z is always the minimiser for the present multipliers. α is a little compliance: where there is no
-// room the multipliers stay finite. Steps are over-relaxed, λ <- max(0, λ + ωΔλ), which converges for all 0 <
-// ω < 2.
+// so that z is always the minimiser for the present multipliers (but for what stays still). α is a little
+// compliance: where there is no room the multipliers stay finite. Steps are over-relaxed, λ <- max(0, λ +
+// ωΔλ), which converges for all 0 < ω < 2.
 namespace vasa {
 namespace {
 
-constexpr float kCompliance = 1e-3f;     // α as a share of a·g
-constexpr float kOverRelaxation = 1.3f;  // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
-constexpr unsigned kPlainSweeps = 5;     // at the end: between walls an over-relaxed step goes too far
-constexpr float kSettled = 1e-6f;        // [m] a step that moves a place by less is not made
-// [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
-// again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
-constexpr float kStill = 3e-6f;
+constexpr float kCompliance = 1e-3f;           // α as a share of a·g
+constexpr float kOverRelaxation = 1.3f;        // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
+constexpr unsigned kPlainSweeps = 5;           // at the end: between walls an over-relaxed step goes too far
+constexpr float kSettled = 1e-6f;              // [m] a step that moves a place by less is not made
 constexpr float kClearanceShare = 0.02f;       // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;       // [m]
 constexpr float kBoneClearance = 1e-4f;        // [m]
@@ -302,7 +299,7 @@ float ContactPool::ascend(Constraint& constraint, float relaxation) {
   return std::abs(step) * diagonal;
 }
 
-void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
+void ContactPool::ascend(unsigned sweeps, float still, std::span<vec3> z) {
   z_.resize(z.size());
   std::ranges::transform(z, z_.begin(), [](vec3 own) { return vec4(own, 0); });
   for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
@@ -312,7 +309,7 @@ void ContactPool::ascend(unsigned sweeps, std::span<vec3> z) {
     if (largest == 0) break;
   }
   for (std::size_t v = 0; v < z.size(); ++v)
-    if (glm::distance(vec3(z_[v]), z[v]) > kStill) z[v] = vec3(z_[v]);
+    if (glm::distance(vec3(z_[v]), z[v]) > still) z[v] = vec3(z_[v]);
 }
 
 }  // namespace vasa

@@ -64,8 +64,9 @@ class ContactPool {
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
 
   /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves its place by a
-  /// micrometre; a lack of less is left. Variables that it would change by less than 3 µm stay what they are.
-  void ascend(unsigned sweeps, std::span<vec3> z);
+  /// micrometre; a lack of less is left.
+  /// @param still  [m] variables that it would change by no more stay what they are, to the bit
+  void ascend(unsigned sweeps, float still, std::span<vec3> z);
 
   std::size_t size() const { return constraints_.size(); }
 

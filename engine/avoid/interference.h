@@ -35,7 +35,7 @@ class Interference {
   /// @param points  as Network::points()
   std::span<const Place> find(std::span<const vec4> points, float margin = 0);
 
-  /// A tube each: 1 where it is not what it was at the find() before the last.
+  /// A tube each: 1 where it is not what it was at the find() before the last, whatever their margins.
   std::span<const char> moved() const { return detector_->moved(); }
 
   /// A pair's f at rest [m], where that is negative; otherwise 0.

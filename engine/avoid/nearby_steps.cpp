@@ -4,8 +4,8 @@ namespace vasa {
 namespace {
 
 // What is near lies in the same cell or a neighbouring one.
-constexpr float kCell = 0.0625f;
-constexpr std::uint32_t kBuckets = 1 << 12;  // a power of two
+constexpr float kCell = 0.0625f;  // a power of two, so that dividing by it rounds nothing
+constexpr std::uint32_t kBuckets = 1 << 12;
 
 ivec3 cellOf(vec3 place) {
   constexpr float kOutermost = 1 << 20;  // beyond it cells have no number of their own
@@ -31,10 +31,11 @@ void NearbySteps::fillBuckets() {
 
 float NearbySteps::longest(vec3 place, float enough) const {
   float found = least_;
+  if (steps_.empty()) return found;
   const ivec3 middle = cellOf(place);
   for (int k = 0; k < 27 && found < enough; ++k) {
     const std::uint32_t bucket = bucketOf(middle + ivec3(k / 9, k / 3 % 3, k % 3) - 1);
-    for (std::uint32_t s = firsts_[bucket]; s < firsts_[bucket + 1]; ++s)
+    for (std::uint32_t s = firsts_[bucket]; s < firsts_[bucket + 1] && found < enough; ++s)
       if (steps_[s].length > found && glm::all(glm::lessThan(glm::abs(steps_[s].place - place), vec3(near_))))
         found = steps_[s].length;
   }

@@ -105,7 +105,7 @@ void RestParting::thin(std::span<const Interference::Place> places, const Networ
       const NetworkTubes::Address at = layout.address(tube);
       const std::uint32_t first = network_->vessel(at.vessel).firstPoint + at.span;
       for (std::uint32_t p = first; p < first + 4; ++p) {
-        const float least = std::max(kLeastShare, 1 - kMostThinning / network_->points()[p].w);
+        const float least = std::max(kLeastRadiusShare, 1 - kMostThinning / network_->points()[p].w);
         shares_[p] = std::min(shares_[p], std::max(least, shares_[p] * factor));
       }
     }

@@ -18,18 +18,21 @@ namespace {
 // [s] in which a correction that nothing asks for falls to a third ...
 constexpr float kFading = 0.1f;
 constexpr float kFastestFading = 0.02f;  // [m/s] ... but no faster than this
-// [s] in which a lumen that gave way doubles where there is room again. At 0.3 what two bones hold between
+// [s] in which a lumen that gave way doubles where there is room again. At 0.2 what two bones hold between
 // them had widened by a tenth before each step, and was dented a little more by each: 0.7 to 0.3 in a second.
-constexpr float kWidening = 1;
+constexpr float kWidening = 0.7f;
+// [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
+// again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
+constexpr float kStill = 3e-6f;
 constexpr float kMargin = 1e-4f;  // [m] contacts are held from here on, not only once they overlap
 // Cosine of the angle from which on vessels that roll around one another are turned back.
 constexpr float kRolled = 0;
 // Of the radii: a step in which something comes deeper into another, and no more lies as it lay, is too long.
 constexpr float kDeepest = 0.5f;
 // Of the radius, counted as a millimetre at least (a bone has no lumen to give way, and its field is no
-// finer): likewise in a bone, where the way out that was found is about the nearest one, and where it is not.
-// With 1 for both the scanned body's walk takes a sixth more detections; without a bound on the first it has
-// a jump of 16 mm.
+// finer): likewise in a bone in which it was not at rest, where the way out that was found is about the
+// nearest one, and where it is not. With 1 for both the scanned body's walk takes a sixth more detections;
+// without a bound on the first it has a jump of 16 mm.
 constexpr float kDeepestInBone = 1.5f, kDeepestUnsure = 1, kLeastRadius = 1e-3f;
 constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
 // [m/s] at which a vessel may be moved aside among others that stand still
@@ -51,8 +54,8 @@ std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
   return tubesOf(contacts, [](const BoneContact&) { return true; });
 }
 
-// A bone in which the tube was not at rest.
-bool isEntered(const BoneContact& contact) { return contact.allowed == 0; }
+// A bone in which the tube was not at rest, to what that is known.
+bool isEntered(const BoneContact& contact) { return contact.allowed > -kRestTolerance; }
 
 BoneReport reportOf(std::span<const BoneContact> contacts) {
   BoneReport report{tubesOf(contacts, isEntered), tubesOf(contacts, std::not_fn(isEntered))};
@@ -148,6 +151,8 @@ struct Avoider::State {
   std::vector<Interference::Place> found, remaining,
       unsettled;                                // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
+  float margin = -1;                            // of the last look ...
+  bool sameMargin = false;                      // ... and of the one before it
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
   std::vector<BoneContact> left;                  // in bones, after the last step
@@ -188,7 +193,7 @@ void Avoider::State::fade(float seconds) {
   const std::span<const vec4> rest = network.points();
   for (std::size_t p = 0; p < rest.size(); ++p) {
     float& widest = correction.widest[p];
-    widest *= 1 + seconds / kWidening;
+    widest *= std::exp2(seconds / kWidening);
     if (widest > VolumeKeeper::kHighestFactor * rest[p].w) widest = kNoLimit;
   }
 }
@@ -238,7 +243,9 @@ void Avoider::State::look(const Input& in, std::span<const vec4> points, Look ho
   in.report.certifyMs = 0;
   {
     StageClock clock(in.report.certifyMs);
-    places = interference.find(points, how == Look::certain ? 0 : kMargin);
+    const float wanted = how == Look::certain ? 0 : kMargin;
+    sameMargin = std::exchange(margin, wanted) == wanted;
+    places = interference.find(points, margin);
     certificateOf(places, &remaining);
   }
   in.report.detectMs += in.report.certifyMs;
@@ -271,11 +278,14 @@ void Avoider::State::separate(const Input& in) {
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
       const std::span<const char> moved = interference.moved();
-      const auto isNew = [&](TubePair pair) { return round == 0 || moved[pair.i] || moved[pair.j]; };
+      const auto isNew = [&](TubePair pair) {
+        return round == 0 || !sameMargin || moved[pair.i] || moved[pair.j];
+      };
       pool.add(places, solids, interference.tubes(), lastShape(in), isNew, correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
-      pool.ascend(options.sweeps, correction.motions);
+      // In the last rounds the least lack counts.
+      pool.ascend(options.sweeps, round + 2 < options.rounds ? kStill : 0, correction.motions);
       keepPace(in);
       place(in);
     }
@@ -365,6 +375,7 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   correction = tried;
   place(in);
   look(in, in.points, isLast ? Look::certain : Look::first);
+  if (isLast) lookAtSolids(in, Bones::Which::all);  // from the sides that count again
 }
 
 // Whether the motion has brought something so far into something else's way that the side it came from is a
@@ -381,7 +392,8 @@ bool Avoider::State::isTooLong(const Input& in) const {
          std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
            const float radius = std::max(tubes[contact.tube].at(contact.s).w, kLeastRadius);
            const bool isSure = glm::dot(contact.normal, contact.nearestNormal) > kSureOfBone;
-           return isEntered(contact) && -contact.f > (isSure ? kDeepestInBone : kDeepestUnsure) * radius;
+           return isEntered(contact) &&
+                  contact.allowed - contact.f > (isSure ? kDeepestInBone : kDeepestUnsure) * radius;
          });
 }
 

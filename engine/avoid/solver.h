@@ -73,11 +73,11 @@ struct Correction {
 ///   least ½ (z - z0)ᵀ W (z - z0)  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
 /// with z0 the faded correction and W as in avoid/motion_space.h, so that branches stay joined. Contacts lie
 /// on the side on which the last admissible shape had them, so that no vessel passes through another. Method:
-/// dual coordinate ascent (Hildreth 1957) over a pool of contacts that is detected anew each round and only
-/// grows. A step that may be refused is, where that leaves something in something's way; else, where there is
-/// no room, vessels become thinner, and what is caught starts anew from the pose. The certificate by an exact
-/// query comes last. Budgets are fixed and the order is that of the pairs: a step depends on the correction
-/// before and the two poses alone.
+/// dual coordinate ascent (Hildreth 1957) over a pool of contacts that only grows: each round looks for more
+/// where something moved. A step that may be refused is, where that leaves something in something's way;
+/// else, where there is no room, vessels become thinner, and what is caught starts anew from the pose. The
+/// certificate by an exact query comes last. Budgets are fixed and the order is that of the pairs: a step
+/// depends on the correction before and the two poses alone.
 class Avoider {
  public:
   /// @param network  must outlive this

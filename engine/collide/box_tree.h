@@ -33,7 +33,8 @@ struct BoxTreeView {
   std::uint32_t tubeCount, levels;
   const std::uint32_t* levelStart;
   BoxGroup* boxes;
-  const std::uint8_t* moved;  ///< a group each: bit k where lane k holds something that moved
+  const std::uint8_t* moved;  ///< a group each: bit k where lane k holds something that moved since it was
+                              ///< tested last
   const Bezier* tubes;        ///< the caller's
   float grow;                 ///< [m] what their radii are to be larger by
   BoxGrid grid;

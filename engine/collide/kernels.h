@@ -20,8 +20,7 @@ struct ExcludedGroups {
 };
 constexpr std::uint32_t kNoGroup = ~0u;
 
-/// Two groups of one level that are to be tested against one another, a <= b. Only what holds something that
-/// moved is opened.
+/// Two groups of one level that are to be tested against one another, a <= b.
 struct GroupPair {
   std::uint32_t level, a, b;
 };
@@ -54,9 +53,10 @@ struct Kernels {
   void (*fitLeaves)(const BoxTreeView& tree, std::uint32_t begin, std::uint32_t end);
   /// Fills the boxes of the groups [begin, end) of a level above 0 from the level below.
   void (*fitLevel)(const BoxTreeView& tree, std::uint32_t level, std::uint32_t begin, std::uint32_t end);
-  /// Replaces the pair on top of the stack, of a level above 0, by its children.
+  /// Replaces the pair on top of the stack, of a level above 0, by its children whose boxes meet and of which
+  /// one, at least, holds something that moved.
   void (*openNode)(Traversal& traversal);
-  /// Takes pairs off the stack until it is empty or there are `enough` candidates.
+  /// Takes pairs off the stack until it is empty or there are `enough` candidates, of which one has moved.
   void (*traverse)(Traversal& traversal, std::size_t enough);
   /// The candidates whose chord capsules meet, as whole tubes, numbered from 0. @param pieces  room for count
   /// + 1

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include "collide/closest_tubes.h"
 #include "collide/contact_search.h"
@@ -55,14 +56,13 @@ struct TubeDetector::State {
       : options(chosen),
         kernels(chosen.scalar ? scalarKernels() : fastKernels()),
         tree(rest),
-        lastTubes(rest.begin(), rest.end()),
         moved(rest.size(), true) {
     groupExclusions(exclusions);
   }
 
   void groupExclusions(const Exclusions& exclusions);
   void update(std::span<const Bezier> shape, float margin);
-  void markMoved();
+  void markMoved(bool all);
   bool haveMoved(TubePair pair) const { return moved[pair.i] || moved[pair.j]; }
   void findTasks();
   void run(Worker& worker, std::span<const GroupPair> work);
@@ -77,9 +77,9 @@ struct TubeDetector::State {
   std::size_t workersUsed = 0;
   std::vector<TubePair> pairs, sortScratch;
   std::vector<Contact> contacts, lastContacts;  // of the last two detect(); empty where nobody asked
-  std::vector<Bezier> lastTubes;                // as the last detect() saw them, with lastGrow
-  float lastGrow = -1;
-  std::vector<char> moved;  // since then, a tube each
+  std::vector<Bezier> lastTubes;                // as the last detect() saw them; none before the first ...
+  float lastGrow = -1;                          // ... with this; -1 where it did not come to its end
+  std::vector<char> moved;                      // since then, a tube each
 };
 
 void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
@@ -108,11 +108,10 @@ void TubeDetector::State::groupExclusions(const Exclusions& exclusions) {
   }
 }
 
-// Tubes, and the groups above them.
-void TubeDetector::State::markMoved() {
-  const bool all = tree.grow != lastGrow;
+// Tubes, and the groups above them. @param all  the groups as if everything had moved
+void TubeDetector::State::markMoved(bool all) {
   for (std::uint32_t tube = 0; tube < tree.tubeCount; ++tube)
-    moved[tube] = std::memcmp(&tree.tubes[tube], &lastTubes[tube], sizeof(Bezier)) != 0;
+    moved[tube] = lastTubes.empty() || std::memcmp(&tree.tubes[tube], &lastTubes[tube], sizeof(Bezier)) != 0;
   std::ranges::fill(tree.moved, std::uint8_t(0));
   for (std::uint32_t slot = 0; slot < tree.slots(); ++slot)
     tree.moved[slot / kGroup] |= std::uint8_t((all || moved[tree.tubeAt(slot)]) << slot % kGroup);
@@ -140,7 +139,6 @@ void TubeDetector::State::update(std::span<const Bezier> shape, float margin) {
   }
   for (std::uint32_t level = 1; level < tree.levels(); ++level)
     kernels.fitLevel(view, level, 0, tree.groups(level));
-  markMoved();
 }
 
 void TubeDetector::State::findTasks() {
@@ -193,7 +191,9 @@ void TubeDetector::update(std::span<const Bezier> tubes, float margin) { state_-
 std::span<const TubePair> TubeDetector::detect() {
   State& state = *state_;
   if (state.tree.tubes.empty()) return {};
-  if (state.tree.grow != state.lastGrow) state.pairs.clear(), state.contacts.clear();
+  const bool sameMargin = state.tree.grow == std::exchange(state.lastGrow, -1.0f);
+  state.markMoved(!sameMargin);
+  if (!sameMargin) state.pairs.clear(), state.contacts.clear();
   std::erase_if(state.pairs, [&](TubePair pair) { return state.haveMoved(pair); });
   state.contacts.swap(state.lastContacts);
   state.contacts.clear();
@@ -213,7 +213,7 @@ std::span<const TubePair> TubeDetector::detect() {
   for (const Worker& worker : std::span(state.workers.data(), blocks))
     state.pairs.insert(state.pairs.end(), worker.pairs.begin(), worker.pairs.end());
   sortPairs(state.pairs, state.sortScratch, state.tree.tubeCount);
-  std::ranges::copy(state.tree.tubes, state.lastTubes.begin());
+  state.lastTubes.assign(state.tree.tubes.begin(), state.tree.tubes.end());
   state.lastGrow = state.tree.grow;
   return state.pairs;
 }

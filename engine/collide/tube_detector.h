@@ -51,7 +51,7 @@ class TubeDetector {
   /// where the pair was found, by closestOfTubes(); the value is f there exactly. Valid until the next call.
   std::span<const Contact> contacts();
 
-  /// A tube each: 1 where it is not what it was at the detect() before the last.
+  /// A tube each: 1 where the last detect() saw another shape than the one before it, or was the first.
   std::span<const char> moved() const;
 
   /// What the last detect() did.

@@ -38,9 +38,8 @@ class CorrectionSteps {
     std::optional<Place> worst;  ///< the farthest beyond its bound; none without excess
   };
 
-  /// The steps since the frame before; nothing at the first. O(samples), and where a step is longer than
-  /// kAllowed, a sort of the samples whose posed step is, too, and for each such step a look at 27 cells of a
-  /// grid: 1 ms for 14,000 spans, up to 4 ms more for the sort, and about 2 µs a step looked at.
+  /// The steps since the frame before; nothing at the first. O(samples), 1 ms for 14,000 spans; and for each
+  /// step longer than kAllowed a look at 27 cells of a grid.
   /// @param posed      de Boor points without avoidance (FrameMaker::posedPoints), as Network::points()
   /// @param corrected  with it (FrameMaker::points)
   std::optional<Steps> next(std::span<const vec4> posed, std::span<const vec4> corrected);

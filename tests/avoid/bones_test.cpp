@@ -308,13 +308,15 @@ TEST_CASE("what was seen in earlier poses changes nothing of what is found in a 
       layout.shape(points, latest);
       std::vector<char> moved;
       for (std::size_t t = 0; t < latest.size(); ++t) moved.push_back(latest[t].b != later[t].b);
-      stayed += std::size_t(std::ranges::count(moved, 0));
       const auto e = kept.contacts(latest, now, Bones::Which::nearAtLast, {}, moved),
                  f = fresh.contacts(latest, now);
       REQUIRE(e.size() == f.size());
       for (std::size_t k = 0; k < e.size(); ++k) {
         CHECK(e[k].tube == f[k].tube);
         CHECK(e[k].f == f[k].f);
+        CHECK(e[k].normal == f[k].normal);
+        CHECK(e[k].point == f[k].point);
+        stayed += moved[e[k].tube] == 0;
       }
     }
     CHECK(stayed > 20);
