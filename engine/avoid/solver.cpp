@@ -330,19 +330,27 @@ void Avoider::State::solve(const Input& in, bool isLast) {
   }
 }
 
-// The vessels within reach of the places that are in trouble.
+// The vessels that are in trouble, and those within reach of the places.
 void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
-  const std::span<const Bezier> tubes = interference.tubes();
   std::vector<vec3> centres;
-  for (const Interference::Place& place : remaining)
-    centres.push_back(vec3(tubes[place.contact.i].at(place.contact.s)));
+  std::vector<char> isIn(network.vessels().size(), false);
+  const auto add = [&](std::uint32_t tube, float s) {
+    centres.push_back(vec3(interference.tubes()[tube].at(s)));
+    isIn[interference.layout().address(tube).vessel.value] = true;
+  };
+  for (const Interference::Place& place : remaining) {
+    add(place.contact.i, place.contact.s);
+    add(place.contact.j, place.contact.t);
+  }
   for (const BoneContact& contact : boneContacts)
-    if (isEntered(contact)) centres.push_back(vec3(tubes[contact.tube].at(contact.s)));
-  for (const Vessel& vessel : network.vessels()) {
-    const bool isNear = std::ranges::any_of(Network::pointsOf(vessel, points), [&](const vec4& point) {
-      return std::ranges::any_of(centres,
-                                 [&](vec3 centre) { return glm::distance(centre, vec3(point)) < reach; });
-    });
+    if (isEntered(contact)) add(contact.tube, contact.s);
+  for (std::size_t v = 0; v < isIn.size(); ++v) {
+    const Vessel& vessel = network.vessels()[v];
+    const bool isNear =
+        isIn[v] || std::ranges::any_of(Network::pointsOf(vessel, points), [&](const vec4& point) {
+          return std::ranges::any_of(centres,
+                                     [&](vec3 centre) { return glm::distance(centre, vec3(point)) < reach; });
+        });
     std::fill_n(anewPoints.begin() + vessel.firstPoint, vessel.pointCount, isNear);
   }
   for (std::uint32_t tube = 0; tube < anewTubes.size(); ++tube)
@@ -350,13 +358,14 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
 }
 
 // Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the
-// sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble;
-// where vessels interfere it keeps no pace: better a jump than a wrong shape.
+// sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble.
+// They alone keep the pace; where vessels still interfere, those about them keep none: better a jump than a
+// wrong shape.
 void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
   const Trouble before = trouble();
   chooseAnew(in.points, reach);
-  mayJump = !remaining.empty();
+  mayJump = !remaining.empty() && reach > 0;
   fade(in.seconds);
   carry(in.posed.rotations);
   for (std::size_t p = 0; p < anewPoints.size(); ++p) {
@@ -495,6 +504,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   state.solve(in, stride.isLast);
   if (!stride.atAnyLength && state.halvesMayHelp()) return refuse();
   state.giveWay(in, stride.isLast);
+  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, 0);
   if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNear);
   if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
   report.addTimes(std::exchange(state.refused, {}));
