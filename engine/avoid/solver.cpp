@@ -39,6 +39,7 @@ constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
 constexpr float kPace = 0.04f;
 // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
 constexpr float kNear = 0.045f;
+constexpr float kHere = 0.005f;  // [m] ... to what has got caught, at its own place
 constexpr float kFarthest =
     0.04f;  // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
@@ -359,13 +360,13 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
 
 // Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the
 // sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble.
-// They alone keep the pace; where vessels still interfere, those about them keep none: better a jump than a
+// They alone keep the pace; where vessels still interfere, all about them keep none: better a jump than a
 // wrong shape.
 void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
   const Trouble before = trouble();
   chooseAnew(in.points, reach);
-  mayJump = !remaining.empty() && reach > 0;
+  mayJump = !remaining.empty() && reach > kHere;
   fade(in.seconds);
   carry(in.posed.rotations);
   for (std::size_t p = 0; p < anewPoints.size(); ++p) {
@@ -504,7 +505,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   state.solve(in, stride.isLast);
   if (!stride.atAnyLength && state.halvesMayHelp()) return refuse();
   state.giveWay(in, stride.isLast);
-  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, 0);
+  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kHere);
   if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNear);
   if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
   report.addTimes(std::exchange(state.refused, {}));
