@@ -39,7 +39,9 @@ constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
 constexpr float kPace = 0.04f;
 // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
 constexpr float kNear = 0.045f;
-constexpr float kHere = 0.005f;  // [m] ... to what has got caught, at its own place
+// [m] ... to what has got caught: it starts anew first, at its pace. With 0 the scanned body's punch stays
+// caught.
+constexpr float kHere = 0.005f;
 constexpr float kFarthest =
     0.04f;  // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
