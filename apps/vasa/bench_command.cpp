@@ -54,7 +54,7 @@ Result<Timings> timeRuns(Detector& detector, const TubeList& list, const Options
   LargeVector<Bezier> shape;
   for (int run = -kWarmUp; run < options.runs; ++run) {
     checkpoint();
-    list.blend(shareOf(std::abs(run), options.pose), shape);
+    list.blend(shareOf(run, options.pose), shape);
     const auto start = Clock::now();
     detector.update(shape);
     const double update = msSince(start);

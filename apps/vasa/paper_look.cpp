@@ -39,8 +39,8 @@ PaperLook::PaperLook(const Network& network)
 
 PaperLook::Pairs PaperLook::at(std::span<const vec4> points) {
   layout_.shape(points, tubes_);
-  TubeDetector detector(rest_,
-                        layout_.neighbours().exclusions());  // a new one: it knows of nothing that stayed
+  // A new one: it knows of nothing that stayed.
+  TubeDetector detector(rest_, layout_.neighbours().exclusions());
   const auto [exact, exactMs] = timed(detector, tubes_);
   const auto [paper, paperMs] = timed(paper_, tubes_);
   return {exact.size(), paper.size(), countOnlyInFirst(paper, exact), countOnlyInFirst(exact, paper),

@@ -243,8 +243,8 @@ void ContactPool::sortIn(std::size_t before) {
 }
 
 void ContactPool::add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-                      std::span<const Bezier> shape, const LastShape& last,
-                      const std::function<bool(TubePair)>& isNew, std::span<vec3> z) {
+                      std::span<const Bezier> shape, const LastShape& last, std::span<const char> moved,
+                      std::span<vec3> z) {
   proposals_.resize(std::max(proposals_.size(), bones.size() + places.size()));
   const auto atBones = std::span(proposals_).first(bones.size()),
              atPlaces = std::span(proposals_).subspan(bones.size(), places.size());
@@ -254,7 +254,7 @@ void ContactPool::add(std::span<const Interference::Place> places, std::span<con
     found.rows.clear();
     if (k < bones.size()) return propose(bones[k], shape, found);
     const Contact& contact = places[k - bones.size()].contact;
-    if (isNew({contact.i, contact.j})) propose(contact, shape, last, found);
+    if (moved.empty() || moved[contact.i] || moved[contact.j]) propose(contact, shape, last, found);
   });
   const std::size_t before = constraints_.size();
   for (const Proposals& proposals : atBones) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -51,9 +50,10 @@ class ContactPool {
   void clear();
   /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes
   /// that run side by side, at some more. @param shape  in which they were found @param z  its variables
-  /// @param isNew  of a pair of tubes: false where an add() since the last clear() was given the same place
+  /// @param moved  a tube each: places of pairs of 0 and 0 were given to an add() since the last clear(); or
+  ///               none, and all are new
   void add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
-           std::span<const Bezier> shape, const LastShape& last, const std::function<bool(TubePair)>& isNew,
+           std::span<const Bezier> shape, const LastShape& last, std::span<const char> moved,
            std::span<vec3> z);
 
   /// Turns vessels back that have rolled around one another. @param changed  RestSides::findChanged

@@ -15,8 +15,8 @@ struct NarrowPlace {
   bool operator==(const NarrowPlace&) const = default;
 };
 
-/// How thin a vessel may become: a share of its radius at rest. With 0.25 two small arteries at a scanned
-/// body's knee still met in a deep squat, and started anew 35 mm away.
+/// How thin a vessel may become: a share of its radius at rest. With 0.25 an artery and a vein at a
+/// scanned body's knee still met in a deep squat, and what started anew with them jumped by 35 mm.
 constexpr float kLeastLumen = 0.1f;
 
 /// Lowers what radii may be at each place, in both tubes, as far as the place asks for and kLeastLumen lets

@@ -21,12 +21,12 @@ std::uint32_t bucketOf(ivec3 cell) {
 }  // namespace
 
 void NearbySteps::fillBuckets() {
-  firsts_.assign(kBuckets + 1, 0);
-  for (const Step& step : given_) ++firsts_[bucketOf(cellOf(step.place)) + 1];
-  for (std::uint32_t bucket = 0; bucket < kBuckets; ++bucket) firsts_[bucket + 1] += firsts_[bucket];
+  // Counted one place too far on, so that each has come to its own first once all are put in.
+  firsts_.assign(kBuckets + 2, 0);
+  for (const Step& step : given_) ++firsts_[bucketOf(cellOf(step.place)) + 2];
+  for (std::uint32_t bucket = 0; bucket < kBuckets; ++bucket) firsts_[bucket + 2] += firsts_[bucket + 1];
   steps_.resize(given_.size());
-  for (const Step& step : given_) steps_[firsts_[bucketOf(cellOf(step.place))]++] = step;
-  firsts_.insert(firsts_.begin(), 0);  // each has come to where the next begins
+  for (const Step& step : given_) steps_[firsts_[bucketOf(cellOf(step.place)) + 1]++] = step;
 }
 
 float NearbySteps::longest(vec3 place, float enough) const {

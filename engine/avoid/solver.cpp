@@ -155,7 +155,7 @@ struct Avoider::State {
       unsettled;                                // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
   float margin = -1;                            // of the last look ...
-  bool sameMargin = false;                      // ... and of the one before it
+  bool sameMargin = false;                      // ... which the one before it had, too
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
   std::vector<BoneContact> left;                  // in bones, after the last step
@@ -280,11 +280,9 @@ void Avoider::State::separate(const Input& in) {
       solids.assign(boneContacts.begin(), boneContacts.end());
       solids.insert(solids.end(), skinContacts.begin(), skinContacts.end());
       pool.refresh(interference.tubes(), correction.motions);
-      const std::span<const char> moved = interference.moved();
-      const auto isNew = [&](TubePair pair) {
-        return round == 0 || !sameMargin || moved[pair.i] || moved[pair.j];
-      };
-      pool.add(places, solids, interference.tubes(), lastShape(in), isNew, correction.motions);
+      const bool areNew = round == 0 || !sameMargin;
+      pool.add(places, solids, interference.tubes(), lastShape(in),
+               areNew ? std::span<const char>() : interference.moved(), correction.motions);
       if (pool.size() == 0) return;
       ++in.report.rounds;
       // In the last rounds the least lack counts.
@@ -362,8 +360,8 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
 
 // Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the
 // sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble.
-// They alone keep the pace; where vessels still interfere, all about them keep none: better a jump than a
-// wrong shape.
+// With what lies here they keep the pace; with more, none where vessels interfere: better a jump than a wrong
+// shape.
 void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
   const Trouble before = trouble();
