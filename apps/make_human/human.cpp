@@ -48,10 +48,14 @@ Result<Human> makeHuman(const std::filesystem::path& tables, const GrowOptions& 
   probed[1] = skeleton;
   probed.resize(3);
   const MotionProbe probe(bodyOf(human.rig, std::move(probed), human.clips));
-  Result<Network> vessels = makeVessels(tables, human.rig, around, probe, box.high.y - box.low.y, options);
+  Result<std::vector<BoneForm>> organForms = readOrganForms(tables, human.rig);
+  if (!organForms.ok()) return organForms.error();
+  Result<Network> vessels =
+      makeVessels(tables, human.rig, around, *organForms, probe, box.high.y - box.low.y, options);
   if (!vessels.ok()) return vessels.error();
   human.vessels = std::move(vessels).value();
-  Result<std::vector<SkinnedMesh>> organs = makeOrgans(tables, human.rig, human.vessels);
+  Result<std::vector<SkinnedMesh>> organs =
+      makeOrgans(tables, std::move(organForms).value(), human.rig, human.vessels);
   if (!organs.ok()) return organs.error();
   std::ranges::move(*organs, std::back_inserter(human.meshes));
   return human;

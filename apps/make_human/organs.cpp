@@ -87,25 +87,26 @@ void append(SkinnedMesh& to, const FormSurface& from, const std::vector<int>& pa
 
 }  // namespace
 
-Result<std::vector<SkinnedMesh>> makeOrgans(const std::filesystem::path& tables, const Rig& rig,
-                                            const Network& vessels) {
-  Result<std::vector<BoneForm>> forms =
-      readBoneForms(tables / "organs.csv", tables / "organ_forms.csv", rig, {"organ", "colour"});
-  if (!forms.ok()) return forms.error();
+Result<std::vector<BoneForm>> readOrganForms(const std::filesystem::path& tables, const Rig& rig) {
+  return readBoneForms(tables / "organs.csv", tables / "organ_forms.csv", rig, {"organ", "colour"});
+}
+
+Result<std::vector<SkinnedMesh>> makeOrgans(const std::filesystem::path& tables, std::vector<BoneForm> forms,
+                                            const Rig& rig, const Network& vessels) {
   Result<Table> table = Table::read(tables / "organs.csv");
   if (!table.ok()) return table.error();
   std::vector<vec4> colours;
-  for (std::size_t row = 0; row < forms->size(); ++row) {
-    const vec3 colour = table->take(row, parseVector((*forms)[row].tissue));
+  for (std::size_t row = 0; row < forms.size(); ++row) {
+    const vec3 colour = table->take(row, parseVector(forms[row].tissue));
     colours.emplace_back(colour, table->number(row, "opacity"));
   }
   if (!table->state().ok()) return table->state().error();
-  if (const Result<void> carved = carveGrooves(*table, vessels, *forms); !carved.ok()) return carved.error();
-  std::vector<FormSurface> surfaces(forms->size());
-  parallelFor(forms->size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf((*forms)[i], kThinningError); });
-  std::vector<SkinnedMesh> organs(forms->size());
+  if (const Result<void> carved = carveGrooves(*table, vessels, forms); !carved.ok()) return carved.error();
+  std::vector<FormSurface> surfaces(forms.size());
+  parallelFor(forms.size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], kThinningError); });
+  std::vector<SkinnedMesh> organs(forms.size());
   for (std::size_t i = 0; i < organs.size(); ++i) {
-    const BoneForm& form = (*forms)[i];
+    const BoneForm& form = forms[i];
     organs[i].name = "organ: " + form.name;
     organs[i].colour = colours[i];
     append(organs[i], surfaces[i], form.path, rig, false);

@@ -8,6 +8,7 @@ namespace vasa::human {
 namespace {
 
 constexpr float kHeartLayer = 2.5e-3f;
+constexpr float kMostBack = 4e-3f;  // [m] that a place is moved at a time
 
 float distanceToLine(vec3 p, const std::vector<vec3>& places) {
   float best = glm::distance(p, places.front());
@@ -15,6 +16,19 @@ float distanceToLine(vec3 p, const std::vector<vec3>& places) {
     best = std::min(best, glm::distance(p, glm::mix(places[i], places[i + 1],
                                                     closestOnSegment(p, places[i], places[i + 1]))));
   return best;
+}
+
+/// The organ of a region's side: `right lung`, or the right one of a pair of kidneys.
+void findOrgan(Table& table, std::size_t row, Side side, std::span<const BoneForm> organs, Region& region) {
+  const std::string_view name = table.text(row, "places");
+  const std::string own = std::string(sidePrefix(side)).append(name);
+  for (const BoneForm& organ : organs) {
+    if (organ.name != own && organ.name != name) continue;
+    region.organ = &organ;
+    region.mirrored = organ.paired && side == Side::right;
+    return;
+  }
+  table.fault(row, "no organ " + quoted(name));
 }
 
 std::vector<int> vesselsNamed(Table& table, std::size_t row, std::string_view column,
@@ -30,18 +44,30 @@ std::vector<int> vesselsNamed(Table& table, std::size_t row, std::string_view co
 
 }  // namespace
 
+float Region::depth(vec3 p, const Surroundings& around) const {
+  return organ ? -organ->distance(mirrored ? human::mirrored(p) : p) : around.depth(p);
+}
+
+vec3 Region::outwards(vec3 p, const Surroundings& around) const {
+  if (!organ) return glm::normalize(around.skin.gradient(p));
+  const vec3 slope = organ->gradient(mirrored ? human::mirrored(p) : p);
+  const float length = glm::length(slope);
+  if (length < 0.1f) return vec3(0);
+  return (mirrored ? human::mirrored(slope) : slope) / length;
+}
+
 bool Region::contains(vec3 p, const Surroundings& around) const {
   if (shape == Shape::ellipsoid) {
     const float r = glm::length((p - places.front()) / size);
     if (r > 1 || r < inner) return false;
   } else if (shape == Shape::flesh) {
     if (distanceToLine(p, places) > size.x) return false;
-  } else {
+  } else if (shape == Shape::heart) {
     const auto place = around.heart.at(p, kHeartLayer);
     if (!place || place->distance < 0) return false;
   }
-  const float depth = around.depth(p);
-  return depth >= leastDepth && depth <= mostDepth;
+  const float below = depth(p, around);
+  return below >= leastDepth && below <= mostDepth;
 }
 
 vec3 Region::back(vec3 p, float radius, const Surroundings& around) const {
@@ -56,10 +82,10 @@ vec3 Region::back(vec3 p, float radius, const Surroundings& around) const {
     if (place && place->distance > kHeartLayer + radius)
       return (kHeartLayer + radius - place->distance) * place->outwards;
   }
-  if (mostDepth > 0.5f) return vec3(0);
-  const float depth = around.depth(p);
-  return depth > mostDepth ? glm::normalize(around.skin.gradient(p)) * std::min(depth - mostDepth, 0.004f)
-                           : vec3(0);
+  if (!organ && mostDepth > 0.5f) return vec3(0);
+  const float below = depth(p, around);
+  if (organ && below < leastDepth) return std::max(below - leastDepth, -kMostBack) * outwards(p, around);
+  return below > mostDepth ? std::min(below - mostDepth, kMostBack) * outwards(p, around) : vec3(0);
 }
 
 Aabb Region::bounds(const Surroundings& around) const {
@@ -68,6 +94,11 @@ Aabb Region::bounds(const Surroundings& around) const {
     box = around.heart.bounds();
     box.low -= kHeartLayer;
     box.high += kHeartLayer;
+    return box;
+  }
+  if (organ) {
+    for (const Aabb bounds = organ->bounds(); vec3 p : {bounds.low, bounds.high})
+      box.add(mirrored ? human::mirrored(p) : p);
     return box;
   }
   const vec3 reachOut = shape == Shape::flesh ? vec3(size.x) : size;
@@ -79,7 +110,7 @@ Aabb Region::bounds(const Surroundings& around) const {
 }
 
 Result<std::vector<Region>> readRegions(const std::filesystem::path& path, const VesselRows& vessels,
-                                        const Rig& rig) {
+                                        const Rig& rig, std::span<const BoneForm> organs) {
   Result<Table> table = Table::read(path);
   if (!table.ok()) return table.error();
   std::vector<Region> regions;
@@ -90,12 +121,17 @@ Result<std::vector<Region>> readRegions(const std::filesystem::path& path, const
       const std::string_view shape = table->text(r, "shape");
       region.shape = shape == "ellipsoid" ? Region::Shape::ellipsoid
                      : shape == "heart"   ? Region::Shape::heart
+                     : shape == "organ"   ? Region::Shape::organ
                                           : Region::Shape::flesh;
       if (region.shape == Region::Shape::flesh && shape != "flesh")
         table->fault(r, "unknown shape " + quoted(shape));
-      region.places = table->take(r, rig.places(table->text(r, "places"), side));
-      if (region.places.empty() && region.shape != Region::Shape::heart)
-        table->fault(r, "a region has a place");
+      if (region.shape == Region::Shape::organ) {
+        findOrgan(*table, r, side, organs, region);
+      } else {
+        region.places = table->take(r, rig.places(table->text(r, "places"), side));
+        if (region.places.empty() && region.shape != Region::Shape::heart)
+          table->fault(r, "a region has a place");
+      }
       if (region.shape == Region::Shape::ellipsoid)
         region.size = 1e-3f * table->take(r, parseVector(table->text(r, "size_mm")));
       if (region.shape == Region::Shape::flesh) region.size.x = table->millimetres(r, "size_mm");

@@ -75,10 +75,11 @@ void warnOfFaults(const Network& network) {
 }  // namespace
 
 Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig, const Surroundings& around,
-                            const MotionProbe& probe, float bodyHeight, const GrowOptions& options) {
+                            std::span<const BoneForm> organs, const MotionProbe& probe, float bodyHeight,
+                            const GrowOptions& options) {
   Result<VesselRows> rows = VesselRows::read(tables / "vessels.csv", rig);
   if (!rows.ok()) return rows.error();
-  const Result<std::vector<Region>> regions = readRegions(tables / "growth.csv", *rows, rig);
+  const Result<std::vector<Region>> regions = readRegions(tables / "growth.csv", *rows, rig, organs);
   if (!regions.ok()) return regions.error();
   Result<VesselLayout> layout = VesselLayout::make(*rows, around);
   if (!layout.ok()) return layout.error();

@@ -11,6 +11,7 @@ namespace vasa::human {
 /// the skin is laid deeper, and if it is a grown vessel, left out, as is a grown one that at rest kinks or
 /// touches another. @param bodyHeight  [m]
 Result<Network> makeVessels(const std::filesystem::path& tables, const Rig& rig, const Surroundings& around,
-                            const MotionProbe& probe, float bodyHeight, const GrowOptions& options);
+                            std::span<const BoneForm> organs, const MotionProbe& probe, float bodyHeight,
+                            const GrowOptions& options);
 
 }  // namespace vasa::human

@@ -18,10 +18,7 @@ struct Narrower {
   }
   // All ends that share a ring, so that it stays one.
   void ring(NodeId id, float factor) const {
-    for (const VesselEnd& end : network.ends(network.node(id))) {
-      const Vessel& vessel = network.vessel(end.vessel);
-      point(vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0), factor);
-    }
+    for (const VesselEnd& end : network.ends(network.node(id))) point(network.pointOf(end), factor);
   }
   void tube(NetworkTubes::Address at, float factor, bool ringsToo) const {
     const Vessel& vessel = network.vessel(at.vessel);

@@ -209,10 +209,8 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, float
   for (std::size_t n = 0; n < nodeWeight_.size(); ++n) {
     const Node& node = network_->nodes()[n];
     if (node.host || node.endCount == 0) continue;
-    const VesselEnd end = network_->ends(node)[0];
-    const Vessel& vessel = network_->vessel(end.vessel);
     vec3& motion = difference_[pointCount_ + n];
-    shorten(motion, vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0), motion);
+    shorten(motion, network_->pointOf(network_->ends(node)[0]), motion);
   }
   const std::span<const Vessel> vessels = network_->vessels();
   for (std::size_t v = 0; v < vessels.size(); ++v)

@@ -117,10 +117,7 @@ void RestParting::thin(std::span<const Interference::Place> places, const Networ
 void RestParting::taper(std::span<float> shares) const {
   for (const Node& node : network_->nodes()) {
     if (node.host) continue;
-    const auto at = [&](const VesselEnd& end) -> float& {
-      const Vessel& vessel = network_->vessel(end.vessel);
-      return shares[vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0)];
-    };
+    const auto at = [&](const VesselEnd& end) -> float& { return shares[network_->pointOf(end)]; };
     float least = 1;
     for (const VesselEnd& end : network_->ends(node)) least = std::min(least, at(end));
     for (const VesselEnd& end : network_->ends(node)) at(end) = least;

@@ -170,9 +170,7 @@ quat Avoider::State::turnOf(std::size_t variable, std::span<const quat> rotation
   if (variable < rotations.size()) return rotations[variable];
   const Node& node = network.nodes()[variable - rotations.size()];
   if (node.host || node.endCount == 0) return quat(1, 0, 0, 0);
-  const VesselEnd end = network.ends(node)[0];
-  const Vessel& vessel = network.vessel(end.vessel);
-  return rotations[vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0)];
+  return rotations[network.pointOf(network.ends(node)[0])];
 }
 
 void Avoider::State::pose(const PosedVessels& posed) {

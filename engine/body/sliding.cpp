@@ -327,10 +327,7 @@ void VesselSlider::carry(const Course& course, std::span<vec4> points) const {
       place =
           vec3(evaluate(Network::pointsOf(network_->vessel(hold.host->vessel), std::span<const vec4>(points)),
                         hold.host->parameter));
-    if (hold.end) {
-      const Vessel& vessel = network_->vessel(hold.end->vessel);
-      place = vec3(points[vessel.firstPoint + (hold.end->last ? vessel.pointCount - 1 : 0)]);
-    }
+    if (hold.end) place = vec3(points[network_->pointOf(*hold.end)]);
     return place - vec3(points[point]);
   };
   const vec3 start = shiftOf(course.start, course.points.front()),

@@ -88,7 +88,7 @@ class Limiter {
   Limiter(const Network& network, std::span<const vec4> before, std::span<vec4> points)
       : network_(network), before_(before), points_(points), endOf_(points.size()) {
     for (std::uint32_t n = 0; n < network.nodes().size(); ++n)
-      for (const VesselEnd& end : network.ends(network.nodes()[n])) endOf_[pointOf(end)] = n + 1;
+      for (const VesselEnd& end : network.ends(network.nodes()[n])) endOf_[network_.pointOf(end)] = n + 1;
   }
 
   void hold(const Piece& piece) {
@@ -107,10 +107,6 @@ class Limiter {
   }
 
  private:
-  std::uint32_t pointOf(const VesselEnd& end) const {
-    const Vessel& vessel = network_.vessel(end.vessel);
-    return vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0);
-  }
   const Node* nodeAt(std::uint32_t point) const {
     return endOf_[point] ? &network_.nodes()[endOf_[point] - 1] : nullptr;
   }
@@ -125,7 +121,7 @@ class Limiter {
       points_[point] += vec4(by, 0);
       return;
     }
-    for (const VesselEnd& end : network_.ends(*node)) points_[pointOf(end)] += vec4(by, 0);
+    for (const VesselEnd& end : network_.ends(*node)) points_[network_.pointOf(end)] += vec4(by, 0);
     if (!node->host) return;
     const Vessel& host = network_.vessel(node->host->vessel);
     const SpanParameter at = locate(node->host->parameter, host.spanCount());

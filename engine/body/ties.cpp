@@ -46,17 +46,15 @@ std::vector<Tie> tiesOf(const Network& network) {
   for (const Vessel& vessel : network.vessels())
     for (std::uint32_t i = 1; i < vessel.pointCount; ++i)
       ties.push_back({vessel.firstPoint + i - 1, vessel.firstPoint + i});
-  const auto endPoint = [&](VesselEnd end) {
-    const Vessel& vessel = network.vessel(end.vessel);
-    return vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0);
-  };
   for (const Node& node : network.nodes()) {
     const std::span<const VesselEnd> ends = network.ends(node);
-    for (std::size_t k = 1; k < ends.size(); ++k) ties.push_back({endPoint(ends[0]), endPoint(ends[k])});
+    for (std::size_t k = 1; k < ends.size(); ++k)
+      ties.push_back({network.pointOf(ends[0]), network.pointOf(ends[k])});
     if (!node.host || ends.empty()) continue;
     const Vessel& host = network.vessel(node.host->vessel);
     const std::uint32_t span = locate(node.host->parameter, host.spanCount()).span;
-    for (std::uint32_t k = 1; k < 3; ++k) ties.push_back({endPoint(ends[0]), host.firstPoint + span + k});
+    for (std::uint32_t k = 1; k < 3; ++k)
+      ties.push_back({network.pointOf(ends[0]), host.firstPoint + span + k});
   }
   addBeside(network, ties);
   return ties;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 
 #include "core/atomic_file.h"
 #include "growth/rule_text.h"
@@ -10,8 +11,10 @@
 namespace vasa {
 namespace {
 
-constexpr std::array<std::string_view, 9> kColumns{"region",      "system",      "joints", "vessels", "kinds",
-                                                   "thinnest_mm", "thickest_mm", "bed_mm", "surface"};
+constexpr std::array<std::string_view, 11> kColumns{"region",  "system",      "joints",      "vessels",
+                                                    "kinds",   "thinnest_mm", "thickest_mm", "bed_mm",
+                                                    "surface", "organs",      "wall_mm"};
+constexpr std::size_t kFewestColumns = 9;  // tables that know of no organs
 constexpr std::size_t kMaximumBytes = 1 << 20;
 
 std::string_view trimmed(std::string_view text) {
@@ -108,10 +111,18 @@ Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
   region.joints = list(row.text(2));
   region.vessels = list(row.text(3));
   region.kinds = kindsIn(row);
-  if (region.system != GrowthRegion::kNoSystem) {
+  region.organs = list(row.text(9));
+  const bool grows = region.system != GrowthRegion::kNoSystem;
+  if (grows) region.bed = row.millimetres(7, 2, 1000);
+  if (!region.organs.empty()) {
+    for (const std::size_t column : {2, 3, 4, 5, 6})
+      if (!row.text(column).empty())
+        row.fail("names organs and " + std::string(kColumns[column]) +
+                 "; an organ is filled whatever vessels are near, leave that empty");
+    if (!row.text(10).empty()) region.wall = row.millimetres(10, 0, 1000);
+  } else if (grows) {
     region.thinnest = row.millimetres(5, 0, 100);
     region.thickest = row.millimetres(6, 0, 100);
-    region.bed = row.millimetres(7, 2, 1000);
     if (region.thickest < region.thinnest) row.fail("thickest_mm is less than thinnest_mm; exchange them");
   }
   region.inBone = row.text(8) == "bone";
@@ -121,9 +132,10 @@ Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
   return region;
 }
 
-std::string headerText() {
+std::string headerText(std::size_t columns = kColumns.size()) {
   std::string text;
-  for (const std::string_view column : kColumns) text.append(text.empty() ? "" : ",").append(column);
+  for (const std::string_view column : std::span(kColumns).first(columns))
+    text.append(text.empty() ? "" : ",").append(column);
   return text;
 }
 
@@ -133,6 +145,7 @@ const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const Reg
   const std::string vessel = lower(question.vessel), joint = lower(question.joint),
                     id = lower(question.ontologyId);
   for (const GrowthRegion& region : regions) {
+    if (!region.organs.empty()) continue;
     const bool named = region.vessels.empty() || holdsAny(region.vessels, vessel) ||
                        std::find(region.vessels.begin(), region.vessels.end(), id) != region.vessels.end();
     const bool placed = region.joints.empty() || holdsAny(region.joints, joint);
@@ -143,26 +156,35 @@ const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const Reg
   return nullptr;
 }
 
+const GrowthRegion* regionOfOrgan(const std::vector<GrowthRegion>& regions, std::string_view mesh) {
+  const std::string name = lower(mesh);
+  const auto found = std::find_if(regions.begin(), regions.end(),
+                                  [&](const GrowthRegion& region) { return holdsAny(region.organs, name); });
+  return found == regions.end() ? nullptr : &*found;
+}
+
 Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std::string& name,
                                                const GrowthRules& rules) {
   std::vector<GrowthRegion> regions;
-  bool header = false;
+  std::size_t columns = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
-    if (!header) {
-      if (line != headerText())
+    if (columns == 0) {
+      for (columns = kColumns.size(); columns > 0 && line != headerText(columns);)
+        columns = columns > kFewestColumns ? kFewestColumns : 0;
+      if (columns == 0)
         return ruleFault(name, number, "the first line must name the columns: " + headerText());
-      header = true;
       continue;
     }
     std::vector<std::string_view> cells = split(line, ',');
-    if (cells.size() != kColumns.size())
+    if (cells.size() != columns)
       return ruleFault(name, number,
                        "has " + std::to_string(cells.size()) + " cells but must have " +
-                           std::to_string(kColumns.size()) + ": " + headerText());
+                           std::to_string(columns) + ": " + headerText(columns));
+    cells.resize(kColumns.size());
     auto region = regionIn(Row(name, number, std::move(cells)), rules);
     if (!region) return region.error();
     regions.push_back(std::move(*region));

@@ -21,6 +21,8 @@ struct GrowthRegion {
   float thinnest = 0, thickest = 0;  ///< [m] radii of vessels that trees hang on
   float bed = 0;                     ///< [m] side of a cube as large as a bed
   bool inBone = false;               ///< bones are its surface, as the skull is the brain's; else the skin
+  std::vector<std::string> organs;   ///< parts of names of the meshes that it fills, whichever vessels are near
+  float wall = 0;                    ///< [m] how deep below such a mesh's surface; 0: all of it
 };
 
 struct RegionQuestion {
@@ -28,9 +30,12 @@ struct RegionQuestion {
   VesselKind kind = VesselKind::other;
 };
 
-/// The first region whose joints, vessels and kinds fit; nullptr if there is none. Upper and lower case are
-/// alike.
+/// The first region whose joints, vessels and kinds fit, none that fills organs; nullptr if there is none.
+/// Upper and lower case are alike.
 const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question);
+
+/// The first region that fills the organ of a mesh; nullptr if there is none.
+const GrowthRegion* regionOfOrgan(const std::vector<GrowthRegion>& regions, std::string_view mesh);
 
 /// Reads the table: see data/growth/regions.csv. Lengths are for a body 1.75 m tall. badInput names file,
 /// line, cause and remedy.

@@ -61,18 +61,17 @@ std::uint32_t Network::componentCount() const {
 }
 
 void pinEnds(const Network& network, std::span<vec4> points) {
-  const auto endPoint = [&](const VesselEnd& end) -> vec4& {
-    const Vessel& vessel = network.vessel(end.vessel);
-    return points[vessel.firstPoint + (end.last ? vessel.pointCount - 1 : 0)];
-  };
   for (const NodeId id : network.pinOrder()) {
     const Node& node = network.node(id);
     const auto ends = network.ends(node);
     const vec3 position = node.host
                               ? vec3(evaluate(Network::pointsOf(network.vessel(node.host->vessel), points),
                                               node.host->parameter))
-                              : vec3(endPoint(ends[0]));
-    for (const VesselEnd& end : ends) endPoint(end) = vec4(position, endPoint(end).w);
+                              : vec3(points[network.pointOf(ends[0])]);
+    for (const VesselEnd& end : ends) {
+      vec4& point = points[network.pointOf(end)];
+      point = vec4(position, point.w);
+    }
   }
 }
 

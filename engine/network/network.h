@@ -64,6 +64,12 @@ class Network {
     return std::span(ends_).subspan(node.firstEnd, node.endCount);
   }
 
+  /// Which of points() a vessel's end is.
+  std::uint32_t pointOf(const VesselEnd& end) const {
+    const Vessel& own = vessel(end.vessel);
+    return own.firstPoint + (end.last ? own.pointCount - 1 : 0);
+  }
+
   /// De Boor points (x, y, z, r) [m] of all vessels, vessel after vessel, at rest.
   std::span<const vec4> points() const { return points_; }
   std::span<const vec4> pointsOf(const Vessel& vessel) const { return pointsOf(vessel, points_); }

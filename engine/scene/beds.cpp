@@ -23,7 +23,9 @@ constexpr float kBehindWall = 0.9f;     // cubes beyond this share of the way to
 constexpr float kMargin = 0.45f;        // in cubes, between a wall and what it keeps out
 constexpr float kStemsApart = 0.3f;     // of the half box: from its middle to where a stem ends
 constexpr float kUpstream = 0.5f;       // of the way to a bed, by which a stem leaves its vessel before
-constexpr int kSlopeReach = 2;          // cubes either way that the skin's direction is taken from
+constexpr std::uint32_t kToll =
+    100;                        // tenths of a cube: an organ is fed from outside where nothing else is near
+constexpr int kSlopeReach = 2;  // cubes either way that the skin's direction is taken from
 constexpr std::int32_t kNone = -1;
 
 using Cubes = std::vector<std::int32_t>;
@@ -176,7 +178,7 @@ class Sharing {
     for (std::size_t i = 0; i < wish_.sources[side].size(); ++i)
       if (const std::int32_t cube = tissue_.numberAt(wish_.sources[side][i].at); cube >= 0)
         sources.push_back({cube, std::int32_t(i)});
-    ways_[side] = waysFrom(tissue_, sources, passable_);
+    ways_[side] = waysFrom(tissue_, sources, passable_, kToll);
   }
 
   // How deep every cube lies below the skin, and below skin or bone.
@@ -199,21 +201,29 @@ class Sharing {
     }
   }
 
+  // What fills a cube: its organ's region, else that of the vessel that feeds it; 255: nothing.
+  std::uint8_t regionOf(std::int32_t cube, std::size_t side) const {
+    const std::uint8_t room = tissue_.rooms[std::size_t(cube)];
+    return room == Tissue::kCommon ? sourceOf(side, cube).region : wish_.regionOfRoom[room - 1u];
+  }
+
   void findPieces() {
-    std::vector<Cubes> tissues(wish_.regions.size());
+    // By region and, of organs, by room.
+    const std::size_t rooms = wish_.regionOfRoom.size();
+    std::vector<Cubes> tissues(rooms + wish_.regions.size());
     for (std::int32_t cube = 0; cube < std::int32_t(tissue_.count()); ++cube) {
       if (tissue_.kinds[std::size_t(cube)] != Tissue::Kind::flesh) continue;
       const std::size_t side = ownerSide(cube);
       if (!reached(side, cube)) continue;
-      const BedSource& source = sourceOf(side, cube);
-      if (source.region != 255) tissues[source.region].push_back(cube);
+      const std::uint8_t region = regionOf(cube, side), room = tissue_.rooms[std::size_t(cube)];
+      if (region != 255) tissues[room == Tissue::kCommon ? rooms + region : room - 1u].push_back(cube);
     }
-    for (std::size_t region = 0; region < tissues.size(); ++region) {
-      if (tissues[region].empty()) continue;
+    for (std::size_t i = 0; i < tissues.size(); ++i) {
+      if (tissues[i].empty()) continue;
+      const std::size_t region = i < rooms ? wish_.regionOfRoom[i] : i - rooms;
       const float side = wish_.regions[region].bed * wish_.scale / tissue_.cell;
       std::vector<Cubes> pieces;
-      cut(tissue_, std::move(tissues[region]), std::size_t(std::max(kMost * side * side * side, 1.0f)),
-          pieces);
+      cut(tissue_, std::move(tissues[i]), std::size_t(std::max(kMost * side * side * side, 1.0f)), pieces);
       for (Cubes& piece : pieces) {
         Piece& own = pieces_.emplace_back();
         own.cubes = std::move(piece);
@@ -230,6 +240,7 @@ class Sharing {
       if (const float d = glm::distance(tissue_.centreOf(cube), piece.box.middle); d < nearest)
         nearest = d, piece.centre = cube;
     const vec3 centre = tissue_.centreOf(piece.centre);
+    const std::uint8_t room = tissue_.rooms[std::size_t(piece.centre)];
     std::vector<vec3> blocked;
     const vec3 reach = glm::abs(piece.box.axes[0]) * piece.box.half.x +
                        glm::abs(piece.box.axes[1]) * piece.box.half.y +
@@ -240,7 +251,9 @@ class Sharing {
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
           const std::int32_t cube = tissue_.numberAt(ivec3(x, y, z));
-          const bool free = cube >= 0 ? bool(passable_[std::size_t(cube)]) : !tissue_.hasSkin;
+          const bool free = cube >= 0
+                                ? passable_[std::size_t(cube)] && tissue_.rooms[std::size_t(cube)] == room
+                                : !tissue_.hasSkin;
           if (free) continue;
           const vec3 p = tissue_.centreOf(ivec3(x, y, z));
           const vec3 own = glm::abs(glm::transpose(piece.box.axes) * (p - piece.box.middle));
@@ -286,8 +299,7 @@ class Sharing {
   void joinUp(std::size_t side) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < pieces_.size(); ++i)
-      if (reached(side, pieces_[i].centre) && sourceOf(side, pieces_[i].centre).region != 255)
-        order.push_back(i);
+      if (reached(side, pieces_[i].centre) && regionOf(pieces_[i].centre, side) != 255) order.push_back(i);
     const auto wayOf = [&](std::size_t i) { return ways_[side].length[std::size_t(pieces_[i].centre)]; };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t l, std::size_t r) { return wayOf(l) < wayOf(r); });

@@ -11,7 +11,7 @@ struct BedSource {
   float radius = 0;
   std::uint32_t span = 0;
   float t = 0;
-  std::uint8_t region = 255;  ///< 255: nothing grows around it
+  std::uint8_t region = 255;  ///< 255: nothing grows around it, but in organs
   bool againstFlow = false;   ///< blood flows against the span
 };
 
@@ -19,6 +19,7 @@ struct BedSource {
 struct BedWish {
   const GrowthRules& rules;
   const std::vector<GrowthRegion>& regions;
+  std::span<const std::uint8_t> regionOfRoom;  ///< one a room of the tissue from 1 on
   PosedNetwork rest;
   std::span<const shared::SweepRecord> spans;
   std::array<std::vector<BedSource>, 2> sources;  ///< of arteries, of veins

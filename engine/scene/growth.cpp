@@ -60,6 +60,25 @@ void lookAlong(const std::vector<Looked>& looked, const std::vector<GrowthRegion
   }
 }
 
+// Meshes that the tables know as organs, and what fills them.
+struct Organs {
+  std::vector<OrganRoom> rooms;
+  std::vector<std::uint8_t> regions;  // one a room; 255: nothing grows there
+};
+
+Organs organsOf(const Body& body, const std::vector<GrowthRegion>& regions, float scale) {
+  Organs organs;
+  for (const SkinnedMesh& mesh : body.meshes) {
+    const GrowthRegion* region = regionOfOrgan(regions, mesh.name);
+    if (!region || roleNamed(mesh.name) == MeshRole::skin || isSolid(mesh)) continue;
+    if (organs.rooms.size() + 1 == Tissue::kHollow) break;
+    const bool grows = region->system != GrowthRegion::kNoSystem;
+    organs.rooms.push_back({&mesh, region->wall * scale});
+    organs.regions.push_back(grows ? std::uint8_t(region - regions.data()) : std::uint8_t(255));
+  }
+  return organs;
+}
+
 std::vector<vec3> placesOf(std::span<const vec4> points) {
   std::vector<vec3> places;
   for (const vec4& p : points) places.emplace_back(p);
@@ -68,7 +87,7 @@ std::vector<vec3> placesOf(std::span<const vec4> points) {
 
 // All that beds depend on.
 std::uint64_t keyOf(const Body& body, const GrowthRules& rules, const std::vector<GrowthRegion>& regions,
-                    const BedWish& wish, const std::vector<Looked>& looked) {
+                    const Organs& organs, const BedWish& wish, const std::vector<Looked>& looked) {
   std::uint64_t key = hashOf(std::span(&rules.tables, 1));
   for (const GrowthRegion& region : regions) {
     const std::array<float, 3> numbers{float(region.system), region.bed, region.inBone ? 1.0f : 0.0f};
@@ -76,6 +95,12 @@ std::uint64_t keyOf(const Body& body, const GrowthRules& rules, const std::vecto
   }
   for (const SkinnedMesh& mesh : body.meshes) {
     if (&mesh != skinOf(body) && !isSolid(mesh)) continue;
+    key = hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key));
+  }
+  for (std::size_t i = 0; i < organs.rooms.size(); ++i) {
+    const SkinnedMesh& mesh = *organs.rooms[i].mesh;
+    const std::array<float, 2> numbers{organs.rooms[i].wall, float(organs.regions[i])};
+    key = hashOf(std::span<const float>(numbers), key);
     key = hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key));
   }
   for (const Looked& one : looked) {
@@ -101,12 +126,15 @@ CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
   const std::vector<Station> stations = mainStations(scene.binding);
   const std::vector<bool> drawn = drawnSpans(table);
   CapillaryBeds beds{.spans = wholeSpans(network), .beds = {}, .regionOfBed = {}, .regionOfSpan = {}};
+  const float scale = scene.body.height() / kTableHeight;
+  const Organs organs = organsOf(scene.body, regions, scale);
   BedWish wish{.rules = rules,
                .regions = regions,
+               .regionOfRoom = organs.regions,
                .rest = {table, network.points(), frames},
                .spans = beds.spans,
                .sources = {},
-               .scale = scene.body.height() / kTableHeight};
+               .scale = scale};
   std::vector<Looked> looked(beds.spans.size());
   parallelFor(looked.size(), 16, [&](std::size_t i) {
     const shared::SweepRecord& span = beds.spans[i];
@@ -128,11 +156,11 @@ CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
   for (const Looked& one : looked)
     beds.regionOfSpan.push_back(
         one.source && regions[one.region].system != GrowthRegion::kNoSystem ? one.region : std::uint8_t(255));
-  const std::uint64_t key = keyOf(scene.body, rules, regions, wish, looked);
+  const std::uint64_t key = keyOf(scene.body, rules, regions, organs, wish, looked);
   if (const auto kept = findKept(kKind, key))
     if (restore(*kept, beds)) return beds;
-  Tissue tissue =
-      tissueOf(scene.body, kCube * wish.scale, placesOf(network.points()), kWayWithoutSkin * wish.scale);
+  Tissue tissue = tissueOf(scene.body, kCube * wish.scale, placesOf(network.points()),
+                           kWayWithoutSkin * wish.scale, organs.rooms);
   wish.mostWay = tissue.hasSkin ? std::numeric_limits<float>::infinity() : kWayWithoutSkin * wish.scale;
   lookAlong(looked, regions, tissue, wish);
   shareOut(tissue, wish, beds);

@@ -19,6 +19,9 @@ namespace {
 constexpr float kBesideA = 0.5013f, kBesideB = 0.4979f;
 constexpr std::array<std::uint32_t, 4> kSteps{0, 10, 14, 17};  // tenths: over a face, an edge, a corner
 
+constexpr std::array<ivec3, 6> kBeside{ivec3(1, 0, 0),  ivec3(-1, 0, 0), ivec3(0, 1, 0),
+                                       ivec3(0, -1, 0), ivec3(0, 0, 1),  ivec3(0, 0, -1)};
+
 struct Crossing {
   std::uint32_t line;
   float along;
@@ -105,6 +108,31 @@ void forCubesAround(const Tissue& tissue, vec3 p, float reach, const Visit& visi
           visit(indexOf(tissue.size, place));
 }
 
+// Takes what lies deeper than an organ's wall out of its room.
+void hollowOut(Tissue& tissue, std::span<const OrganRoom> organs) {
+  for (std::size_t room = 0; room < organs.size(); ++room) {
+    if (organs[room].wall <= 0) continue;
+    std::vector<char> within(tissue.count());
+    std::vector<TissueWays::Source> rim;
+    for (std::size_t i = 0; i < tissue.count(); ++i) {
+      within[i] = tissue.rooms[i] == room + 1;
+      if (!within[i]) continue;
+      bool outermost = false;
+      for (const ivec3 step : kBeside) {
+        const std::int32_t beside = tissue.numberAt(tissue.places[i] + step);
+        outermost = outermost || beside < 0 || tissue.rooms[std::size_t(beside)] != room + 1;
+      }
+      if (outermost) rim.push_back({std::int32_t(i), 0});
+    }
+    const std::vector<std::uint32_t> depths = waysFrom(tissue, rim, within).length;
+    for (std::size_t i = 0; i < tissue.count(); ++i)
+      if (within[i] && (0.1f * float(depths[i]) + 0.5f) * tissue.cell > organs[room].wall) {
+        tissue.rooms[i] = Tissue::kHollow;
+        if (tissue.kinds[i] == Tissue::Kind::flesh) tissue.kinds[i] = Tissue::Kind::lumen;
+      }
+  }
+}
+
 }  // namespace
 
 void Tissue::clear(vec3 centre, float radius) {
@@ -119,7 +147,8 @@ std::int32_t Tissue::numberAt(ivec3 place) const {
   return at[indexOf(size, place)];
 }
 
-Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float reach) {
+Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float reach,
+                std::span<const OrganRoom> organs) {
   Tissue tissue;
   tissue.cell = cell;
   const SkinnedMesh* skin = skinOf(body);
@@ -147,6 +176,12 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
     const std::vector<std::uint8_t> votes = insideVotes(tissue, meshAtRest(body, mesh));
     for (std::size_t i = 0; i < votes.size(); ++i) solid[i] = std::max(solid[i], votes[i]);
   }
+  std::vector<std::uint8_t> rooms(tissue.at.size(), Tissue::kCommon);
+  for (std::size_t room = organs.size(); room-- > 0;) {
+    const std::vector<std::uint8_t> votes = insideVotes(tissue, meshAtRest(body, *organs[room].mesh));
+    for (std::size_t i = 0; i < votes.size(); ++i)
+      if (votes[i] >= 2) rooms[i] = std::uint8_t(room + 1);
+  }
   std::size_t i = 0;
   for (int z = 0; z < tissue.size.z; ++z) {
     checkpoint();
@@ -156,18 +191,20 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
         if (tissue.at[i] < 0) continue;
         tissue.places.emplace_back(x, y, z);
         tissue.kinds.push_back(solid[i] >= 2 ? Tissue::Kind::solid : Tissue::Kind::flesh);
+        tissue.rooms.push_back(rooms[i]);
       }
   }
+  hollowOut(tissue, organs);
   return tissue;
 }
 
 TissueWays waysFrom(const Tissue& tissue, const std::vector<TissueWays::Source>& sources,
-                    const std::vector<char>& through) {
+                    const std::vector<char>& through, std::uint32_t toll) {
   TissueWays ways;
   ways.length.assign(tissue.count(), TissueWays::kFar);
   ways.before.assign(tissue.count(), -1);
   ways.source.assign(tissue.count(), -1);
-  std::array<std::vector<std::int32_t>, 18> buckets;  // by length, in a ring
+  std::vector<std::vector<std::int32_t>> buckets(kSteps.back() + toll + 1);  // by length, in a ring
   std::size_t waiting = 0;
   for (const TissueWays::Source& source : sources) {
     const auto cube = std::size_t(source.cube);
@@ -191,7 +228,9 @@ TissueWays waysFrom(const Tissue& tissue, const std::vector<TissueWays::Source>&
           for (int x = -1; x <= 1; ++x) {
             const std::int32_t to = tissue.numberAt(place + ivec3(x, y, z));
             if (to < 0 || !through[std::size_t(to)]) continue;
-            const std::uint32_t own = length + kSteps[std::size_t(x * x + y * y + z * z)];
+            const bool leaves = tissue.rooms[std::size_t(from)] != tissue.rooms[std::size_t(to)];
+            const std::uint32_t own =
+                length + kSteps[std::size_t(x * x + y * y + z * z)] + (leaves ? toll : 0);
             if (own >= ways.length[std::size_t(to)]) continue;
             ways.length[std::size_t(to)] = own;
             ways.before[std::size_t(to)] = from;

@@ -19,6 +19,9 @@ struct Tissue {
   std::vector<std::int32_t> at;  ///< one a place of the grid, x fastest: number of its cube, -1 outside
   std::vector<ivec3> places;     ///< one a cube
   std::vector<Kind> kinds;
+  std::vector<std::uint8_t> rooms;  ///< one a cube: the organ that it lies in; kCommon, kHollow
+
+  static constexpr std::uint8_t kCommon = 0, kHollow = 255;
 
   std::size_t count() const { return places.size(); }
   /// Makes lumen of the flesh in a ball.
@@ -30,10 +33,18 @@ struct Tissue {
 };
 
 /// @param cell   [m]
+/// A mesh of the body whose inside is a room of its own.
+struct OrganRoom {
+  const SkinnedMesh* mesh;
+  float wall = 0;  ///< [m] what lies deeper is hollow; 0: nothing is
+};
+
 /// @param near   what lies within `reach` of these places is taken for the inside of a body without skin
 /// Skins have holes and overlap themselves: a place is inside where a surface winds around it as two of three
 /// lines through it along the axes see it. O(cubes of the box + triangles that cross them)
-Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float reach);
+/// @param organs  that of number i is room i + 1, at most 254; where they overlap the first counts
+Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float reach,
+                std::span<const OrganRoom> organs = {});
 
 /// Shortest ways through the tissue from some cubes to all others, from cube to cube over faces, edges and
 /// corners, in tenths of a cube's side.
@@ -49,8 +60,9 @@ struct TissueWays {
 };
 
 /// @param through  one a cube: whether ways lead there
+/// @param toll     [tenths of a cube's side] added where a way leaves a room for another
 /// Of several sources in a cube the first counts. Dial's buckets; O(cubes)
 TissueWays waysFrom(const Tissue& tissue, const std::vector<TissueWays::Source>& sources,
-                    const std::vector<char>& through);
+                    const std::vector<char>& through, std::uint32_t toll = 0);
 
 }  // namespace vasa

@@ -49,6 +49,22 @@ TEST_CASE("the first row that fits decides") {
   CHECK(regionOf({}, {}) == nullptr);
 }
 
+TEST_CASE("organs are filled by the row that names them, which no vessel chooses") {
+  const auto regions = parseRegions(kColumns.substr(0, kColumns.size() - 1) +
+                                        ",organs,wall_mm\n"
+                                        "glands,oak,,,,,,9,,Liver|kidney,\n"
+                                        "stomach,reed,,,,,,9,,stomach,5\n"
+                                        "airways,-,,,,,,,,windpipe,\n"
+                                        "rest,oak,,,,0,3,8,,,\n",
+                                    "r.csv", rules());
+  REQUIRE_MESSAGE(regions.ok(), (regions.ok() ? "" : regions.error().message));
+  CHECK(regionOf(*regions, {"renal artery", "", "Spine", VesselKind::artery})->name == "rest");
+  CHECK(regionOfOrgan(*regions, "organ: left KIDNEY")->name == "glands");
+  CHECK(regionOfOrgan(*regions, "organ: stomach")->wall == doctest::Approx(0.005f));
+  CHECK(regionOfOrgan(*regions, "organ: windpipe")->system == GrowthRegion::kNoSystem);
+  CHECK(regionOfOrgan(*regions, "bones") == nullptr);
+}
+
 TEST_CASE("what the program ships can be read") {
   const std::filesystem::path folder = VASA_GROWTH_DIR;
   const auto shipped = readGrowthRules(folder / "capillaries.lsys");
@@ -71,8 +87,10 @@ TEST_CASE("what the program ships can be read") {
 
 TEST_CASE("faults are told with file, line, cause and remedy") {
   CHECK(messageOf("").starts_with("r.csv: has no regions"));
-  CHECK(messageOf("region,system\n") ==
-        "r.csv:1: the first line must name the columns: " + kColumns.substr(0, kColumns.size() - 1));
+  CHECK(messageOf("region,system\n") == "r.csv:1: the first line must name the columns: " +
+                                            kColumns.substr(0, kColumns.size() - 1) + ",organs,wall_mm");
+  CHECK(messageOf(kColumns.substr(0, kColumns.size() - 1) + ",organs,wall_mm\na,oak,Head,,,,,8,,liver,\n") ==
+        "r.csv:2: names organs and joints; an organ is filled whatever vessels are near, leave that empty");
   CHECK(messageOf(kColumns + "a,oak\n").starts_with("r.csv:2: has 2 cells but must have 9"));
   CHECK(messageOf(kColumns + "a,elm,,,,0,3,8,\n") ==
         "r.csv:2: there is no system 'elm'; use one of -, oak, reed");

@@ -2,6 +2,7 @@
 
 #include "human/made_human.h"
 #include "make_human/grow.h"
+#include "make_human/organs.h"
 
 using namespace vasa;
 using namespace vasa::human;
@@ -12,7 +13,9 @@ TEST_CASE("growing ends where there is no room, again and again") {
   const Surroundings around{human.skinShape, Solid(human.meshes[1].mesh), Solid(human.meshes[2].mesh)};
   Result<VesselRows> rows = VesselRows::read(tables / "vessels.csv", human.rig);
   REQUIRE(rows.ok());
-  const Result<std::vector<Region>> all = readRegions(tables / "growth.csv", *rows, human.rig);
+  const Result<std::vector<BoneForm>> organs = readOrganForms(tables, human.rig);
+  REQUIRE(organs.ok());
+  const Result<std::vector<Region>> all = readRegions(tables / "growth.csv", *rows, human.rig, *organs);
   REQUIRE(all.ok());
   const auto ellipsoid = std::ranges::find(*all, Region::Shape::ellipsoid, &Region::shape);
   REQUIRE(ellipsoid != all->end());

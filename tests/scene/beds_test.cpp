@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "capillary_filling.h"
 #include "growth/capillary.h"
 #include "scene/growth.h"
@@ -74,10 +77,52 @@ TEST_CASE("the human's capillaries stay inside the skin and out of bones, and fi
   const test::Filling filling = test::FillingMeter(human()).measure(curves);
   MESSAGE(curves.size() << " curves, of " << filling.places << " places out of the skin: " << filling.outside
                         << ", in bone: " << filling.inBone << ", filled of thigh: " << filling.thigh
-                        << ", scalp: " << filling.scalp << ", brain: " << filling.brain);
+                        << ", scalp: " << filling.scalp << ", brain: " << filling.brain
+                        << ", lungs: " << filling.lungs << ", liver: " << filling.liver
+                        << ", kidneys: " << filling.kidneys << ", windpipe: " << filling.windpipe);
   CHECK(double(filling.outside) < 0.0005 * double(filling.places));
   CHECK(double(filling.inBone) < 0.005 * double(filling.places));
   CHECK(filling.thigh > 0.95);
   CHECK(filling.scalp > 0.85);
   CHECK(filling.brain > 0.9);
+  CHECK(filling.lungs > 0.9);
+  CHECK(filling.liver > 0.9);
+  CHECK(filling.kidneys > 0.9);
+  CHECK(filling.windpipe < 0.2);
+}
+
+TEST_CASE("an organ's capillaries hang on its own vessels") {
+  const CapillaryBeds& beds = grown().growth.beds;
+  const PosedNetwork rest = grown().rest();
+  struct Owner {
+    const char* organ;
+    std::array<const char*, 3> vessels;  // parts of names
+  };
+  for (const Owner& owner : {Owner{"left lung", {"pulmonary", "bronchial", "lingular"}},
+                             {"right lung", {"pulmonary", "bronchial", "lingular"}},
+                             {"liver", {"hepatic", "portal", "liver"}},
+                             {"kidney", {"renal", "kidney", "renal"}}}) {
+    CAPTURE(owner.organ);
+    const auto mesh =
+        std::ranges::find(human().body.meshes, "organ: " + std::string(owner.organ), &SkinnedMesh::name);
+    REQUIRE(mesh != human().body.meshes.end());
+    const TriangleMesh atRest = meshAtRest(human().body, *mesh);
+    const WindingNumber inside(atRest.positions, atRest.triangles);
+    int all = 0, own = 0;
+    for (const auto& bed : beds.beds) {
+      const Section on = sectionOn(rest, beds.spans[bed.span], bed.t);
+      const vec3 centre = on.centre + mat3(on.frame.u, on.frame.v, on.frame.tangent) * bed.centre;
+      if (std::abs(inside.at(centre)) < 0.5f) continue;
+      for (const auto& stem : bed.stem) {
+        if (stem.from == shared::kNoStem) continue;
+        const std::string& name = human().network.vessels()[beds.spans[stem.span].vessel].name;
+        ++all;
+        own += std::ranges::any_of(owner.vessels,
+                                   [&](const char* part) { return name.find(part) != std::string::npos; });
+      }
+    }
+    MESSAGE(owner.organ << ": " << own << " of " << all << " stems");
+    CHECK(all > 20);
+    CHECK(own >= 0.9 * all);
+  }
 }

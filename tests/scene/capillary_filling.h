@@ -14,18 +14,20 @@ struct Filling {
   std::size_t places = 0;   ///< looked at: five on every curve
   std::size_t outside = 0;  ///< of them out of the skin
   std::size_t inBone = 0;
-  float thigh = 0, scalp = 0,
-        brain = 0;  ///< share of the centimetre cubes of flesh there that a curve runs through
+  float thigh = 0, scalp = 0, brain = 0, lungs = 0, liver = 0,
+        kidneys = 0;  ///< share of the centimetre cubes of flesh there that a curve runs through
+  float windpipe = 0;
 };
 
 class FillingMeter {
  public:
   explicit FillingMeter(const Scene& scene) : skin_(skinAtRest(scene.body)) {
     for (const SkinnedMesh& mesh : scene.body.meshes) {
-      if (&mesh == skinOf(scene.body) || !isSolid(mesh)) continue;
+      if (&mesh == skinOf(scene.body)) continue;
       TriangleMesh rest = mesh.mesh;
       skinPositions(mesh, skinMatrices(scene.body.skeleton, restPose(scene.body.skeleton)), rest.positions);
-      bones_.emplace_back(rest.positions, rest.triangles);
+      (isSolid(mesh) ? bones_ : organs_).emplace_back(rest.positions, rest.triangles);
+      if (!isSolid(mesh)) organNames_.push_back(mesh.name), organBounds_.push_back(rest.bounds());
     }
     const auto joint = [&](const char* name) {
       return vec3(scene.body.skeleton.joints[scene.body.skeleton.find(name).value].restWorld[3]);
@@ -58,6 +60,10 @@ class FillingMeter {
         share(places, crown, 0.13f, [&](vec3 p) { return p.y > crown.y && skin_.look(p).depth < 0.006f; });
     filling.brain =
         share(places, crown, 0.13f, [&](vec3 p) { return p.y > crown.y && skin_.look(p).depth > 0.02f; });
+    filling.lungs = shareOfOrgan(places, "lung");
+    filling.liver = shareOfOrgan(places, "liver");
+    filling.kidneys = shareOfOrgan(places, "kidney");
+    filling.windpipe = shareOfOrgan(places, "windpipe");
     return filling;
   }
 
@@ -66,6 +72,19 @@ class FillingMeter {
     for (const WindingNumber& bone : bones_)
       if (std::abs(bone.at(p)) >= 0.5f) return true;
     return false;
+  }
+
+  /// Of those organs whose names hold a word, the one that is filled least.
+  float shareOfOrgan(const std::vector<vec3>& places, const char* word) const {
+    float least = 1;
+    for (std::size_t i = 0; i < organs_.size(); ++i) {
+      if (organNames_[i].find(word) == std::string::npos) continue;
+      const vec3 half = 0.5f * organBounds_[i].extent();
+      least = std::min(least,
+                       share(places, organBounds_[i].low + half, std::max({half.x, half.y, half.z}) + 0.01f,
+                             [&](vec3 p) { return std::abs(organs_[i].at(p)) >= 0.5f; }));
+    }
+    return least;
   }
 
   template <class Wanted>
@@ -95,7 +114,9 @@ class FillingMeter {
   }
 
   SkinShell skin_;
-  std::vector<WindingNumber> bones_;
+  std::vector<WindingNumber> bones_, organs_;
+  std::vector<std::string> organNames_;
+  std::vector<Aabb> organBounds_;
   vec3 hip_, knee_, head_;
 };
 
