@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kReferenceSweeps = 4030;
 constexpr float kStep = 0.0035f, kClearance = 0.35e-3f, kFromBone = 0.5e-3f,
-                kFitTolerance = 0.12e-3f;                                          // [m] at the reference
+                kFitTolerance = 0.25e-3f;                                          // [m] at the reference
 constexpr float kHostCell = 0.016f, kObstacleCell = 0.010f, kLeastCell = 0.0015f;  // of grids of segments
 constexpr int kCandidates = 8;  // places of which the emptiest is chosen, at first
 constexpr int kRelaxations = 8;
