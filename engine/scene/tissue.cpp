@@ -19,9 +19,6 @@ namespace {
 constexpr float kBesideA = 0.5013f, kBesideB = 0.4979f;
 constexpr std::array<std::uint32_t, 4> kSteps{0, 10, 14, 17};  // tenths: over a face, an edge, a corner
 
-constexpr std::array<ivec3, 6> kBeside{ivec3(1, 0, 0),  ivec3(-1, 0, 0), ivec3(0, 1, 0),
-                                       ivec3(0, -1, 0), ivec3(0, 0, 1),  ivec3(0, 0, -1)};
-
 struct Crossing {
   std::uint32_t line;
   float along;
@@ -118,7 +115,7 @@ void hollowOut(Tissue& tissue, std::span<const OrganRoom> organs) {
       within[i] = tissue.rooms[i] == room + 1;
       if (!within[i]) continue;
       bool outermost = false;
-      for (const ivec3 step : kBeside) {
+      for (const ivec3 step : Tissue::kOverFaces) {
         const std::int32_t beside = tissue.numberAt(tissue.places[i] + step);
         outermost = outermost || beside < 0 || tissue.rooms[std::size_t(beside)] != room + 1;
       }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct Tissue {
   std::vector<std::uint8_t> rooms;  ///< one a cube: the organ that it lies in; kCommon, kHollow
 
   static constexpr std::uint8_t kCommon = 0, kHollow = 255;
+  static constexpr std::array<ivec3, 6> kOverFaces{ivec3(1, 0, 0),  ivec3(-1, 0, 0), ivec3(0, 1, 0),
+                                                   ivec3(0, -1, 0), ivec3(0, 0, 1),  ivec3(0, 0, -1)};
 
   std::size_t count() const { return places.size(); }
   /// Makes lumen of the flesh in a ball.

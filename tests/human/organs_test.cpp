@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "body/skinning.h"
@@ -125,6 +126,34 @@ TEST_CASE("the vessels of the heart lie on its surface, in grooves of it") {
   CHECK(samples > 150);
   CHECK(float(near) >= 0.93f * float(samples));  // the right coronary artery begins on the aorta
   CHECK(float(sunk) <= 0.02f * float(samples));
+}
+
+TEST_CASE("small vessels grow within the organs they feed") {
+  struct Grown {
+    const char *organ, *vessels;
+    int least;
+  };
+  const Network& network = madeHuman().vessels;
+  for (const Grown& grown :
+       {Grown{"left lung", "left pulmonary", 20}, Grown{"right lung", "right pulmonary", 20},
+        Grown{"liver", "liver", 25}, Grown{"kidney", "kidney", 30}, Grown{"spleen", "spleen", 6}}) {
+    CAPTURE(grown.organ);
+    const Solid solid(organ(grown.organ).mesh);
+    int vessels = 0, samples = 0, inside = 0;
+    for (const Vessel& vessel : network.vessels()) {
+      if (!std::isdigit(static_cast<unsigned char>(vessel.name.back()))) continue;
+      if (vessel.name.find(grown.vessels) == std::string::npos) continue;
+      ++vessels;
+      const auto points = network.pointsOf(vessel);
+      for (float u = 0; u <= float(spanCount(points)); u += 0.25f) {
+        ++samples;
+        inside += solid.winding(vec3(evaluate(points, u))) != 0;
+      }
+    }
+    MESSAGE(grown.organ << ": " << vessels << " grown, " << inside << " of " << samples << " places inside");
+    CHECK(vessels >= grown.least);
+    CHECK(float(inside) >= 0.9f * float(samples));
+  }
 }
 
 TEST_CASE("organs follow the trunk in every motion, untorn and inside the skin") {
