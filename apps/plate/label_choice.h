@@ -42,9 +42,4 @@ struct LabelWishes {
 Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> points, const SeenMap& seen,
                                  const LabelWishes& wishes);
 
-/// What a label calls a vessel: its name with a capital; "left" and "right" are left out where a vessel of
-/// the same name lies mirrored on the other side and leaves a like vessel (kidneys' arteries, not the heart's
-/// or the bowel's), and the number of a piece, "(2)".
-std::string labelText(const Network& network, VesselId vessel);
-
 }  // namespace vasa::plate

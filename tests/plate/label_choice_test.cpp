@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "network/builder.h"
+#include "plate/label_names.h"
 #include "plate/plate.h"
 #include "surface/surface_mesh.h"
 
@@ -66,7 +67,7 @@ using Texts = std::vector<std::string>;
 
 TEST_CASE("a label leaves out the side of a mirrored pair, and of no other") {
   const Network network = figure();
-  const auto text = [&](std::uint32_t v) { return labelText(network, {v}); };
+  const auto text = [&](std::uint32_t v) { return LabelNames(network).of({v}); };
   CHECK(text(0) == "Aorta");
   CHECK(text(1) == "Femoral artery");
   CHECK(text(2) == "Femoral artery");
@@ -173,9 +174,9 @@ TEST_CASE("mirror images that leave different vessels keep their sides") {
   builder.joinToSide({rightKidney, false}, {upper, 2.4f});
   const auto network = builder.build(1.7f);
   REQUIRE_MESSAGE(network.ok(), network.error().message);
-  CHECK(labelText(*network, left) == "Left colic artery");
-  CHECK(labelText(*network, right) == "Right colic artery");
-  CHECK(labelText(*network, leftKidney) == "Renal artery");
+  CHECK(LabelNames(*network).of(left) == "Left colic artery");
+  CHECK(LabelNames(*network).of(right) == "Right colic artery");
+  CHECK(LabelNames(*network).of(leftKidney) == "Renal artery");
 }
 
 TEST_CASE("a pair of scanned vessels may run either way, and pieces have one name") {
@@ -192,10 +193,10 @@ TEST_CASE("a pair of scanned vessels may run either way, and pieces have one nam
   add("right branch of vein", {-0.1f, 1, 0}, {-0.2f, 1, 0});
   const auto network = builder.build(1.7f);
   REQUIRE_MESSAGE(network.ok(), network.error().message);
-  CHECK(labelText(*network, left) == "Femoral vein");
-  CHECK(labelText(*network, upper) == "Left coronary vein");
-  CHECK(labelText(*network, piece) == "Digital vein");
-  CHECK(labelText(*network, branch) == "Left branch of vein");
+  CHECK(LabelNames(*network).of(left) == "Femoral vein");
+  CHECK(LabelNames(*network).of(upper) == "Left coronary vein");
+  CHECK(LabelNames(*network).of(piece) == "Digital vein");
+  CHECK(LabelNames(*network).of(branch) == "Left branch of vein");
 }
 
 TEST_CASE("a camera holds all places, and is no wider than they need") {

@@ -1,0 +1,34 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "network/network.h"
+
+namespace vasa::plate {
+
+/// What labels call a network's vessels. Keeps a reference to the network.
+class LabelNames {
+ public:
+  explicit LabelNames(const Network& network);
+
+  /// A vessel's name with a capital; "left" and "right" are left out where a vessel of the same name lies
+  /// mirrored on the other side and leaves a like vessel (kidneys' arteries, not the heart's or the bowel's),
+  /// and the number of a piece, "(2)".
+  std::string of(VesselId vessel) const;
+
+ private:
+  std::optional<std::uint32_t> otherSideOf(const std::string& name) const;
+
+  const Network& network_;
+  std::map<std::string, std::uint32_t> byName_;
+  float middle_ = 0;  // the body's, x
+};
+
+std::string lower(std::string_view text);
+
+/// "right leg artery 2": one of many that nobody named.
+bool isNumbered(std::string_view name);
+
+}  // namespace vasa::plate
