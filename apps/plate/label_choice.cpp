@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "curve/bspline.h"
 #include "plate/label_names.h"
@@ -12,14 +13,16 @@
 namespace vasa::plate {
 namespace {
 
-constexpr int kSamples = 12;         // of a span, at which it is looked for in the picture
-constexpr std::size_t kAnchors = 9;  // of a vessel
-constexpr float kEnds = 0.08f;       // share of a seen stretch's ends that no line points at
+constexpr int kSamples = 12;            // of a span, at which it is looked for in the picture
+constexpr std::size_t kAnchors = 9;     // of a vessel
+constexpr std::size_t kRowAnchors = 3;  // of a vessel that is one of a row
+constexpr float kEnds = 0.08f;          // share of a seen stretch's ends that no line points at
 
 struct Stretch {
   std::vector<vec2> places;
   float length = 0;
-  float width = 0;  // sum over the places
+  float width = 0;   // sum over the places
+  float weight = 0;  // square of the radius, summed along it
 };
 
 // The runs of a vessel's centre line over cells that show this vessel.
@@ -41,7 +44,11 @@ std::vector<Stretch> seenStretches(const Network& network, std::uint32_t v, std:
       open = there;
       if (!there) continue;
       Stretch& stretch = stretches.back();
-      if (!stretch.places.empty()) stretch.length += glm::distance(stretch.places.back(), cell);
+      if (!stretch.places.empty()) {
+        const float step = glm::distance(stretch.places.back(), cell);
+        stretch.length += step;
+        stretch.weight += step * place.w * place.w;
+      }
       stretch.places.push_back(cell);
       stretch.width += 2 * place.w * seen.cellsAMetre(vec3(place));
     }
@@ -69,7 +76,7 @@ std::vector<vec2> anchorsOf(std::vector<Stretch>& stretches) {
   return anchors;
 }
 
-// All labels that the picture can have, the largest first.
+// All labels that the picture can have, the weightiest first.
 std::vector<VesselLabel> allLabels(const Network& network, std::span<const vec4> points, const SeenMap& seen,
                                    const LabelWishes& wishes) {
   std::vector<float> areas(network.vessels().size());
@@ -84,12 +91,16 @@ std::vector<VesselLabel> allLabels(const Network& network, std::span<const vec4>
     std::string text = names.of({v});
     if (text.empty()) continue;
     const auto [place, isNew] = byText.try_emplace(text, labels.size());
-    if (isNew) labels.push_back({std::move(text), {}, {}, 0, 0}), stretches.emplace_back();
+    if (isNew) labels.push_back({.text = std::move(text)}), stretches.emplace_back();
     VesselLabel& label = labels[place->second];
     label.vessels.push_back({v});
     label.area += areas[v];
-    for (Stretch& stretch : seenStretches(network, v, points, seen, wishes))
+    float weight = 0;
+    for (Stretch& stretch : seenStretches(network, v, points, seen, wishes)) {
+      weight += stretch.weight;
       stretches[place->second].push_back(std::move(stretch));
+    }
+    label.weight = std::max(label.weight, weight);
   }
   for (std::size_t i = 0; i < labels.size(); ++i) {
     std::size_t count = 0;
@@ -99,8 +110,40 @@ std::vector<VesselLabel> allLabels(const Network& network, std::span<const vec4>
     labels[i].anchors = anchorsOf(stretches[i]);
   }
   std::erase_if(labels, [](const VesselLabel& label) { return label.anchors.empty(); });
-  std::ranges::stable_sort(labels, std::greater{}, &VesselLabel::area);
+  std::ranges::stable_sort(labels, std::greater{}, &VesselLabel::weight);
   return labels;
+}
+
+// One label for a row of alike vessels, where its weightiest one stands.
+std::vector<VesselLabel> rowsAsOne(std::vector<VesselLabel> labels) {
+  std::vector<VesselLabel> rows;
+  std::map<std::string, std::size_t> byRow;
+  for (VesselLabel& label : labels) {
+    std::string row = rowOf(label.text);
+    const auto [place, isNew] = byRow.try_emplace(row, rows.size());
+    if (isNew) {
+      rows.push_back(std::move(label));
+      continue;
+    }
+    VesselLabel& first = rows[place->second];
+    first.text = plural(std::move(row));
+    first.vessels.insert(first.vessels.end(), label.vessels.begin(), label.vessels.end());
+    const auto some = std::min(label.anchors.size(), kRowAnchors);
+    first.anchors.insert(first.anchors.end(), label.anchors.begin(),
+                         label.anchors.begin() + std::ptrdiff_t(some));
+    first.area += label.area;
+  }
+  return rows;
+}
+
+// Leaves out "anterior branch of X" and "lateral X" beside a weightier X.
+void leaveOutKin(std::vector<VesselLabel>& labels) {
+  std::set<std::string> named;
+  std::erase_if(labels, [&](const VesselLabel& label) {
+    if (named.contains(namedAfter(label.text))) return true;
+    named.insert(lower(label.text));
+    return false;
+  });
 }
 
 bool contains(std::span<const VesselId> vessels, VesselId id) {
@@ -160,10 +203,13 @@ Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> p
     const auto meant = [&](VesselId id) { return wishes.of.empty() || wishes.of[id.value]; };
     return isNumbered(label.text) || std::ranges::none_of(label.vessels, meant);
   });
-  if (wishes.which == "main")
+  if (wishes.which == "main") {
     std::erase_if(all, [&](const VesselLabel& label) {
       return label.area < wishes.leastArea || label.width < wishes.leastWidth;
     });
+    all = rowsAsOne(std::move(all));
+    leaveOutKin(all);
+  }
   if (all.size() > wishes.most) all.resize(wishes.most);
   return LabelChoice{std::move(all), {}};
 }

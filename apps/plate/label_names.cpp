@@ -1,6 +1,7 @@
 #include "plate/label_names.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <vector>
@@ -14,6 +15,15 @@ constexpr float kOwnSide = 0.75f;  // share of a paired vessel's points on its o
 // By what a pair's courses may differ: a share of their distance from the middle, and [body heights].
 constexpr float kMirrorShare = 0.35f, kMirrorReach = 0.005f;
 constexpr int kMirrorSamples = 6;  // along them
+
+constexpr std::array<std::string_view, 12> kOrdinals{"first", "second", "third",    "fourth",
+                                                     "fifth", "sixth",  "seventh",  "eighth",
+                                                     "ninth", "tenth",  "eleventh", "twelfth"};
+
+std::string withCapital(std::string text) {
+  if (!text.empty()) text[0] = char(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 std::string withoutSide(std::string_view name) {
   std::string out;
@@ -125,8 +135,7 @@ std::string LabelNames::of(VesselId id) const {
   std::string shown = withoutPiece(vessel.name);
   if (const auto other = otherSideOf(name))
     if (mirrorOneAnother(network_, middle_, vessel, network_.vessels()[*other])) shown = withoutSide(shown);
-  if (!shown.empty()) shown[0] = char(std::toupper(static_cast<unsigned char>(shown[0])));
-  return shown;
+  return withCapital(std::move(shown));
 }
 
 std::optional<std::uint32_t> LabelNames::otherSideOf(const std::string& name) const {
@@ -139,6 +148,41 @@ std::string lower(std::string_view text) {
   std::string out(text);
   for (char& c : out) c = char(std::tolower(static_cast<unsigned char>(c)));
   return out;
+}
+
+std::string rowOf(std::string_view name) {
+  std::string row;
+  const std::string small = lower(name);
+  // A digit's artery or vein; "of hand" and "of aorta" tell more than a place in a row.
+  if (const auto of = small.rfind(" of "); of != small.npos)
+    for (const std::string_view digit : {"finger", "thumb", "toe"})
+      if (small.ends_with(digit)) name = name.substr(0, of);
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end = std::min(name.find(' ', at), name.size());
+    if (std::ranges::find(kOrdinals, std::string_view(small).substr(at, end - at)) == kOrdinals.end()) {
+      if (!row.empty()) row += ' ';
+      row += name.substr(at, end - at);
+    }
+    at = end + 1;
+  }
+  return withCapital(std::move(row));
+}
+
+std::string namedAfter(std::string_view name) {
+  const std::string small = lower(name);
+  for (const std::string_view side : {"lateral ", "medial "})
+    if (small.starts_with(side)) return small.substr(side.size());
+  constexpr std::string_view kBranch = " branch of ";
+  const auto branch = small.find(kBranch);
+  return branch == small.npos ? std::string() : small.substr(branch + kBranch.size());
+}
+
+std::string plural(std::string name) {
+  const std::size_t end = std::min(name.find(" of "), name.size());
+  if (end == 0) return name;
+  const std::string_view noun = std::string_view(name).substr(0, end);
+  if (noun.ends_with("y")) return name.replace(end - 1, 1, "ies");
+  return name.insert(end, noun.ends_with("s") || noun.ends_with("ch") ? "es" : "s");
 }
 
 bool isNumbered(std::string_view name) {

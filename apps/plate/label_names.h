@@ -28,6 +28,17 @@ class LabelNames {
 
 std::string lower(std::string_view text);
 
+/// What the name of one of a row shares with the others': "Sixth posterior intercostal artery" and
+/// "Ulnar palmar digital artery of little finger" without the sixth and the finger.
+std::string rowOf(std::string_view name);
+
+/// The vessel that a branch or a companion is named after, in lower case: X of "Anterior branch of X" and of
+/// "Lateral X"; empty for other names.
+std::string namedAfter(std::string_view name);
+
+/// "Renal arteries", "Dorsal branches of aorta"
+std::string plural(std::string name);
+
 /// "right leg artery 2": one of many that nobody named.
 bool isNumbered(std::string_view name);
 
