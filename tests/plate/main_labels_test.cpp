@@ -29,7 +29,8 @@ std::vector<std::string> labelsOn(const std::string& name) {
   std::vector<vec3> drawn;
   for (const vec4& point : frame->points()) drawn.emplace_back(point);
   const auto fitted = cameraOnto(subject->framed, subject->towards, subject->up, drawn);
-  const bool wide = fitted.aspect > 1;  // such a page lies on its side
+  // As `vasa plate` turns them.
+  const bool wide = name == "thorax" || name == "abdomen" || name == "hand";
   PlateStyle style{
       .page = wide ? vec2(297, 210) : vec2(210, 297), .title = subject->title, .subtitle = subject->subtitle};
   Look look;
