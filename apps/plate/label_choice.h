@@ -16,17 +16,23 @@ struct VesselLabel {
   std::vector<vec2> anchors;      ///< [cells of the map] on the vessel where it is seen, the best first
   float area = 0;                 ///< [cells] that its vessels show
   float width = 0;                ///< [cells] of them, on average where they are seen
+  /// How much it matters [m² cells], as its weightiest vessel does: the square of the radius, summed along
+  /// what is seen of it. That is the blood of it that one sees: thick trunks count though they are short in
+  /// the picture, and thin vessels where they are long.
+  float weight = 0;
 };
 
 struct LabelChoice {
-  std::vector<VesselLabel> labels;  ///< the largest in the picture first
+  std::vector<VesselLabel> labels;  ///< the weightiest first; of names in the order asked for
   std::vector<std::string> unseen;  ///< asked for by name, but not seen in the picture
 };
 
 /// Which vessels get a label; those that are only numbered ("right leg artery 2") are for who asks by name.
-/// "main": the large ones, by the area that they show; "all-visible": all that are
-/// seen; else names with commas between them: whole ones, with or without "left" and "right", or else what
-/// several names have in them ("aorta": all its parts). Upper and lower case are alike.
+/// "main": what a teacher points at first, those that hold the most blood in the picture
+/// (VesselLabel::weight), a row of alike ones once ("Posterior intercostal arteries"), and no branch or
+/// companion that is named after a vessel with a label; "all-visible": all that are seen; else names with
+/// commas between them: whole ones, with or without "left" and "right", or else what several names have in
+/// them ("aorta": all its parts). Upper and lower case are alike.
 struct LabelWishes {
   std::string which = "main";
   std::size_t most = 40;                   ///< of "main" and "all-visible"
@@ -41,10 +47,5 @@ struct LabelWishes {
 /// Fails with badInput where a name is no vessel's.
 Result<LabelChoice> chooseLabels(const Network& network, std::span<const vec4> points, const SeenMap& seen,
                                  const LabelWishes& wishes);
-
-/// What a label calls a vessel: its name with a capital; "left" and "right" are left out where a vessel of
-/// the same name lies mirrored on the other side and leaves a like vessel (kidneys' arteries, not the heart's
-/// or the bowel's), and the number of a piece, "(2)".
-std::string labelText(const Network& network, VesselId vessel);
 
 }  // namespace vasa::plate

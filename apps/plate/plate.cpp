@@ -252,7 +252,8 @@ Result<PlatePlan> planPlate(const PlateScene& scene, const PlateStyle& style, co
   const vec2 size(width, height);
   wishes.allowed = [&plan, size](vec2 cell) { return plan.cut.remains(cell, size) >= kLegible; };
   wishes.most = std::size_t(2 * (page.bottom - page.top) / (lineHeight + kLabelGap));
-  if (style.labels == "main") wishes.most /= 3;
+  // A body part on its side has as much to name in lower columns.
+  if (style.labels == "main") wishes.most /= style.page.x > style.page.y ? 2 : 3;
   auto choice = chooseLabels(scene.scene.network, scene.frame.points(), seen, wishes);
   if (!choice) return choice.error();
   plan.labels = std::move(choice->labels);

@@ -57,29 +57,33 @@ bool among(const std::vector<BodyPart>& parts, BodyPart part) {
 
 class Choice {
  public:
-  Choice(const Region& region, int side, std::vector<BodyRegion> parts)
-      : region_(region), side_(side), parts_(std::move(parts)) {}
+  Choice(const Region& region, int side, const Skeleton& skeleton)
+      : region_(region), side_(side), finder_(skeleton) {
+    for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) parts_.push_back(finder_.of(JointId{j}));
+  }
 
-  bool framed(std::uint32_t joint) const {
-    return ofSide(joint) && among(region_.framed, parts_[joint].part);
-  }
+  bool framed(std::uint32_t joint) const { return framed(parts_[joint]); }
   bool drawn(std::uint32_t joint) const {
-    return framed(joint) || (ofSide(joint) && among(region_.beside, parts_[joint].part));
+    return framed(joint) || (ofSide(parts_[joint]) && among(region_.beside, parts_[joint].part));
   }
+  /// Whether the page is of a place at rest that goes with a joint: the thorax ends at the diaphragm, though
+  /// what lies under it goes with the ribs.
+  bool isOf(std::uint32_t joint, vec3 place) const { return framed(finder_.of(JointId{joint}, place)); }
   bool byBones() const { return region_.byBones; }
   /// The first joint of a part.
   std::optional<std::uint32_t> first(BodyPart part) const {
     for (std::uint32_t j = 0; j < parts_.size(); ++j)
-      if (parts_[j].part == part && ofSide(j)) return j;
+      if (parts_[j].part == part && ofSide(parts_[j])) return j;
     return std::nullopt;
   }
 
  private:
-  bool ofSide(std::uint32_t joint) const {
-    return !region_.axis || parts_[joint].side == side_ || parts_[joint].side == 0;
-  }
+  bool framed(BodyRegion part) const { return ofSide(part) && among(region_.framed, part.part); }
+  bool ofSide(BodyRegion part) const { return !region_.axis || part.side == side_ || part.side == 0; }
+
   const Region& region_;
   int side_;
+  atlas::RegionFinder finder_;
   std::vector<BodyRegion> parts_;
 };
 
@@ -129,16 +133,15 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
   }
   const auto stations = mainStations(scene.binding);
   for (std::size_t v = 0; v < vessels.size(); ++v) {
-    std::uint32_t drawn = 0, framed = 0;
+    std::uint32_t drawn = 0, own = 0;
     for (std::uint32_t k = 0; k < vessels[v].pointCount; ++k) {
-      const std::uint32_t joint = stations[vessels[v].firstPoint + k].joint.value;
+      const std::uint32_t point = vessels[v].firstPoint + k, joint = stations[point].joint.value;
       drawn += choice->drawn(joint);
-      framed += choice->framed(joint);
-      if (choice->framed(joint) && !choice->byBones())
-        subject.framed.emplace_back(frame.points()[vessels[v].firstPoint + k]);
+      own += choice->isOf(joint, vec3(scene.network.points()[point]));
+      if (choice->framed(joint) && !choice->byBones()) subject.framed.emplace_back(frame.points()[point]);
     }
     subject.vessels[v] = drawn > 0;
-    subject.own[v] = float(framed) >= kOwnShare * float(vessels[v].pointCount);
+    subject.own[v] = float(own) >= kOwnShare * float(vessels[v].pointCount);
   }
 }
 
@@ -174,15 +177,11 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
   if (region->axis) subject.subtitle = std::string(side < 0 ? "Right, " : "Left, ") + region->view;
   std::optional<Choice> choice;
   if (!region->framed.empty()) {
-    const atlas::RegionFinder finder(scene.body.skeleton);
-    if (!finder.knowsPerson())
+    if (!atlas::RegionFinder(scene.body.skeleton).knowsPerson())
       return badInput(scene.body.name +
                       ": its joints are not all recognised as a person's, so its regions are not known; "
                       "choose front or back");
-    std::vector<BodyRegion> parts;
-    for (std::uint32_t j = 0; j < scene.body.skeleton.joints.size(); ++j)
-      parts.push_back(finder.of(JointId{j}));
-    choice.emplace(*region, side, std::move(parts));
+    choice.emplace(*region, side, scene.body.skeleton);
   }
   takeMeshes(subject, scene, frame, choice ? &*choice : nullptr);
   takeVessels(subject, scene, frame, choice ? &*choice : nullptr);

@@ -315,7 +315,7 @@ void addPlate(CLI::App& app, Command& command) {
   sub->add_option("-o,--output", options->output, "The page: .png, .svg or .pdf")->required();
   sub->add_option(
          "--labels", options->labels,
-         "main (the large vessels in the picture), all-visible, none, or names with commas between them")
+         "main (what a teacher points at first), all-visible, none, or names with commas between them")
       ->capture_default_str();
   sub->add_option("--side", options->side, "Of a limb: right or left")
       ->check(CLI::IsMember({"right", "left"}))

@@ -360,7 +360,7 @@ void addRender(CLI::App& app, Command& command) {
   sub->add_option("--hide", options->hide, kHideHelp);
   sub->add_option(
       "--labels", options->labels,
-      "Names, a legend and a scale bar beside the figure: main (large vessels), all-visible, none, or "
+      "Names, a legend and a scale bar beside the figure: main (the important ones), all-visible, none, or "
       "names with commas between them; for stills (vasa help plate)");
   sub->add_option("--title", options->title, "Title of a picture with labels");
   sub->add_option("--colour", options->colour,

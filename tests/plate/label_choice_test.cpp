@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "network/builder.h"
+#include "plate/label_names.h"
 #include "plate/plate.h"
 #include "surface/surface_mesh.h"
 
@@ -66,7 +67,7 @@ using Texts = std::vector<std::string>;
 
 TEST_CASE("a label leaves out the side of a mirrored pair, and of no other") {
   const Network network = figure();
-  const auto text = [&](std::uint32_t v) { return labelText(network, {v}); };
+  const auto text = [&](std::uint32_t v) { return LabelNames(network).of({v}); };
   CHECK(text(0) == "Aorta");
   CHECK(text(1) == "Femoral artery");
   CHECK(text(2) == "Femoral artery");
@@ -146,6 +147,42 @@ TEST_CASE("no line points where none may, and only vessels of the page are chose
   CHECK(textsOf(*one) == Texts{"Aorta"});
 }
 
+TEST_CASE("what holds much blood comes before what takes more of the picture; rows and kin have one label") {
+  NetworkBuilder builder;
+  const auto add = [&](const char* name, float x, float length, float radius) {
+    builder.addVessel({name, "", VesselKind::artery}, line({x, 0.2f, 0}, {x, 0.2f + length, 0}, radius));
+  };
+  add("winding artery", -0.3f, 1.2f, 0.006f);  // the most of the picture
+  add("trunk", -0.2f, 0.3f, 0.015f);
+  add("second lumbar artery", 0, 0.4f, 0.005f);
+  add("third lumbar artery", 0.1f, 0.3f, 0.005f);
+  add("anterior branch of trunk", 0.2f, 0.4f, 0.005f);
+  add("lateral winding artery", 0.3f, 0.4f, 0.004f);
+  const auto network = builder.build(1.7f);
+  REQUIRE_MESSAGE(network.ok(), network.error().message);
+  const SeenMap map = mapOf(*network);
+  const auto main = chooseLabels(*network, network->points(), map, {});
+  REQUIRE(main.ok());
+  CHECK(textsOf(*main) == Texts{"Trunk", "Winding artery", "Lumbar arteries"});
+  CHECK(main->labels[0].area < main->labels[1].area);
+  CHECK(main->labels[2].vessels.size() == 2);
+  const auto all = chooseLabels(*network, network->points(), map, {.which = "all-visible"});
+  REQUIRE(all.ok());
+  CHECK(all->labels.size() == 6);
+}
+
+TEST_CASE("rows, kin and many") {
+  CHECK(rowOf("Left sixth posterior intercostal artery") == "Left posterior intercostal artery");
+  CHECK(rowOf("Ulnar palmar digital artery of little finger") == "Ulnar palmar digital artery");
+  CHECK(rowOf("Dorsal venous arch of foot") == "Dorsal venous arch of foot");
+  CHECK(plural("Renal artery") == "Renal arteries");
+  CHECK(plural("Dorsal branch of aorta") == "Dorsal branches of aorta");
+  CHECK(plural("Vein") == "Veins");
+  CHECK(namedAfter("Anterior branch of retromandibular vein") == "retromandibular vein");
+  CHECK(namedAfter("Lateral brachial vein") == "brachial vein");
+  CHECK(namedAfter("Arch of aorta").empty());
+}
+
 TEST_CASE("vessels that are only numbered are for who asks for them") {
   NetworkBuilder builder;
   builder.addVessel({"leg artery 2", "", VesselKind::artery}, line({0, 0.2f, 0}, {0, 1.4f, 0}, 0.02f));
@@ -173,9 +210,9 @@ TEST_CASE("mirror images that leave different vessels keep their sides") {
   builder.joinToSide({rightKidney, false}, {upper, 2.4f});
   const auto network = builder.build(1.7f);
   REQUIRE_MESSAGE(network.ok(), network.error().message);
-  CHECK(labelText(*network, left) == "Left colic artery");
-  CHECK(labelText(*network, right) == "Right colic artery");
-  CHECK(labelText(*network, leftKidney) == "Renal artery");
+  CHECK(LabelNames(*network).of(left) == "Left colic artery");
+  CHECK(LabelNames(*network).of(right) == "Right colic artery");
+  CHECK(LabelNames(*network).of(leftKidney) == "Renal artery");
 }
 
 TEST_CASE("a pair of scanned vessels may run either way, and pieces have one name") {
@@ -192,10 +229,10 @@ TEST_CASE("a pair of scanned vessels may run either way, and pieces have one nam
   add("right branch of vein", {-0.1f, 1, 0}, {-0.2f, 1, 0});
   const auto network = builder.build(1.7f);
   REQUIRE_MESSAGE(network.ok(), network.error().message);
-  CHECK(labelText(*network, left) == "Femoral vein");
-  CHECK(labelText(*network, upper) == "Left coronary vein");
-  CHECK(labelText(*network, piece) == "Digital vein");
-  CHECK(labelText(*network, branch) == "Left branch of vein");
+  CHECK(LabelNames(*network).of(left) == "Femoral vein");
+  CHECK(LabelNames(*network).of(upper) == "Left coronary vein");
+  CHECK(LabelNames(*network).of(piece) == "Digital vein");
+  CHECK(LabelNames(*network).of(branch) == "Left branch of vein");
 }
 
 TEST_CASE("a camera holds all places, and is no wider than they need") {

@@ -1,0 +1,122 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "../atlas/human_scene.h"
+#include "plate/label_names.h"
+#include "plate/plate.h"
+#include "plate/plate_region.h"
+
+using namespace vasa;
+using namespace vasa::plate;
+
+namespace {
+
+// What a page of the built-in human labels at rest, on A4.
+std::vector<std::string> labelsOn(const std::string& name) {
+  static const SweepTable table = makeSweepTable(test::humanScene().network);
+  static const auto frame = [] {
+    auto maker = std::make_unique<FrameMaker>(test::humanScene(), FrameOptions{.avoid = true});
+    maker->make(nullptr, 0);
+    return maker;
+  }();
+  const auto type = Typesetter::load();
+  REQUIRE_MESSAGE(type.ok(), type.error().message);
+  const auto subject = plateSubject(test::humanScene(), *frame, name, -1);
+  REQUIRE_MESSAGE(subject.ok(), subject.error().message);
+  std::vector<vec3> drawn;
+  for (const vec4& point : frame->points()) drawn.emplace_back(point);
+  const auto fitted = cameraOnto(subject->framed, subject->towards, subject->up, drawn);
+  // As `vasa plate` turns them.
+  const bool wide = name == "thorax" || name == "abdomen" || name == "hand";
+  PlateStyle style{
+      .page = wide ? vec2(297, 210) : vec2(210, 297), .title = subject->title, .subtitle = subject->subtitle};
+  Look look;
+  look.skinOpacity = 0.2f;
+  const auto plan =
+      planPlate({test::humanScene(), *frame, table, subject->meshes, subject->vessels, subject->own, look},
+                style, *type, fitted.camera, fitted.aspect);
+  REQUIRE_MESSAGE(plan.ok(), plan.error().message);
+  std::vector<std::string> texts;
+  for (const PlacedLabel& placed : plan->layout.placed) texts.push_back(plan->labels[placed.label].text);
+  return texts;
+}
+
+}  // namespace
+
+TEST_CASE("pages label what textbooks name first") {
+  // Of each page what is seen there and every course of anatomy asks for.
+  const std::map<std::string, std::vector<const char*>> textbook{
+      {"front",
+       {"Superior vena cava",
+        "Inferior vena cava",
+        "Thoracic aorta",
+        "Abdominal aorta",
+        "Pulmonary trunk",
+        "Left common carotid artery",
+        "Internal jugular vein",
+        "Subclavian vein",
+        "Left brachiocephalic vein",
+        "Axillary artery",
+        "Brachial artery",
+        "Radial artery",
+        "Ulnar artery",
+        "Cephalic vein",
+        "Basilic vein",
+        "Portal vein",
+        "Superior mesenteric artery",
+        "Left renal vein",
+        "Common iliac artery",
+        "Femoral artery",
+        "Femoral vein",
+        "Deep femoral artery",
+        "Great saphenous vein",
+        "Anterior tibial artery"}},
+      {"head",
+       {"Left common carotid artery", "Internal carotid artery", "External carotid artery", "Facial artery",
+        "Superficial temporal artery", "Occipital artery", "Right vertebral artery",
+        "Right subclavian artery", "Internal jugular vein", "External jugular vein", "Facial vein",
+        "Retromandibular vein", "Subclavian vein"}},
+      {"thorax",
+       {"Arch of aorta", "Thoracic aorta", "Superior vena cava", "Left brachiocephalic vein",
+        "Right brachiocephalic vein", "Pulmonary trunk", "Left pulmonary artery", "Superior pulmonary vein",
+        "Left common carotid artery", "Left subclavian artery", "Internal thoracic artery"}},
+      {"abdomen",
+       {"Abdominal aorta", "Inferior vena cava", "Portal vein", "Superior mesenteric artery",
+        "Superior mesenteric vein", "Splenic artery", "Splenic vein", "Common hepatic artery",
+        "Inferior mesenteric artery", "Left renal artery", "Left renal vein", "Common iliac artery",
+        "Internal iliac artery", "External iliac artery"}},
+      {"arm",
+       {"Axillary artery", "Brachial artery", "Deep brachial artery", "Radial artery", "Ulnar artery",
+        "Common interosseous artery", "Superficial palmar arch", "Deep palmar arch", "Cephalic vein",
+        "Basilic vein", "Median cubital vein"}},
+      {"hand",
+       {"Radial artery", "Superficial palmar arch", "Deep palmar arch", "Principal artery of thumb",
+        "Common palmar digital arteries", "Palmar metacarpal arteries"}},
+      {"leg",
+       {"Femoral artery", "Femoral vein", "Deep femoral artery", "Popliteal artery", "Anterior tibial artery",
+        "Posterior tibial artery", "Fibular artery", "Dorsal artery of foot", "Great saphenous vein",
+        "Small saphenous vein"}},
+      {"foot",
+       {"Dorsal artery of foot", "Dorsal metatarsal arteries", "Arcuate artery", "Plantar arch",
+        "Plantar digital arteries", "Dorsal venous arch of foot", "Medial plantar artery",
+        "Lateral plantar artery"}}};
+  for (const auto& [page, wanted] : textbook) {
+    const auto labels = labelsOn(page);
+    for (const char* vessel : wanted)
+      CHECK_MESSAGE(std::ranges::count(labels, vessel) == 1, page << ": " << vessel);
+  }
+}
+
+TEST_CASE("pages name no branch beside its parent, and no row one by one") {
+  const auto head = labelsOn("head");
+  CHECK(std::ranges::count(head, "Retromandibular vein") == 1);
+  CHECK(std::ranges::count(head, "Anterior branch of retromandibular vein") == 0);
+  // What hangs under the diaphragm goes with the ribs and is of the abdomen all the same.
+  CHECK(std::ranges::count(labelsOn("thorax"), "Splenic vein") == 0);
+  std::set<std::string> rows;
+  for (const std::string& label : labelsOn("hand"))
+    CHECK_MESSAGE(rows.insert(plural(rowOf(label))).second, label);
+}
