@@ -251,8 +251,9 @@ Result<std::vector<BoneForm>> readBoneForms(const std::filesystem::path& bones,
   FormReader reader(*boneTable, *formTable, rig, columns);
   for (std::size_t row = 0; row < boneTable->rowCount(); ++row) {
     reader.read(row, result);
-    if (!boneTable->state().ok()) return boneTable->state().error();
+    // A piece that is wrong is missing from its bone, too.
     if (!formTable->state().ok()) return formTable->state().error();
+    if (!boneTable->state().ok()) return boneTable->state().error();
   }
   return result;
 }
