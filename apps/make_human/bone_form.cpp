@@ -8,6 +8,8 @@
 
 // The distance to an ellipsoid-like piece with half axes a, b and cap c: with k = |(u/a, v/b, e/c)|, e the
 // excess over the tube's end, the surface is k = 1 and (k - 1) / |grad k| is the distance to first order.
+// A cap flatter than the section would have a rim too sharp for the polygons: such an end is a plane, and its
+// rim is rounded by c.
 namespace vasa::human {
 namespace {
 
@@ -31,6 +33,15 @@ float distanceTo(const Local& local, float square) {
     slope.y = outer * (round ? x.y : std::pow(x.y, square - 1)) / local.half.y;
   }
   return std::max((k - 1) / glm::length(slope), -least);
+}
+
+/// Beyond a tube's end.
+float distanceToCap(const Local& local, float square) {
+  const float cap = local.half.z;
+  if (cap >= std::min(local.half.x, local.half.y)) return distanceTo(local, square);
+  const float side = distanceTo({vec3(local.at.x, local.at.y, 0), local.half}, square);
+  const vec2 over{std::max(side + cap, 0.0f), std::abs(local.at.z)};
+  return std::max(glm::length(over) - cap, side);
 }
 
 }  // namespace
@@ -59,8 +70,9 @@ float BonePiece::distance(vec3 p) const {
               glm::dot(q, glm::normalize(glm::mix(a.up, b.up, share))), 0};
   local.half = {glm::mix(a.width, b.width, share), glm::mix(a.height, b.height, share),
                 atStart ? capStart : capEnd};
-  if (atStart || atEnd) local.at.z = glm::dot(q, glm::normalize(b.centre - a.centre));
-  return distanceTo(local, square);
+  if (!atStart && !atEnd) return distanceTo(local, square);
+  local.at.z = glm::dot(q, glm::normalize(b.centre - a.centre));
+  return distanceToCap(local, square);
 }
 
 float BoneForm::distance(vec3 p) const { return unionDistance(pieces, p, true); }

@@ -8,7 +8,8 @@
 namespace vasa::human {
 
 /// A piece that a bone is made of: a tube along a curve, its cross-section an ellipse that turns with it, its
-/// ends half ellipsoids; or an ellipsoid, which is a tube of one station.
+/// ends half ellipsoids or, where those would be flat, planes with a rounded rim; or an ellipsoid, which is a
+/// tube of one station.
 struct BonePiece {
   struct Station {
     vec3 centre{0}, across{1, 0, 0}, up{0, 0, 1};

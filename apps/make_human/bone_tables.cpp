@@ -174,6 +174,18 @@ class FormReader {
     return radii;
   }
 
+  std::vector<vec3> upsOf(std::size_t row, const Placing& placing, bool mirror) {
+    const std::string_view cell = forms_.text(row, "up");
+    if (cell.empty()) return {placing.direction({0, 0, 1})};
+    std::vector<vec3> ups;
+    for (std::string_view text : split(cell, ';')) {
+      vec3 up = forms_.take(row, parseVector(text));
+      if (mirror) up.x = -up.x;
+      ups.push_back(placing.direction(up));
+    }
+    return ups;
+  }
+
   void addPieces(std::size_t row, const Placing& placing, BoneForm& form) {
     addPiece(row, placing, form, false);
     if (forms_.text(row, "side") == "both") addPiece(row, placing, form, true);
@@ -195,11 +207,10 @@ class FormReader {
     piece.blend = forms_.millimetres(row, "blend_mm");
     piece.cell = forms_.millimetres(row, "cell_mm");
     piece.square = forms_.numberOr(row, "square", 2);
-    vec3 up{0, 0, 1};
-    if (!forms_.text(row, "up").empty()) up = forms_.take(row, parseVector(forms_.text(row, "up")));
-    if (mirror) up.x = -up.x;
+    const std::vector<vec3> ups = upsOf(row, placing, mirror);
+    if (ups.size() != 1 && ups.size() != points.size())
+      forms_.fault(row, "a tube has an up for every point, or one for all");
     if (!forms_.state().ok()) return;
-    up = placing.direction(up);
     if (ball) {
       piece.stations = {{points[0], placing.axes[0], placing.axes[1], radii[0].x, radii[0].y}};
       piece.capStart = piece.capEnd = radii[0].z;
@@ -210,7 +221,7 @@ class FormReader {
       std::vector<Rough> rough;
       for (std::size_t i = 0; i < points.size(); ++i) {
         const vec3 r = radii[radii.size() == 1 ? 0 : i];
-        rough.push_back({points[i], up, r.x, r.y});
+        rough.push_back({points[i], ups[ups.size() == 1 ? 0 : i], r.x, r.y});
       }
       const float cap = 1e-3f * forms_.numberOr(row, "cap_mm", 0);
       piece.capStart = cap > 0 ? cap : std::min(rough.front().width, rough.front().height);
@@ -240,8 +251,9 @@ Result<std::vector<BoneForm>> readBoneForms(const std::filesystem::path& bones,
   FormReader reader(*boneTable, *formTable, rig, columns);
   for (std::size_t row = 0; row < boneTable->rowCount(); ++row) {
     reader.read(row, result);
-    if (!boneTable->state().ok()) return boneTable->state().error();
+    // A piece that is wrong is missing from its bone, too.
     if (!formTable->state().ok()) return formTable->state().error();
+    if (!boneTable->state().ok()) return boneTable->state().error();
   }
   return result;
 }
