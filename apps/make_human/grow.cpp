@@ -265,8 +265,9 @@ struct Grower::State {
     float reach = 0;
     for (vec3 p : branch.points) reach = std::max(reach, glm::distance(p, middle));
     reach *= kFarthestMoved;
-    Limits limits{branch.reserve + kFromBone * scale_, branch.reserve + 0.2e-3f * scale_,
-                  std::max(state.region->leastDepth, branch.reserve + 1e-3f * scale_)};
+    Limits limits{
+        branch.reserve + kFromBone * scale_, branch.reserve + 0.2e-3f * scale_,
+        std::max(state.region->organ ? 0 : state.region->leastDepth, branch.reserve + 1e-3f * scale_)};
     if (!around_.bones.at(middle, reach + 1.3f * limits.fromBone)) limits.fromBone = 0;
     if (!around_.heart.at(middle, reach + 1.3f * limits.fromHeart)) limits.fromHeart = 0;
     if (around_.depth(middle) > 2 * (reach + limits.depth)) limits.depth = 0;

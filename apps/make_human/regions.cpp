@@ -98,7 +98,7 @@ Aabb Region::bounds(const Surroundings& around) const {
   }
   if (organ) {
     for (const Aabb bounds = organ->bounds(); vec3 p : {bounds.low, bounds.high})
-      box.add(mirrored ? human::mirrored(p) : p);
+      box.add(mirrored ? human::mirrored(p) : p, std::max(-leastDepth, 0.0f));
     return box;
   }
   const vec3 reachOut = shape == Shape::flesh ? vec3(size.x) : size;

@@ -136,13 +136,13 @@ std::vector<VesselLabel> rowsAsOne(std::vector<VesselLabel> labels) {
   return rows;
 }
 
-// Leaves out "anterior branch of X" and "lateral X" beside a weightier X.
+// Leaves out "anterior branch of X" and "lateral X" beside X, or beside the row that X is one of.
 void leaveOutKin(std::vector<VesselLabel>& labels) {
   std::set<std::string> named;
+  for (const VesselLabel& label : labels) named.insert(lower(label.text));
   std::erase_if(labels, [&](const VesselLabel& label) {
-    if (named.contains(namedAfter(label.text))) return true;
-    named.insert(lower(label.text));
-    return false;
+    const std::string parent = namedAfter(label.text);
+    return named.contains(parent) || named.contains(lower(plural(rowOf(parent))));
   });
 }
 

@@ -170,8 +170,10 @@ std::string rowOf(std::string_view name) {
 
 std::string namedAfter(std::string_view name) {
   const std::string small = lower(name);
-  for (const std::string_view side : {"lateral ", "medial "})
-    if (small.starts_with(side)) return small.substr(side.size());
+  const std::size_t side = small.starts_with("left ") ? 5 : small.starts_with("right ") ? 6 : 0;
+  for (const std::string_view beside : {"lateral ", "medial "})
+    if (small.substr(side).starts_with(beside))
+      return small.substr(0, side) + small.substr(side + beside.size());
   constexpr std::string_view kBranch = " branch of ";
   const auto branch = small.find(kBranch);
   return branch == small.npos ? std::string() : small.substr(branch + kBranch.size());

@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 11> kColumns{"region",  "system",      "j
                                                     "surface", "organs",      "wall_mm"};
 constexpr std::size_t kFewestColumns = 9;  // tables that know of no organs
 constexpr std::size_t kMaximumBytes = 1 << 20;
+constexpr std::size_t kMostRegions = 255;  // beds keep a byte; 255 is none
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -120,6 +121,8 @@ Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
         row.fail("names organs and " + std::string(kColumns[column]) +
                  "; an organ is filled whatever vessels are near, leave that empty");
     if (!row.text(10).empty()) region.wall = row.millimetres(10, 0, 1000);
+  } else if (!row.text(10).empty()) {
+    row.fail("names wall_mm but no organs; name them or leave it empty");
   } else if (grows) {
     region.thinnest = row.millimetres(5, 0, 100);
     region.thickest = row.millimetres(6, 0, 100);
@@ -173,8 +176,8 @@ Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std:
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
     if (columns == 0) {
-      for (columns = kColumns.size(); columns > 0 && line != headerText(columns);)
-        columns = columns > kFewestColumns ? kFewestColumns : 0;
+      for (const std::size_t count : {kColumns.size(), kFewestColumns})
+        if (line == headerText(count)) columns = count;
       if (columns == 0)
         return ruleFault(name, number, "the first line must name the columns: " + headerText());
       continue;
@@ -187,6 +190,9 @@ Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std:
     cells.resize(kColumns.size());
     auto region = regionIn(Row(name, number, std::move(cells)), rules);
     if (!region) return region.error();
+    if (regions.size() == kMostRegions)
+      return ruleFault(name, number,
+                       "is row " + std::to_string(kMostRegions + 1) + "; leave out what is not needed");
     regions.push_back(std::move(*region));
   }
   if (regions.empty())

@@ -1,6 +1,7 @@
 #include "scene/beds.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -24,9 +25,9 @@ constexpr float kMargin = 0.45f;        // in cubes, between a wall and what it 
 constexpr float kStemsApart = 0.3f;     // of the half box: from its middle to where a stem ends
 constexpr float kUpstream = 0.5f;       // of the way to a bed, by which a stem leaves its vessel before
 constexpr int kSlopeReach = 2;          // cubes either way that the skin's direction is taken from
-// [tenths of a cube] Worth this detour, a vessel of its own feeds an organ, not one that passes by: 4 cm,
-// about the half of an organ.
-constexpr std::uint32_t kToll = 100;
+// [tenths of a cube] For a way into or out of an organ: with 16 cm, more than one measures, its own vessels
+// feed it where it has any.
+constexpr std::uint32_t kToll = 400;
 constexpr std::int32_t kNone = -1;
 
 using Cubes = std::vector<std::int32_t>;
@@ -179,31 +180,20 @@ class Sharing {
     for (std::size_t i = 0; i < wish_.sources[side].size(); ++i)
       if (const std::int32_t cube = tissue_.numberAt(wish_.sources[side][i].at); cube >= 0)
         sources.push_back({cube, std::int32_t(i)});
-    ways_[side] = waysFrom(tissue_, sources, passable_, kToll);
+    // Without a skin ways have a longest length, which a toll would use up.
+    ways_[side] = waysFrom(tissue_, sources, passable_, tissue_.hasSkin ? kToll : 0);
   }
 
   // How deep every cube lies below the skin, and below skin or bone.
   void findDepths() {
     const std::vector<char> all(tissue_.count(), 1);
-    for (const bool bone : {false, true}) {
-      std::vector<TissueWays::Source> rim;
-      Checkpoints checkpoints;
-      for (std::size_t i = 0; i < tissue_.count(); ++i) {
-        checkpoints.pass();
-        bool outermost = false;
-        for (const ivec3 step : Tissue::kOverFaces) {
-          const std::int32_t beside = tissue_.numberAt(tissue_.places[i] + step);
-          outermost = outermost || beside < 0 || (bone && !passable_[std::size_t(beside)]);
-        }
-        if (outermost) rim.push_back({std::int32_t(i), 0});
-      }
-      depth_[bone] = waysFrom(tissue_, rim, bone ? passable_ : all).length;
-    }
+    for (const bool bone : {false, true}) depth_[bone] = depthsIn(tissue_, bone ? passable_ : all);
   }
 
   // What fills a cube: its organ's region, else that of the vessel that feeds it; 255: nothing.
   std::uint8_t regionOf(std::int32_t cube, std::size_t side) const {
     const std::uint8_t room = tissue_.rooms[std::size_t(cube)];
+    assert(room != Tissue::kHollow);
     return room == Tissue::kCommon ? sourceOf(side, cube).region : wish_.regionOfRoom[room - 1u];
   }
 

@@ -8,6 +8,7 @@
 #include "core/bytes.h"
 #include "core/hash.h"
 #include "core/kept.h"
+#include "core/log.h"
 #include "core/parallel.h"
 #include "scene/beds.h"
 #include "surface/tessellate.h"
@@ -71,7 +72,10 @@ Organs organsOf(const Body& body, const std::vector<GrowthRegion>& regions, floa
   for (const SkinnedMesh& mesh : body.meshes) {
     const GrowthRegion* region = regionOfOrgan(regions, mesh.name);
     if (!region || roleNamed(mesh.name) == MeshRole::skin || isSolid(mesh)) continue;
-    if (organs.rooms.size() + 1 == Tissue::kHollow) break;
+    if (organs.rooms.size() + 1 == Tissue::kHollow) {
+      logWarning("of the body's organs the first 254 have capillaries of their own");
+      break;
+    }
     const bool grows = region->system != GrowthRegion::kNoSystem;
     organs.rooms.push_back({&mesh, region->wall * scale});
     organs.regions.push_back(grows ? std::uint8_t(region - regions.data()) : std::uint8_t(255));

@@ -110,23 +110,14 @@ void hollowOut(Tissue& tissue, std::span<const OrganRoom> organs) {
   for (std::size_t room = 0; room < organs.size(); ++room) {
     if (organs[room].wall <= 0) continue;
     std::vector<char> within(tissue.count());
-    std::vector<TissueWays::Source> rim;
+    for (std::size_t i = 0; i < tissue.count(); ++i) within[i] = tissue.rooms[i] == room + 1;
+    const std::vector<std::uint32_t> depths = depthsIn(tissue, within);
     for (std::size_t i = 0; i < tissue.count(); ++i) {
-      within[i] = tissue.rooms[i] == room + 1;
-      if (!within[i]) continue;
-      bool outermost = false;
-      for (const ivec3 step : Tissue::kOverFaces) {
-        const std::int32_t beside = tissue.numberAt(tissue.places[i] + step);
-        outermost = outermost || beside < 0 || tissue.rooms[std::size_t(beside)] != room + 1;
-      }
-      if (outermost) rim.push_back({std::int32_t(i), 0});
+      if (!within[i] || depths[i] == 0) continue;
+      if ((0.1f * float(depths[i]) + 0.5f) * tissue.cell <= organs[room].wall) continue;
+      tissue.rooms[i] = Tissue::kHollow;
+      if (tissue.kinds[i] == Tissue::Kind::flesh) tissue.kinds[i] = Tissue::Kind::lumen;
     }
-    const std::vector<std::uint32_t> depths = waysFrom(tissue, rim, within).length;
-    for (std::size_t i = 0; i < tissue.count(); ++i)
-      if (within[i] && (0.1f * float(depths[i]) + 0.5f) * tissue.cell > organs[room].wall) {
-        tissue.rooms[i] = Tissue::kHollow;
-        if (tissue.kinds[i] == Tissue::Kind::flesh) tissue.kinds[i] = Tissue::Kind::lumen;
-      }
   }
 }
 
@@ -238,6 +229,22 @@ TissueWays waysFrom(const Tissue& tissue, const std::vector<TissueWays::Source>&
     }
   }
   return ways;
+}
+
+std::vector<std::uint32_t> depthsIn(const Tissue& tissue, const std::vector<char>& part) {
+  constexpr std::array kOverFaces{ivec3(1, 0, 0),  ivec3(-1, 0, 0), ivec3(0, 1, 0),
+                                  ivec3(0, -1, 0), ivec3(0, 0, 1),  ivec3(0, 0, -1)};
+  std::vector<TissueWays::Source> rim;
+  Checkpoints checkpoints;
+  for (std::size_t i = 0; i < tissue.count(); ++i) {
+    checkpoints.pass();
+    const bool outermost = std::ranges::any_of(kOverFaces, [&](ivec3 step) {
+      const std::int32_t beside = tissue.numberAt(tissue.places[i] + step);
+      return beside < 0 || !part[std::size_t(beside)];
+    });
+    if (outermost) rim.push_back({std::int32_t(i), 0});
+  }
+  return waysFrom(tissue, rim, part).length;
 }
 
 }  // namespace vasa

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -9,7 +8,8 @@
 namespace vasa {
 
 /// The inside of a body at rest, cut into small cubes: what capillaries fill. Flesh is what lies inside the
-/// skin and outside of bones and other solid meshes; lumen is flesh that a wide vessel takes.
+/// skin and outside of bones and other solid meshes; lumen is flesh that a wide vessel takes, and an organ's
+/// hollow.
 struct Tissue {
   enum class Kind : std::uint8_t { flesh, lumen, solid };
 
@@ -23,8 +23,6 @@ struct Tissue {
   std::vector<std::uint8_t> rooms;  ///< one a cube: the organ that it lies in; kCommon, kHollow
 
   static constexpr std::uint8_t kCommon = 0, kHollow = 255;
-  static constexpr std::array<ivec3, 6> kOverFaces{ivec3(1, 0, 0),  ivec3(-1, 0, 0), ivec3(0, 1, 0),
-                                                   ivec3(0, -1, 0), ivec3(0, 0, 1),  ivec3(0, 0, -1)};
 
   std::size_t count() const { return places.size(); }
   /// Makes lumen of the flesh in a ball.
@@ -35,13 +33,13 @@ struct Tissue {
   vec3 centreOf(ivec3 place) const { return low + cell * (vec3(place) + 0.5f); }
 };
 
-/// @param cell   [m]
 /// A mesh of the body whose inside is a room of its own.
 struct OrganRoom {
   const SkinnedMesh* mesh;
-  float wall = 0;  ///< [m] what lies deeper is hollow; 0: nothing is
+  float wall = 0;  ///< [m] what lies deeper is hollow, the outermost cubes never; 0: nothing is
 };
 
+/// @param cell   [m]
 /// @param near   what lies within `reach` of these places is taken for the inside of a body without skin
 /// Skins have holes and overlap themselves: a place is inside where a surface winds around it as two of three
 /// lines through it along the axes see it. O(cubes of the box + triangles that cross them)
@@ -67,5 +65,9 @@ struct TissueWays {
 /// Of several sources in a cube the first counts. Dial's buckets; O(cubes)
 TissueWays waysFrom(const Tissue& tissue, const std::vector<TissueWays::Source>& sources,
                     const std::vector<char>& through, std::uint32_t toll = 0);
+
+/// How deep each cube of a part of the tissue lies in it: in tenths of a cube's side from the outermost ones,
+/// which have a face that is not of the part; kFar for those outside. O(cubes)
+std::vector<std::uint32_t> depthsIn(const Tissue& tissue, const std::vector<char>& part);
 
 }  // namespace vasa

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <string>
+
+#include "support/shared_data.h"
 
 using namespace vasa;
 using namespace vasa::human;
@@ -14,8 +17,8 @@ const std::filesystem::path kTables = VASA_HUMAN_TABLES;
 
 /// A bone of one tube upwards with this cell for `up`.
 Result<std::vector<BoneForm>> tubeWith(const std::string& up) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "vasa_bone_form_test";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder own;
+  const std::filesystem::path& folder = own.path();
   std::ofstream(folder / "bones.csv") << "bone,tissue,side,joint,form,origin,towards,front,size\n"
                                       << "plate,bone,mid,Hips,plate,,,,\n";
   std::ofstream(folder / "forms.csv")
@@ -23,9 +26,7 @@ Result<std::vector<BoneForm>> tubeWith(const std::string& up) {
       << "plate,mid,add,tube,0,3,0 0 0 ; 0 50 0 ; 0 100 0,20*4," << up << ",,\n";
   const Result<Rig> rig = Rig::read(kTables / "joints.csv");
   REQUIRE(rig.ok());
-  Result<std::vector<BoneForm>> read = readBoneForms(folder / "bones.csv", folder / "forms.csv", *rig);
-  std::filesystem::remove_all(folder);
-  return read;
+  return readBoneForms(folder / "bones.csv", folder / "forms.csv", *rig);
 }
 
 }  // namespace

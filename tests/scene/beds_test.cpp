@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 #include "capillary_filling.h"
 #include "growth/capillary.h"
@@ -63,7 +63,8 @@ TEST_CASE("nearly every end of the human's capillaries meets one of the other ki
   CHECK(double(open) < 0.02 * double(ends));
 }
 
-TEST_CASE("the human's capillaries stay inside the skin and out of bones, and fill thigh, scalp and brain") {
+TEST_CASE(
+    "the human's capillaries stay inside the skin and out of bones and airways, and fill flesh and organs") {
   const CapillaryBeds& beds = grown().growth.beds;
   const PosedNetwork rest = grown().rest();
   const GrowthScene scene{rest, grown().growth.rules.tables, beds.spans, beds.beds};
@@ -88,28 +89,30 @@ TEST_CASE("the human's capillaries stay inside the skin and out of bones, and fi
   CHECK(filling.lungs > 0.9);
   CHECK(filling.liver > 0.9);
   CHECK(filling.kidneys > 0.9);
-  CHECK(filling.windpipe < 0.2);
+  CHECK(filling.windpipe < 0.015);
 }
 
-TEST_CASE("an organ's capillaries hang on its own vessels") {
+TEST_CASE("an organ's capillaries hang on its own vessels, or on those that run through it") {
   const CapillaryBeds& beds = grown().growth.beds;
   const PosedNetwork rest = grown().rest();
   struct Owner {
-    const char* organ;
-    std::array<const char*, 3> vessels;  // parts of names
+    std::string organ, region;
+    std::vector<const char*> vessels;  // parts of names
   };
-  for (const Owner& owner : {Owner{"left lung", {"pulmonary", "bronchial", "lingular"}},
-                             {"right lung", {"pulmonary", "bronchial", "lingular"}},
-                             {"liver", {"hepatic", "portal", "liver"}},
-                             {"kidney", {"renal", "kidney", "renal"}}}) {
+  for (const Owner& owner : {Owner{"left lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
+                             {"right lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
+                             {"liver", "glands", {"hepatic", "portal", "liver", "cystic"}},
+                             {"kidney", "glands", {"renal", "kidney"}}}) {
     CAPTURE(owner.organ);
-    const auto mesh =
-        std::ranges::find(human().body.meshes, "organ: " + std::string(owner.organ), &SkinnedMesh::name);
+    const auto mesh = std::ranges::find(human().body.meshes, "organ: " + owner.organ, &SkinnedMesh::name);
     REQUIRE(mesh != human().body.meshes.end());
     const TriangleMesh atRest = meshAtRest(human().body, *mesh);
     const WindingNumber inside(atRest.positions, atRest.triangles);
     int all = 0, own = 0;
-    for (const auto& bed : beds.beds) {
+    for (std::size_t i = 0; i < beds.beds.size(); ++i) {
+      if (grown().growth.regions[beds.regionOfBed[i]].name != owner.region)
+        continue;  // of one that overlaps it
+      const auto& bed = beds.beds[i];
       const Section on = sectionOn(rest, beds.spans[bed.span], bed.t);
       const vec3 centre = on.centre + mat3(on.frame.u, on.frame.v, on.frame.tangent) * bed.centre;
       if (std::abs(inside.at(centre)) < 0.5f) continue;
@@ -123,6 +126,6 @@ TEST_CASE("an organ's capillaries hang on its own vessels") {
     }
     MESSAGE(owner.organ << ": " << own << " of " << all << " stems");
     CHECK(all > 20);
-    CHECK(own >= 0.9 * all);
+    CHECK(own >= 0.7 * all);
   }
 }

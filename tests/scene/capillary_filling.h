@@ -15,8 +15,8 @@ struct Filling {
   std::size_t outside = 0;  ///< of them out of the skin
   std::size_t inBone = 0;
   float thigh = 0, scalp = 0, brain = 0, lungs = 0, liver = 0,
-        kidneys = 0;  ///< share of the centimetre cubes of flesh there that a curve runs through
-  float windpipe = 0;
+        kidneys = 0;   ///< share of the centimetre cubes of flesh there that a curve runs through
+  float windpipe = 0;  ///< share of the places in the box around the windpipe that lie in it
 };
 
 class FillingMeter {
@@ -63,7 +63,7 @@ class FillingMeter {
     filling.lungs = shareOfOrgan(places, "lung");
     filling.liver = shareOfOrgan(places, "liver");
     filling.kidneys = shareOfOrgan(places, "kidney");
-    filling.windpipe = shareOfOrgan(places, "windpipe");
+    filling.windpipe = shareWithin(places, "windpipe");
     return filling;
   }
 
@@ -76,7 +76,8 @@ class FillingMeter {
 
   /// Of those organs whose names hold a word, the one that is filled least.
   float shareOfOrgan(const std::vector<vec3>& places, const char* word) const {
-    float least = 1;
+    float least = std::ranges::any_of(
+        organNames_, [&](const std::string& name) { return name.find(word) != std::string::npos; });
     for (std::size_t i = 0; i < organs_.size(); ++i) {
       if (organNames_[i].find(word) == std::string::npos) continue;
       const vec3 half = 0.5f * organBounds_[i].extent();
@@ -85,6 +86,19 @@ class FillingMeter {
                              [&](vec3 p) { return std::abs(organs_[i].at(p)) >= 0.5f; }));
     }
     return least;
+  }
+
+  float shareWithin(const std::vector<vec3>& places, const char* word) const {
+    std::size_t near = 0, within = 0;
+    for (std::size_t i = 0; i < organs_.size(); ++i) {
+      if (organNames_[i].find(word) == std::string::npos) continue;
+      for (const vec3 p : places) {
+        if (organBounds_[i].distance(p) > 0) continue;
+        ++near;
+        within += std::abs(organs_[i].at(p)) >= 0.5f;
+      }
+    }
+    return near ? float(within) / float(near) : 0;
   }
 
   template <class Wanted>
