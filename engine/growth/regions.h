@@ -21,9 +21,8 @@ struct GrowthRegion {
   float thinnest = 0, thickest = 0;  ///< [m] radii of vessels that trees hang on
   float bed = 0;                     ///< [m] side of a cube as large as a bed
   bool inBone = false;               ///< bones are its surface, as the skull is the brain's; else the skin
-  std::vector<std::string>
-      organs;      ///< parts of names of the meshes that it fills, whichever vessels are near
-  float wall = 0;  ///< [m] how deep below such a mesh's surface; 0: all of it
+  std::vector<std::string> organs;   ///< parts of names of the meshes that it fills
+  float wall = 0;                    ///< [m] how deep below such a mesh's surface; 0: all of it
 };
 
 struct RegionQuestion {
