@@ -10,6 +10,7 @@ namespace {
 constexpr int kSinkings = 2, kPrunings = 6, kRefinements = 10;
 constexpr float kAllowedOut = 0.2e-3f;   // [m] of a centre line, in the poses looked at
 constexpr float kAllowedInBone = 4e-3f;  // [m] of a grown one's; less is put right as the vessels move
+constexpr float kStraightest = 0.98f;    // chord over length of a grown one: straighter ones look like hairs
 constexpr float kDeeper = 2.5e-3f;       // [m] than would just do
 constexpr float kDeepest = 6e-3f;        // at a time
 
@@ -45,6 +46,11 @@ Result<std::vector<LaidVessel>> fittedApart(VesselLayout& layout, float bodyHeig
   }
 }
 
+/// As fitted: a short branch's curve can be lost within the fit's tolerance.
+bool isStraight(const std::vector<vec4>& points) {
+  return glm::distance(vec3(points.front()), vec3(points.back())) > kStraightest * lengthOf(points);
+}
+
 Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const MotionProbe& probe,
                    float bodyHeight) {
   for (int round = 0; round < kPrunings; ++round) {
@@ -60,6 +66,8 @@ Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const
     if (!throughBones.ok()) return throughBones.error();
     for (const VesselId vessel : *throughBones) any |= grower.remove(int(vessel.value));
     for (const VesselId vessel : restFaults(*network)) any |= grower.remove(int(vessel.value));
+    for (std::size_t i = 0; i < vessels.size(); ++i)
+      any |= isStraight(vessels[i].points) && grower.remove(int(i));
     if (!any) break;
   }
   return {};
