@@ -27,7 +27,7 @@ bool ready(const auto& future) {
 
 std::vector<std::string> exportExtensions() {
   std::vector<std::string> all(kFiles.begin(), kFiles.end());
-  all.insert(all.end(), {".png"});
+  all.emplace_back(".png");
   all.insert(all.end(), kFilms.begin(), kFilms.end());
   return all;
 }

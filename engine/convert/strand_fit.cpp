@@ -62,10 +62,6 @@ Sections densified(const Sections& sections, float spacing) {
   return dense;
 }
 
-FitTolerance scaled(const FitTolerance& tolerance, float factor) {
-  return {factor * tolerance.share, factor * tolerance.least, factor * tolerance.most};
-}
-
 }  // namespace
 
 std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& options) {
@@ -77,15 +73,9 @@ std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& op
   const float length = lengthOf(sections);
   fit.maxSpans = 2 + std::uint32_t(std::ceil(length / (options.radiiPerSpan * float(radius))));
   const Sections samples = densified(sections, length / (kSamplesPerSpan * float(fit.maxSpans)));
-  const auto within = [&](float factor) {
-    fit.position = scaled(options.position, factor);
-    fit.radius = scaled(options.radius, factor);
-    return fitSplineMeasured(samples, fit);
-  };
-  Fit tight = within(1);
-  if (tight.error <= 1) return tight.points;
-  Fit relaxed = within(options.relaxed);
-  return relaxed.error <= 1 ? relaxed.points : tight.points;
+  fit.position = options.position;
+  fit.radius = options.radius;
+  return fitSpline(samples, fit);
 }
 
 }  // namespace vasa

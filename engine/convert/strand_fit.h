@@ -5,19 +5,17 @@
 namespace vasa {
 
 struct StrandFitOptions {
-  FitTolerance position{0.3f, 3e-4f, 8e-4f};
+  FitTolerance position{0, 3e-4f, 3e-4f};
   FitTolerance radius{0.1f, 2e-4f, 3e-4f};
   /// No more than a span for so many mean radii of length: a strand that needs more tells its mesh's noise.
-  /// The tolerance is relaxed by this factor then.
   float radiiPerSpan = 3.0f;
-  float relaxed = 1.5f;
   /// The source paper's way (Park et al. 2013, section 1): a spline through the centre and radius of every
   /// section that was found, a span between two, and no tolerance asked for.
   bool interpolate = false;
 };
 
-/// A strand's spline: the fewest spans that meet the tolerance, or the relaxed one, within the budget of
-/// spans; else the best that the budget allows. With `interpolate`, the spline through all of them
+/// A strand's spline: the fewest spans that meet the tolerance, else the best that the budget of spans
+/// allows. With `interpolate`, the spline through all of them
 /// (curve/interpolate.h).
 std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& options = {});
 

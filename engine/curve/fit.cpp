@@ -17,6 +17,10 @@ namespace {
 
 constexpr int kRounds = 24;  // of solving and moving parameters
 constexpr double kStiffness = 1e-8;
+// Times that spans are shifted to where the fit misses most: of 0, 1, 2, 4, 8 a scanned body's 1,031 elements
+// take 13.7, 11.4, 10.3, 9.9, 9.8 thousand spans.
+constexpr int kEvenings = 4;
+constexpr double kLeastMiss = 1e-3;  // of the greatest: at a time no span gets 5.6 times the way of another
 
 struct Problem {
   std::vector<dvec4> samples;
@@ -153,31 +157,74 @@ double wildest(const Problem& problem, const Points& points, const std::vector<d
   return most;
 }
 
+// How far the curve is from a sample, in tolerances.
+double missAt(const Problem& problem, const Points& points, const std::vector<double>& parameter,
+              std::size_t i) {
+  const dvec4 at(evaluate(points, float(parameter[i])));
+  return std::max(glm::distance(dvec3(at), dvec3(problem.samples[i])) / problem.positionTolerance[i],
+                  std::abs(at.w - problem.samples[i].w) / problem.radiusTolerance[i]);
+}
+
 double worst(const Problem& problem, const Points& points, const std::vector<double>& parameter) {
   double most = 0;
-  for (std::size_t i = 0; i < parameter.size(); ++i) {
-    const dvec4 at(evaluate(points, float(parameter[i])));
-    most = std::max(most, glm::distance(dvec3(at), dvec3(problem.samples[i])) / problem.positionTolerance[i]);
-    most = std::max(most, std::abs(at.w - problem.samples[i].w) / problem.radiusTolerance[i]);
-  }
+  for (std::size_t i = 0; i < parameter.size(); ++i)
+    most = std::max(most, missAt(problem, points, parameter, i));
   return std::max(most, wildest(problem, points, parameter));
+}
+
+// Solves and moves parameters in turn until that fits or gets no better; `parameter` is left where the best
+// fit had it.
+Fit settle(const Problem& problem, std::uint32_t spans, float leastRadius, std::vector<double>& parameter) {
+  Fit best;
+  best.error = std::numeric_limits<float>::infinity();
+  std::vector<double> moved = parameter;
+  int idle = 0;
+  Points points;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!solve(problem, spans, moved, points)) break;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) points[i].w = std::max(points[i].w, leastRadius);
+    reproject(problem, points, moved);
+    const double error = worst(problem, points, moved);
+    idle = error < 0.97 * double(best.error) ? 0 : idle + 1;
+    if (error < best.error) best = {points, float(error)}, parameter = moved;
+    if (error <= 1 || idle > 2) break;
+  }
+  return best;
+}
+
+// Parameters that give a span less way where the fit misses most, and more where it has tolerance left: what
+// a span misses grows with the fourth power of its length (de Boor 1973), so its length goes with the fourth
+// root.
+std::vector<double> evenedOut(const Problem& problem, const Fit& fit, std::uint32_t spans,
+                              const std::vector<double>& parameter) {
+  std::vector<double> missed(spans, 0), density(spans);
+  for (std::size_t i = 0; i < parameter.size(); ++i) {
+    double& most = missed[std::min(std::uint32_t(parameter[i]), spans - 1)];
+    most = std::max(most, missAt(problem, fit.points, parameter, i));
+  }
+  const double least = *std::ranges::max_element(missed) * kLeastMiss;
+  for (std::uint32_t k = 0; k < spans; ++k)
+    density[k] = std::pow(std::max({missed[k], least, k > 0 ? 0.5 * missed[k - 1] : 0,
+                                    k + 1 < spans ? 0.5 * missed[k + 1] : 0}),
+                          0.25);
+  std::vector<double> sum(1, 0.0), even;
+  for (const double d : density) sum.push_back(sum.back() + d);
+  for (const double u : parameter) {
+    const std::uint32_t k = std::min(std::uint32_t(u), spans - 1);
+    even.push_back((sum[k] + (u - k) * density[k]) / sum.back() * spans);
+  }
+  return even;
 }
 
 Fit fitSpans(const Problem& problem, std::uint32_t spans, float leastRadius) {
   std::vector<double> parameter;
   for (const double s : problem.chord) parameter.push_back(s / problem.chord.back() * spans);
-  Fit best;
-  best.error = std::numeric_limits<float>::infinity();
-  int idle = 0;
-  Points points;
-  for (int round = 0; round < kRounds; ++round) {
-    if (!solve(problem, spans, parameter, points)) break;
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) points[i].w = std::max(points[i].w, leastRadius);
-    reproject(problem, points, parameter);
-    const double error = worst(problem, points, parameter);
-    idle = error < 0.97 * double(best.error) ? 0 : idle + 1;
-    if (error < best.error) best = {points, float(error)};
-    if (error <= 1 || idle > 2) break;
+  Fit best = settle(problem, spans, leastRadius, parameter);
+  for (int round = 0; round < kEvenings && spans > 1 && best.error > 1 && !best.points.empty(); ++round) {
+    std::vector<double> even = evenedOut(problem, best, spans, parameter);
+    Fit fit = settle(problem, spans, leastRadius, even);
+    if (!(fit.error < 0.97f * best.error)) break;
+    best = std::move(fit), parameter = std::move(even);
   }
   return best;
 }

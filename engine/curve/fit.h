@@ -34,12 +34,12 @@ struct Fit {
 /// The spline with the fewest spans that meets every sample within its tolerance. Passes exactly through the
 /// first and the last sample; radii stay positive.
 /// Method: least squares weighted by the tolerances, parameters moved to the nearest points and solved again
-/// (Hoschek 1988); spans doubled until it fits, then bisected. Where even a span per sample misses the
-/// tolerance (samples that turn back), the best found.
+/// (Hoschek 1988); where that misses the tolerance, spans are made shorter where it misses most and longer
+/// elsewhere (de Boor 1973); the number of spans is doubled until it fits, then bisected. Where even a span
+/// per sample misses the tolerance (samples that turn back), the best found.
 /// @param samples  (x, y, z, r) [m] in order, at least 2, finite, r > 0; repeated centres are passed over.
-/// The
-///                 first and last differ from their neighbours, or all are one place: then a straight spline
-///                 of length zero comes back
+///                 The first and last differ from their neighbours, or all are one place: then a straight
+///                 spline of length zero comes back
 /// O(samples · log spans).
 Fit fitSplineMeasured(std::span<const vec4> samples, const FitOptions& options);
 std::vector<vec4> fitSpline(std::span<const vec4> samples, const FitOptions& options);

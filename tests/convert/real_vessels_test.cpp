@@ -4,8 +4,8 @@
 
 #include "convert/convert.h"
 #include "convert/element.h"
+#include "convert/strand_fit.h"
 #include "curve/bspline.h"
-#include "curve/fit.h"
 #include "io/gltf.h"
 #include "io/stl.h"
 #include "io/vtp.h"
@@ -25,7 +25,7 @@ struct Coverage {
 Coverage coverageOf(const TriangleMesh& mesh, const ElementSkeleton& skeleton) {
   std::vector<std::vector<vec4>> tubes;
   for (const ElementBranch& branch : skeleton.branches) {
-    const auto points = fitSpline(branch.sections, {});
+    const auto points = fitStrand(branch.sections);
     for (const vec4& p : points) CHECK(p.w > 0);
     auto& tube = tubes.emplace_back();
     const std::uint32_t steps = 8 * spanCount(points);

@@ -7,7 +7,7 @@ using namespace vasa;
 namespace {
 
 // A trunk along y with a branch that leaves it at its third sample.
-Centrelines fork() {
+Centrelines forkedLines() {
   Centrelines lines;
   lines.lines.resize(2);
   lines.lines[0] = {"trunk", "FMA1", VesselKind::artery, {}};
@@ -24,7 +24,7 @@ Centrelines fork() {
 }  // namespace
 
 TEST_CASE("centre lines become vessels that pass through their samples and meet where the lines do") {
-  const Centrelines lines = fork();
+  const Centrelines lines = forkedLines();
   const auto made = networkOfCentrelines(lines);
   REQUIRE(made.ok());
   const Network& network = made->network;
@@ -43,7 +43,7 @@ TEST_CASE("centre lines become vessels that pass through their samples and meet 
 }
 
 TEST_CASE("a network's centre lines have a sample where a branch leaves, and give the same network again") {
-  const auto made = networkOfCentrelines(fork());
+  const auto made = networkOfCentrelines(forkedLines());
   REQUIRE(made.ok());
   const Centrelines again = centrelinesOfNetwork(made->network, made->network.points(), 3);
   REQUIRE(again.lines.size() == 2);
