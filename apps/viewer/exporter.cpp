@@ -26,9 +26,10 @@ bool ready(const auto& future) {
 }  // namespace
 
 std::vector<std::string> exportExtensions() {
-  std::vector<std::string> all(kFiles.begin(), kFiles.end());
+  std::vector<std::string> all;
+  for (const auto file : kFiles) all.emplace_back(file);
   all.emplace_back(".png");
-  all.insert(all.end(), kFilms.begin(), kFilms.end());
+  for (const auto film : kFilms) all.emplace_back(film);
   return all;
 }
 

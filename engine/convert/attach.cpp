@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 
+#include "convert/shared_rims.h"
 #include "convert/vessel_names.h"
 #include "core/parallel.h"
 
@@ -28,6 +29,8 @@ constexpr float kAheadCost = 0.25f;  // straight-ahead joins cost this much more
 constexpr int kAheadSteps = 12;
 constexpr float kTouchRadii = 0.15f;
 constexpr std::size_t kNoSection = std::size_t(-1);
+constexpr float kRimRadii =
+    2.0f;  // of a tip, within which the rim that it ends at is, and which that is wide
 constexpr float kClosingCost = 0.6f;  // limit for joins that close a ring
 
 struct Candidate {
@@ -51,7 +54,11 @@ class Attacher {
  public:
   Attacher(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight,
            const AttachOptions& options)
-      : graph_(graph), elements_(elements), bodyHeight_(bodyHeight), options_(options) {}
+      : graph_(graph),
+        elements_(elements),
+        rims_(sharedRims(elements)),
+        bodyHeight_(bodyHeight),
+        options_(options) {}
 
   AttachReport run() {
     // Joining opens no new ends, but a tip led on may come near something; two rounds settle that.
@@ -110,7 +117,28 @@ class Attacher {
     for (const Tip& other : tips_)
       if (mayJoin(tip.end.strand, other.end.strand))
         if (auto facing = facingCandidate(tip, other)) found.push_back(*facing);
+    for (const SharedRim& rim : rims_)
+      if (auto shared = rimCandidate(tip, rim)) found.push_back(*shared);
     return found;
+  }
+
+  // Where a tip's surface goes on in another element's, no mesh is missing, however far the axes are apart:
+  // the first ring of a branch lies on the rim of a collar that is its host's.
+  std::optional<Candidate> rimCandidate(const Tip& tip, const SharedRim& rim) const {
+    const std::uint32_t own = graph_.strands[tip.end.strand].element;
+    if (own != rim.first && own != rim.second) return std::nullopt;
+    if (!isAt(tip, rim)) return std::nullopt;
+    std::optional<Candidate> best;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
+      if (graph_.strands[s].element != (own == rim.first ? rim.second : rim.first)) continue;
+      if (!mayJoin(tip.end.strand, s)) continue;
+      const Along at = nearestAlong(graph_.strands[s].sections, tip.place);
+      if (tip.radius > kLargestRatio * at.section.w || at.distance - at.section.w >= least) continue;
+      least = at.distance - at.section.w;
+      best = Candidate{tip.end, s, std::nullopt, 0, 0};
+    }
+    return best;
   }
 
   std::optional<Candidate> sideCandidate(const Tip& tip, std::uint32_t host) const {
@@ -161,6 +189,11 @@ class Attacher {
       if (const float gap = at.distance - at.section.w - section.w; gap < least) least = gap, best = i;
     }
     return best;
+  }
+
+  static bool isAt(const Tip& tip, const SharedRim& rim) {
+    const float reach = kRimRadii * tip.radius;
+    return rim.radius <= reach && glm::distance(tip.place, rim.centre) <= reach;
   }
 
   std::optional<Candidate> facingCandidate(const Tip& tip, const Tip& other) const {
@@ -362,6 +395,7 @@ class Attacher {
 
   StrandGraph& graph_;
   std::span<const SourceElement> elements_;
+  const std::vector<SharedRim> rims_;
   float bodyHeight_;
   AttachOptions options_;
   std::vector<Tip> tips_;

@@ -36,7 +36,7 @@ constexpr float kToldGap = 0.001f;  ///< [m]
 /// Joins free ends, best first: cost is the gap over what is allowed in its direction. An end joins once; the
 /// same two strands do not join twice within half the shorter one's length. Sections of an end that lie
 /// inside the host's lumen are cut off before the end is led to the host's centre line. Unknown kinds join
-/// across no gap, but by name.
+/// across no gap, but by name. An end whose surface shares a rim with another element's joins that first.
 /// @param bodyHeight  [m]
 AttachReport attachEnds(StrandGraph& graph, std::span<const SourceElement> elements, float bodyHeight,
                         const AttachOptions& options = {});

@@ -42,6 +42,23 @@ TEST_CASE("an end on a vessel's wall is led to its centre line") {
   CHECK(scene.jointOf(branch, true) == kNone);
 }
 
+TEST_CASE("an end beside its host joins it where their surfaces share a rim") {
+  for (const bool shared : {false, true}) {
+    Scene scene;
+    const auto trunk = scene.add("trunk", {0, 0, 0}, {0, 0.2f, 0}, 0.005f);
+    const auto branch = scene.add("branch", {0.009f, 0.1f, 0}, {0.009f, 0.15f, 0}, 0.001f);
+    const auto ring = [](float from, float to) {
+      return tubeBetween({0.009f, from, 0}, {0.009f, to, 0}, 0.001f, TubeEnds::open, 10);
+    };
+    if (shared) scene.elements[trunk].element.mesh = ring(0.09f, 0.1f);
+    scene.elements[branch].element.mesh = ring(0.1f, 0.15f);
+    scene.attach();
+    const auto joint = scene.jointOf(branch, false);
+    REQUIRE((joint != kNone) == shared);
+    if (shared) CHECK(scene.graph.joints[joint].host == trunk);
+  }
+}
+
 TEST_CASE("an end that runs through its host is cut back; a slanted one keeps its slant") {
   Scene scene;
   scene.add("trunk", {0, 0, 0}, {0, 0.2f, 0}, 0.005f);

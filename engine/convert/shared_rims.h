@@ -1,0 +1,19 @@
+#pragma once
+#include "convert/source.h"
+
+namespace vasa {
+
+/// Where the surfaces of two elements hang together: a run of vertices that both have, as where one surface
+/// was divided into vessels by name or by material.
+struct SharedRim {
+  std::uint32_t first, second;  ///< elements, first < second
+  vec3 centre;                  ///< mean of the vertices
+  float radius;                 ///< [m] mean distance of the vertices from there
+};
+
+/// All runs of at least three vertices that two elements have at the same places, to the bit, and that are
+/// joined by edges of the first. In the order of the elements. O(vertices log vertices), and the triangles of
+/// an element for each element that it touches.
+std::vector<SharedRim> sharedRims(std::span<const SourceElement> elements);
+
+}  // namespace vasa
