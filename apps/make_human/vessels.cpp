@@ -46,7 +46,7 @@ Result<std::vector<LaidVessel>> fittedApart(VesselLayout& layout, float bodyHeig
   }
 }
 
-/// As fitted: a short branch's curve can be lost within the fit's tolerance.
+/// As fitted: a short branch's curve can be lost within the fit's tolerance. What grew on it goes with it.
 bool isStraight(const std::vector<vec4>& points) {
   return glm::distance(vec3(points.front()), vec3(points.back())) > kStraightest * lengthOf(points);
 }

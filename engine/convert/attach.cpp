@@ -29,8 +29,10 @@ constexpr float kAheadCost = 0.25f;  // straight-ahead joins cost this much more
 constexpr int kAheadSteps = 12;
 constexpr float kTouchRadii = 0.15f;
 constexpr std::size_t kNoSection = std::size_t(-1);
-constexpr float kRimRadii =
-    2.0f;  // of a tip, within which the rim that it ends at is, and which that is wide
+// A tip's radii: the rim that it ends at is no farther away and no wider, and no narrower than the second.
+constexpr float kRimRadii = 2.0f, kLeastRimRadii = 0.5f;
+constexpr float kRimCost =
+    0.01f;  // of a rim at that distance: what hangs together comes first, the nearest of it
 constexpr float kClosingCost = 0.6f;  // limit for joins that close a ring
 
 struct Candidate {
@@ -40,7 +42,8 @@ struct Candidate {
   float cost;
   float gap;
   bool bridge = false;
-  std::size_t cutTo = 0;  // sections to take off the end first
+  std::size_t cutTo = 0;   // sections to take off the end first
+  bool sharesRim = false;  // their surfaces hang together: no gap, whatever lies between the axes
 };
 
 struct Tip {
@@ -57,8 +60,13 @@ class Attacher {
       : graph_(graph),
         elements_(elements),
         rims_(sharedRims(elements)),
+        rimsOf_(elements.size()),
         bodyHeight_(bodyHeight),
-        options_(options) {}
+        options_(options) {
+    for (std::uint32_t rim = 0; rim < rims_.size(); ++rim)
+      for (const std::uint32_t element : {rims_[rim].first, rims_[rim].second})
+        rimsOf_[element].push_back(rim);
+  }
 
   AttachReport run() {
     // Joining opens no new ends, but a tip led on may come near something; two rounds settle that.
@@ -85,12 +93,14 @@ class Attacher {
   void collectTips() {
     tips_.clear();
     boxes_.clear();
+    strandsOf_.assign(elements_.size(), {});
     for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
       const Strand& strand = graph_.strands[s];
       Aabb box;
       for (const vec4& section : strand.sections) box.add(vec3(section), section.w);
       boxes_.push_back(box);
       if (strand.dropped()) continue;
+      strandsOf_[strand.element].push_back(s);
       for (const bool last : {false, true})
         if (graph_.isFree({s, last})) tips_.push_back(tipOf({s, last}));
     }
@@ -117,26 +127,26 @@ class Attacher {
     for (const Tip& other : tips_)
       if (mayJoin(tip.end.strand, other.end.strand))
         if (auto facing = facingCandidate(tip, other)) found.push_back(*facing);
-    for (const SharedRim& rim : rims_)
-      if (auto shared = rimCandidate(tip, rim)) found.push_back(*shared);
+    for (const std::uint32_t rim : rimsOf_[graph_.strands[tip.end.strand].element])
+      if (auto shared = rimCandidate(tip, rims_[rim])) found.push_back(*shared);
     return found;
   }
 
-  // Where a tip's surface goes on in another element's, no mesh is missing, however far the axes are apart:
-  // the first ring of a branch lies on the rim of a collar that is its host's.
+  // Where a tip's surface goes on in another element's, no mesh is missing, however wide the collar between
+  // them: the first ring of a branch lies on the rim of a collar that is its host's.
   std::optional<Candidate> rimCandidate(const Tip& tip, const SharedRim& rim) const {
+    const float reach = kRimRadii * tip.radius, away = glm::distance(tip.place, rim.centre);
+    if (away > reach || rim.radius > reach || rim.radius < kLeastRimRadii * tip.radius) return std::nullopt;
     const std::uint32_t own = graph_.strands[tip.end.strand].element;
-    if (own != rim.first && own != rim.second) return std::nullopt;
-    if (!isAt(tip, rim)) return std::nullopt;
     std::optional<Candidate> best;
-    float least = std::numeric_limits<float>::infinity();
-    for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
-      if (graph_.strands[s].element != (own == rim.first ? rim.second : rim.first)) continue;
+    for (const std::uint32_t s : strandsOf_[own == rim.first ? rim.second : rim.first]) {
       if (!mayJoin(tip.end.strand, s)) continue;
       const Along at = nearestAlong(graph_.strands[s].sections, tip.place);
-      if (tip.radius > kLargestRatio * at.section.w || at.distance - at.section.w >= least) continue;
-      least = at.distance - at.section.w;
-      best = Candidate{tip.end, s, std::nullopt, 0, 0};
+      const float gap = std::max(0.0f, at.distance - at.section.w);
+      if (tip.radius > kLargestRatio * at.section.w || gap > std::max(reach, at.section.w)) continue;
+      if (best && gap >= best->gap) continue;
+      best = Candidate{tip.end, s, std::nullopt, kRimCost * away / reach, gap};
+      best->sharesRim = true;
     }
     return best;
   }
@@ -191,11 +201,6 @@ class Attacher {
     return best;
   }
 
-  static bool isAt(const Tip& tip, const SharedRim& rim) {
-    const float reach = kRimRadii * tip.radius;
-    return rim.radius <= reach && glm::distance(tip.place, rim.centre) <= reach;
-  }
-
   std::optional<Candidate> facingCandidate(const Tip& tip, const Tip& other) const {
     const vec3 between = other.place - tip.place;
     const float gap = glm::length(between), large = std::max(tip.radius, other.radius);
@@ -242,7 +247,7 @@ class Attacher {
       const bool joined = candidate.otherLast ? joinToEnd(candidate, {candidate.strand, *candidate.otherLast})
                                               : joinToSide(candidate);
       if (joined) unite(candidate.end.strand, candidate.strand);
-      if (joined && candidate.gap > kToldGap)
+      if (joined && candidate.gap > kToldGap && !candidate.sharesRim)
         report_.gaps.push_back({graph_.strands[candidate.end.strand].element,
                                 graph_.strands[candidate.strand].element, candidate.gap, candidate.bridge});
     }
@@ -252,7 +257,9 @@ class Attacher {
   // are joined only where their names go on in one another.
   bool isGuess(const Candidate& candidate) const {
     const Strand &a = graph_.strands[candidate.end.strand], &b = graph_.strands[candidate.strand];
-    if (candidate.gap <= kToldGap || a.element == b.element || a.kind != VesselKind::other) return false;
+    if (candidate.sharesRim || candidate.gap <= kToldGap || a.element == b.element ||
+        a.kind != VesselKind::other)
+      return false;
     return !namesContinue(elements_[a.element].label, elements_[b.element].label);
   }
 
@@ -396,6 +403,7 @@ class Attacher {
   StrandGraph& graph_;
   std::span<const SourceElement> elements_;
   const std::vector<SharedRim> rims_;
+  std::vector<std::vector<std::uint32_t>> rimsOf_, strandsOf_;  // by element
   float bodyHeight_;
   AttachOptions options_;
   std::vector<Tip> tips_;

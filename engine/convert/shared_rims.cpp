@@ -1,18 +1,21 @@
 #include "convert/shared_rims.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "core/cancellation.h"
+#include "mesh/components.h"
 
 namespace vasa {
 namespace {
 
 constexpr std::size_t kLeastVertices = 3;
+constexpr std::size_t kMostOwners = 8;  // of a place: no more vessels meet along one rim
+constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// A vertex of an element; places that are alike have one number.
+/// A vertex of an element.
 struct Corner {
   vec3 place;
   std::uint32_t element, vertex;
@@ -23,83 +26,94 @@ std::vector<Corner> sortedCorners(std::span<const SourceElement> elements) {
   std::vector<Corner> corners;
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
     const auto& positions = elements[e].element.mesh.positions;
-    for (std::uint32_t v = 0; v < positions.size(); ++v) corners.push_back({positions[v], e, v});
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+      const vec3 p = positions[v];
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) corners.push_back({p, e, v});
+    }
   }
+  checkpoint();
   std::ranges::sort(corners, {}, &Corner::key);
   return corners;
 }
 
-/// Numbers of places, by element and vertex, and for each two elements those that both have.
-struct Places {
-  std::vector<std::vector<std::uint32_t>> of;
+/// Places that several elements have, numbered.
+struct SharedPlaces {
   std::vector<vec3> at;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> shared;  // ascending
+  std::vector<std::vector<std::uint32_t>> owners;    // elements, ascending
+  std::vector<std::vector<std::uint32_t>> numberOf;  // by element and vertex; kNone: no other has it
 };
 
-Places placesOf(std::span<const SourceElement> elements) {
-  Places places;
-  for (const SourceElement& source : elements) places.of.emplace_back(source.element.mesh.positions.size());
+SharedPlaces sharedPlaces(std::span<const SourceElement> elements) {
+  SharedPlaces places;
+  for (const SourceElement& source : elements)
+    places.numberOf.emplace_back(source.element.mesh.positions.size(), kNone);
   const std::vector<Corner> corners = sortedCorners(elements);
-  for (std::size_t i = 0; i < corners.size();) {
-    const auto number = std::uint32_t(places.at.size());
-    places.at.push_back(corners[i].place);
+  for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
     std::vector<std::uint32_t> owners;
-    for (; i < corners.size() && corners[i].place == places.at.back(); ++i) {
-      places.of[corners[i].element][corners[i].vertex] = number;
-      if (owners.empty() || owners.back() != corners[i].element) owners.push_back(corners[i].element);
-    }
-    for (std::size_t a = 0; a < owners.size(); ++a)
-      for (std::size_t b = a + 1; b < owners.size(); ++b)
-        places.shared[{owners[a], owners[b]}].push_back(number);
+    for (end = first; end < corners.size() && corners[end].place == corners[first].place; ++end)
+      if (owners.empty() || owners.back() != corners[end].element) owners.push_back(corners[end].element);
+    if (owners.size() < 2 || owners.size() > kMostOwners) continue;
+    for (std::size_t i = first; i < end; ++i)
+      places.numberOf[corners[i].element][corners[i].vertex] = std::uint32_t(places.at.size());
+    places.at.push_back(corners[first].place);
+    places.owners.push_back(std::move(owners));
   }
   return places;
 }
 
-/// The shared places in runs that the mesh's edges join.
-std::vector<std::vector<std::uint32_t>> runs(const TriangleMesh& mesh,
-                                             const std::vector<std::uint32_t>& placeOf,
-                                             const std::vector<std::uint32_t>& shared) {
-  std::vector<std::uint32_t> parent(shared.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  const auto indexOf = [&](std::uint32_t vertex) {
-    const auto at = std::ranges::lower_bound(shared, placeOf[vertex]);
-    return at != shared.end() && *at == placeOf[vertex] ? std::int64_t(at - shared.begin()) : -1;
-  };
-  for (const uvec3& t : mesh.triangles) {
-    const std::int64_t corners[3] = {indexOf(t.x), indexOf(t.y), indexOf(t.z)};
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // of numbered places
+
+/// For each later element that one shares edges with, those edges.
+std::map<std::uint32_t, std::vector<Edge>> sharedEdges(const SharedPlaces& places, std::uint32_t element,
+                                                       const TriangleMesh& mesh) {
+  std::map<std::uint32_t, std::vector<Edge>> edges;
+  const std::vector<std::uint32_t>& numberOf = places.numberOf[element];
+  for (const uvec3& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
-      const std::int64_t a = corners[k], b = corners[(k + 1) % 3];
-      if (a >= 0 && b >= 0) parent[root(std::uint32_t(a))] = root(std::uint32_t(b));
+      const std::uint32_t a = numberOf[t[k]], b = numberOf[t[(k + 1) % 3]];
+      if (a == kNone || b == kNone) continue;
+      for (const std::uint32_t other : places.owners[a])
+        if (other > element && std::ranges::binary_search(places.owners[b], other))
+          edges[other].emplace_back(a, b);
     }
-  }
-  std::map<std::uint32_t, std::vector<std::uint32_t>> byRoot;
-  for (std::uint32_t i = 0; i < shared.size(); ++i) byRoot[root(i)].push_back(shared[i]);
-  std::vector<std::vector<std::uint32_t>> result;
-  for (auto& [first, run] : byRoot) result.push_back(std::move(run));
-  return result;
+  return edges;
+}
+
+/// The places that edges join, run by run.
+std::vector<std::vector<std::uint32_t>> runsOf(const std::vector<Edge>& edges) {
+  std::vector<std::uint32_t> all;
+  for (const auto& [a, b] : edges) all.insert(all.end(), {a, b});
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  const auto index = [&](std::uint32_t place) {
+    return std::uint32_t(std::ranges::lower_bound(all, place) - all.begin());
+  };
+  DisjointSets sets(all.size());
+  for (const auto& [a, b] : edges) sets.unite(index(a), index(b));
+  std::map<std::uint32_t, std::vector<std::uint32_t>> byFirst;
+  for (std::uint32_t i = 0; i < all.size(); ++i) byFirst[sets.find(i)].push_back(all[i]);
+  std::vector<std::vector<std::uint32_t>> runs;
+  for (auto& [first, run] : byFirst) runs.push_back(std::move(run));
+  return runs;
 }
 
 }  // namespace
 
 std::vector<SharedRim> sharedRims(std::span<const SourceElement> elements) {
-  const Places places = placesOf(elements);
+  const SharedPlaces places = sharedPlaces(elements);
   std::vector<SharedRim> rims;
-  for (const auto& [pair, shared] : places.shared) {
+  for (std::uint32_t first = 0; first < elements.size(); ++first) {
     checkpoint();
-    if (shared.size() < kLeastVertices) continue;
-    const auto [first, second] = pair;
-    for (const auto& run : runs(elements[first].element.mesh, places.of[first], shared)) {
-      if (run.size() < kLeastVertices) continue;
-      SharedRim rim{first, second, vec3(0), 0};
-      for (const std::uint32_t place : run) rim.centre += places.at[place] / float(run.size());
-      for (const std::uint32_t place : run)
-        rim.radius += glm::distance(places.at[place], rim.centre) / float(run.size());
-      rims.push_back(rim);
-    }
+    for (const auto& [second, edges] : sharedEdges(places, first, elements[first].element.mesh))
+      for (const std::vector<std::uint32_t>& run : runsOf(edges)) {
+        if (run.size() < kLeastVertices) continue;
+        SharedRim rim{first, second, vec3(0), 0};
+        const float share = 1 / float(run.size());
+        for (const std::uint32_t place : run) rim.centre += share * places.at[place];
+        for (const std::uint32_t place : run)
+          rim.radius += share * glm::distance(places.at[place], rim.centre);
+        rims.push_back(rim);
+      }
   }
   return rims;
 }

@@ -11,9 +11,9 @@ struct SharedRim {
   float radius;                 ///< [m] mean distance of the vertices from there
 };
 
-/// All runs of at least three vertices that two elements have at the same places, to the bit, and that are
-/// joined by edges of the first. In the order of the elements. O(vertices log vertices), and the triangles of
-/// an element for each element that it touches.
+/// All runs of at least three vertices that two elements have at equal places and that are joined by edges of
+/// the first. In the order of the elements. Places that more than eight elements have are left out, and those
+/// that are not finite. O(n log n) for n vertices and triangles; can be cancelled.
 std::vector<SharedRim> sharedRims(std::span<const SourceElement> elements);
 
 }  // namespace vasa

@@ -141,36 +141,36 @@ void reproject(const Problem& problem, const Points& points, std::vector<double>
 }
 
 // Between samples the curve may swing out where nothing holds it: its distance from the chord of the samples
-// around it, less a quarter of the chord for honest bends.
-double wildest(const Problem& problem, const Points& points, const std::vector<double>& parameter) {
+// around it, less a quarter of the chord for honest bends; in tolerances, before sample i.
+double swingBefore(const Problem& problem, const Points& points, const std::vector<double>& parameter,
+                   std::size_t i) {
+  const vec3 a(problem.samples[i - 1]), b(problem.samples[i]);
+  const double slack = 0.25 * double(glm::distance(a, b));
+  const int checks = 1 + int((parameter[i] - parameter[i - 1]) * 4);
   double most = 0;
-  for (std::size_t i = 1; i < parameter.size(); ++i) {
-    const vec3 a(problem.samples[i - 1]), b(problem.samples[i]);
-    const int checks = 1 + int((parameter[i] - parameter[i - 1]) * 4);
-    for (int k = 1; k <= checks; ++k) {
-      const double u = glm::mix(parameter[i - 1], parameter[i], double(k) / (checks + 1));
-      const vec3 p(evaluate(points, float(u)));
-      const vec3 foot = glm::mix(a, b, closestOnSegment(p, a, b));
-      const double slack = 0.25 * double(glm::distance(a, b));
-      most = std::max(most, (double(glm::distance(p, foot)) - slack) / problem.positionTolerance[i]);
-    }
+  for (int k = 1; k <= checks; ++k) {
+    const double u = glm::mix(parameter[i - 1], parameter[i], double(k) / (checks + 1));
+    const vec3 p(evaluate(points, float(u)));
+    const vec3 foot = glm::mix(a, b, closestOnSegment(p, a, b));
+    most = std::max(most, (double(glm::distance(p, foot)) - slack) / problem.positionTolerance[i]);
   }
   return most;
 }
 
-// How far the curve is from a sample, in tolerances.
+// How far the curve is from a sample, or swings out before it, in tolerances.
 double missAt(const Problem& problem, const Points& points, const std::vector<double>& parameter,
               std::size_t i) {
   const dvec4 at(evaluate(points, float(parameter[i])));
-  return std::max(glm::distance(dvec3(at), dvec3(problem.samples[i])) / problem.positionTolerance[i],
-                  std::abs(at.w - problem.samples[i].w) / problem.radiusTolerance[i]);
+  return std::max({glm::distance(dvec3(at), dvec3(problem.samples[i])) / problem.positionTolerance[i],
+                   std::abs(at.w - problem.samples[i].w) / problem.radiusTolerance[i],
+                   i > 0 ? swingBefore(problem, points, parameter, i) : 0.0});
 }
 
 double worst(const Problem& problem, const Points& points, const std::vector<double>& parameter) {
   double most = 0;
   for (std::size_t i = 0; i < parameter.size(); ++i)
     most = std::max(most, missAt(problem, points, parameter, i));
-  return std::max(most, wildest(problem, points, parameter));
+  return most;
 }
 
 // Solves and moves parameters in turn until that fits or gets no better; `parameter` is left where the best
@@ -203,11 +203,11 @@ std::vector<double> evenedOut(const Problem& problem, const Fit& fit, std::uint3
     double& most = missed[std::min(std::uint32_t(parameter[i]), spans - 1)];
     most = std::max(most, missAt(problem, fit.points, parameter, i));
   }
-  const double least = *std::ranges::max_element(missed) * kLeastMiss;
-  for (std::uint32_t k = 0; k < spans; ++k)
-    density[k] = std::pow(std::max({missed[k], least, k > 0 ? 0.5 * missed[k - 1] : 0,
-                                    k + 1 < spans ? 0.5 * missed[k + 1] : 0}),
-                          0.25);
+  const double least = std::max(*std::ranges::max_element(missed) * kLeastMiss, 1e-30);
+  for (std::uint32_t k = 0; k < spans; ++k) {
+    const double before = k > 0 ? missed[k - 1] : 0, after = k + 1 < spans ? missed[k + 1] : 0;
+    density[k] = std::sqrt(std::sqrt(std::max({missed[k], least, 0.5 * before, 0.5 * after})));
+  }
   std::vector<double> sum(1, 0.0), even;
   for (const double d : density) sum.push_back(sum.back() + d);
   for (const double u : parameter) {

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "convert/sources.h"
 
 using namespace vasa;
@@ -40,6 +42,15 @@ TEST_CASE(
     CHECK(glm::distance(rims[0].centre, vec3(0, 0, 0.02f)) < 1e-6f);
     CHECK(rims[0].radius == doctest::Approx(kRadius).epsilon(1e-3));
   }
+}
+
+TEST_CASE("what is not finite, and what more elements have than meet anywhere, is passed over in time") {
+  TriangleMesh broken = along(0.02f, 0.05f);
+  broken.positions.back().y = std::numeric_limits<float>::quiet_NaN();
+  CHECK(sharedRims(std::vector{source("first", along(0, 0.02f)), source("broken", broken)}).size() == 1);
+
+  const TriangleMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  CHECK(sharedRims(std::vector<SourceElement>(20000, source("same", triangle))).empty());
 }
 
 TEST_CASE("surfaces that share two rims tell both; a micrometre apart, or in one corner, none") {
