@@ -143,7 +143,7 @@ class Attacher {
       if (!mayJoin(tip.end.strand, s)) continue;
       const Along at = nearestAlong(graph_.strands[s].sections, tip.place);
       const float gap = std::max(0.0f, at.distance - at.section.w);
-      if (tip.radius > kLargestRatio * at.section.w || gap > std::max(reach, at.section.w)) continue;
+      if (tip.radius > kLargestRatio * at.section.w || gap > reach + at.section.w) continue;
       if (best && gap >= best->gap) continue;
       best = Candidate{tip.end, s, std::nullopt, kRimCost * away / reach, gap};
       best->sharesRim = true;
