@@ -26,7 +26,7 @@ bool ready(const auto& future) {
 }  // namespace
 
 std::vector<std::string> exportExtensions() {
-  std::vector<std::string> all;
+  std::vector<std::string> all;  // one by one: of insert() gcc 12 tells false overflows
   for (const auto file : kFiles) all.emplace_back(file);
   all.emplace_back(".png");
   for (const auto film : kFilms) all.emplace_back(film);
