@@ -10,6 +10,8 @@ endif()
 find_program(VASA_CCACHE ccache)
 if(VASA_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${VASA_CCACHE}")
+  # Of what was compiled with parsed headers (cmake/precompiled.cmake) a cache finds nothing again in another folder.
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON CACHE BOOL "")
 endif()
 
 add_library(vasa_compiler INTERFACE)

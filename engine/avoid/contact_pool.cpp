@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/stable_sort.h"
 #include "math/direction.h"
 
 // Coordinate ascent on the dual: with g = W⁻¹ a the response of the variables to a constraint's row a,
@@ -224,21 +225,20 @@ void ContactPool::take(const Constraint& constraint, const MotionSpace::Rows& ro
 void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape,
                            const LastShape& last, std::span<const vec3> z) {
   const std::size_t before = constraints_.size();
-  MotionSpace::Rows rows;
+  sideRows_.clear();
   for (const Contact& contact : changed) {
     Constraint constraint;
     if (!wouldRoll(contact, shape, last, constraint)) continue;
-    giveRow(constraint, rows);
-    take(constraint, rows, shape, z);
+    giveRow(constraint, sideRows_);
+    take(constraint, sideRows_, shape, z);
   }
   sortIn(before);
 }
 
 void ContactPool::sortIn(std::size_t before) {
-  const auto middle = constraints_.begin() + std::ptrdiff_t(before);
   const auto earlier = [](const Constraint& a, const Constraint& b) { return keyOf(a) < keyOf(b); };
-  std::stable_sort(middle, constraints_.end(), earlier);
-  std::inplace_merge(constraints_.begin(), middle, constraints_.end(), earlier);
+  stableSort(std::span(constraints_).subspan(before), sortRoom_, earlier);
+  mergeInPlace(std::span(constraints_), before, sortRoom_, earlier);
   sorted_ = constraints_.size();
 }
 

@@ -100,8 +100,9 @@ class ContactPool {
   const Interference* interference_;
   const RestSides* sides_;
   std::vector<Constraint> constraints_;  // sorted by i and other, then in the order they came
-  std::size_t sorted_ = 0;               // of them; the others are of this round
-  MotionSpace::Rows rows_;
+  std::vector<Constraint> sortRoom_;
+  std::size_t sorted_ = 0;             // of them; the others are of this round
+  MotionSpace::Rows rows_, sideRows_;  // sideRows_: of the latest addSides()
   std::vector<Proposals> proposals_;
   std::vector<vec4> z_;  // while they ascend: four numbers are added at a time
 };

@@ -196,7 +196,7 @@ void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
 }
 
 void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, float always,
-                           const std::function<float(std::uint32_t, float)>& allowed) {
+                           FunctionRef<float(std::uint32_t, float)> allowed) {
   difference_.resize(z.size());
   for (std::size_t v = 0; v < z.size(); ++v) difference_[v] = z[v] - other[v];
   const auto shorten = [&](vec3& variable, std::uint32_t point, vec3 motion) {

@@ -1,9 +1,9 @@
 #pragma once
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "avoid/metric.h"
+#include "core/function_ref.h"
 #include "network/network.h"
 
 namespace vasa {
@@ -68,7 +68,7 @@ class MotionSpace {
   /// @param allowed  (point, distance [m]) -> what it may be where it is farther; for a node, that of an end
   /// there. Called by several threads at once.
   void keepNear(std::span<const vec3> other, std::span<vec3> z, float always,
-                const std::function<float(std::uint32_t, float)>& allowed);
+                FunctionRef<float(std::uint32_t, float)> allowed);
 
  private:
   struct Block {

@@ -5,6 +5,7 @@
 
 #include "collide/contact_search.h"
 #include "core/parallel.h"
+#include "core/stable_sort.h"
 #include "math/direction.h"
 
 namespace vasa {
@@ -135,7 +136,8 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
   changed.clear();
   for (const auto& own : found_) changed.insert(changed.end(), own.begin(), own.end());
   const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
-  std::ranges::stable_sort(changed, {}, pairOf);
+  stableSort(std::span(changed), sortRoom_,
+             [&](const Contact& a, const Contact& b) { return pairOf(a) < pairOf(b); });
   changed.erase(std::unique(changed.begin(), changed.end(),
                             [&](const Contact& a, const Contact& b) { return pairOf(a) == pairOf(b); }),
                 changed.end());

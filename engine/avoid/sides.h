@@ -51,6 +51,7 @@ class RestSides {
   const Interference* interference_;
   std::vector<Contact> nearAtRest_;
   std::vector<std::vector<Contact>> found_;  // a task each
+  std::vector<Contact> sortRoom_;
 };
 
 }  // namespace vasa

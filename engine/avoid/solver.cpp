@@ -151,6 +151,11 @@ struct Avoider::State {
   std::vector<vec3> none;                   // no correction
   std::vector<char> isEnd;                  // of a vessel, a point each
   std::vector<vec4> shape;                  // being made
+  // What single functions work in, kept so that a step allocates nothing.
+  std::vector<BoneContact> entered;
+  std::vector<vec4> wide;
+  std::vector<vec3> centres;
+  std::vector<char> isIn;
   std::vector<Interference::Place> found, remaining,
       unsettled;                                // by a look(), while a step is made, and after the last one
   std::span<const Interference::Place> places;  // of the last look, as the next
@@ -301,7 +306,7 @@ void Avoider::State::giveWay(const Input& in, bool isLast) {
     if (!isInTrouble()) return;
     {
       StageClock clock(in.report.solveMs);
-      std::vector<BoneContact> entered;
+      entered.clear();
       std::ranges::copy_if(boneContacts, std::back_inserter(entered), isEntered);
       if (lastResort)
         for (const Interference::Place& place : remaining)
@@ -331,8 +336,8 @@ void Avoider::State::solve(const Input& in, bool isLast) {
 
 // The vessels that are in trouble, and those within reach of the places.
 void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
-  std::vector<vec3> centres;
-  std::vector<char> isIn(network.vessels().size(), false);
+  centres.clear();
+  isIn.assign(network.vessels().size(), false);
   const auto add = [&](std::uint32_t tube, float s) {
     centres.push_back(vec3(interference.tubes()[tube].at(s)));
     isIn[interference.layout().address(tube).vessel.value] = true;
@@ -421,7 +426,7 @@ void Avoider::State::sumUp(const Input& in) {
   AvoidReport& report = in.report;
   narrowed.clear();
   if (std::ranges::any_of(correction.widest, [](float widest) { return widest < kNoLimit; })) {
-    std::vector<vec4> wide(in.points.begin(), in.points.end());
+    wide.assign(in.points.begin(), in.points.end());
     for (std::size_t p = 0; p < wide.size(); ++p) wide[p].w = network.points()[p].w;
     if (in.volume) in.volume->run(wide);
     narrowed = narrowPlaces(network, wide, in.points);

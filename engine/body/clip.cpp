@@ -57,9 +57,9 @@ std::uint32_t Clip::frameCount() const {
   return frames > 0 ? std::uint32_t(std::floor(frames + 0.01f)) + 1 : 1;
 }
 
-Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time) {
-  std::vector<JointTransform> local;
-  local.reserve(skeleton.joints.size());
+void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& pose) {
+  static thread_local std::vector<JointTransform> local;  // kept, so that a frame allocates nothing
+  local.clear();
   for (const auto& joint : skeleton.joints) local.push_back(joint.rest);
   for (const JointTracks& tracks : clip.tracks) {
     JointTransform& transform = local[tracks.joint.value];
@@ -67,7 +67,13 @@ Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time) {
     transform.rotation = sample(tracks.rotation, time, transform.rotation);
     transform.scale = sample(tracks.scale, time, transform.scale);
   }
-  return poseFromLocal(skeleton, local);
+  poseFromLocal(skeleton, local, pose);
+}
+
+Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time) {
+  Pose pose;
+  samplePose(skeleton, clip, time, pose);
+  return pose;
 }
 
 bool closes(const Skeleton& skeleton, const Clip& clip) {

@@ -39,6 +39,7 @@ struct Clip {
 
 /// The skeleton's pose at a time; before the first key and after the last the nearest key holds.
 Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time);
+void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& pose);
 
 /// Whether the last frame's pose is the first one's, to a millimetre, so that the clip can go round.
 bool closes(const Skeleton& skeleton, const Clip& clip);

@@ -19,36 +19,35 @@ JointTransform decomposed(const mat4& matrix) {
   return out;
 }
 
-std::vector<JointTransform> localOf(const Skeleton& skeleton, const Pose& pose) {
-  std::vector<JointTransform> local;
-  local.reserve(skeleton.joints.size());
+void localOf(const Skeleton& skeleton, const Pose& pose, std::vector<JointTransform>& local) {
+  local.clear();
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const JointId parent = skeleton.joints[j].parent;
     const mat4& above = parent.valid() ? pose.world[parent.value] : skeleton.rootTransform;
     local.push_back(decomposed(glm::inverse(above) * pose.world[j]));
   }
-  return local;
 }
 
 }  // namespace
 
-PosePath::PosePath(const Skeleton& skeleton, const Pose& from, const Pose& to)
-    : skeleton_(&skeleton),
-      from_(from),
-      to_(to),
-      start_(localOf(skeleton, from)),
-      end_(localOf(skeleton, to)) {}
+void PosePath::set(const Skeleton& skeleton, const Pose& from, const Pose& to) {
+  skeleton_ = &skeleton;
+  from_ = from;
+  to_ = to;
+  localOf(skeleton, from, start_);
+  localOf(skeleton, to, end_);
+}
 
-Pose PosePath::at(float share) const {
+const Pose& PosePath::at(float share) {
   if (share <= 0) return from_;
   if (share >= 1) return to_;
-  std::vector<JointTransform> local;
-  local.reserve(start_.size());
+  local_.resize(start_.size());
   for (std::size_t j = 0; j < start_.size(); ++j)
-    local.push_back({glm::mix(start_[j].translation, end_[j].translation, share),
-                     glm::slerp(start_[j].rotation, end_[j].rotation, share),
-                     glm::mix(start_[j].scale, end_[j].scale, share)});
-  return poseFromLocal(*skeleton_, local);
+    local_[j] = {glm::mix(start_[j].translation, end_[j].translation, share),
+                 glm::slerp(start_[j].rotation, end_[j].rotation, share),
+                 glm::mix(start_[j].scale, end_[j].scale, share)};
+  poseFromLocal(*skeleton_, local_, between_);
+  return between_;
 }
 
 float PosePath::largestTurn() const {

@@ -32,15 +32,19 @@ Pose restPose(const Skeleton& skeleton) {
   return pose;
 }
 
-Pose poseFromLocal(const Skeleton& skeleton, const std::vector<JointTransform>& local) {
+void poseFromLocal(const Skeleton& skeleton, std::span<const JointTransform> local, Pose& pose) {
   assert(local.size() == skeleton.joints.size());
-  Pose pose;
   pose.world.resize(local.size());
   for (std::size_t i = 0; i < local.size(); ++i) {
     const JointId parent = skeleton.joints[i].parent;
     const mat4& above = parent.valid() ? pose.world[parent.value] : skeleton.rootTransform;
     pose.world[i] = above * local[i].matrix();
   }
+}
+
+Pose poseFromLocal(const Skeleton& skeleton, std::span<const JointTransform> local) {
+  Pose pose;
+  poseFromLocal(skeleton, local, pose);
   return pose;
 }
 

@@ -44,6 +44,8 @@ struct Pose {
 Pose restPose(const Skeleton& skeleton);
 
 /// Chains local transforms down the tree. @param local  one a joint
-Pose poseFromLocal(const Skeleton& skeleton, const std::vector<JointTransform>& local);
+Pose poseFromLocal(const Skeleton& skeleton, std::span<const JointTransform> local);
+/// The same into a pose that was made before: allocates nothing. So does samplePose().
+void poseFromLocal(const Skeleton& skeleton, std::span<const JointTransform> local, Pose& pose);
 
 }  // namespace vasa

@@ -31,10 +31,19 @@ constexpr std::uint32_t kSamples = 6;  // a span
 constexpr float kUnstrained =
     2e-4f;  // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
 
+// A course in a pose.
 struct Sampled {
   std::vector<vec3> places;
-  std::vector<float> along;        // [m]
-  std::vector<std::uint32_t> own;  // of each point, its sample
+  std::vector<float> along;  // [m]
+};
+
+// What sliding works in, a thread's own: kept, so that a frame allocates nothing.
+struct Workspace {
+  Sampled posed;
+  std::vector<double> step, stretch, factor, shift;
+  std::vector<float> was, is, left;
+  std::vector<vec3> off, moved, aside;
+  std::vector<quat> turns;
 };
 
 // Three times the Greville abscissa of point j.
@@ -44,30 +53,25 @@ std::uint32_t grevilleThirds(std::uint32_t j, std::uint32_t spans) {
 }
 
 template <class Pieces>
-Sampled sample(const Network& network, const Pieces& pieces, std::span<const vec4> points) {
-  Sampled course;
+void sample(const Network& network, const Pieces& pieces, std::span<const vec4> points, Sampled& course) {
+  course.places.clear();
   for (const auto& piece : pieces) {
-    const Vessel& vessel = network.vessel(piece.vessel);
-    const auto own = Network::pointsOf(vessel, points);
-    const std::uint32_t spans = vessel.spanCount(), count = kSamples * spans;
-    const bool joined = !course.places.empty();
-    const auto first = std::uint32_t(joined ? course.places.size() - 1 : 0);
-    std::vector<vec3> places;
-    places.reserve(count + 1);
+    const auto own = Network::pointsOf(network.vessel(piece.vessel), points);
+    const std::uint32_t spans = network.vessel(piece.vessel).spanCount();
+    const std::size_t joined = course.places.empty() ? 0 : 1, before = course.places.size();
     for (std::uint32_t span = 0; span < spans; ++span) {
       const Bezier segment = bezierOfSpan(own, span);
-      for (std::uint32_t k = 0; k < kSamples; ++k) places.push_back(vec3(segment.at(float(k) / kSamples)));
+      for (std::uint32_t k = 0; k < kSamples; ++k)
+        course.places.emplace_back(segment.at(float(k) / kSamples));
     }
-    places.push_back(vec3(own.back()));
-    if (piece.backwards) std::reverse(places.begin(), places.end());
-    course.places.insert(course.places.end(), places.begin() + joined, places.end());
-    for (std::uint32_t j = 0; j < vessel.pointCount; ++j)  // symmetric: the same from either end
-      course.own.push_back(first + kSamples / 3 * grevilleThirds(j, spans));
+    course.places.emplace_back(own.back());
+    if (piece.backwards) std::reverse(course.places.begin() + std::ptrdiff_t(before), course.places.end());
+    course.places.erase(course.places.begin() + std::ptrdiff_t(before),
+                        course.places.begin() + std::ptrdiff_t(before + joined));
   }
-  course.along.push_back(0);
+  course.along.assign(1, 0.0f);
   for (std::size_t i = 1; i < course.places.size(); ++i)
     course.along.push_back(course.along.back() + glm::distance(course.places[i - 1], course.places[i]));
-  return course;
 }
 
 float endRadius(const Network& network, VesselEnd end) {
@@ -90,7 +94,6 @@ float VesselSlider::slidingLength(float radius) { return kSlidingLength * std::s
 
 VesselSlider::VesselSlider(const Network& network, const Binding* binding, std::span<const VesselHold> holds)
     : network_(&network) {
-  if (binding) outwards_ = outwardsOf(*binding, network.points());
   const auto nodeOf = [&](VesselEnd end) {
     const Vessel& vessel = network.vessel(end.vessel);
     return end.last ? vessel.end : vessel.start;
@@ -124,33 +127,53 @@ VesselSlider::VesselSlider(const Network& network, const Binding* binding, std::
       if (!taken[v] && !onward({{v}, last})) follow({{v}, last});
   for (std::uint32_t v = 0; v < taken.size(); ++v)
     if (!taken[v]) follow({{v}, false});  // rings
-  std::multimap<std::string_view, float> held;
-  for (const VesselHold& hold : holds) held.emplace(hold.vessel, hold.at);
-  for (Course& course : courses_) {
-    const Sampled rest = sample(network, course.pieces, network.points());
-    std::size_t k = 0, firstSample = 0;
-    for (const Piece& piece : course.pieces) {
-      const Vessel& vessel = network.vessel(piece.vessel);
-      const std::size_t samples = std::size_t(kSamples) * vessel.spanCount();
-      const float from = rest.along[firstSample], to = rest.along[firstSample + samples];
-      for (auto [hold, end] = held.equal_range(vessel.name); hold != end; ++hold)
-        course.holds.push_back(glm::mix(from, to, piece.backwards ? 1 - hold->second : hold->second));
-      firstSample += samples;
-      for (std::uint32_t j = 0; j < vessel.pointCount; ++j, ++k) {
-        const std::uint32_t point = vessel.firstPoint + (piece.backwards ? vessel.pointCount - 1 - j : j);
-        const float length = slidingLength(network.points()[point].w);
-        course.points.push_back(point);
-        course.along.push_back(rest.along[rest.own[k]]);
-        course.tether.push_back(1 / (length * length));
-      }
-    }
-    for (float& hold : course.holds) {  // at the nearest point
-      hold = *std::ranges::min_element(course.along, {}, [&](float at) { return std::abs(at - hold); });
-      for (std::size_t i = 0; i < course.points.size(); ++i)
-        if (course.along[i] == hold) course.tether[i] = std::numeric_limits<float>::infinity();
-    }
-  }
+  std::vector<vec3> outwards;
+  if (binding) outwards = outwardsOf(*binding, network.points());
+  bows_ = !outwards.empty();
+  for (Course& course : courses_) layOut(course, holds, outwards);
   settleOrder();
+}
+
+void VesselSlider::layOut(Course& course, std::span<const VesselHold> holds,
+                          std::span<const vec3> outwards) const {
+  const Network& network = *network_;
+  const std::span<const vec4> points = network.points();
+  Sampled rest;
+  sample(network, course.pieces, points, rest);
+  std::vector<std::uint32_t> samples;  // of each point
+  std::uint32_t first = 0;
+  for (const Piece& piece : course.pieces) {
+    const Vessel& vessel = network.vessel(piece.vessel);
+    const std::uint32_t last = first + kSamples * vessel.spanCount();
+    for (const VesselHold& hold : holds)
+      if (hold.vessel == vessel.name)
+        course.holds.push_back(
+            glm::mix(rest.along[first], rest.along[last], piece.backwards ? 1 - hold.at : hold.at));
+    for (std::uint32_t j = 0; j < vessel.pointCount; ++j) {  // symmetric: the same from either end
+      samples.push_back(first + kSamples / 3 * grevilleThirds(j, vessel.spanCount()));
+      course.points.push_back(vessel.firstPoint + (piece.backwards ? vessel.pointCount - 1 - j : j));
+      course.along.push_back(rest.along[samples.back()]);
+    }
+    first = last;
+  }
+  for (float& hold : course.holds)  // at the nearest point
+    hold = *std::ranges::min_element(course.along, {}, [&](float at) { return std::abs(at - hold); });
+  Rows& rows = course.rows;
+  for (std::size_t i = 0; i < course.points.size(); ++i) {
+    const std::uint32_t point = course.points[i];
+    const float along = course.along[i], length = slidingLength(points[point].w);
+    course.legs.push_back(i > 0 ? glm::distance(vec3(points[course.points[i - 1]]), vec3(points[point])) : 0);
+    if (i == 0 || along > rows.along.back()) {
+      const bool held = std::ranges::find(course.holds, along) != course.holds.end();
+      rows.points.push_back(point);
+      rows.samples.push_back(samples[i]);
+      rows.along.push_back(along);
+      rows.tether.push_back(held ? std::numeric_limits<float>::infinity() : 1 / (length * length));
+      rows.rest.push_back(points[point]);
+      if (!outwards.empty()) rows.outwards.push_back(outwards[point]);
+    }
+    course.rowOf.push_back(std::uint32_t(rows.points.size() - 1));
+  }
 }
 
 // Sets what each course's ends hang on, and sorts.
@@ -208,7 +231,7 @@ void VesselSlider::settleOrder() {
 }
 
 void VesselSlider::run(std::span<vec4> points, std::span<const quat> turned) const {
-  assert(outwards_.empty() || turned.size() == points.size());
+  assert(!bows_ || turned.size() == points.size());
   parallelFor(courses_.size(), 16, [&](std::size_t c) { slide(courses_[c], points, turned); });
   for (const Course& course : courses_) carry(course, points);
   pinEnds(*network_, points);
@@ -219,18 +242,17 @@ void VesselSlider::run(std::span<vec4> points, std::span<const quat> turned) con
 // course is stretched and stays where it is squeezed: beyond it there is no course to follow. Where vessels
 // join, their common point is there twice, h = 0 between: it counts once.
 void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const {
-  if (isUnstrained(course, points)) return;
-  const Sampled posed = sample(*network_, course.pieces, points);
-  std::vector<std::uint32_t> row{0};  // of points that count
-  for (std::uint32_t i = 1; i < course.points.size(); ++i)
-    if (course.along[i] > course.along[row.back()]) row.push_back(i);
-  if (row.size() < 3) return;
-  const std::size_t n = row.size();
-  std::vector<double> step(n + 1, 0), stretch(n + 1, 1), factor(n, 0),
-      shift(n, 0);  // step and stretch: before each row
+  const Rows& rows = course.rows;
+  const std::size_t n = rows.points.size();
+  if (n < 3 || isUnstrained(course, points)) return;
+  static thread_local Workspace work;
+  auto& [posed, step, stretch, factor, shift, was, is, left, off, moved, aside, turns] = work;
+  sample(*network_, course.pieces, points, posed);
+  step.assign(n + 1, 0), stretch.assign(n + 1, 1);  // before each row
+  factor.resize(n), shift.resize(n);
   for (std::size_t k = 1; k < n; ++k) {
-    step[k] = double(course.along[row[k]]) - course.along[row[k - 1]];
-    stretch[k] = (double(posed.along[posed.own[row[k]]]) - posed.along[posed.own[row[k - 1]]]) / step[k];
+    step[k] = double(rows.along[k]) - rows.along[k - 1];
+    stretch[k] = (double(posed.along[rows.samples[k]]) - posed.along[rows.samples[k - 1]]) / step[k];
   }
   bool holdsFirst = course.start.holds, holdsLast = course.finish.holds;
   for (;;) {
@@ -238,7 +260,7 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
       factor[k] = shift[k] = 0;
       if ((k == 0 && holdsFirst) || (k + 1 == n && holdsLast)) continue;
       const double before = k > 0 ? 1 / step[k] : 0, after = k + 1 < n ? 1 / step[k + 1] : 0;
-      const double pivot = before + after + 0.5 * (step[k] + step[k + 1]) * double(course.tether[row[k]]) -
+      const double pivot = before + after + 0.5 * (step[k] + step[k + 1]) * double(rows.tether[k]) -
                            (k > 0 ? before * factor[k - 1] : 0);
       factor[k] = after / pivot;
       shift[k] = (stretch[k + 1] - stretch[k] + (k > 0 ? before * shift[k - 1] : 0)) / pivot;
@@ -251,20 +273,20 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
   // A control point stands off its curve, across it, by h²/6 of the curve's bend, h being the way between
   // control points: so that the course stays, it takes over the distance of those about its new place, by the
   // square of how much farther apart they come to lie.
-  std::vector<float> was(n), is(n);
-  std::vector<vec3> off(n);
+  was.resize(n), is.resize(n), left.resize(n), off.resize(n), moved.resize(n), aside.assign(n, vec3(0));
+  turns.clear();
   for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t own = posed.own[row[k]];
+    const std::uint32_t own = rows.samples[k], point = rows.points[k];
     was[k] = posed.along[own], is[k] = was[k] + float(shift[k]);
-    off[k] = vec3(points[course.points[row[k]]]) - posed.places[own];
+    off[k] = vec3(points[point]) - posed.places[own];
+    left[k] =
+        k > 0 ? float(stretch[k] + (shift[k] - shift[k - 1]) / step[k]) : 1;  // of the stretch before it
+    if (bows_) turns.push_back(turned[point]);
   }
+  if (bows_) bow({rows.along, left, rows.rest, rows.outwards, turns, course.holds}, aside);
   const auto apart = [n](std::span<const float> along, std::size_t k) {
     return along[std::min(k + 1, n - 1)] - along[k > 0 ? k - 1 : 0];
   };
-  std::vector<vec3> moved(n);
-  std::vector<float> left(n, 1.0f);  // of the stretch before each row
-  for (std::size_t k = 1; k < n; ++k) left[k] = float(stretch[k] + (shift[k] - shift[k - 1]) / step[k]);
-  const std::vector<vec3> bowed = bow(course, row, left, turned);
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t j = std::min(k, n - 2);
     while (j > 0 && was[j] > is[k]) --j;
@@ -273,39 +295,18 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
                 share = gap > 0 ? std::clamp((is[k] - was[j]) / gap, 0.0f, 1.0f) : 0;
     const float before = glm::mix(apart(was, j), apart(was, j + 1), share);
     const float wider = before > 0 ? std::clamp(apart(is, k) / before, 0.0f, 2.0f) : 1;
-    const std::uint32_t own = posed.own[row[k]];
+    const std::uint32_t own = rows.samples[k];
     const vec3 along = posed.places[std::min<std::size_t>(own + 1, posed.places.size() - 1)] -
                        posed.places[own > 0 ? own - 1 : 0];
-    vec3 aside = wider * wider * glm::mix(off[j], off[j + 1], share) - off[k] + bowed[k];
+    vec3 across = wider * wider * glm::mix(off[j], off[j + 1], share) - off[k] + aside[k];
     if (const float square = glm::dot(along, along); square > 0)
-      aside -= along * (glm::dot(aside, along) / square);
-    moved[k] = placeAt(posed, is[k], own) - posed.places[own] + aside;
+      across -= along * (glm::dot(across, along) / square);
+    moved[k] = placeAt(posed, is[k], own) - posed.places[own] + across;
   }
-  for (std::size_t i = 0, k = 0; i < course.points.size(); ++i) {
-    while (k + 1 < n && course.along[row[k]] < course.along[i]) ++k;
+  for (std::size_t i = 0; i < course.points.size(); ++i) {
     vec4& point = points[course.points[i]];
-    point = vec4(vec3(point) + moved[k], point.w);
+    point = vec4(vec3(point) + moved[course.rowOf[i]], point.w);
   }
-}
-
-// What each row is moved aside by, as its course bows out; nothing where the bed is not known.
-std::vector<vec3> VesselSlider::bow(const Course& course, std::span<const std::uint32_t> rows,
-                                    std::span<const float> stretch, std::span<const quat> turned) const {
-  std::vector<vec3> aside(rows.size(), vec3(0));
-  if (outwards_.empty()) return aside;
-  std::vector<float> along;
-  std::vector<vec4> rest;
-  std::vector<vec3> outwards;
-  std::vector<quat> turns;
-  for (const std::uint32_t row : rows) {
-    const std::uint32_t point = course.points[row];
-    along.push_back(course.along[row]);
-    rest.push_back(network_->points()[point]);
-    outwards.push_back(outwards_[point]);
-    turns.push_back(turned[point]);
-  }
-  vasa::bow({along, stretch, rest, outwards, turns, course.holds}, aside);
-  return aside;
 }
 
 // Whether its control polygon is as long as at rest, leg by leg: most courses in most poses, and much cheaper
@@ -313,7 +314,7 @@ std::vector<vec3> VesselSlider::bow(const Course& course, std::span<const std::u
 bool VesselSlider::isUnstrained(const Course& course, std::span<const vec4> points) const {
   for (std::size_t i = 1; i < course.points.size(); ++i) {
     const std::uint32_t a = course.points[i - 1], b = course.points[i];
-    const float rest = glm::distance(vec3(network_->points()[a]), vec3(network_->points()[b]));
+    const float rest = course.legs[i];
     if (std::abs(glm::distance(vec3(points[a]), vec3(points[b])) - rest) > kUnstrained * rest) return false;
   }
   return true;

@@ -53,24 +53,31 @@ class VesselSlider {
     std::optional<Host> host;      // on this side, or
     std::optional<VesselEnd> end;  // on this end of a thicker course; neither: where the pose has it
   };
+  // The points of a course that count, each farther along it than the one before: what never changes.
+  struct Rows {
+    std::vector<std::uint32_t> points, samples;
+    std::vector<float> along;   // [m] at rest
+    std::vector<float> tether;  // 1/ℓ²; infinite where it is held
+    std::vector<vec4> rest;
+    std::vector<vec3> outwards;  // from the axis of its limb; empty: nothing bows
+  };
   struct Course {
     std::vector<Piece> pieces;
-    std::vector<std::uint32_t>
-        points;                // of the network, in order; where vessels join the one point is there for both
-    std::vector<float> along;  // [m] at rest, of each
-    std::vector<float> tether;  // 1/ℓ², of each; infinite where it is held
-    std::vector<float> holds;   // [m] along it
+    // Of the network, in order. Where vessels join, the one point is there for both; its row is the same.
+    std::vector<std::uint32_t> points, rowOf;
+    std::vector<float> along, legs;  // [m] at rest, to each point; from the one before
+    std::vector<float> holds;        // [m] along it
+    Rows rows;
     Hold start, finish;
   };
+  void layOut(Course& course, std::span<const VesselHold> holds, std::span<const vec3> outwards) const;
   void slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const;
-  std::vector<vec3> bow(const Course& course, std::span<const std::uint32_t> rows,
-                        std::span<const float> stretch, std::span<const quat> turned) const;
   bool isUnstrained(const Course& course, std::span<const vec4> points) const;
   void carry(const Course& course, std::span<vec4> points) const;
   void settleOrder();
 
   const Network* network_;
-  std::vector<vec3> outwards_;   // of each point, from its limb's axis; empty: nothing bows
+  bool bows_ = false;
   std::vector<Course> courses_;  // in an order in which what others hang on comes first
 };
 

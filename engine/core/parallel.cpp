@@ -58,7 +58,7 @@ unsigned threadCount() {
   return unsigned(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
+void parallelFor(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t)> body) {
   const std::atomic<bool>* const asked = CancellationScope::current();
   const bool behindOthers = wayGiven;
   tbb::task_group_context context;
@@ -77,7 +77,7 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
   if (context.is_group_execution_cancelled()) throw Cancelled();
 }
 
-void isolated(const std::function<void()>& work) { tbb::this_task_arena::isolate(work); }
+void isolated(FunctionRef<void()> work) { tbb::this_task_arena::isolate(work); }
 
 void giveWay() {
   if (wayGiven) return;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
-#include <functional>
+
+#include "core/function_ref.h"
 
 namespace vasa {
 
@@ -12,7 +13,7 @@ unsigned threadCount();
 /// too. Exceptions leave through here, Cancelled (core/cancellation.h) before any i. body must write only to
 /// places that belong to i.
 /// @param grain  iterations that are worth handing to another thread
-void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
+void parallelFor(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t)> body);
 
 /// From now on the calling thread, and the workers that take part in its parallel loops, let threads of the
 /// usual priority go first, yet never stand still for them (nice 10: a tenth of their share). For what is

@@ -67,8 +67,8 @@ KinkRelaxer::KinkRelaxer(const Network& network) : network_(&network) {
 
 std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   std::uint32_t found = 0;
-  std::size_t first = 0;  // span of the vessel
-  std::vector<float> shares;
+  std::size_t first = 0;                          // span of the vessel
+  static thread_local std::vector<float> shares;  // kept, so that a frame allocates nothing
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
     // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. It is asked

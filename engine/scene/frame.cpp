@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "body/pose_path.h"
 #include "core/cancellation.h"
 #include "core/clock.h"
 #include "surface/sweep_table.h"
@@ -45,7 +44,8 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
       rotations_(scene.network.points().size()),
-      pose_(restPose(scene.body.skeleton)),
+      restPose_(restPose(scene.body.skeleton)),
+      pose_(restPose_),
       posedPoints_(scene.network.points().begin(), scene.network.points().end()),
       points_(posedPoints_),
       knotFrames_(scene.network.sectionCount()),
@@ -56,12 +56,11 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
 void FrameMaker::make(const Clip* clip, float time) {
   if (!clip || !avoider_) {
     double poseMs = 0;
-    Pose pose;
     {
       StageClock clock(poseMs);
-      pose = clip ? samplePose(scene_->body.skeleton, *clip, time) : restPose(scene_->body.skeleton);
+      if (clip) samplePose(scene_->body.skeleton, *clip, time, target_);
     }
-    make(pose, time);
+    make(clip ? target_ : restPose_, time);
     report_.poseMs = poseMs;
     return;
   }
@@ -73,8 +72,8 @@ void FrameMaker::make(const Clip* clip, float time) {
   const float beyond = place - float(frame);
   if (beyond > kOnFrame) {
     at_.reset();
-    walk(samplePose(scene_->body.skeleton, *clip, time), clip->timeOfFrame(frame), time,
-         beyond / clip->framesPerSecond);
+    samplePose(scene_->body.skeleton, *clip, time, target_);
+    walk(target_, clip->timeOfFrame(frame), time, beyond / clip->framesPerSecond);
   }
   finish();
 }
@@ -83,8 +82,8 @@ void FrameMaker::make(const Pose& pose, float time) {
   report_ = {};
   if (avoider_) {
     startAtRest();
-    const PosePath path(scene_->body.skeleton, pose_, pose);
-    walk(pose, time, time, kStepSeconds * std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f));
+    path_.set(scene_->body.skeleton, pose_, pose);
+    walk(pose, time, time, kStepSeconds * std::max(std::ceil(path_.largestTurn() / kLongestTurn), 1.0f));
   } else {
     deform(pose, time);
     step({.atAnyLength = true, .isLast = true});
@@ -141,15 +140,15 @@ bool FrameMaker::step(const Stride& stride) {
 
 // A step that is too long is cut in halves, and what is left of the way is tried anew.
 void FrameMaker::walk(const Pose& target, float fromTime, float time, float seconds) {
-  const PosePath path(scene_->body.skeleton, pose_, target);
-  const float longest = 1 / std::max(std::ceil(path.largestTurn() / kLongestTurn), 1.0f);
+  path_.set(scene_->body.skeleton, pose_, target);
+  const float longest = 1 / std::max(std::ceil(path_.largestTurn() / kLongestTurn), 1.0f);
   int caught = 0;
   for (float done = 0; done < 1;) {
     checkpoint();
     const bool atOnce = caught >= kCaught;
     for (float length = atOnce ? 1 - done : std::min(longest, 1 - done);; length /= 2) {
       const float next = done + length > 1 - 0.5f * kShortestStep * longest ? 1 : done + length;
-      deform(path.at(next), glm::mix(fromTime, time, next));
+      deform(path_.at(next), glm::mix(fromTime, time, next));
       if (!step({(next - done) * seconds, atOnce || length <= kShortestStep * longest, next == 1})) continue;
       caught = report_.avoid.after.holds() ? 0 : caught + 1;
       done = next;
@@ -160,7 +159,7 @@ void FrameMaker::walk(const Pose& target, float fromTime, float time, float seco
 
 void FrameMaker::startAtRest() {
   at_.reset();
-  deform(restPose(scene_->body.skeleton), 0);
+  deform(restPose_, 0);
   start({});
 }
 
@@ -177,11 +176,13 @@ void FrameMaker::begin(const Clip& clip) {
   const std::uint32_t last = clip.frameCount() - 1;
   const bool round = closes(skeleton, clip);
   std::uint32_t frame = round ? last - std::min(kRunUp, last) : 0;
-  make(samplePose(skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
+  samplePose(skeleton, clip, clip.timeOfFrame(frame), target_);
+  make(target_, clip.timeOfFrame(frame));
   // The seam is where the last pose is nearly the first one: frame 0 has the first, to the bit.
   while (round && ++frame <= last) {
     const float time = clip.timeOfFrame(frame < last ? frame : 0);
-    walk(samplePose(skeleton, clip, time), clip.timeOfFrame(frame - 1), time, 1 / clip.framesPerSecond);
+    samplePose(skeleton, clip, time, target_);
+    walk(target_, clip.timeOfFrame(frame - 1), time, 1 / clip.framesPerSecond);
   }
   track_->restart(clip, avoider_->correction());
   at_ = 0;
@@ -189,8 +190,10 @@ void FrameMaker::begin(const Clip& clip) {
 
 // Stands where a frame's correction was found before.
 void FrameMaker::resume(const Clip& clip, std::uint32_t frame) {
-  deform(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(frame)), clip.timeOfFrame(frame));
-  start(track_->at(frame));
+  samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(frame), target_);
+  deform(target_, clip.timeOfFrame(frame));
+  track_->at(frame, known_);
+  start(known_);
   at_ = frame;
 }
 
@@ -201,8 +204,8 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
   for (std::uint32_t next = known + 1; next <= frame; ++next) {
     report_ = {};
     at_.reset();
-    walk(samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(next)), clip.timeOfFrame(next - 1),
-         clip.timeOfFrame(next), 1 / clip.framesPerSecond);
+    samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(next), target_);
+    walk(target_, clip.timeOfFrame(next - 1), clip.timeOfFrame(next), 1 / clip.framesPerSecond);
     track_->add(avoider_->correction());
     at_ = next;
   }

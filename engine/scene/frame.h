@@ -4,6 +4,7 @@
 
 #include "avoid/solver.h"
 #include "body/deform.h"
+#include "body/pose_path.h"
 #include "body/sliding.h"
 #include "body/volume.h"
 #include "network/kinks.h"
@@ -97,9 +98,12 @@ class FrameMaker {
   std::unique_ptr<Avoider> avoider_;
   std::shared_ptr<MotionTrack> track_;
   std::optional<std::uint32_t> at_;  // frame of the track where the avoider stands
+  Correction known_;                 // of the track
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;
-  Pose pose_;
+  Pose restPose_;
+  Pose pose_, target_;
+  PosePath path_;
   std::vector<vec4> posedPoints_, points_;
   std::vector<quat> knotFrames_;
   std::vector<mat4> jointMatrices_;

@@ -32,14 +32,13 @@ bool moves(const vec3& by) {
   return std::bit_cast<std::array<std::uint32_t, 3>>(by) != std::array<std::uint32_t, 3>{};
 }
 
-Frame frameOf(const Correction& correction) {
-  Frame frame;
+void take(const Correction& correction, Frame& frame) {
+  frame.moved.clear(), frame.narrowed.clear();
   frame.moved.reserve(std::size_t(std::ranges::count_if(correction.motions, moves)));
   for (std::uint32_t v = 0; v < correction.motions.size(); ++v)
     if (moves(correction.motions[v])) frame.moved.push_back({v, correction.motions[v]});
   for (std::uint32_t p = 0; p < correction.widest.size(); ++p)
     if (std::isfinite(correction.widest[p])) frame.narrowed.push_back({p, correction.widest[p]});
-  return frame;
 }
 
 bool takeFrame(ByteReader& reader, const Header& header, Frame& frame) {
@@ -111,24 +110,24 @@ void MotionTrack::restart(const Clip& clip, std::size_t variables, std::size_t p
 }
 
 void MotionTrack::restart(const Clip& clip, const Correction& first) {
-  restart(clip, first.motions.size(), first.widest.size(), {frameOf(first)});
+  restart(clip, first.motions.size(), first.widest.size(), std::vector<Frame>(1));
+  take(first, frames_[0]);
 }
 
 void MotionTrack::add(const Correction& correction) {
-  if (keeps_ == Keeps::latest) {
-    first_ = end();
-    frames_.clear();
-  }
-  frames_.push_back(frameOf(correction));
+  if (keeps_ == Keeps::latest)
+    ++first_;
+  else
+    frames_.emplace_back();
+  take(correction, frames_.back());
 }
 
-Correction MotionTrack::at(std::uint32_t frame) const {
-  Correction correction{std::vector<vec3>(variables_, vec3(0)),
-                        std::vector<float>(points_, std::numeric_limits<float>::infinity())};
+void MotionTrack::at(std::uint32_t frame, Correction& correction) const {
+  correction.motions.assign(variables_, vec3(0));
+  correction.widest.assign(points_, std::numeric_limits<float>::infinity());
   const Frame& kept = frames_[frame - first_];
   for (const Moved& own : kept.moved) correction.motions[own.variable] = own.by;
   for (const Narrowed& own : kept.narrowed) correction.widest[own.point] = own.widest;
-  return correction;
 }
 
 Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& track, std::uint64_t key) {

@@ -51,7 +51,7 @@ class MotionTrack {
     return first_ + std::uint32_t(frames_.size());
   }  ///< the first that is not solved
   /// @param frame  first() or later, before end()
-  Correction at(std::uint32_t frame) const;
+  void at(std::uint32_t frame, Correction& correction) const;
   std::span<const Frame> frames() const { return frames_; }  ///< from first() on
   std::size_t variables() const { return variables_; }
   std::size_t points() const { return points_; }

@@ -45,7 +45,7 @@ TEST_CASE("a way begins and ends at the very poses that were given") {
   const Pose from = test::turned(arm(), {{1, about({1, 2, 3}, 50)}, {2, about({0, 1, 0}, -70)}});
   Pose to = test::turned(arm(), {{0, about({0, 0, 1}, 20)}, {3, about({1, 0, 0}, 110)}});
   to.world[2][0].y += 0.3f;  // shear, which no joint's transform has
-  const PosePath path(arm().skeleton, from, to);
+  PosePath path(arm().skeleton, from, to);
   for (const float share : {0.0f, -0.5f}) CHECK(path.at(share).world == from.world);
   for (const float share : {1.0f, 1.5f}) CHECK(path.at(share).world == to.world);
 }
@@ -54,7 +54,7 @@ TEST_CASE("limbs keep their length on the way, and joints turn evenly") {
   const Pose from = restPose(arm().skeleton);
   const Pose to = test::turned(
       arm(), {{0, about({1, 0, 1}, 60)}, {1, about({1, 2, 3}, 150)}, {2, about({0, 1, 0}, -170)}});
-  const PosePath path(arm().skeleton, from, to);
+  PosePath path(arm().skeleton, from, to);
   for (const float share : {0.01f, 0.25f, 0.5f, 0.75f, 0.99f}) {
     CAPTURE(share);
     const Pose pose = path.at(share);
@@ -69,7 +69,7 @@ TEST_CASE("limbs keep their length on the way, and joints turn evenly") {
 
 TEST_CASE("joints turn along the shorter arc") {
   const Pose from = restPose(arm().skeleton), to = test::turned(arm(), {{1, about({0, 0, 1}, 200)}});
-  const PosePath path(arm().skeleton, from, to);
+  PosePath path(arm().skeleton, from, to);
   CHECK(near(path.at(0.25f), test::turned(arm(), {{1, about({0, 0, 1}, -40)}}), 1e-5f));
   CHECK(path.largestTurn() == doctest::Approx(glm::radians(160.0)).epsilon(1e-4));
 }
@@ -99,11 +99,11 @@ TEST_CASE("joints that are scaled or mirrored stay so on the way") {
     };
     const Pose from = posed(0), to = posed(1);
     CHECK(near(PosePath(arm().skeleton, to, to).at(0.5f), to));
-    const PosePath path(arm().skeleton, from, to);
+    PosePath path(arm().skeleton, from, to);
     for (const float share : {0.3f, 0.5f, 0.9f}) CHECK(near(path.at(share), posed(share)));
     CHECK(path.largestTurn() == doctest::Approx(glm::radians(120.0)).epsilon(1e-4));
     // Half of the way and then the rest of it is the way.
-    const PosePath rest(arm().skeleton, path.at(0.5f), to);
+    PosePath rest(arm().skeleton, path.at(0.5f), to);
     CHECK(near(rest.at(0.5f), path.at(0.75f)));
   }
 }
@@ -116,7 +116,7 @@ TEST_CASE("what moves about its parent does so in a straight line, and scales ch
     local[2].scale = vec3(scale);
     return poseFromLocal(arm().skeleton, local);
   };
-  const PosePath path(arm().skeleton, posed({0.3f, 0, 0}, 1), posed({0.1f, 0.2f, -0.1f}, 3));
+  PosePath path(arm().skeleton, posed({0.3f, 0, 0}, 1), posed({0.1f, 0.2f, -0.1f}, 3));
   CHECK(near(path.at(0.25f), posed({0.25f, 0.05f, -0.025f}, 1.5f), 1e-6f));
   CHECK(path.largestTurn() < 1e-3f);
 }
