@@ -70,22 +70,26 @@ Result<std::vector<SourceElement>> readSources(const Options& options, double me
 // As told, else all files in the likely unit, and that is said.
 template <class Read>
 auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
-  if (options.scale > 0) return read(options.scale);
+  if (options.scale > 0) {
+    if (std::ranges::all_of(options.meshes, isGltfFile))
+      return Error{Fault::usage,
+                   "--scale is for files without a unit, and glTF is in metres; --unit mm says otherwise"};
+    return read(options.scale);
+  }
   if (!options.unit.empty()) return read(metresOfUnit(options.unit));
   auto found = read(1.0);
   if (!found) return found;
-  const vec3 extent = extentOf(*found);
-  if (likelyUnit(extent) == 1) return found;
+  const Aabb bounds = boundsOf(*found);
+  if (likelyUnit(bounds) == 1) return found;
   if (std::ranges::all_of(options.meshes, isGltfFile)) {
-    logWarning(fmt::format(
-        "the vessels are {:.0f} m large, and glTF is in metres; --unit mm reads it as millimetres",
-        std::max({extent.x, extent.y, extent.z})));
+    logWarning(
+        fmt::format("glTF is in metres, and the vessels look as if {}; --unit mm reads it as millimetres",
+                    sizeInMetres(bounds)));
     return found;
   }
-  logInfo(fmt::format(
-      "read as millimetres, as the vessels would be {:.0f} m large in metres; --unit says otherwise",
-      std::max({extent.x, extent.y, extent.z})));
-  return read(likelyUnit(extent));
+  logInfo(fmt::format("vessels read as millimetres, as in metres {}; --unit says otherwise",
+                      sizeInMetres(bounds)));
+  return read(likelyUnit(bounds));
 }
 
 ConvertOptions convertOptions(const Options& options) {
@@ -154,6 +158,15 @@ Result<Conversion> convertCentrelines(const Options& options) {
   return Conversion{std::move(made->network), std::move(report), {}};
 }
 
+void tellUnknownKinds(const Network& network) {
+  const auto isUnknown = [](const Vessel& vessel) { return vessel.kind == VesselKind::other; };
+  if (const auto count = std::ranges::count_if(network.vessels(), isUnknown); count > 0)
+    logInfo(fmt::format(
+        "no name, number, material or colour tells of {} of {} vessels whether they are arteries or veins: ends of both are "
+        "joined; --kind says it of all",
+        count, network.vessels().size()));
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
   if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto start = std::chrono::steady_clock::now();
@@ -174,6 +187,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   };
   auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
   if (!conversion) return conversion.error();
+  if (options.kind.empty()) tellUnknownKinds(conversion->network);
   if (lines) repair = overlapsAtRest(conversion->network);  // told with their radii: nothing is done about it
   const bool quantised = isQuantised(options, settings, conversion->network);
   std::optional<PatchReport> patches;

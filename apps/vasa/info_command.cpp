@@ -176,11 +176,13 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
 // Of vessels as other programs wrote them: what there is before it is converted.
 template <class Vessels>
 void addExtent(Report& report, const Vessels& vessels, const std::filesystem::path& file) {
-  const vec3 extent = extentOf(vessels);
-  const double unit = isGltfFile(file) ? 1 : likelyUnit(extent);
+  const Aabb bounds = boundsOf(vessels);
+  const vec3 extent = bounds.empty() ? vec3(0) : bounds.extent();
+  const double likely = likelyUnit(bounds), unit = isGltfFile(file) ? 1 : likely;
   report["wide_m"] = extent.x * unit, report["high_m"] = extent.y * unit, report["deep_m"] = extent.z * unit;
   report["metres_a_unit"] = unit;
-  report["next"] = "vasa convert " + file.string() + " -o NET.vasa";
+  report["next"] = fmt::format("vasa convert {}{} -o NET.vasa", asArgument(file.string()),
+                               unit == likely ? "" : " --unit mm");
 }
 
 Result<Report> surfaceReport(const std::filesystem::path& file) {

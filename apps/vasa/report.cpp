@@ -23,6 +23,15 @@ Result<void> printText(const std::string& text) {
   return printBytes(std::as_bytes(std::span(shown)));
 }
 
+std::string asArgument(const std::string& path) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789./_-+,:@%=";
+  if (!path.empty() && path.find_first_not_of(kPlain) == path.npos) return path;
+  std::string quoted = "'";
+  for (const char c : path) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string plainText(const Report& value) {
   if (value.is_string()) return visible(value.get<std::string>());
   return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();

@@ -22,6 +22,10 @@ Result<void> printText(const std::string& text);
 /// The same for bytes as they are.
 Result<void> printBytes(std::span<const std::byte> bytes);
 
+/// A path as a shell takes it for one argument: in quotes where it has more than letters, digits and
+/// ./_-+,:@%=.
+std::string asArgument(const std::string& path);
+
 /// A value for people: text made visible, numbers to six digits.
 std::string plainText(const Report& value);
 

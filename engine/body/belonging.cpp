@@ -52,4 +52,22 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
       name, body.name, 100 * share, skin ? "outside its skin" : "far from all of its joints"));
 }
 
+Result<void> checkNear(const Body& body, std::span<const vec4> points, std::string_view name) {
+  Aabb box;
+  for (const SkinnedMesh& mesh : body.meshes) box.add(mesh.mesh.bounds());
+  for (const Skeleton::Joint& joint : body.skeleton.joints) box.add(vec3(joint.restWorld[3]));
+  std::size_t outside = 0;
+  float farthest = 0;
+  for (const vec4& point : points) {
+    const float off = box.distance(vec3(point));
+    outside += off > kFarHeights * body.height();
+    farthest = std::max(farthest, off);
+  }
+  if (float(outside) <= kMostOutside * float(points.size())) return {};
+  return badInput(fmt::format(
+      "{}: {:.0f} % of these vessels' points lie up to {:.2g} m outside the body {}: in another unit (vasa convert --unit "
+      "makes a network that knows its own), or in another place (vasa place moves it)",
+      name, 100 * float(outside) / float(points.size()), farthest, body.name));
+}
+
 }  // namespace vasa

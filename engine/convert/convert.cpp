@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "convert/hollow.h"
 #include "convert/strokes.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -24,6 +25,21 @@ std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
     progress.update(now, elements.size());
     if (options.progress) options.progress(now, elements.size());
   });
+  return result;
+}
+
+// The elements whose walls have an outside, by lumen alone; empty where there is none.
+std::vector<std::optional<TriangleMesh>> lumina(std::span<const SourceElement> elements,
+                                                float weldTolerance) {
+  std::vector<std::optional<TriangleMesh>> result(elements.size());
+  parallelFor(elements.size(), 1,
+              [&](std::size_t e) { result[e] = withoutOuterWalls(elements[e].element.mesh, weldTolerance); });
+  const auto isHollow = [](const auto& lumen) { return lumen.has_value(); };
+  const auto first = std::ranges::find_if(result, isHollow);
+  if (first == result.end()) return {};
+  logInfo(std::to_string(std::ranges::count_if(result, isHollow)) +
+          " elements are walls with an inside and an outside, which is left out: '" +
+          elements[std::size_t(first - result.begin())].element.name + "' first");
   return result;
 }
 
@@ -49,7 +65,15 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
 
 }  // namespace
 
-Result<Conversion> convertElements(std::span<const SourceElement> elements, const ConvertOptions& options) {
+Result<Conversion> convertElements(std::span<const SourceElement> given, const ConvertOptions& options) {
+  std::vector<std::optional<TriangleMesh>> hollow = lumina(given, options.element.weldTolerance);
+  std::vector<SourceElement> byLumen;
+  for (std::size_t e = 0; e < hollow.size(); ++e) {
+    byLumen.push_back(given[e]);
+    if (hollow[e]) byLumen[e].element.mesh = *hollow[e];
+  }
+  const std::span<const SourceElement> elements =
+      hollow.empty() ? given : std::span<const SourceElement>(byLumen);
   const auto duplicateOf = findDuplicates(elements, options.duplicates);
   const std::vector<ElementSkeleton> found = skeletons(elements, duplicateOf, options);
 
@@ -58,6 +82,9 @@ Result<Conversion> convertElements(std::span<const SourceElement> elements, cons
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
     checkpoint();
     outcomes[e] = {found[e].method, found[e].reason, {}};
+    if (!hollow.empty() && hollow[e])
+      outcomes[e].reason += std::string(outcomes[e].reason.empty() ? "" : "; ") +
+                            "by its lumen, without the outside of its wall";
     if (duplicateOf[e]) outcomes[e].standIn.push_back(*duplicateOf[e]);
     pruneSlivers(graph, addSkeleton(graph, found[e], e, elements[e].kind), options.slivers);
   }

@@ -73,8 +73,8 @@ void doubt(ElementReport& report, float radius, const TriangleMesh& mesh) {
   append(report.reason, flat ? "its surface is flat, as no vessel's is: a sheet, or a vessel's cut end"
                         : radius > kWidestVessel
                             ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) +
-                                  " mm is that of no vessel: a solid or a chamber, or another unit (--scale)"
-                            : "it is thinner than any vessel that a mesh shows: another unit? (--scale)");
+                                  " mm is that of no vessel: a solid or a chamber, or another unit (--unit)"
+                            : "it is thinner than any vessel that a mesh shows: another unit? (--unit)");
 }
 
 ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,

@@ -22,13 +22,18 @@ struct SourceElement {
 /// A vein whose name says "portal" is a portal vein. `other` where nothing tells.
 VesselKind kindOf(const MeshElement& element, std::string_view fileName);
 
+/// What an element's own texts say, its category, its name and its number; and what a material says.
+VesselKind kindOfTexts(const MeshElement& element);
+VesselKind kindOf(const MeshMaterial& material);
+
 /// "FJ1654M left anterior cerebral artery" -> "left anterior cerebral artery"; other names stay as they are.
 std::string vesselLabel(std::string_view elementName);
 
 /// Vessels join their like only: arteries arteries, and veins veins, portal or not.
 bool sameFamily(VesselKind a, VesselKind b);
 
-/// Labels and kinds for the elements of one file.
+/// Labels and kinds for the elements of one file. An element of which nothing tells the kind but materials,
+/// and these say both artery and vein, is divided by them.
 std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
 
 }  // namespace vasa

@@ -8,24 +8,51 @@
 namespace vasa {
 namespace {
 
-// Small letters, a space between words and around the whole: "Superior_VenaCava2" -> " superior vena cava 2
-// ".
+// Of a letter of Latin-1 with an accent, what remains without it; 0 of anything else. In UTF-8 these are 0xc3
+// and then, from 0x80 on:
+char bare(unsigned char second) {
+  static constexpr std::string_view kLetters =
+      "aaaaaaaceeeeiiiidnooooo*ouuuuytsaaaaaaaceeeeiiiidnooooo*ouuuuyty";
+  const char letter = second >= 0x80 && second < 0xc0 ? kLetters[second - 0x80] : '*';
+  return letter == '*' ? '\0' : letter;
+}
+
+// Small letters without accents, a space between words and around the whole: "Superior_VenaCava2" -> "
+// superior vena cava 2 ", "Artère" -> " artere ".
 std::string spaced(std::string_view text) {
   std::string words = " ";
   char before = ' ';
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     const auto u = static_cast<unsigned char>(c);
     const bool starts = (std::isupper(u) && std::islower(static_cast<unsigned char>(before))) ||
                         (std::isdigit(u) != 0) != (std::isdigit(static_cast<unsigned char>(before)) != 0);
     if (starts && words.back() != ' ') words += ' ';
-    if (std::isalnum(u))
+    before = c;
+    const char letter =
+        u == 0xc3 && i + 1 < text.size() ? bare(static_cast<unsigned char>(text[i + 1])) : '\0';
+    if (letter != '\0')
+      words += letter, before = static_cast<unsigned char>(text[++i]) < 0xa0 ? 'A' : 'a';
+    else if (std::isalnum(u))
       words += char(std::tolower(u));
     else if (words.back() != ' ')
       words += ' ';
-    before = c;
   }
   if (words.back() != ' ') words += ' ';
   return words;
+}
+
+// "A. femoralis", "Vv. hepaticae", "v_femoralis": anatomists' short forms, before a word of their language.
+VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
+  const std::size_t end = raw.find_first_of("._");
+  if (end == raw.npos || end > 2 || end + 1 == raw.size()) return VesselKind::other;
+  const std::string_view rest = words.substr(std::min(words.size(), end + 2)),
+                         next = rest.substr(0, rest.find(' '));
+  const bool latin = next.ends_with("is") || next.ends_with("ae") || next.ends_with("a");
+  if (next.size() < 4 || (raw[end] == '_' && !latin)) return VesselKind::other;
+  const std::string_view form = words.substr(1, end);
+  if (form == "a" || form == "aa") return VesselKind::artery;
+  return form == "v" || form == "vv" ? VesselKind::vein : VesselKind::other;
 }
 
 template <std::size_t N>
@@ -37,15 +64,21 @@ bool hasAny(const std::string& text, const std::array<std::string_view, N>& word
 // source.
 VesselKind kindInText(std::string_view raw) {
   // Arches and arcades of hand, foot and bowel are arteries where nothing says that they are venous.
-  static constexpr std::array<std::string_view, 18> kArtery{"arter",
+  static constexpr std::array<std::string_view, 24> kArtery{"arter",
+                                                            "artar",
+                                                            "schlagader",
+                                                            "slagader",
                                                             "aorta",
                                                             "aortic",
                                                             "coeliac trunk",
                                                             "celiac trunk",
+                                                            "truncus coeliacus",
+                                                            "truncus brachiocephalicus",
                                                             "pulmonary trunk",
                                                             "truncus pulmonalis",
                                                             "brachiocephalic trunk",
                                                             "carotid",
+                                                            "carotis",
                                                             " lad ",
                                                             " rca ",
                                                             " lcx ",
@@ -55,10 +88,15 @@ VesselKind kindInText(std::string_view raw) {
                                                             "plantar arch",
                                                             "carpal arch",
                                                             "intestinal arcade"};
-  static constexpr std::array<std::string_view, 22> kVein{" vein",
+  static constexpr std::array<std::string_view, 34> kVein{" vein",
                                                           " vena ",
                                                           " venae ",
-                                                          " venous",
+                                                          "vene ",
+                                                          "venen ",
+                                                          " veia",
+                                                          " ader ",
+                                                          " aders ",
+                                                          "venous",
                                                           "venule",
                                                           "azygos",
                                                           "azygous",
@@ -69,6 +107,12 @@ VesselKind kindInText(std::string_view raw) {
                                                           "sagittal sinus",
                                                           "transverse sinus",
                                                           "sigmoid sinus",
+                                                          "sinus coronarius",
+                                                          "sinus sagittalis",
+                                                          "sinus transversus",
+                                                          "sinus sigmoideus",
+                                                          "sinus rectus",
+                                                          "sinus cavernosus",
                                                           "jugular",
                                                           "straight sinus",
                                                           "occipital sinus",
@@ -76,12 +120,13 @@ VesselKind kindInText(std::string_view raw) {
                                                           "petrosal sinus",
                                                           "confluence of sinuses",
                                                           "pterygoid plexus",
-                                                          "pampiniform"};
+                                                          "pampiniform",
+                                                          "pfortader"};
   static constexpr std::array<std::string_view, 2> kLymph{"lymph", "thoracic duct"};
   const std::string text = spaced(raw);
   const bool artery = hasAny(text, kArtery), vein = hasAny(text, kVein);
   if (hasAny(text, kLymph)) return VesselKind::lymphatic;
-  if (artery == vein) return VesselKind::other;
+  if (artery == vein) return artery ? VesselKind::other : kindOfShortForm(raw, text);
   return artery ? VesselKind::artery : VesselKind::vein;
 }
 
@@ -129,6 +174,18 @@ VesselKind kindOfColour(vec3 c) {
 
 }  // namespace
 
+VesselKind kindOf(const MeshMaterial& material) {
+  const VesselKind kind = kindInText(material.name);
+  return kind == VesselKind::other && material.colour ? kindOfColour(*material.colour) : kind;
+}
+
+VesselKind kindOfTexts(const MeshElement& element) {
+  VesselKind kind = kindInText(element.category);
+  for (const std::string_view text : {element.ontologyId, element.name})
+    if (kind == VesselKind::other) kind = kindByNumber(text);
+  return kind == VesselKind::other ? kindInText(element.name) : kind;
+}
+
 VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
   std::vector<std::string_view> numbered{element.ontologyId, element.name},
       texts{element.category, element.name, fileName};
@@ -141,7 +198,8 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
   if (kind == VesselKind::other && element.colour) kind = kindOfColour(*element.colour);
   if (kind != VesselKind::vein) return kind;
   const auto portal = [](std::string_view text) {
-    return spaced(text).find(" portal ") != std::string::npos;
+    static constexpr std::array<std::string_view, 3> kPortal{" portal ", " portae ", "pfortader"};
+    return hasAny(spaced(text), kPortal);
   };
   const bool told = portal(element.name) || std::ranges::any_of(element.surroundings, portal);
   return told ? VesselKind::portalVein : kind;

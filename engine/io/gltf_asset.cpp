@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/log.h"
 #include "io/gltf_check.h"
 #include "io/gltf_container.h"
 #include "io/gltf_json.h"
@@ -24,6 +25,12 @@ json parseJson(std::string_view text) {
   }
 }
 
+bool uses(const JsonView& root, std::string_view extension) {
+  for (const JsonView& item : root.items("extensionsUsed"))
+    if (item.text() == extension) return true;
+  return false;
+}
+
 }  // namespace
 
 Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path) {
@@ -35,6 +42,10 @@ Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path)
     json document = parseJson(container.json);
     const JsonView root(document);
     checkStructure(root);
+    if (uses(root, "EXT_mesh_gpu_instancing"))
+      logWarning(asset.name +
+                 ": copies of meshes by EXT_mesh_gpu_instancing are left out, each mesh is read once; make "
+                 "the copies real objects before exporting");
     if (container.isGlb && !container.binary && countOf(root, "buffers") > 0 &&
         !root.at("buffers").first().has("uri"))
       root.at("buffers").first().fail("has no uri, and the GLB has no BIN chunk that could be meant");

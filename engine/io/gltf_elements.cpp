@@ -57,6 +57,12 @@ std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree
   return names;
 }
 
+// Of the triangles that are still to come.
+MeshMaterial materialOf(const Model& model, int material, const Geometry& geometry) {
+  const auto& own = model.materials[std::size_t(material)];
+  return {own.name, vec3(own.baseColour), std::uint32_t(geometry.mesh.triangles.size())};
+}
+
 std::optional<vec3> colourOf(const Model& model, int node) {
   for (const auto& primitive : model.meshes[std::size_t(model.nodes[std::size_t(node)].mesh)].primitives)
     if (primitive.material >= 0) return vec3(model.materials[std::size_t(primitive.material)].baseColour);
@@ -75,7 +81,11 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     if (node.mesh < 0 || !tree.inScene[i]) continue;
     const auto& mesh = asset.model.meshes[std::size_t(node.mesh)];
     Geometry geometry;
-    for (const auto& primitive : mesh.primitives) appendPrimitive(asset, primitive, node.skin >= 0, geometry);
+    std::vector<MeshMaterial> materials;
+    for (const auto& primitive : mesh.primitives) {
+      if (primitive.material >= 0) materials.push_back(materialOf(asset.model, primitive.material, geometry));
+      appendPrimitive(asset, primitive, node.skin >= 0, geometry);
+    }
     if (node.skin < 0)
       transform(geometry, tree.world[i]);
     else if (!rest)
@@ -86,6 +96,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
          node.skin < 0 ? std::move(geometry.mesh) : atRest(std::move(geometry), node.skin, *rest)});
     elements.back().surroundings = surroundingsOf(asset.model, tree, int(i));
     elements.back().colour = colourOf(asset.model, int(i));
+    elements.back().materials = std::move(materials);
     mustBeFinite(elements.back().mesh.positions, int(i));
   }
   if (elements.empty()) breaks("/nodes", "no node of the scene has a mesh", "export the meshes too");

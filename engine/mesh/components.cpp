@@ -3,9 +3,41 @@
 #include "core/cancellation.h"
 
 namespace vasa {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+// @param number  kNone of every vertex, before and after
+TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles,
+                    std::vector<std::uint32_t>& number) {
+  TriangleMesh part;
+  Checkpoints checkpoints;
+  for (const std::uint32_t t : triangles) {
+    checkpoints.pass();
+    uvec3 corners = mesh.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& n = number[corners[k]];
+      if (n == kNone) {
+        n = std::uint32_t(part.positions.size());
+        part.positions.push_back(mesh.positions[corners[k]]);
+      }
+      corners[k] = n;
+    }
+    part.triangles.push_back(corners);
+  }
+  for (const std::uint32_t t : triangles)
+    for (int k = 0; k < 3; ++k) number[mesh.triangles[t][k]] = kNone;
+  return part;
+}
+
+}  // namespace
+
+TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+  return partOf(mesh, triangles, number);
+}
 
 std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
   DisjointSets sets(mesh.triangles.size());
   std::vector<std::uint32_t> firstAt(mesh.positions.size(), kNone);
   Checkpoints checkpoints;
@@ -18,36 +50,19 @@ std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
     }
 
   std::vector<TriangleMesh> parts;
-  std::vector<std::uint32_t> partOf(mesh.triangles.size(), kNone);
+  std::vector<std::uint32_t> ordinal(mesh.triangles.size(), kNone);
   std::vector<std::vector<std::uint32_t>> members;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     checkpoints.pass();
     const std::uint32_t root = sets.find(t);
     if (root == t) {
-      partOf[t] = std::uint32_t(members.size());
+      ordinal[t] = std::uint32_t(members.size());
       members.emplace_back();
     }
-    members[partOf[root]].push_back(t);
+    members[ordinal[root]].push_back(t);
   }
   std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
-  for (const auto& triangles : members) {
-    TriangleMesh& part = parts.emplace_back();
-    for (const std::uint32_t t : triangles) {
-      checkpoints.pass();
-      uvec3 corners = mesh.triangles[t];
-      for (int k = 0; k < 3; ++k) {
-        std::uint32_t& n = number[corners[k]];
-        if (n == kNone) {
-          n = std::uint32_t(part.positions.size());
-          part.positions.push_back(mesh.positions[corners[k]]);
-        }
-        corners[k] = n;
-      }
-      part.triangles.push_back(corners);
-    }
-    for (const std::uint32_t t : triangles)
-      for (int k = 0; k < 3; ++k) number[mesh.triangles[t][k]] = kNone;
-  }
+  for (const auto& triangles : members) parts.push_back(partOf(mesh, triangles, number));
   return parts;
 }
 

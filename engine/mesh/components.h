@@ -1,5 +1,6 @@
 #pragma once
 #include <numeric>
+#include <span>
 
 #include "mesh/edges.h"
 
@@ -27,5 +28,8 @@ class DisjointSets {
 /// The parts of a mesh that hang together through vertices, in the order of their first triangles. A common
 /// vertex is enough: decimated thin tubes fall into triangles that share no edge. O(n).
 std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh);
+
+/// Some of a mesh's triangles, with the vertices that they use. O(n).
+TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 
 }  // namespace vasa

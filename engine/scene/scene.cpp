@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "body/belonging.h"
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -124,6 +125,9 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
     tell("reading vessels");
     auto network = readVessels(path, body->height(), told);
     if (!network) return network.error();
+    if (file.networks.size() > 1)
+      if (const auto near = checkNear(*body, network->points(), path.filename().string()); !near)
+        return near.error();
     networks.push_back(std::move(*network));
   }
   tell("binding vessels to the body");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "convert/convert.h"
 #include "core/atomic_file.h"
 #include "core/log.h"
@@ -37,6 +39,12 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
                    remedyFor(path, FileUse::vessels)};
 }
 
+float largest(const Aabb& bounds) {
+  return bounds.empty() ? 0 : std::max({bounds.extent().x, bounds.extent().y, bounds.extent().z});
+}
+
+float farthest(const Aabb& bounds) { return bounds.empty() ? 0 : bounds.distance(vec3(0)); }
+
 // What `read` gives, in the likely unit.
 template <class Read>
 auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame::Up up = ImportFrame::Up::y)
@@ -44,12 +52,11 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame:
   auto found = read(VesselImport{{1, up}, {}});
   const std::string extension = extensionOf(path);
   if (!found || extension == ".glb" || extension == ".gltf") return found;  // metres by definition
-  const vec3 extent = extentOf(*found);
-  const double unit = likelyUnit(extent);
+  const Aabb bounds = boundsOf(*found);
+  const double unit = likelyUnit(bounds);
   if (unit == 1) return found;
-  logInfo(path.string() + ": read as millimetres, as it would be " +
-          std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
-          " m large in metres; --unit of vasa convert and vasa fit says otherwise");
+  logInfo(path.string() + ": vessels read as millimetres, as in metres " + sizeInMetres(bounds) +
+          "; --unit of vasa convert and vasa fit says otherwise");
   return read(VesselImport{{unit, up}, {}});
 }
 
@@ -83,17 +90,17 @@ Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeig
 
 }  // namespace
 
-vec3 extentOf(const std::vector<SourceElement>& sources) {
+Aabb boundsOf(const std::vector<SourceElement>& sources) {
   Aabb box;
   for (const SourceElement& source : sources) box.add(source.element.mesh.bounds());
-  return box.empty() ? vec3(0) : box.extent();
+  return box;
 }
 
-vec3 extentOf(const Centrelines& lines) {
+Aabb boundsOf(const Centrelines& lines) {
   Aabb box;
   for (const Centrelines::Line& line : lines.lines)
     for (const vec4& sample : line.samples) box.add(vec3(sample));
-  return box.empty() ? vec3(0) : box.extent();
+  return box;
 }
 
 double metresOfUnit(std::string_view name) {
@@ -106,7 +113,15 @@ double metresOfUnit(std::string_view name) {
   return 0;
 }
 
-double likelyUnit(vec3 extent) { return std::max({extent.x, extent.y, extent.z}) > kTallestBody ? 0.001 : 1; }
+double likelyUnit(const Aabb& bounds) {
+  return largest(bounds) > kTallestBody || farthest(bounds) > kFarthestBody ? 0.001 : 1;
+}
+
+std::string sizeInMetres(const Aabb& bounds) {
+  return largest(bounds) > kTallestBody
+             ? fmt::format("they would be {:.0f} m large", largest(bounds))
+             : fmt::format("they would lie {:.0f} m from the origin", farthest(bounds));
+}
 
 bool holdsSurfaces(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);

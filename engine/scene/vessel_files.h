@@ -5,6 +5,7 @@
 
 #include "convert/source.h"
 #include "io/import_frame.h"
+#include "math/aabb.h"
 #include "network/centrelines.h"
 #include "scene/reading.h"
 
@@ -15,9 +16,12 @@ namespace vasa {
 double metresOfUnit(std::string_view name);
 
 /// The one rule for files that do not say: metres, or millimetres where in metres they would be taller than
-/// kTallestBody. @param extent  of all vessels, in the file's unit
-double likelyUnit(vec3 extent);
-constexpr float kTallestBody = 4;  ///< [m]
+/// kTallestBody or farther from the origin than kFarthestBody, as one vessel of a scan is.
+/// @param bounds  of all vessels, in the file's unit
+double likelyUnit(const Aabb& bounds);
+constexpr float kTallestBody = 4, kFarthestBody = 40;  ///< [m]
+/// Why: "they would be 706 m large", or "they would lie 706 m from the origin".
+std::string sizeInMetres(const Aabb& bounds);
 
 /// What such files leave open.
 struct VesselImport {
@@ -50,8 +54,8 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
 Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight = 0,
                             const ReadingProgress& told = {});
 
-/// The extent of vessels, in the unit that they were read in.
-vec3 extentOf(const std::vector<SourceElement>& sources);
-vec3 extentOf(const Centrelines& lines);
+/// Around vessels, in the unit that they were read in.
+Aabb boundsOf(const std::vector<SourceElement>& sources);
+Aabb boundsOf(const Centrelines& lines);
 
 }  // namespace vasa

@@ -28,6 +28,7 @@ TEST_CASE("the kind comes from the category, else the element's name, else the f
   CHECK(kindOf(named("portal"), "x") == VesselKind::other);
   CHECK(kindOf(named("thoracic duct"), "x") == VesselKind::lymphatic);
   CHECK(kindOf(named("artery beside a vein"), "x") == VesselKind::other);
+  CHECK(kindOf(named("arteriovenous fistula"), "x") == VesselKind::other);
   CHECK(sameFamily(VesselKind::vein, VesselKind::portalVein));
   CHECK(!sameFamily(VesselKind::vein, VesselKind::artery));
 }
@@ -52,6 +53,42 @@ TEST_CASE(
   element.colour = vec3(0.8f, 0.5f, 0.45f);  // flesh
   element.surroundings = {"Heart"};
   CHECK(kindOf(element, "heart") == VesselKind::other);
+}
+
+TEST_CASE("anatomists' short forms and other languages tell the kind, too") {
+  for (const char* artery :
+       {"A. femoralis", "Aa. digitales", "a_femoralis", "A. femoral izquierda", "Truncus coeliacus",
+        "artère fémorale", "ARTÈRE FÉMORALE", "Artéria renal", "Oberschenkelschlagader", "slagader links"})
+    CHECK_MESSAGE(kindOf(named(artery), "x") == VesselKind::artery, std::string(artery));
+  for (const char* vein : {"V. femoralis", "Vv. hepaticae", "v_saphena", "Vene links", "Oberschenkelvene",
+                           "veine cave", "Veia renal", "Sinus sagittalis superior", "Vena cava inferior"})
+    CHECK_MESSAGE(kindOf(named(vein), "x") == VesselKind::vein, std::string(vein));
+  for (const char* portal : {"V. portae", "Pfortader"})
+    CHECK_MESSAGE(kindOf(named(portal), "x") == VesselKind::portalVein, std::string(portal));
+  for (const char* neither : {"v_001", "v_mesh", "a.001", "A", "V.", "_", "a_", "model_a.b", "vessel_left"})
+    CHECK_MESSAGE(kindOf(named(neither), "x") == VesselKind::other, std::string(neither));
+}
+
+TEST_CASE("a mesh whose materials say artery and vein is divided by them, unless its name says what it is") {
+  MeshElement element = named("Mesh.001");
+  element.mesh.positions = {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 1)};
+  element.mesh.triangles = {uvec3(0, 1, 2), uvec3(0, 1, 3), uvec3(1, 2, 4), uvec3(2, 3, 4)};
+  element.materials = {
+      {"arteries", {}, 0}, {"shine", {}, 1}, {"", vec3(0.05f, 0.1f, 0.6f), 2}, {"arteries", {}, 3}};
+  const auto divided = describeElements({element}, "scan");
+  REQUIRE(divided.size() == 2);
+  CHECK(divided[0].label == "Mesh.001 (arteries)");
+  CHECK(divided[0].kind == VesselKind::artery);
+  CHECK(divided[0].element.mesh.triangles.size() == 3);
+  CHECK(divided[1].label == "Mesh.001 (vein)");
+  CHECK(divided[1].kind == VesselKind::vein);
+  CHECK(divided[1].element.mesh.positions.size() == 3);
+  element.name = "aorta";
+  CHECK(describeElements({element}, "scan").size() == 1);
+  element.name = "Mesh.001";
+  element.materials.pop_back();
+  element.materials.pop_back();
+  CHECK(describeElements({element}, "scan").size() == 1);
 }
 
 TEST_CASE("catalogue numbers go, names stay") {

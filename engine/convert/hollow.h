@@ -1,0 +1,15 @@
+#pragma once
+#include <optional>
+
+#include "mesh/triangle_mesh.h"
+
+namespace vasa {
+
+/// A vessel whose wall has an outside and an inside, as segmented walls and solidified surfaces have, without
+/// the outside: what is left is the lumen. A piece of the surface is the outside of another where that lies
+/// inside it and it lies all along that one.
+/// @param weldTolerance  [m] vertices nearer than this are one
+/// @return nothing where no piece is another's outside. O(n log n) a pair of pieces that could be
+std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float weldTolerance);
+
+}  // namespace vasa
