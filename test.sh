@@ -67,7 +67,7 @@ if [ "$preset" = drivers ]; then
   build/release/tests/golden/test_golden --test-case-exclude='a change in any family*'
   # What shows that the other driver computes and draws the same; the rest tests the program, on the first driver.
   build/release/tests/render/test_render --source-file='*parity_test.cpp,*drawn_manifold_test.cpp,*capillary_test.cpp,*everything_test.cpp' \
-    --test-case-exclude='three hundred frames*'
+    --test-case-exclude='a hundred frames*'
   exit 0
 fi
 if [ "$preset" = slurm ]; then
@@ -111,8 +111,8 @@ fi
 if [ "$preset" = validation ]; then
   cmake --preset release -DVASA_BUILD_TESTS=ON > /dev/null
   cmake --build --preset release --target vasa human test_render
-  VASA_FRAMES_TIMES=34 build/release/tests/render/test_render --test-case='three hundred frames*'
-  VASA_FRAMES_TIMES=10 build/release/tests/render/test_render --test-case='thirty frames*'
+  VASA_FRAMES_TIMES=100 build/release/tests/render/test_render --test-case='a hundred frames*'
+  VASA_FRAMES_TIMES=100 build/release/tests/render/test_render --test-case='frames with everything*'
   tests/soak/drift.py build/release/bin/vasa build/release/data/human.glb build/release/data/human.vasa --validate --frames 1000 --resizes 50 --openings 0
   exit 0
 fi

@@ -41,11 +41,9 @@ std::vector<vec3> outwardsOf(const Binding& binding, std::span<const vec4> rest)
   return outwards;
 }
 
-void bow(const BowCourse& course, std::span<vec3> aside) {
+void bow(const BowCourse& course, std::span<float> lost, std::span<vec3> aside) {
   const std::size_t n = course.along.size();
-  static thread_local std::vector<float>
-      lost;  // [m] up to each point; kept, so that a frame allocates nothing
-  lost.assign(n, 0.0f);
+  lost[0] = 0;  // [m] up to each point
   for (std::size_t k = 1; k < n; ++k)
     lost[k] = lost[k - 1] + std::max(1 - course.stretch[k], 0.0f) * (course.along[k] - course.along[k - 1]);
   const auto lostUpTo = [&](float at) {

@@ -36,6 +36,8 @@ struct BowCourse {
 /// rest the course mainly follows), right-handed on one side of the body and left-handed on the other, so
 /// that vessels that run side by side bow together. Nothing bows at rest, where it is stretched, or where it
 /// is held. Continuous in the pose. O(points)
-void bow(const BowCourse& course, std::span<vec3> aside);
+/// @param lost   room for one a point
+/// @param aside  one a point on return
+void bow(const BowCourse& course, std::span<float> lost, std::span<vec3> aside);
 
 }  // namespace vasa

@@ -41,9 +41,20 @@ struct Sampled {
 struct Workspace {
   Sampled posed;
   std::vector<double> step, stretch, factor, shift;
-  std::vector<float> was, is, left;
+  std::vector<float> was, is, left, lost;
   std::vector<vec3> off, moved, aside;
   std::vector<quat> turns;
+
+  // Whichever courses come to this thread later.
+  void reserve(std::size_t rows, std::size_t samples) {
+    if (off.capacity() >= rows && posed.places.capacity() >= samples) return;
+    for (auto* values : {&step, &stretch, &factor, &shift}) values->reserve(rows + 1);
+    for (auto* values : {&was, &is, &left, &lost}) values->reserve(rows);
+    for (auto* values : {&off, &moved, &aside}) values->reserve(rows);
+    turns.reserve(rows);
+    posed.places.reserve(samples);
+    posed.along.reserve(samples);
+  }
 };
 
 // Three times the Greville abscissa of point j.
@@ -134,8 +145,7 @@ VesselSlider::VesselSlider(const Network& network, const Binding* binding, std::
   settleOrder();
 }
 
-void VesselSlider::layOut(Course& course, std::span<const VesselHold> holds,
-                          std::span<const vec3> outwards) const {
+void VesselSlider::layOut(Course& course, std::span<const VesselHold> holds, std::span<const vec3> outwards) {
   const Network& network = *network_;
   const std::span<const vec4> points = network.points();
   Sampled rest;
@@ -174,6 +184,9 @@ void VesselSlider::layOut(Course& course, std::span<const VesselHold> holds,
     }
     course.rowOf.push_back(std::uint32_t(rows.points.size() - 1));
   }
+  mostRows_ = std::max(mostRows_, rows.points.size());
+  // While a piece is added its first sample is there twice.
+  mostSamples_ = std::max(mostSamples_, rest.places.size() + 1);
 }
 
 // Sets what each course's ends hang on, and sorts.
@@ -246,7 +259,8 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
   const std::size_t n = rows.points.size();
   if (n < 3 || isUnstrained(course, points)) return;
   static thread_local Workspace work;
-  auto& [posed, step, stretch, factor, shift, was, is, left, off, moved, aside, turns] = work;
+  work.reserve(mostRows_, mostSamples_);
+  auto& [posed, step, stretch, factor, shift, was, is, left, lost, off, moved, aside, turns] = work;
   sample(*network_, course.pieces, points, posed);
   step.assign(n + 1, 0), stretch.assign(n + 1, 1);  // before each row
   factor.resize(n), shift.resize(n);
@@ -273,7 +287,8 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
   // A control point stands off its curve, across it, by h²/6 of the curve's bend, h being the way between
   // control points: so that the course stays, it takes over the distance of those about its new place, by the
   // square of how much farther apart they come to lie.
-  was.resize(n), is.resize(n), left.resize(n), off.resize(n), moved.resize(n), aside.assign(n, vec3(0));
+  was.resize(n), is.resize(n), left.resize(n), lost.resize(n), off.resize(n), moved.resize(n),
+      aside.assign(n, vec3(0));
   turns.clear();
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t own = rows.samples[k], point = rows.points[k];
@@ -283,7 +298,7 @@ void VesselSlider::slide(const Course& course, std::span<vec4> points, std::span
         k > 0 ? float(stretch[k] + (shift[k] - shift[k - 1]) / step[k]) : 1;  // of the stretch before it
     if (bows_) turns.push_back(turned[point]);
   }
-  if (bows_) bow({rows.along, left, rows.rest, rows.outwards, turns, course.holds}, aside);
+  if (bows_) bow({rows.along, left, rows.rest, rows.outwards, turns, course.holds}, lost, aside);
   const auto apart = [n](std::span<const float> along, std::size_t k) {
     return along[std::min(k + 1, n - 1)] - along[k > 0 ? k - 1 : 0];
   };

@@ -70,7 +70,7 @@ class VesselSlider {
     Rows rows;
     Hold start, finish;
   };
-  void layOut(Course& course, std::span<const VesselHold> holds, std::span<const vec3> outwards) const;
+  void layOut(Course& course, std::span<const VesselHold> holds, std::span<const vec3> outwards);
   void slide(const Course& course, std::span<vec4> points, std::span<const quat> turned) const;
   bool isUnstrained(const Course& course, std::span<const vec4> points) const;
   void carry(const Course& course, std::span<vec4> points) const;
@@ -78,7 +78,8 @@ class VesselSlider {
 
   const Network* network_;
   bool bows_ = false;
-  std::vector<Course> courses_;  // in an order in which what others hang on comes first
+  std::size_t mostRows_ = 0, mostSamples_ = 0;  // of a course
+  std::vector<Course> courses_;                 // in an order in which what others hang on comes first
 };
 
 }  // namespace vasa

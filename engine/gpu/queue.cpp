@@ -1,5 +1,8 @@
 #include "gpu/queue.h"
 
+#include <algorithm>
+#include <array>
+#include <cassert>
 #include <chrono>
 #include <thread>
 
@@ -14,6 +17,7 @@ namespace {
 constexpr std::chrono::nanoseconds kLongestWait = std::chrono::minutes(10);
 // After a wait has failed: what was submitted is mostly over then.
 constexpr std::chrono::seconds kLongestDrain{10};
+constexpr std::size_t kMostSignals = 4;  // of a submit: a window has one, and the timeline
 
 }  // namespace
 
@@ -101,8 +105,10 @@ Ticket Queue::submit(Commands commands, std::span<const VkSemaphoreSubmitInfo> w
   tick.semaphore = timeline_.get();
   tick.value = submitted_ + 1;
   tick.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-  std::vector<VkSemaphoreSubmitInfo> allSignals(signals.begin(), signals.end());
-  if (!immediate_) allSignals.push_back(tick);
+  std::array<VkSemaphoreSubmitInfo, kMostSignals> allSignals;
+  assert(signals.size() < allSignals.size());
+  const auto own = std::ranges::copy(signals, allSignals.begin()).out;
+  if (!immediate_) *own = tick;
   VkCommandBufferSubmitInfo buffer{};
   buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
   buffer.commandBuffer = commands;
@@ -112,7 +118,7 @@ Ticket Queue::submit(Commands commands, std::span<const VkSemaphoreSubmitInfo> w
   info.pWaitSemaphoreInfos = waits.data();
   info.commandBufferInfoCount = 1;
   info.pCommandBufferInfos = &buffer;
-  info.signalSemaphoreInfoCount = std::uint32_t(allSignals.size());
+  info.signalSemaphoreInfoCount = std::uint32_t(signals.size()) + (immediate_ ? 0 : 1);
   info.pSignalSemaphoreInfos = allSignals.data();
   check(vkQueueSubmit2(queue_, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit2");
   if (immediate_) check(vkQueueWaitIdle(queue_), "vkQueueWaitIdle");

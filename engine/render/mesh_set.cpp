@@ -120,10 +120,9 @@ MeshSet::AtRest MeshSet::atRest(gpu::Device& device, std::span<const SkinnedMesh
   return rest;
 }
 
-std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices,
-                                               const Camera& camera, std::uint32_t pictureHeight,
-                                               float pixels) const {
-  std::vector<Level> chosen;
+void MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
+                        std::uint32_t pictureHeight, float pixels, std::vector<Level>& chosen) const {
+  chosen.clear();
   for (const Part& part : rest_->parts) {
     if (!shown(part.role, look)) {
       chosen.emplace_back();
@@ -137,7 +136,6 @@ std::vector<MeshSet::Level> MeshSet::levelsFor(const Look& look, std::span<const
     chosen.back().depth = depth;
     chosen.back().bothSides = !part.closed || camera.cut || depth <= camera.nearDistance;
   }
-  return chosen;
 }
 
 }  // namespace vasa

@@ -41,8 +41,9 @@ class MeshSet {
   std::span<const Part> parts() const { return rest_->parts; }
   /// For every part that `look` shows the coarsest level whose error shows as `pixels` at most, the mesh
   /// itself for 0 pixels; for every other part an empty level.
-  std::vector<Level> levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
-                               std::uint32_t pictureHeight, float pixels) const;
+  /// @param chosen  one a part on return
+  void levelsFor(const Look& look, std::span<const mat4> jointMatrices, const Camera& camera,
+                 std::uint32_t pictureHeight, float pixels, std::vector<Level>& chosen) const;
   const Heart& heart() const { return rest_->heart; }
   /// Joints that the meshes use: highest number + 1.
   std::uint32_t jointCount() const { return rest_->jointCount; }

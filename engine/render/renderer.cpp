@@ -110,6 +110,7 @@ struct Renderer::State {
   std::optional<gpu::GpuTimer> timer;
   gpu::GpuTimer staticTimer;
   FrameTimes times;
+  std::vector<MeshSet::Level> levels;  // of the picture that was started last
   bool transparent = false;
   bool partial = false, cull = true;  // of this frame
 
@@ -118,7 +119,7 @@ struct Renderer::State {
     shared::DrawPush push;
     Camera camera;
     Look look;
-    std::vector<MeshSet::Level> levels;
+    std::span<const MeshSet::Level> levels;
     float heartScale;
     std::uint32_t rounds;  // of tubes and forks
     bool patched, occludes, grows;
@@ -291,22 +292,22 @@ Renderer::State::Frame Renderer::State::start(const RenderInput& input, bool sli
   // The backs of what is cut open are seen, and samples elsewhere than the passes look at would miss
   // triangles.
   cull = options.cull && !input.camera.cut && device.limits().standardSampleLocations;
-  Frame frame{
-      .push = drawConstants(input.camera, input.look, target.spec().size),
-      .camera = input.camera,
-      .look = input.look,
-      .levels = meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
-                                 meshPixelError(options.pixelError) / std::sqrt(float(options.samples))),
-      .heartScale = input.heartScale,
-      .rounds = any ? rounds.next() : 0,
-      .patched = any && vessels.anyPatches(),
-      // Depth of what is translucent is grain.
-      .occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) &&
-                  input.look.style != LookStyle::xray,
-      .grows = capillaries && any && input.look.capillaryOpacity > 0 && capillaries->batches() > 0,
-      .sliced = sliced,
-      .split = options.timed || sliced,
-      .wholeEnd = false};
+  meshes.levelsFor(input.look, input.jointMatrices, input.camera, target.spec().size.height,
+                   meshPixelError(options.pixelError) / std::sqrt(float(options.samples)), levels);
+  Frame frame{.push = drawConstants(input.camera, input.look, target.spec().size),
+              .camera = input.camera,
+              .look = input.look,
+              .levels = levels,
+              .heartScale = input.heartScale,
+              .rounds = any ? rounds.next() : 0,
+              .patched = any && vessels.anyPatches(),
+              // Depth of what is translucent is grain.
+              .occludes = occlusionPass && input.look.occlusion > 0 && !anyTranslucent(input.look) &&
+                          input.look.style != LookStyle::xray,
+              .grows = capillaries && any && input.look.capillaryOpacity > 0 && capillaries->batches() > 0,
+              .sliced = sliced,
+              .split = options.timed || sliced,
+              .wholeEnd = false};
   frame.wholeEnd = !(frame.split || frame.patched || frame.occludes || frame.grows);
   return frame;
 }

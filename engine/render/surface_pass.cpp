@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "shared/sweep.h"
 #include "spirv/cut_frag.h"
@@ -98,10 +97,11 @@ void drawPart(VkCommandBuffer commands, shared::DrawPush push, const MeshSet& me
   vkCmdDrawIndexed(commands, level.indexCount, 1, level.firstIndex, std::int32_t(level.firstVertex), 0);
 }
 
-// The parts of a role that are shown.
-std::vector<std::uint32_t> partsOf(const MeshSet& meshes, std::span<const MeshSet::Level> levels,
-                                   MeshRole role) {
-  std::vector<std::uint32_t> parts;
+// The parts of a role that are shown, until the next call.
+std::span<std::uint32_t> partsOf(const MeshSet& meshes, std::span<const MeshSet::Level> levels,
+                                 MeshRole role) {
+  static thread_local std::vector<std::uint32_t> parts;  // kept, so that a frame allocates nothing
+  parts.clear();
   for (std::uint32_t i = 0; i < meshes.parts().size(); ++i)
     if (levels[i].indexCount > 0 && meshes.parts()[i].role == role) parts.push_back(i);
   return parts;
@@ -238,8 +238,10 @@ void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush p
   const bool xray = look.style == LookStyle::xray;
   push.shiftAndOpacities = shiftAndOpacities(kWholePart, 1);
   bindMeshes(commands, meshes);
-  std::vector<std::uint32_t> parts = partsOf(meshes, levels, role);
-  std::ranges::stable_sort(parts, std::greater{}, [&](std::uint32_t i) { return levels[i].depth; });
+  const std::span<std::uint32_t> parts = partsOf(meshes, levels, role);
+  std::ranges::sort(parts, [&](std::uint32_t a, std::uint32_t b) {  // from far to near
+    return levels[a].depth != levels[b].depth ? levels[a].depth > levels[b].depth : a < b;
+  });
   for (const std::uint32_t i : parts) {
     const float opacity =
         role == MeshRole::skin ? look.skinOpacity : meshes.parts()[i].opacity * look.otherOpacity;

@@ -110,8 +110,9 @@ void MotionTrack::restart(const Clip& clip, std::size_t variables, std::size_t p
 }
 
 void MotionTrack::restart(const Clip& clip, const Correction& first) {
-  restart(clip, first.motions.size(), first.widest.size(), std::vector<Frame>(1));
+  frames_.resize(1);
   take(first, frames_[0]);
+  restart(clip, first.motions.size(), first.widest.size(), std::move(frames_));
 }
 
 void MotionTrack::add(const Correction& correction) {

@@ -110,6 +110,42 @@ TEST_CASE(
   CHECK(runProgram({"place", path("scan.vasa"), "--turn", "w:90", "-o", path("x.vasa")}).exit == 2);
 }
 
+TEST_CASE(
+    "one small vessel of a scan is read in its unit beside others; one that stands far off is refused") {
+  const TemporaryFolder folder;
+  const auto trace = [&](const char* name, vec3 from, vec3 step) {
+    std::string swc;
+    for (int i = 0; i <= 8; ++i) {
+      const vec3 p = from + float(i) * step;
+      swc += std::to_string(i + 1) + " 0 " + std::to_string(p.x) + " " + std::to_string(p.y) + " " +
+             std::to_string(p.z) + " 0.001 " + std::to_string(i ? i : -1) + "\n";
+    }
+    return write(folder, name, swc);
+  };
+  const auto check = [&](const std::string& file) {
+    return runProgram({"check", "--body", humanBody().string(), "--network", humanVessels().string(),
+                       "--network", file, "--frames", "0", "--no-avoid"});
+  };
+  // A perforating artery of the thigh, 3 mm of it, in millimetres.
+  const auto small = check(trace("left perforating artery.swc", {95, 700, 20}, {0.4f, 0.1f, 0}));
+  CHECK_MESSAGE(small.err.find("as in metres they would lie 7") != std::string::npos, small.err);
+  CHECK((small.exit == 0 || small.exit == 5));
+  const auto far = check(trace("stray artery.swc", {30, 1, 0}, {0.01f, 0, 0}));
+  CHECK(far.exit == 3);
+  CHECK_MESSAGE(far.err.find("stray artery.swc: 100 %") != std::string::npos, far.err);
+}
+
+TEST_CASE("what is proposed can be typed as it stands, and a unit that says nothing of a file is refused") {
+  const TemporaryFolder folder;
+  const auto spaced = write(folder, "left vein's end.swc", "1 0 0 0 0 0.001 -1\n2 0 0 0.1 0 0.001 1\n");
+  const auto next = runProgram({"info", spaced, "--json"}).json()["next"].get<std::string>();
+  CHECK_MESSAGE(next.ends_with("left vein'\\''s end.swc' -o NET.vasa"), next);
+  const auto refused = runProgram(
+      {"convert", humanBody().string(), "--scale", "0.001", "-o", (folder.path() / "x.vasa").string()});
+  CHECK(refused.exit == 2);
+  CHECK_MESSAGE(refused.err.find("--unit mm") != std::string::npos, refused.err);
+}
+
 namespace {
 
 // In a scanner's coordinates: millimetres, +Z up, elsewhere, a smaller person.

@@ -11,7 +11,7 @@
 #include "collide/network_tubes.h"
 #include "core/hash.h"
 #include "core/log.h"
-#include "fuzz/live_memory.h"
+#include "support/live_memory.h"
 #include "fuzz/processor_time.h"
 #include "growth/growth_rules.h"
 #include "growth/regions.h"

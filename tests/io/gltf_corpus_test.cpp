@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/live_memory.h"
+#include "support/live_memory.h"
 #include "fuzz/processor_time.h"
 #include "io/gltf.h"
 #include "io/read_limits.h"

@@ -1,4 +1,4 @@
-#include "fuzz/live_memory.h"
+#include "support/live_memory.h"
 
 #include <malloc.h>
 
@@ -14,7 +14,7 @@
 
 namespace {
 
-std::atomic<std::size_t> live{0}, peak{0};
+std::atomic<std::size_t> live{0}, peak{0}, allocations{0};
 
 }  // namespace
 
@@ -29,12 +29,15 @@ std::size_t restartPeak() {
 
 std::size_t peakMemory() { return peak; }
 
+std::size_t allocationCount() { return allocations; }
+
 }  // namespace vasa::test
 
 #if VASA_OWN_ALLOCATOR
 void* operator new(std::size_t size) {
   void* const memory = std::malloc(size ? size : 1);
   if (!memory) throw std::bad_alloc();
+  ++allocations;
   const std::size_t now = live += malloc_usable_size(memory);
   std::size_t most = peak;
   while (now > most && !peak.compare_exchange_weak(most, now)) {

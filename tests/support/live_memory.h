@@ -9,5 +9,7 @@ bool countsMemory();
 /// Forgets the peak so far. @return the bytes that are live
 std::size_t restartPeak();
 std::size_t peakMemory();
+/// How often anything was allocated so far.
+std::size_t allocationCount();
 
 }  // namespace vasa::test
