@@ -224,7 +224,8 @@ class Retargeter {
       const MotionPose source = motionPose(motion(), frame);
       const Pose pose = samplePose(body_.skeleton, out.clip, out.clip.timeOfFrame(frame));
       if (trunk.known() && theirs.known())
-        out.trunkMissing = std::max(out.trunkMissing, std::abs(bendOf(theirs, source) - bendOf(trunk, pose)));
+        if (const float wanted = bendOf(theirs, source), own = bendOf(trunk, pose); own < 0.5f * wanted)
+          out.trunkMissing = std::max(out.trunkMissing, wanted - own);
       for (std::uint32_t j = 0; j < source_.size(); ++j) {
         const auto end = to_.limbEnd(to_.parts.of[j]),
                    sourceEnd = source_[j] == kNone ? kNone : from_.limbEnd(from_.parts.of[source_[j]]);
@@ -291,8 +292,8 @@ std::string describeMatch(const Retargeting& done) {
                      (done.bodyNames.empty() ? "unknown" : std::string(done.bodyNames)) + "), " +
                      std::to_string(int(std::lround(100 * done.sureness))) + " % sure";
   if (done.trunkMissing > kTrunkFollowed)
-    text += ", trunk: not followed (its bend differs by up to " +
-            std::to_string(int(std::lround(done.trunkMissing))) + " degrees)";
+    text += ", trunk: not followed (it bends by up to " +
+            std::to_string(int(std::lround(done.trunkMissing))) + " degrees less)";
   if (done.up != vec3(0, 1, 0))
     text += ", up is " + std::string(done.up.x + done.up.y + done.up.z < 0 ? "-" : "+") +
             (done.up.x != 0   ? "X"

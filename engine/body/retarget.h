@@ -20,7 +20,9 @@ struct Retargeting {
   float meanAngle = 0, worstAngle = 0;        ///< [degrees] between the limbs of both, in some of the frames
   std::uint32_t standingFrame = kZeroPose;    ///< the motion's pose that is compared with the body's rest
   vec3 up{0, 1, 0};                           ///< the motion's axis that was taken for up
-  float trunkMissing = 0;  ///< [degrees] the most by which its trunk bends otherwise, in some of the frames
+  /// [degrees] The most that the trunk's bend lacks in those of some frames in which it is less than half of
+  /// the motion's.
+  float trunkMissing = 0;
 };
 constexpr float kLeastSureness = 0.5f;
 constexpr float kTrunkFollowed = 15;  ///< [degrees] trunkMissing beyond which the trunk is not followed
@@ -47,8 +49,8 @@ constexpr float kTrunkFollowed = 15;  ///< [degrees] trunkMissing beyond which t
 /// Sureness is the share of the fourteen parts that make a person move (of those that either has), times 0.95
 /// where only words and 0.8 where only the shape told them, times the square of the share of what must hold
 /// between them that does (shins behind thighs, both sides alike, legs away from the trunk), less where limbs
-/// end up more than 10 degrees from the motion's, and times 0.8 where the trunk bends by more than
-/// kTrunkFollowed otherwise against the hips.
+/// end up more than 10 degrees from the motion's, and times 0.8 where the trunk bends against the hips by
+/// less than half of what the motion's does, and by more than kTrunkFollowed less.
 ///
 /// Fails with badInput that names both and what is missing: the map names a joint that does not exist, no
 /// hips, fewer than six joints that follow one; without a map, sureness below kLeastSureness. O(frames ·
