@@ -21,20 +21,26 @@ struct Options {
 };
 
 struct Pairing {
-  std::vector<std::uint32_t> source;  // one a joint of the body
+  JointPairs joints;
   HumanoidNames bodyParts, motionParts;
   std::string match;  // how well, or why not
   float sureness = 0;
 };
 
 Result<Pairing> pair(const Body& body, const Motion& motion, const JointMap& map) {
-  auto source = matchedJoints(motion, body, map);
-  if (!source) return source.error();
-  Pairing pairing{std::move(*source), partsOf(body.skeleton), partsOf(motion), {}, 0};
+  auto joints = matchedJoints(motion, body, map);
+  if (!joints) return joints.error();
+  Pairing pairing{std::move(*joints), partsOf(body.skeleton), partsOf(motion), {}, 0};
   const auto done = retargeted(motion, body, map);
   pairing.match = done ? describeMatch(*done) : done.error().message;
   pairing.sureness = done ? done->sureness : 0;
   return pairing;
+}
+
+const TrunkShare* shareOf(const Pairing& pairing, std::uint32_t joint) {
+  const auto& shares = pairing.joints.spread.shares;
+  const auto found = std::ranges::find(shares, joint, &TrunkShare::joint);
+  return found == shares.end() ? nullptr : &*found;
 }
 
 std::string mapText(const Body& body, const Motion& motion, const Pairing& pairing) {
@@ -44,33 +50,50 @@ std::string mapText(const Body& body, const Motion& motion, const Pairing& pairi
   const auto& joints = body.skeleton.joints;
   for (std::size_t m = 0; m < motion.joints.size(); ++m) {
     bool any = false;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (pairing.source[j] != m) continue;
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+      if (pairing.joints.source[j] != m || shareOf(pairing, j)) continue;
       text += fmt::format("{} = {}", motion.joints[m].name, joints[j].name);
       text += pairing.bodyParts.of[j].empty() ? "\n" : fmt::format("  # {}\n", pairing.bodyParts.of[j]);
       any = true;
     }
     if (!any) text += fmt::format("# {} =\n", motion.joints[m].name);
   }
+  if (!pairing.joints.spread.shares.empty())
+    text +=
+        "# Joints of the body's trunk, which has more or fewer than the motion's: each takes shares of two.\n";
+  for (const TrunkShare& own : pairing.joints.spread.shares)
+    text +=
+        fmt::format("#   {}: {:.0f} % of {}, {:.0f} % of {}\n", joints[own.joint].name, 100 * (1 - own.share),
+                    motion.joints[own.low].name, 100 * own.share, motion.joints[own.high].name);
   text += "# Joints of the body that follow nothing, and go with the one before them:\n";
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (pairing.source[j] == JointId::kNone) text += fmt::format("#   {}\n", joints[j].name);
+    if (pairing.joints.source[j] == JointId::kNone) text += fmt::format("#   {}\n", joints[j].name);
   return text;
 }
 
 Report asReport(const Body& body, const Motion& motion, const Pairing& pairing) {
-  Report report{{"pairs", Report::array()}, {"motion_free", Report::array()}, {"body_free", Report::array()}};
+  Report report{{"pairs", Report::array()},
+                {"shares", Report::array()},
+                {"motion_free", Report::array()},
+                {"body_free", Report::array()}};
   std::vector<bool> used(motion.joints.size());
-  for (std::size_t j = 0; j < pairing.source.size(); ++j) {
+  const auto& source = pairing.joints.source;
+  for (std::uint32_t j = 0; j < source.size(); ++j) {
     const std::string& name = body.skeleton.joints[j].name;
-    if (pairing.source[j] == JointId::kNone) {
+    if (source[j] == JointId::kNone) {
       report["body_free"].push_back(name);
       continue;
     }
-    used[pairing.source[j]] = true;
-    report["pairs"].push_back({{"motion", motion.joints[pairing.source[j]].name},
-                               {"body", name},
-                               {"part", pairing.bodyParts.of[j]}});
+    if (const TrunkShare* own = shareOf(pairing, j)) {
+      used[own->low] = used[own->high] = true;
+      report["shares"].push_back({{"body", name},
+                                  {"motion", {motion.joints[own->low].name, motion.joints[own->high].name}},
+                                  {"share", own->share}});
+      continue;
+    }
+    used[source[j]] = true;
+    report["pairs"].push_back(
+        {{"motion", motion.joints[source[j]].name}, {"body", name}, {"part", pairing.bodyParts.of[j]}});
   }
   for (std::size_t m = 0; m < used.size(); ++m)
     if (!used[m]) report["motion_free"].push_back(motion.joints[m].name);

@@ -86,9 +86,7 @@ void releaseUneven(const Skeleton& from, const Skeleton& to, std::size_t first, 
 // Rigs put the joints of a spine at other vertebrae, and those that only twist a limb at other places along
 // it, under the same names: the former go with the trunk as a whole, the latter with the limb.
 void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std::uint32_t>& match) {
-  std::vector<std::string> names;
-  for (const auto& joint : from.joints) names.push_back(joint.name);
-  const HumanoidNames parts = humanoidNames(names);
+  const HumanoidNames parts = partsOf(from);
   const auto release = [&](const std::string& start, const std::string& end) {
     const auto a = std::size_t(std::ranges::find(parts.of, start) - parts.of.begin()),
                b = std::size_t(std::ranges::find(parts.of, end) - parts.of.begin());
@@ -143,7 +141,7 @@ class Carrier {
   Result<CarriedNetwork> run(const JointMap& map) {
     auto pairs = matchedJoints(standingStill(to_), from_, map);
     if (!pairs) return pairs.error();
-    match_ = std::move(*pairs);
+    match_ = std::move(pairs->source);
     releaseLonely(from_.skeleton, match_);
     releaseMisplaced(from_.skeleton, to_.skeleton, match_);
     auto pose = retarget(standingStill(to_), from_, map);

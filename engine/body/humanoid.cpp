@@ -95,6 +95,13 @@ std::string_view humanoidPart(std::string_view name) {
   return found == parts().end() ? std::string_view{} : std::string_view(found->name);
 }
 
+void nameSpine(std::span<const std::uint32_t> joints, std::span<std::string_view> parts) {
+  if (joints.empty()) return;
+  parts[joints.front()] = humanoidPart("spine");
+  if (joints.size() > 2) parts[joints[joints.size() / 2]] = humanoidPart("chest");
+  if (joints.size() > 1) parts[joints.back()] = humanoidPart(joints.size() > 2 ? "upperChest" : "chest");
+}
+
 int humanoidKeys(std::span<const std::string_view> of) {
   constexpr std::array<std::string_view, 6> kLimbs{"UpperArm", "LowerArm", "Hand",
                                                    "UpperLeg", "LowerLeg", "Foot"};

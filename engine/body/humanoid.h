@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -20,6 +21,10 @@ HumanoidNames humanoidNames(const std::vector<std::string>& joints);
 
 /// The same word, for ever; empty where there is no such part.
 std::string_view humanoidPart(std::string_view name);
+
+/// Names a spine's joints, from low to high: the first, the middle and the last one are spine, chest and
+/// upper chest; of two the last is the chest.
+void nameSpine(std::span<const std::uint32_t> joints, std::span<std::string_view> parts);
 
 /// How many of the fourteen parts that make a person move are there: hips, neck or head, and of each side
 /// upper and lower arm, hand, upper and lower leg, foot.

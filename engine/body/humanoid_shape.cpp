@@ -105,7 +105,7 @@ class Shape {
     const auto leg = limb(legs.a, false);
     if (!leg) return false;
     legBones_ = straight(leg->chain, leg->upper, leg->lower) + straight(leg->chain, leg->lower, leg->end);
-    nameTrunk(legs, arms);
+    name(legs.at, "hips");
     const std::optional<bool> leftIsA = sideOf(legs, arms);
     if (!leftIsA) return false;
     for (const auto& [pair, arm] : {std::pair(legs, false), std::pair(arms, true)}) {
@@ -206,24 +206,6 @@ class Shape {
   }
 
   void name(std::uint32_t joint, const std::string& part) { out_[joint] = humanoidPart(part); }
-
-  void nameTrunk(const Pair& legs, const Pair& arms) {
-    name(legs.at, "hips");
-    std::vector<std::uint32_t> between;
-    for (std::uint32_t j = arms.at; j != legs.at; j = parents_[j]) between.push_back(j);
-    std::ranges::reverse(between);
-    static constexpr const char* kNames[] = {"spine", "chest", "upperChest"};
-    if (!between.empty()) name(between.front(), kNames[0]);
-    if (between.size() > 2) name(between[between.size() / 2], kNames[1]);
-    if (between.size() > 1) name(between.back(), between.size() > 2 ? kNames[2] : kNames[1]);
-    std::uint32_t neck = kNone;
-    for (const std::uint32_t child : children_[arms.at])
-      if (child != arms.a && child != arms.b && (neck == kNone || reach_[child] > reach_[neck])) neck = child;
-    if (neck == kNone) return;
-    const std::uint32_t head = longest(neck);
-    if (head == kNone) return name(neck, "head");
-    name(neck, "neck"), name(head, "head");
-  }
 
   bool nameLimb(std::uint32_t first, const std::string& side, bool arm) {
     const auto own = limb(first, arm);

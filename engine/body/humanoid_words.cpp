@@ -49,9 +49,9 @@ bool isAny(std::string_view word, const std::array<std::string_view, N>& of) {
   return std::ranges::find(of, word) != of.end();
 }
 
-constexpr std::array<std::string_view, 16> kSilent{
-    "joint", "jnt",       "bone",     "jt",       "bip", "def", "org", "character",
-    "robot", "mixamorig", "skeleton", "armature", "rig", "b",   "j",   "bn"};
+constexpr std::array<std::string_view, 17> kSilent{
+    "joint",     "jnt",      "bone",     "jt",  "bip", "def", "org", "character", "robot",
+    "mixamorig", "skeleton", "armature", "rig", "b",   "j",   "bn",  "m"};
 constexpr std::array<std::string_view, 22> kPassedOver{
     "twist",    "roll",   "ik",       "end",    "nub",    "target",     "pole", "ctrl",
     "effector", "site",   "helper",   "socket", "muscle", "metacarpal", "eye",  "jaw",
@@ -102,7 +102,7 @@ const std::vector<Meaning>& sided() {
       {"Shoulder", {"collar", "clavicle", "clav", "scapula", "shoulder", "innershoulder"}},
       {"UpperLeg", {"thigh", "upperleg", "upleg", "legupper", "femur", "thighbend", "hip", "leg"}},
       {"LowerLeg", {"calf", "shin", "lowerleg", "lowleg", "loleg", "leglower", "knee", "tibia", "leg"}},
-      {"Foot", {"ankle", "foot"}},
+      {"Foot", {"ankle", "foot", "talus"}},
       {"Toes", {"toebase", "toes", "toe", "ball", "foot"}},
       {"ThumbProximal", {"thumb", "handthumb", "thumbproximal"}},
       {"IndexProximal", {"index", "handindex", "inhandindex", "indexproximal"}},
@@ -147,14 +147,12 @@ std::vector<std::string_view> humanoidWords(std::span<const std::string> joints)
   for (const Meaning& meaning : middle()) take(meaning, Side::none, std::string(meaning.part));
   for (const auto& [side, begin] : {std::pair{Side::left, "left"}, std::pair{Side::right, "right"}})
     for (const Meaning& meaning : sided()) take(meaning, side, begin + std::string(meaning.part));
-  std::vector<std::size_t> spine;
-  for (std::size_t j = 0; j < words.size(); ++j)
+  std::vector<std::uint32_t> spine;
+  for (std::uint32_t j = 0; j < words.size(); ++j)
     if (parts[j].empty() && !words[j].passedOver && words[j].side == Side::none &&
         isAny(words[j].base, kSpine))
       spine.push_back(j);
-  if (!spine.empty()) parts[spine.front()] = humanoidPart("spine");
-  if (spine.size() > 2) parts[spine[spine.size() / 2]] = humanoidPart("chest");
-  if (spine.size() > 1) parts[spine.back()] = humanoidPart(spine.size() > 2 ? "upperChest" : "chest");
+  nameSpine(spine, parts);
   return parts;
 }
 

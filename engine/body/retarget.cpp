@@ -7,7 +7,6 @@
 #include "body/motion_rest.h"
 #include "body/rest_alignment.h"
 #include "body/rig.h"
-#include "core/nearest_names.h"
 
 // Rotations are kept relative to a pose in which the motion's skeleton stands (its zero pose, as a rule), in
 // world axes: Q = world · standing⁻¹. A joint that follows has Q_body = Q_motion · A, with A the constant
@@ -21,43 +20,9 @@ constexpr float kKneeCapShare = 0.6f;
 constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower than the floor, a little
 constexpr std::uint32_t kFramesCompared = 12;
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
+constexpr float kStiffSure = 0.8f;                      // where the trunk is not followed
 constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
 const quat kIdentity(1, 0, 0, 0);
-
-std::string perhaps(const std::string& name, std::span<const std::string> names) {
-  const std::string near = didYouMean(name, names);
-  return near.empty() ? near : "; " + near;
-}
-
-Result<std::vector<std::uint32_t>> matchJoints(const Rig& motion, const Rig& body, const JointMap& map,
-                                               const std::string& motionName, const std::string& bodyName) {
-  std::vector<std::uint32_t> source(body.names.size(), kNone);
-  std::vector<bool> told(motion.names.size()), taken(body.names.size());
-  for (const auto& [from, to] : map) {
-    const auto a = std::ranges::find(motion.names, from), b = std::ranges::find(body.names, to);
-    if (a == motion.names.end())
-      return badInput(motionName + " has no joint '" + from + "' that the joint map names" +
-                      perhaps(from, motion.names));
-    told[std::size_t(a - motion.names.begin())] = true;
-    if (to.empty()) continue;
-    if (b == body.names.end())
-      return badInput(bodyName + " has no joint '" + to + "' that the joint map names" +
-                      perhaps(to, body.names));
-    source[std::size_t(b - body.names.begin())] = std::uint32_t(a - motion.names.begin());
-    taken[std::size_t(b - body.names.begin())] = true;
-  }
-  // Shapes have no names in common that mean the same.
-  const bool sameFamily = motion.parts.family == body.parts.family && motion.parts.family != "shape";
-  for (std::uint32_t j = 0; j < body.names.size(); ++j) {
-    if (taken[j]) continue;
-    for (std::uint32_t s = 0; s < motion.names.size() && source[j] == kNone; ++s) {
-      if (told[s]) continue;
-      const bool samePart = !body.parts.of[j].empty() && body.parts.of[j] == motion.parts.of[s];
-      if (samePart || (sameFamily && plainName(body.names[j]) == plainName(motion.names[s]))) source[j] = s;
-    }
-  }
-  return source;
-}
 
 class Retargeter {
  public:
@@ -65,9 +30,9 @@ class Retargeter {
       : given_(motion), body_(body), from_(rigOf(motion)), to_(rigOf(body.skeleton)) {}
 
   Result<Retargeting> run(const JointMap& map) {
-    auto matched = matchJoints(from_, to_, map, given_.name, body_.name);
+    auto matched = pairJoints(from_, to_, map, given_.name, body_.name);
     if (!matched) return matched.error();
-    source_ = std::move(*matched);
+    source_ = std::move(matched->source), spread_ = std::move(matched->spread);
     const auto count =
         std::size_t(std::ranges::count_if(source_, [](std::uint32_t s) { return s != kNone; }));
     hips_ = hipsOf();
@@ -119,8 +84,13 @@ class Retargeter {
 
   // Joints that only the map knows are the parts that their counterparts are.
   void partsFromSource() {
+    const auto spread = [&](std::uint32_t j) {
+      return std::ranges::find(spread_.shares, j, &TrunkShare::joint) != spread_.shares.end();
+    };
     for (std::uint32_t j = 0; j < source_.size(); ++j)
-      if (source_[j] != kNone && to_.parts.of[j].empty())
+      if (spread(j))
+        continue;
+      else if (source_[j] != kNone && to_.parts.of[j].empty())
         to_.parts.of[j] = from_.parts.of[source_[j]];
       else if (source_[j] != kNone && from_.parts.of[source_[j]].empty())
         from_.parts.of[source_[j]] = to_.parts.of[j];
@@ -137,14 +107,16 @@ class Retargeter {
 
   // Turns relative to rest of all of the body's joints.
   std::vector<quat> bodyTurns(const MotionPose& frame) const {
-    std::vector<quat> turns(source_.size(), kIdentity);
+    std::vector<quat> turns(source_.size(), kIdentity), theirs(frame.world.size());
+    for (std::size_t s = 0; s < theirs.size(); ++s)
+      theirs[s] = frame.world[s] * glm::conjugate(standingTurns_[s]);
     for (std::uint32_t j = 0; j < source_.size(); ++j) {
       if (source_[j] != kNone)
-        turns[j] = glm::normalize(frame.world[source_[j]] * glm::conjugate(standingTurns_[source_[j]]) *
-                                  alignment_[j]);
+        turns[j] = glm::normalize(theirs[source_[j]] * alignment_[j]);
       else if (to_.parents[j] != kNone)
         turns[j] = turns[to_.parents[j]];
     }
+    turnTrunk(spread_, theirs, alignment_, turns);
     for (std::uint32_t j = 0; j < source_.size(); ++j)
       if (source_[j] == kNone && to_.parents[j] != kNone) settleFree(j, turns);
     return turns;
@@ -245,11 +217,15 @@ class Retargeter {
     for (std::uint32_t j = 0; j < source_.size(); ++j)
       if (source_[j] != kNone) followed.push_back(to_.parts.of[j]), ++out.joints;
     out.keys = humanoidKeys(followed);
+    const Trunk trunk = findTrunk(to_), theirs = findTrunk(from_);
     double sum = 0;
     int measured = 0;
     for (const std::uint32_t frame : sampledFrames(motion(), kFramesCompared)) {
       const MotionPose source = motionPose(motion(), frame);
       const Pose pose = samplePose(body_.skeleton, out.clip, out.clip.timeOfFrame(frame));
+      if (trunk.known() && theirs.known())
+        if (const float wanted = bendOf(theirs, source), own = bendOf(trunk, pose); own < 0.5f * wanted)
+          out.trunkMissing = std::max(out.trunkMissing, wanted - own);
       for (std::uint32_t j = 0; j < source_.size(); ++j) {
         const auto end = to_.limbEnd(to_.parts.of[j]),
                    sourceEnd = source_[j] == kNone ? kNone : from_.limbEnd(from_.parts.of[source_[j]]);
@@ -270,7 +246,23 @@ class Retargeter {
     out.sureness = names * std::min(1.0f, float(out.keys) / float(most));
     const float plausible = plausibility(from_) * plausibility(to_);
     if (!told) out.sureness *= plausible * plausible;
+    if (out.trunkMissing > kTrunkFollowed) out.sureness *= kStiffSure;
     out.sureness *= 1 - std::clamp((out.meanAngle - kGoodAngle) / (kLostAngle - kGoodAngle), 0.0f, 1.0f);
+  }
+
+  // How far a trunk is bent against the hips, beside how it stands [degrees].
+  static float bend(vec3 standing, vec3 now) {
+    return std::acos(std::clamp(glm::dot(directionOf(standing), directionOf(now)), -1.0f, 1.0f)) * 180 / kPi;
+  }
+  float bendOf(const Trunk& trunk, const MotionPose& pose) const {
+    const quat hips = pose.world[trunk.hips] * glm::conjugate(standingTurns_[trunk.hips]);
+    return bend(trunk.way(from_.centres), glm::conjugate(hips) * trunk.way(pose.places));
+  }
+  float bendOf(const Trunk& trunk, const Pose& pose) const {
+    std::vector<vec3> places;
+    for (const mat4& joint : pose.world) places.push_back(vec3(joint[3]));
+    const quat hips = rotationOf(pose.world[trunk.hips]) * glm::conjugate(restRotations_[trunk.hips]);
+    return bend(trunk.way(to_.centres), glm::conjugate(hips) * trunk.way(places));
   }
 
   const Motion& given_;
@@ -281,6 +273,7 @@ class Retargeter {
   std::uint32_t standing_ = MotionPose::kZero;
   std::vector<quat> standingTurns_;    // of the motion's joints, in the pose that they stand in
   std::vector<std::uint32_t> source_;  // motion's joint that each of the body's follows
+  TrunkSpread spread_;
   std::vector<quat> alignment_, restRotations_;
   std::uint32_t hips_ = kNone;
   float scale_ = 1;
@@ -288,9 +281,8 @@ class Retargeter {
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> matchedJoints(const Motion& motion, const Body& body,
-                                                 const JointMap& map) {
-  return matchJoints(rigOf(motion), rigOf(body.skeleton), map, motion.name, body.name);
+Result<JointPairs> matchedJoints(const Motion& motion, const Body& body, const JointMap& map) {
+  return pairJoints(rigOf(motion), rigOf(body.skeleton), map, motion.name, body.name);
 }
 
 std::string describeMatch(const Retargeting& done) {
@@ -299,6 +291,9 @@ std::string describeMatch(const Retargeting& done) {
                      (done.motionNames.empty() ? "unknown" : std::string(done.motionNames)) + ", body " +
                      (done.bodyNames.empty() ? "unknown" : std::string(done.bodyNames)) + "), " +
                      std::to_string(int(std::lround(100 * done.sureness))) + " % sure";
+  if (done.trunkMissing > kTrunkFollowed)
+    text += ", trunk: not followed (it bends by up to " +
+            std::to_string(int(std::lround(done.trunkMissing))) + " degrees less)";
   if (done.up != vec3(0, 1, 0))
     text += ", up is " + std::string(done.up.x + done.up.y + done.up.z < 0 ? "-" : "+") +
             (done.up.x != 0   ? "X"

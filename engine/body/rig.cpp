@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "body/humanoid_shape.h"
+#include "body/trunk.h"
 
 namespace vasa {
 namespace {
@@ -15,49 +16,15 @@ constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand an
 constexpr int kGross = 8;                           // what no person has counts as much as this many doubts
 constexpr float kAlike = 0.25f;                     // the share by which the bones of both sides may differ
 
-// The joint that two lead back to; none where they share none.
-std::uint32_t whereMeet(const Rig& rig, std::uint32_t left, std::uint32_t right) {
-  for (std::uint32_t a = left; a != kNone; a = rig.parents[a])
-    for (std::uint32_t b = right; b != kNone; b = rig.parents[b])
-      if (a == b) return a;
-  return kNone;
-}
-
-// Where both legs leave the trunk, in rigs that call the hips a spine.
-void findHips(Rig& rig) {
-  const std::uint32_t left = rig.partNamed("leftUpperLeg"), right = rig.partNamed("rightUpperLeg");
-  if (rig.partNamed("hips") != kNone || left == kNone || right == kNone) return;
-  if (const std::uint32_t hips = whereMeet(rig, rig.parents[left], rig.parents[right]); hips != kNone)
-    rig.parts.of[hips] = humanoidPart("hips");
-}
-
-// What goes on beyond the shoulders, in rigs that call neck and head a spine, too.
-void findHead(Rig& rig) {
-  const std::uint32_t left = rig.partNamed("leftUpperArm"), right = rig.partNamed("rightUpperArm");
-  if (rig.partNamed("neck") != kNone || rig.partNamed("head") != kNone || left == kNone || right == kNone)
-    return;
-  const std::uint32_t chest = whereMeet(rig, left, right);
-  if (chest == kNone) return;
-  for (auto top = std::uint32_t(rig.names.size()); top-- > 0;) {
-    const std::string_view own = rig.parts.of[top];
-    if (own != "spine" && own != "chest" && own != "upperChest") continue;
-    std::uint32_t first = top;
-    while (first != kNone && rig.parents[first] != chest) first = rig.parents[first];
-    if (first == kNone) continue;
-    rig.parts.of[top] = humanoidPart("head");
-    if (first != top) rig.parts.of[first] = humanoidPart("neck");
-    return;
-  }
-}
-
 // Names first; where these tell little, the skeleton's shape.
 void nameParts(Rig& rig) {
   rig.parts = humanoidNames(rig.names);
-  findHips(rig);
-  findHead(rig);
+  nameTrunk(rig);
   if (humanoidKeys(rig.parts.of) >= kHumanoidKeys / 2) return;
-  auto shape = humanoidShape(rig.parents, rig.centres, rig.tips);
-  if (humanoidKeys(shape) > humanoidKeys(rig.parts.of)) rig.parts = {"shape", std::move(shape)};
+  HumanoidNames names{"shape", humanoidShape(rig.parents, rig.centres, rig.tips)};
+  std::swap(rig.parts, names);
+  nameTrunk(rig);
+  if (humanoidKeys(rig.parts.of) <= humanoidKeys(names.of)) rig.parts = std::move(names);
 }
 
 }  // namespace
