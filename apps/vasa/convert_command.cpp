@@ -72,6 +72,7 @@ template <class Read>
 auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   if (options.scale > 0) return read(options.scale);
   if (!options.unit.empty()) return read(metresOfUnit(options.unit));
+  HeldWarnings ofFirst;  // reading again says them again
   auto found = read(1.0);
   if (!found) return found;
   const vec3 extent = extentOf(*found);
@@ -85,6 +86,7 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   logInfo(fmt::format(
       "read as millimetres, as the vessels would be {:.0f} m large in metres; --unit says otherwise",
       std::max({extent.x, extent.y, extent.z})));
+  ofFirst.drop();
   return read(likelyUnit(extent));
 }
 
