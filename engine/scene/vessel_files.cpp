@@ -41,6 +41,7 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
 template <class Read>
 auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame::Up up = ImportFrame::Up::y)
     -> decltype(read(VesselImport{})) {
+  HeldWarnings ofFirst;  // reading again says them again
   auto found = read(VesselImport{{1, up}, {}});
   const std::string extension = extensionOf(path);
   if (!found || extension == ".glb" || extension == ".gltf") return found;  // metres by definition
@@ -50,6 +51,7 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame:
   logInfo(path.string() + ": read as millimetres, as it would be " +
           std::to_string(int(std::max({extent.x, extent.y, extent.z}))) +
           " m large in metres; --unit of vasa convert and vasa fit says otherwise");
+  ofFirst.drop();
   return read(VesselImport{{unit, up}, {}});
 }
 
@@ -94,16 +96,6 @@ vec3 extentOf(const Centrelines& lines) {
   for (const Centrelines::Line& line : lines.lines)
     for (const vec4& sample : line.samples) box.add(vec3(sample));
   return box.empty() ? vec3(0) : box.extent();
-}
-
-double metresOfUnit(std::string_view name) {
-  for (const auto& [unit, metres] : {std::pair<std::string_view, double>{"m", 1},
-                                     {"cm", 0.01},
-                                     {"mm", 0.001},
-                                     {"in", 0.0254},
-                                     {"um", 1e-6}})
-    if (name == unit) return metres;
-  return 0;
 }
 
 double likelyUnit(vec3 extent) { return std::max({extent.x, extent.y, extent.z}) > kTallestBody ? 0.001 : 1; }
