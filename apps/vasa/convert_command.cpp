@@ -77,6 +77,7 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
     return read(options.scale);
   }
   if (!options.unit.empty()) return read(metresOfUnit(options.unit));
+  HeldWarnings ofFirst;  // reading again says them again
   auto found = read(1.0);
   if (!found) return found;
   const Aabb bounds = boundsOf(*found);
@@ -89,6 +90,7 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   }
   logInfo(fmt::format("vessels read as millimetres, as in metres {}; --unit says otherwise",
                       sizeInMetres(bounds)));
+  ofFirst.drop();
   return read(likelyUnit(bounds));
 }
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "core/visible.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 std::atomic<LogLevel> level{LogLevel::normal};
 std::mutex outputMutex;
+thread_local HeldWarnings* holder = nullptr;  // the innermost
 
 bool colourful() {
   static const bool yes = isatty(STDERR_FILENO) && !std::getenv("NO_COLOR");
@@ -40,11 +42,18 @@ void logInfo(std::string_view message) {
   if (level != LogLevel::quiet) write("", "", message);
 }
 void logWarning(std::string_view message) {
+  if (holder) return holder->warnings_.emplace_back(message), void();
   if (level != LogLevel::quiet) write("\x1b[33m", "warning: ", message);
 }
 void logError(std::string_view message) { write("\x1b[31m", "error: ", message); }
 void logDetail(std::string_view message) {
   if (level == LogLevel::verbose) write("", "", message);
+}
+
+HeldWarnings::HeldWarnings() : outer_(std::exchange(holder, this)) {}
+HeldWarnings::~HeldWarnings() {
+  holder = outer_;
+  for (const std::string& warning : warnings_) logWarning(warning);
 }
 
 struct ProgressLine::State {

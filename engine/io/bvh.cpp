@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
+#include "core/log.h"
 #include "io/read_limits.h"
+#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -11,10 +13,11 @@ namespace {
 
 constexpr std::size_t kMaximumBytes = std::size_t(1) << 29;
 constexpr std::size_t kMostJoints = 4096;
-constexpr std::size_t kMaximumMapBytes = std::size_t(1) << 20;
 constexpr int kDeepest = 256;
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kFarthest = 1e9;  // in any unit
+// No motion is recorded at less than a frame a second, and any is in milliseconds at more than 1 of them.
+constexpr double kLongestFrame = 1;  // [s]
 
 struct BrokenRule {
   std::size_t line;
@@ -25,8 +28,7 @@ enum class Channel : std::uint8_t { x, y, z, turnX, turnY, turnZ };
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name)
-      : rest_(withoutByteOrderMark(text)), bytes_(text.size()) {
+  Parser(std::string_view text, const std::string& name) : rest_(text), bytes_(text.size()) {
     motion_.name = name;
   }
 
@@ -41,11 +43,15 @@ class Parser {
       readJoint({}, 0);
     }
     readMotion();
+    passOverRest();
     return std::move(motion_);
   }
 
  private:
   [[noreturn]] void breaks(std::string rule) const { throw BrokenRule{line_, std::move(rule)}; }
+  void warn(const std::string& what) const {
+    logWarning(motion_.name + ":" + std::to_string(line_) + ": " + what);
+  }
 
   // Words across lines; the line counter follows the last word taken.
   std::string_view next() {
@@ -66,12 +72,13 @@ class Parser {
       line_ += rest_[i] == '\n';
     rest_.remove_prefix(i);
   }
-  std::string_view restOfLine() {
-    std::string_view line = rest_.substr(0, rest_.find('\n'));
-    rest_.remove_prefix(line.size());
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == line.npos) return {};
-    return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+  // Up to the line's end, or to the mark that begins a block.
+  std::string_view restOfHead() {
+    const std::string_view head = rest_.substr(0, rest_.find_first_of("{\n"));
+    rest_.remove_prefix(head.size());
+    const std::size_t first = head.find_first_not_of(" \t\r");
+    if (first == head.npos) return {};
+    return head.substr(first, head.find_last_not_of(" \t\r") - first + 1);
   }
   static std::string quoted(std::string_view word) {
     if (word.empty()) return "the file's end";
@@ -87,9 +94,10 @@ class Parser {
     if (!sameLetters(rest_.substr(0, word.size()), word)) return expect(word);
     rest_.remove_prefix(word.size());
   }
-  double number(const char* what) {
+  double number(const char* what) { return numberOf(next(), what); }
+  double numberOf(std::string_view word, const char* what) const {
     double value = 0;
-    if (const std::string_view word = next(); !parseNumber(word, value) || std::abs(value) > kFarthest)
+    if (!parseNumber(word, value) || std::abs(value) > kFarthest)
       breaks(std::string(what) + " must be a finite number, found " + quoted(word) +
              (word.empty()                  ? "; copy or export the file again"
               : word.find(',') != word.npos ? "; write decimal points, not commas"
@@ -113,12 +121,13 @@ class Parser {
     if (depth > kDeepest) breaks("joints are nested deeper than " + std::to_string(kDeepest));
     if (motion_.joints.size() >= kMostJoints) breaks("more than " + std::to_string(kMostJoints) + " joints");
     const JointId own{std::uint32_t(motion_.joints.size())};
-    motion_.joints.push_back({std::string(restOfLine()), parent});
+    motion_.joints.push_back({std::string(restOfHead()), parent});
     if (motion_.joints.back().name.empty()) breaks("a joint needs a name");
-    expect("{");
-    motion_.joints[own.value].offset = offset();
+    expectMark("{");
     channels_.emplace_back();
-    if (sameLetters(peek(), "CHANNELS")) next(), readChannels(own);
+    const bool channelsFirst = readChannels(own);  // as some write them
+    motion_.joints[own.value].offset = offset();
+    if (!channelsFirst) readChannels(own);
     for (std::string_view word = next(); word != "}"; word = next()) {
       if (sameLetters(word, "JOINT"))
         readJoint(own, depth + 1);
@@ -129,12 +138,15 @@ class Parser {
     }
   }
   void readEnd(JointId joint) {
-    expect("Site");
-    expect("{");
+    expectMark("Site");
+    restOfHead();  // some name it
+    expectMark("{");
     motion_.joints[joint.value].endOffset = offset();
     expect("}");
   }
-  void readChannels(JointId joint) {
+  bool readChannels(JointId joint) {
+    if (!sameLetters(peek(), "CHANNELS")) return false;
+    next();
     const std::int64_t count = whole("the number of channels", 6);
     for (std::int64_t i = 0; i < count; ++i) {
       static constexpr std::string_view kNames[] = {"Xposition", "Yposition", "Zposition",
@@ -148,6 +160,7 @@ class Parser {
       channels_[joint.value].push_back(channel);
       motion_.joints[joint.value].moves |= channel <= Channel::z;
     }
+    return true;
   }
 
   void readMotion() {
@@ -158,18 +171,20 @@ class Parser {
     expect("Frame");
     expectMark("Time:");
     const double seconds = number("the frame time");
-    if (!(seconds > 1e-5 && seconds < 1e4))
-      breaks("the frame time must be above zero seconds, found " + numberText(seconds));
+    if (!(seconds > 1e-5)) breaks("the frame time must be above zero seconds, found " + numberText(seconds));
+    if (seconds > kLongestFrame)
+      breaks("the frame time of " + numberText(seconds) +
+             " s is longer than a second; it is in seconds, not milliseconds: write " +
+             numberText(seconds / 1000) + " if it was meant as those");
     const double rate = 1 / seconds;
     motion_.framesPerSecond =
         float(std::abs(rate - std::round(rate)) < 0.005 * rate && rate >= 1 ? std::round(rate) : rate);
     const std::size_t total = motion_.frameCount * motion_.joints.size();
     // A value is two bytes of text at least: what is promised but not there costs no memory.
-    std::size_t perFrame = 0;
-    for (const auto& channels : channels_) perFrame += channels.size();
-    if (motion_.frameCount * perFrame > rest_.size() || perFrame == 0)
+    for (const auto& channels : channels_) perFrame_ += channels.size();
+    if (motion_.frameCount * perFrame_ > rest_.size() || perFrame_ == 0)
       breaks("the file holds fewer values than its " + std::to_string(motion_.frameCount) + " frames of " +
-             std::to_string(perFrame) + " channels need");
+             std::to_string(perFrame_) + " channels need");
     // Joints without channels take memory in every frame, too.
     if (const std::size_t wanted = total * (sizeof(quat) + sizeof(vec3)), most = partOfMemory(bytes_, 15, 48);
         wanted > most)
@@ -177,43 +192,98 @@ class Parser {
              " joints " + beyondMemory(wanted, most) + "; leave out joints that have no channels");
     motion_.rotations.reserve(total);
     motion_.translations.reserve(total);
-    for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame)
-      for (std::size_t j = 0; j < motion_.joints.size(); ++j) readValues(j);
+    values_.resize(perFrame_);
+    for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame) {
+      readFrame(frame);
+      const double* value = values_.data();
+      for (std::size_t j = 0; j < motion_.joints.size(); ++j) value = poseJoint(j, value);
+    }
   }
-  void readValues(std::size_t joint) {
+
+  // A frame is a row, or several where the first one is, and always ends with a row: what does not fit the
+  // hierarchy is found before it shifts all values behind it.
+  void readFrame(std::uint32_t frame) {
+    std::size_t found = readRow(0), rows = 1;
+    const std::size_t firstLine = line_, ofFirst = found;
+    if (found == 0)
+      breaks("the file ends after " + std::to_string(frame) + " of its " +
+             std::to_string(motion_.frameCount) +
+             " frames; copy or export it again, or write that number behind Frames:");
+    while (found < perFrame_ && (frame == 0 || wrapped_)) {
+      const std::size_t more = readRow(found);
+      if (more == 0) break;
+      found += more, ++rows;
+    }
+    wrapped_ |= rows > 1;
+    if (found == perFrame_) return;
+    // Of a first frame that fits no rows nobody knows how many were meant for it.
+    const bool one = rows == 1 || frame == 0;
+    line_ = firstLine;
+    breaks(
+        (one ? "this row holds " + std::to_string(ofFirst)
+             : "the " + std::to_string(rows) + " rows from here hold " + std::to_string(found)) +
+        " values, and the hierarchy has " + std::to_string(perFrame_) +
+        " channels; export the motion again (a joint that is taken out of the hierarchy leaves its columns)");
+  }
+  // The values of the next line that has any, behind those that a frame has already; those beyond a frame are
+  // counted only.
+  std::size_t readRow(std::size_t have) {
+    skipBlanks();
+    std::string_view line = rest_.substr(0, rest_.find('\n'));
+    rest_.remove_prefix(line.size());
+    std::size_t count = 0;
+    for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line), ++count)
+      if (have + count < perFrame_) values_[have + count] = numberOf(word, "a channel's value");
+    return count;
+  }
+  // Some put marks of an end behind the last row.
+  void passOverRest() {
+    const std::size_t last = rest_.find_last_not_of(std::string_view(" \t\r\n\0\x1a", 6));
+    rest_ = rest_.substr(0, last == rest_.npos ? 0 : last + 1);
+    if (const std::string_view word = peek(); sameLetters(word, "HIERARCHY")) {
+      warn("another motion begins here, and is not read; put it into a file of its own");
+    } else if (!word.empty()) {
+      warn(std::to_string(1 + std::ranges::count(rest_, '\n')) +
+           " lines from here on are not read: Frames: is " + std::to_string(motion_.frameCount) +
+           "; give their number there where they are frames, too");
+    }
+  }
+
+  const double* poseJoint(std::size_t joint, const double* value) {
     glm::dquat turn(1, 0, 0, 0);
     vec3 place = motion_.joints[joint].offset;
     for (const Channel channel : channels_[joint]) {
-      const double value = number("a channel's value");
       if (channel <= Channel::z)
-        place[int(channel)] = float(value);
+        place[int(channel)] = float(*value);
       else {
         dvec3 axis(0);
         axis[int(channel) - 3] = 1;
-        turn = turn * glm::angleAxis(value * kRadians, axis);
+        turn = turn * glm::angleAxis(*value * kRadians, axis);
       }
+      ++value;
     }
     motion_.rotations.push_back(quat(glm::normalize(turn)));
     motion_.translations.push_back(place);
+    return value;
   }
 
   std::string_view rest_;
   std::size_t bytes_, line_ = 1;
+  std::size_t perFrame_ = 0;    // values
+  std::vector<double> values_;  // of one frame
+  bool wrapped_ = false;        // a frame takes several rows
   std::vector<std::vector<Channel>> channels_;
   Motion motion_;
 };
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == text.npos ? std::string_view{}
-                            : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 }  // namespace
 
 Result<Motion> parseBvh(std::string_view text, const std::string& name) {
+  std::string kept;
+  const auto plain = plainText(text, name, kept);
+  if (!plain) return plain.error();
   try {
-    return Parser(text, name).run();
+    return Parser(*plain, name).run();
   } catch (const BrokenRule& broken) {
     return badInput(name + ":" + std::to_string(broken.line) + ": " + broken.rule);
   }
@@ -223,28 +293,6 @@ Result<Motion> readBvh(const std::filesystem::path& path) {
   const auto bytes = readFile(path, kMaximumBytes);
   if (!bytes) return bytes.error();
   return parseBvh({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
-}
-
-Result<JointMap> readJointMap(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMaximumMapBytes);
-  if (!bytes) return bytes.error();
-  return parseJointMap({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
-}
-
-Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
-  JointMap map;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    std::string_view line = nextLine(text);
-    line = trimmed(line.substr(0, line.find('#')));
-    if (line.empty()) continue;
-    const std::size_t sign = line.find('=');
-    const std::string_view from = trimmed(line.substr(0, sign));
-    if (sign == line.npos || from.empty())
-      return badInput(name + ":" + std::to_string(number) +
-                      ": a line must be `motion's joint = body's joint`");
-    map[std::string(from)] = std::string(trimmed(line.substr(sign + 1)));
-  }
-  return map;
 }
 
 }  // namespace vasa

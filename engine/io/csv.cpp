@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
+#include "io/text_file.h"
 
 namespace vasa::csv {
 
@@ -49,11 +50,14 @@ Result<vec3> parseVector(std::string_view text) {
 Result<Table> Table::read(const std::filesystem::path& path) {
   Result<std::vector<std::byte>> bytes = readFile(path);
   if (!bytes.ok()) return bytes.error();
-  const std::string_view content(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   Table table;
   table.name_ = path.filename().string();
+  std::string kept;
+  const auto content =
+      plainText({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, table.name_, kept);
+  if (!content) return content.error();
   int line = 0;
-  for (std::string_view text : split(content, '\n')) {
+  for (std::string_view text : split(*content, '\n')) {
     ++line;
     if (text.empty() || text.front() == '#') continue;
     const std::vector<std::string_view> cells = split(text, ',');

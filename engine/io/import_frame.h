@@ -1,4 +1,7 @@
 #pragma once
+#include <string_view>
+#include <utility>
+
 #include "math/types.h"
 
 namespace vasa {
@@ -20,6 +23,17 @@ struct ImportFrame {
     return up == Up::z ? dvec3(q.x, -q.z, q.y) : q;
   }
 };
+
+/// Lengths that files may be in [m]: "m", "cm", "mm", "in", "um"; 0 for another word.
+constexpr double metresOfUnit(std::string_view name) {
+  for (const auto& [unit, metres] : {std::pair<std::string_view, double>{"m", 1},
+                                     {"cm", 0.01},
+                                     {"mm", 0.001},
+                                     {"in", 0.0254},
+                                     {"um", 1e-6}})
+    if (name == unit) return metres;
+  return 0;
+}
 
 /// Coordinates beyond this many metres are taken for a wrong unit or a damaged file.
 constexpr double kLargestImportedCoordinate = 1e6;

@@ -1,9 +1,10 @@
 #include "io/obj.h"
 
-#include <charconv>
+#include <map>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "io/text_file.h"
 #include "io/words.h"
 #include "mesh/polygon.h"
 
@@ -21,9 +22,11 @@ struct Face {
 };
 
 struct Object {
-  std::string name;
-  std::size_t firstFace;
-  std::string_view material = {};  // of its first face, in the text
+  struct Run {
+    std::size_t first, end;  // of its faces, in the file's order
+  };
+  std::string name, material;  // the latter of its first face
+  std::vector<Run> runs;
 };
 // Longer ones name nothing that a reader knows; each object has a copy.
 constexpr std::size_t kLongestMaterial = 128;
@@ -34,25 +37,27 @@ class Reader {
       : path_(path), file_(path.string()), frame_(frame) {}
 
   Result<std::vector<MeshElement>> run(std::string_view text) {
-    text = withoutByteOrderMark(text);
+    std::string kept;
+    const auto plain = plainText(text, file_, kept);
+    if (!plain) return plain.error();
+    text = *plain;
     const std::size_t mostObjects = text.size() / kBytesAnObject + kFreeObjects;
     Checkpoints checkpoints;
     while (!text.empty()) {
       checkpoints.pass();
-      ++line_;
-      std::string_view line = nextLine(text);
+      std::string_view line = takeLine(text);
       const std::string_view keyword = nextWord(line);
       if (keyword == "v") {
         if (auto read = vertex(line); !read) return read.error();
       } else if (keyword == "f") {
         if (auto read = face(line); !read) return read.error();
-      } else if (keyword == "usemtl") {
-        material_ = restOf(line);
-      } else if (keyword == "o" || keyword == "g") {
-        begin(line);
         if (objects_.size() > mostObjects)
           return fail(line_, "more than the " + std::to_string(mostObjects) +
                                  " objects and groups accepted for a file of this size; split it");
+      } else if (keyword == "usemtl") {
+        material_ = restOf(line);
+      } else if (keyword == "o" || keyword == "g") {
+        begin(line, keyword == "g");
       }
     }
     if (faces_.empty())
@@ -76,13 +81,29 @@ class Reader {
            " vertices; export the file again";
   }
 
+  // A line, and those that a backslash at its end joins to it; a comment may end with a folder's name.
+  std::string_view takeLine(std::string_view& text) {
+    std::string_view line = nextLine(text);
+    ++line_;
+    const auto goesOn = [](std::string_view part) {
+      if (part.ends_with('\r')) part.remove_suffix(1);
+      return part.ends_with('\\');
+    };
+    if (!goesOn(line) || line.starts_with('#')) return line;
+    joined_.clear();
+    for (; goesOn(line); ++line_, line = nextLine(text))
+      joined_.append(line.substr(0, line.rfind('\\'))).append(1, ' ');
+    return joined_.append(line);
+  }
+
   Result<void> vertex(std::string_view line) {
     dvec3 place;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view word = nextWord(line);
       if (!parseNumber(word, place[axis]))
-        return fail(line_,
-                    "a vertex needs three finite numbers, found '" + std::string(word.substr(0, 40)) + "'");
+        return fail(line_, "a vertex needs three finite numbers, found '" + std::string(word.substr(0, 40)) +
+                               "'" +
+                               (word.find(',') != word.npos ? "; write decimal points, not commas" : ""));
       if (std::abs(place[axis]) * frame_.metresPerUnit > kLargestImportedCoordinate)
         return fail(line_,
                     "coordinate " + std::string(word.substr(0, 40)) +
@@ -100,16 +121,16 @@ class Reader {
   }
 
   Result<void> face(std::string_view line) {
-    if (objects_.empty()) objects_.push_back({{}, 0});
-    if (objects_.back().firstFace == faces_.size()) objects_.back().material = material_;
+    if (!inRun_) beginRun();
     faces_.push_back({corners_.size(), line_});
+    objects_[object_].runs.back().end = faces_.size();
     const auto vertices = std::int64_t(positions_.size());
     for (std::string_view word = nextWord(line); !word.empty() && word[0] != '#'; word = nextWord(line)) {
       const std::string_view number = word.substr(0, word.find('/'));
       std::int64_t index = 0;
       if (!parseInteger(number, index) || index == 0)
-        return fail(line_,
-                    "a face corner needs a vertex index, found '" + std::string(word.substr(0, 40)) + "'");
+        return fail(line_, "a face corner needs a vertex index, found '" + std::string(word.substr(0, 40)) +
+                               "'" + (number == "0" ? "; indices begin at 1: export the file again" : ""));
       if (index < -vertices || index > std::int64_t(0xffffffff)) return fail(line_, outside(index));
       corners_.push_back(std::uint32_t(index > 0 ? index - 1 : vertices + index));
     }
@@ -121,13 +142,23 @@ class Reader {
     return {};
   }
 
-  void begin(std::string_view line) {
-    std::string name;
+  void begin(std::string_view line, bool group) {
+    name_.clear();
     for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line))
-      name.append(name.empty() ? "" : " ").append(word);
-    // It has no faces.
-    if (!objects_.empty() && objects_.back().firstFace == faces_.size()) objects_.pop_back();
-    objects_.push_back({std::move(name), faces_.size()});
+      name_.append(name_.empty() ? "" : " ").append(word);
+    if (!group) groups_.clear();
+    group_ = group && !name_.empty();
+    inRun_ = false;
+  }
+  // The first face behind a line that names an object or a group: what has no faces is none. A group goes on
+  // where it is named again (as for each material of a surface), within one object: others have groups of the
+  // same names.
+  void beginRun() {
+    inRun_ = true;
+    object_ = objects_.size();
+    if (group_) object_ = groups_.try_emplace(name_, object_).first->second;
+    if (object_ == objects_.size()) objects_.push_back({name_, material_, {}});
+    objects_[object_].runs.push_back({faces_.size(), faces_.size()});
   }
 
   std::span<const std::uint32_t> cornersOf(std::size_t face) const {
@@ -140,49 +171,46 @@ class Reader {
     numbers_.assign(positions_.size(), kNone);
     std::vector<MeshElement> elements;
     elements.reserve(objects_.size());
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      Object& object = objects_[i];
+    for (Object& object : objects_) {
       MeshElement element{
-          object.name.empty() ? path_.stem().string() : std::move(object.name),
-          {},
-          {},
-          meshOf(object.firstFace, i + 1 < objects_.size() ? objects_[i + 1].firstFace : faces_.size())};
-      if (!object.material.empty()) element.surroundings.emplace_back(object.material);
+          object.name.empty() ? path_.stem().string() : std::move(object.name), {}, {}, meshOf(object.runs)};
+      if (!object.material.empty()) element.surroundings.push_back(std::move(object.material));
       if (!element.mesh.empty()) elements.push_back(std::move(element));
     }
     if (elements.empty()) return badInput(file_ + ": every face has lost its area; export the surface again");
     return elements;
   }
 
-  TriangleMesh meshOf(std::size_t first, std::size_t end) {
+  TriangleMesh meshOf(std::span<const Object::Run> runs) {
     TriangleMesh mesh;
-    std::vector<vec3> places;
-    std::vector<uvec3> cut;
-    std::vector<std::uint32_t> used;
+    used_.clear();
     Checkpoints checkpoints;
-    for (std::size_t face = first; face < end; ++face) {
-      checkpoints.pass();
-      const auto corners = cornersOf(face);
-      places.clear(), cut.clear();
-      for (const std::uint32_t corner : corners) places.push_back(positions_[corner]);
-      cutPolygon(places, cut);
-      for (const uvec3& t : cut) {
-        uvec3 triangle;
-        for (int k = 0; k < 3; ++k) {
-          std::uint32_t& number = numbers_[corners[t[k]]];
-          if (number == kNone) {
-            number = std::uint32_t(mesh.positions.size());
-            mesh.positions.push_back(places[t[k]]);
-            used.push_back(corners[t[k]]);
-          }
-          triangle[k] = number;
-        }
-        if (triangle.x != triangle.y && triangle.y != triangle.z && triangle.z != triangle.x)
-          mesh.triangles.push_back(triangle);
+    for (const auto [first, end] : runs)
+      for (std::size_t face = first; face < end; ++face) {
+        checkpoints.pass();
+        addFace(cornersOf(face), mesh);
       }
-    }
-    for (const std::uint32_t vertex : used) numbers_[vertex] = kNone;
+    for (const std::uint32_t vertex : used_) numbers_[vertex] = kNone;
     return mesh;
+  }
+  void addFace(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
+    places_.clear(), cut_.clear();
+    for (const std::uint32_t corner : corners) places_.push_back(positions_[corner]);
+    cutPolygon(places_, cut_);
+    for (const uvec3& t : cut_) {
+      uvec3 triangle;
+      for (int k = 0; k < 3; ++k) {
+        std::uint32_t& number = numbers_[corners[t[k]]];
+        if (number == kNone) {
+          number = std::uint32_t(mesh.positions.size());
+          mesh.positions.push_back(places_[t[k]]);
+          used_.push_back(corners[t[k]]);
+        }
+        triangle[k] = number;
+      }
+      if (triangle.x != triangle.y && triangle.y != triangle.z && triangle.z != triangle.x)
+        mesh.triangles.push_back(triangle);
+    }
   }
 
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -194,8 +222,16 @@ class Reader {
   std::vector<std::uint32_t> corners_;
   std::vector<Face> faces_;
   std::vector<Object> objects_;
-  std::string_view material_;           // of the faces to come
-  std::vector<std::uint32_t> numbers_;  // of the object in work, one a vertex
+  std::string joined_;                         // the line in work where it is of several
+  std::string name_, material_;                // of the faces to come
+  bool group_ = false;                         // the name is a group's
+  bool inRun_ = false;                         // faces of the name have come
+  std::size_t object_ = 0;                     // of the last face
+  std::map<std::string, std::size_t> groups_;  // of the file's object in work
+  std::vector<std::uint32_t> numbers_;         // of the object in work, one a vertex
+  std::vector<std::uint32_t> used_;            // vertices that have one
+  std::vector<vec3> places_;
+  std::vector<uvec3> cut_;  // of the face in work
 };
 
 }  // namespace

@@ -10,7 +10,8 @@
 namespace vasa {
 
 /// The objects and groups of a Wavefront OBJ file that have faces, in the file's order; polygons are cut into
-/// triangles (mesh/polygon.h). Each element holds the vertices its faces use, in the file's order; nothing is
+/// triangles (mesh/polygon.h). A group that is named again within its object goes on; a backslash at its end
+/// joins a line to the next. Each element holds the vertices its faces use, in the file's order; nothing is
 /// welded. An element without a name takes the file's. Normals, texture coordinates, lines, curves and
 /// materials are passed over; nothing but the file itself is opened. Fails with badInput, naming file and
 /// line: a vertex that is not three finite numbers or lies too far away, a face with fewer than three or more

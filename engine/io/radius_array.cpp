@@ -1,7 +1,9 @@
 #include "io/radius_array.h"
 
 #include <algorithm>
+#include <cctype>
 
+#include "io/import_frame.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -10,16 +12,56 @@ namespace {
 constexpr std::size_t kMostListed = 8;  // arrays in a message
 constexpr const char* kVmtk = "MaximumInscribedSphereRadius";
 
-// How likely an array tells radii, 0 the likeliest; the last ones tell diameters.
-constexpr int kNotAtAll = 5, kDiameters = 3;
-int rankOf(std::string_view name) {
-  if (name == kVmtk) return 0;
-  const std::string lower = lowerCase(name);
-  if (lower == "radius" || lower == "radii" || lower == "r") return 1;
-  if (lower.ends_with("radius") || lower.ends_with("radii")) return 2;
-  if (lower == "diameter" || lower == "diameters") return 3;
-  if (lower.ends_with("diameter") || lower.ends_with("diameters")) return 4;
-  return kNotAtAll;
+// Small letters, words and numbers apart: "max diameter mm" of "MaxDiameter (mm)".
+std::string wordsOf(std::string_view name) {
+  std::string words;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto c = static_cast<unsigned char>(name[i]);
+    const bool part = std::isalnum(c) || c >= 0x80;
+    const bool hump = i > 0 && std::isupper(c) && std::islower(static_cast<unsigned char>(name[i - 1]));
+    if ((!part || hump) && !words.empty() && words.back() != ' ') words += ' ';
+    if (part) words += char(std::tolower(c));
+  }
+  if (words.ends_with(' ')) words.pop_back();
+  return words;
+}
+
+// The last word where it is a unit, and others stand before it.
+std::string_view takeUnit(std::string_view& words) {
+  const std::size_t blank = words.rfind(' ');
+  if (blank == words.npos || metresOfUnit(words.substr(blank + 1)) == 0) return {};
+  const std::string_view unit = words.substr(blank + 1);
+  words = words.substr(0, blank);
+  return unit;
+}
+
+// How likely an array tells radii, 0 the likeliest.
+constexpr int kNotAtAll = 100;
+struct Meaning {
+  int rank = kNotAtAll;
+  RadiusChoice choice;
+};
+Meaning meaningOf(std::string_view name) {
+  if (name == kVmtk) return {0, {}};
+  const std::string all = wordsOf(name);
+  std::string_view words = all;
+  RadiusChoice choice{.unit = metresOfUnit(takeUnit(words))};
+  bool diameter = false;
+  const auto ends = [&](std::string_view word) {
+    if (!words.ends_with(word)) return false;
+    words.remove_suffix(word.size());
+    return true;
+  };
+  if (words == "r")
+    words = {};
+  else if (ends("diameter") || ends("diameters"))
+    diameter = true, choice.factor = 0.5;
+  else if (!ends("radius") && !ends("radii"))
+    return {};
+  for (const char* other : {"curv", "bend", "torsion"})
+    if (words.find(other) != words.npos) return {};
+  const bool least = words.starts_with("min") || words.find(" min") != words.npos;
+  return {1 + 2 * (words.empty() ? 0 : least ? 2 : 1) + diameter, choice};
 }
 
 std::string listed(std::span<const std::string> names) {
@@ -32,15 +74,28 @@ std::string listed(std::span<const std::string> names) {
 }  // namespace
 
 std::optional<RadiusChoice> chooseRadius(std::span<const std::string> names) {
-  const auto best = std::ranges::min_element(names, {}, [](const std::string& name) { return rankOf(name); });
-  if (best == names.end() || rankOf(*best) == kNotAtAll) return std::nullopt;
-  return RadiusChoice{std::size_t(best - names.begin()), rankOf(*best) >= kDiameters ? 0.5 : 1};
+  Meaning best;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const Meaning meaning = meaningOf(names[i]); meaning.rank < best.rank)
+      best = meaning, best.choice.array = i;
+  if (best.rank == kNotAtAll) return std::nullopt;
+  return best.choice;
 }
 
 std::string radiusRemark(const std::string& array, const RadiusChoice& choice, bool ofLines) {
   if (!ofLines && (array == kVmtk || array == "Radius" || array == "radius")) return {};
   return "radii are those of the array " + array.substr(0, 40) + (choice.factor < 1 ? ", halved" : "") +
-         (ofLines ? ", one a line" : "");
+         (choice.unit > 0 ? ", in the unit of its name" : "") + (ofLines ? ", one a line" : "");
+}
+
+std::string radiusFault(double radius, double metresPerUnit, std::size_t point) {
+  const std::string which = "radius " + numberText(radius) + " of point " + std::to_string(point);
+  if (!(radius >= 0))
+    return which +
+           " must be positive; mend it, or write 0 and it takes that of the nearest point of its line";
+  if (radius * metresPerUnit > kLargestImportedCoordinate)
+    return which + " is more than 1000 km; give the file's unit with vasa convert --unit";
+  return {};
 }
 
 std::string missingRadius(std::span<const std::string> ofPoints, std::span<const std::string> ofLines) {

@@ -13,15 +13,21 @@ namespace vasa {
 struct RadiusChoice {
   std::size_t array = 0;  ///< of the names
   double factor = 1;      ///< 0.5 where it tells diameters
+  double unit = 0;  ///< [m] of a length of it where its name says so ("radius_mm"), else 0: as the points
 };
 
-/// Which array tells radii: MaximumInscribedSphereRadius (VMTK), else "radius", "radii", "r", or a name that
-/// ends in one of the first two, else "diameter" or a name that ends so; capitals do not count. Of several
-/// the first of the best kind.
+/// Which array tells radii: MaximumInscribedSphereRadius (VMTK), else "radius", "radii", "r", else
+/// "diameter", else a name that ends in one of these words, radii before diameters and least ones
+/// ("MinRadius") last; capitals do not count, and a unit behind it may be told ("Max Diameter (mm)"). Radii
+/// of curvature are none of a vessel. Of several the first of the best kind.
 std::optional<RadiusChoice> chooseRadius(std::span<const std::string> names);
 
 /// What a reader says of radii that are not under VMTK's or its own name; empty where nothing is to be said.
 std::string radiusRemark(const std::string& array, const RadiusChoice& choice, bool ofLines);
+
+/// What is wrong with a radius, and what to do; empty where nothing is.
+/// @param point  its number, for the message
+std::string radiusFault(double radius, double metresPerUnit, std::size_t point);
 
 /// The remedy where no array fits: what there is, and what is looked for.
 std::string missingRadius(std::span<const std::string> ofPoints, std::span<const std::string> ofLines);

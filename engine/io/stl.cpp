@@ -5,11 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <string_view>
 #include <tuple>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -127,7 +129,7 @@ class AsciiReader {
       : file_(std::move(file)), name_(std::move(name)), words_(text), frame_(frame) {}
 
   Result<std::vector<MeshElement>> run() {
-    std::vector<MeshElement> elements;
+    std::vector<MeshElement> elements;  // named by their titles at first
     Welder welder;
     std::string title;
     Checkpoints checkpoints;
@@ -139,7 +141,7 @@ class AsciiReader {
       } else if (sameLetters(word, "endsolid")) {
         words_.restOfLine();
         if (TriangleMesh mesh = welder.mesh(); !mesh.empty())
-          elements.push_back({title.empty() ? name_ : title, {}, {}, std::move(mesh)});
+          elements.push_back({title, {}, {}, std::move(mesh)});
         welder = {};
       } else if (sameLetters(word, "facet")) {
         if (auto read = facet(welder); !read) return read.error();
@@ -149,10 +151,25 @@ class AsciiReader {
       }
     }
     if (!welder.mesh().empty()) return fail("the file ends before 'endsolid'; copy or export it again");
+    giveNames(elements);
     return elements;
   }
 
  private:
+  // What stands behind "solid" tells solids of a file apart; of a single one it is most often the exporter's
+  // own name, and the file's says more.
+  void giveNames(std::vector<MeshElement>& solids) const {
+    if (solids.size() == 1) solids.front().name = name_;
+    if (solids.size() < 2) return;
+    std::map<std::string, std::size_t> titles;
+    for (const MeshElement& solid : solids) ++titles[solid.name];
+    std::size_t number = 0;
+    for (MeshElement& solid : solids)
+      if (solid.name.empty() || titles[solid.name] > 1) {
+        do solid.name = name_ + " " + std::to_string(++number);
+        while (titles.contains(solid.name));
+      }
+  }
   Error fail(const std::string& what) const {
     return badInput(file_ + ":" + std::to_string(words_.line) + ": " + what);
   }
@@ -185,6 +202,14 @@ class AsciiReader {
   ImportFrame frame_;
 };
 
+Result<std::vector<MeshElement>> readAscii(const std::string& file, const std::string& name,
+                                           std::string_view text, const ImportFrame& frame) {
+  std::string kept;
+  const auto plain = plainText(text, file, kept);
+  if (!plain) return plain.error();
+  return AsciiReader(file, name, *plain, frame).run();
+}
+
 // Binary files may begin with "solid", too, but no text holds a zero byte.
 bool beginsAsText(std::string_view text) {
   const std::string_view line = text.substr(0, std::min(text.find('\n'), kHeaderBytes)),
@@ -204,11 +229,12 @@ Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, cons
   const bool fitsBinary =
       bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
+  if (!fitsBinary && isUtf16(text)) return badInput(file + ": " + kNotUtf8);
   const bool ascii = !fitsBinary && beginsAsText(text);
   if (!ascii && bytes.size() < kHeaderBytes)
     return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) +
                     " bytes; copy or export it again");
-  auto elements = ascii ? AsciiReader(file, name, text, frame).run() : readBinary(file, name, bytes, frame);
+  auto elements = ascii ? readAscii(file, name, text, frame) : readBinary(file, name, bytes, frame);
   if (!elements) return elements;
   if (elements->empty() || elements->front().mesh.empty())
     return badInput(file + ": the file has no triangles with an area; export the surface again");

@@ -11,7 +11,8 @@ namespace vasa {
 
 /// The solids of an STL file, ASCII or binary: a file whose length fits its binary count is binary, whatever
 /// its first word. Corners at exactly the same place become one vertex, and triangles that lose a corner
-/// thereby are dropped. A solid without a name takes the file's. Stored normals are passed over.
+/// thereby are dropped. A single solid takes the file's name; of several each its title, and where that is
+/// empty or another's, too, the file's name and a number. Stored normals are passed over.
 /// Fails with badInput, naming file and place: a file cut short, a coordinate that is not finite or too far
 /// away, a facet without three corners, no triangles.
 Result<std::vector<MeshElement>> readStl(const std::filesystem::path& path, const ImportFrame& frame = {});

@@ -5,6 +5,7 @@
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/log.h"
+#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -25,8 +26,11 @@ class Reader {
   Reader(const std::string& name, const ImportFrame& frame) : name_(name), frame_(frame) {}
 
   Result<std::vector<SwcSample>> run(std::string_view text) {
+    std::string kept;
+    const auto plain = plainText(text, name_, kept);
+    if (!plain) return plain.error();
+    text = *plain;
     Checkpoints checkpoints;
-    text = withoutByteOrderMark(text);
     for (std::size_t line = 1; !text.empty(); ++line, checkpoints.pass())
       if (auto read = readLine(nextLine(text), line); !read) return read.error();
     if (rows_.empty()) return badInput(name_ + ": the file has no samples; a line of it is: " + kLine);

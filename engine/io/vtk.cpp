@@ -11,6 +11,7 @@
 #include "core/cancellation.h"
 #include "core/log.h"
 #include "io/radius_array.h"
+#include "io/text_file.h"
 #include "io/vtk_sections.h"
 #include "io/vtp_data.h"
 #include "io/words.h"
@@ -36,12 +37,13 @@ vec3 placed(const dvec3& p, const ImportFrame& frame, std::size_t number) {
 struct Radii {
   std::string array;
   std::vector<double> values;  // one a point
+  double metresPerUnit = 1;
   std::string remark;
 };
 
 // Of points, else of lines; `lines` are the file's cells `kept`, which are told behind `before` others.
 Radii radiiOf(const Sections& file, std::span<const std::vector<std::uint32_t>> lines,
-              std::span<const std::size_t> kept, std::size_t before) {
+              std::span<const std::size_t> kept, std::size_t before, const ImportFrame& frame) {
   std::vector<std::string> names[2];
   for (const auto& [name, values] : file.pointData)
     if (values.size() == file.points.size()) names[0].push_back(name);
@@ -50,7 +52,10 @@ Radii radiiOf(const Sections& file, std::span<const std::vector<std::uint32_t>> 
   for (const bool ofLines : {false, true}) {
     const auto choice = chooseRadius(names[ofLines]);
     if (!choice) continue;
-    Radii radii{names[ofLines][choice->array], {}, {}};
+    Radii radii{names[ofLines][choice->array],
+                {},
+                choice->factor * (choice->unit > 0 ? choice->unit : frame.metresPerUnit),
+                {}};
     radii.remark = radiusRemark(radii.array, *choice, ofLines);
     if (ofLines) {
       const std::vector<double>& all = file.cellData.at(radii.array);
@@ -60,10 +65,16 @@ Radii radiiOf(const Sections& file, std::span<const std::vector<std::uint32_t>> 
     } else {
       radii.values = file.pointData.at(radii.array);
     }
-    for (double& value : radii.values) value *= choice->factor;
     return radii;
   }
   breaks("POINT_DATA", missingRadius(names[0], names[1]));
+}
+
+bool tellsRadii(const Sections& file) {
+  std::vector<std::string> names;
+  for (const auto* data : {&file.pointData, &file.cellData})
+    for (const auto& [name, values] : *data) names.push_back(name);
+  return chooseRadius(names).has_value();
 }
 
 VtpLines linesOf(const Sections& file, const ImportFrame& frame, std::string& remark) {
@@ -76,12 +87,13 @@ VtpLines linesOf(const Sections& file, const ImportFrame& frame, std::string& re
   for (std::size_t i = 0; i < lines->second.size(); ++i)
     if (const auto line = lines->second[i]; line.size() > 1)
       kept.push_back(i), out.lines.emplace_back(line.begin(), line.end());
-  const Radii radii = radiiOf(file, out.lines, kept, before);
+  const Radii radii = radiiOf(file, out.lines, kept, before, frame);
   remark = radii.remark;
   for (std::size_t i = 0; i < file.points.size(); ++i) {
-    if (!(radii.values[i] >= 0)) breaks(radii.array, "of point " + std::to_string(i) + " must be positive");
+    if (const std::string fault = radiusFault(radii.values[i], radii.metresPerUnit, i); !fault.empty())
+      breaks(radii.array, fault);
     out.points.push_back(
-        vec4(placed(file.points[i], frame, i), float(radii.values[i] * frame.metresPerUnit)));
+        vec4(placed(file.points[i], frame, i), float(radii.values[i] * radii.metresPerUnit)));
   }
   for (const auto& [name, values] : file.cellData) {
     if (values.size() < before + lines->second.size()) continue;
@@ -120,6 +132,22 @@ TriangleMesh surfaceOf(const Sections& file, const ImportFrame& frame) {
   return mesh;
 }
 
+std::string_view textOf(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+// Some editors put a mark before it.
+bool isLegacy(std::string_view text) { return text.substr(0, 17).find("# vtk DataFile") != text.npos; }
+
+// Edges that some program drew on a surface. What cannot be read is not without: reading says why.
+bool withoutRadii(std::span<const std::byte> bytes, bool legacy, std::string_view text) {
+  if (!legacy) return !vtpTellsRadii(bytes);
+  try {
+    return !tellsRadii(sectionsOf(text));
+  } catch (const BrokenRule&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void addPolygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
@@ -140,7 +168,10 @@ void addStrip(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
 VtkContent vtkContent(const std::filesystem::path& path) {
   const auto bytes = readFile(path, kMaximumBytes);
   if (!bytes) return VtkContent::nothing;
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  std::string_view text = textOf(*bytes);
+  std::string kept;
+  const bool legacy = isLegacy(text);
+  if (legacy) text = *plainText(text, {}, kept);
   const auto counted = [&](std::string_view mark, char quote) {
     for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + mark.size())) {
       std::string_view rest = text.substr(at + mark.size(), 24);
@@ -150,21 +181,21 @@ VtkContent vtkContent(const std::filesystem::path& path) {
     }
     return false;
   };
-  if (text.starts_with("# vtk DataFile")) {
-    if (counted("\nLINES ", 0)) return VtkContent::lines;
-    return counted("\nPOLYGONS ", 0) || counted("\nTRIANGLE_STRIPS ", 0) ? VtkContent::surface
-                                                                         : VtkContent::nothing;
-  }
-  if (counted("NumberOfLines=", '"')) return VtkContent::lines;
-  return counted("NumberOfPolys=", '"') || counted("NumberOfStrips=", '"') ? VtkContent::surface
-                                                                           : VtkContent::nothing;
+  const bool lines = legacy ? counted("\nLINES ", 0) : counted("NumberOfLines=", '"'),
+             faces = legacy ? counted("\nPOLYGONS ", 0) || counted("\nTRIANGLE_STRIPS ", 0)
+                            : counted("NumberOfPolys=", '"') || counted("NumberOfStrips=", '"');
+  if (lines && !(faces && withoutRadii(*bytes, legacy, text))) return VtkContent::lines;
+  return faces ? VtkContent::surface : VtkContent::nothing;
 }
 
 Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name,
                                const ImportFrame& frame) {
+  std::string kept;
+  const auto plain = plainText(textOf(bytes), name, kept);
+  if (!plain) return plain.error();
   try {
     std::string remark;
-    VtpLines lines = linesOf(sectionsOf(bytes), frame, remark);
+    VtpLines lines = linesOf(sectionsOf(*plain), frame, remark);
     if (!remark.empty()) logWarning(name + ": " + remark);
     return lines;
   } catch (const BrokenRule& broken) {
@@ -181,11 +212,13 @@ Result<VtpLines> readVtkLines(const std::filesystem::path& path, const ImportFra
 Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> bytes,
                                                  const std::filesystem::path& path,
                                                  const ImportFrame& frame) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   TriangleMesh mesh;
-  if (text.starts_with("# vtk DataFile")) {
+  if (isLegacy(textOf(bytes))) {
+    std::string kept;
+    const auto plain = plainText(textOf(bytes), path.string(), kept);
+    if (!plain) return plain.error();
     try {
-      mesh = surfaceOf(sectionsOf(bytes), frame);
+      mesh = surfaceOf(sectionsOf(*plain), frame);
     } catch (const BrokenRule& broken) {
       return badInput(path.string() + ": " + broken.place + ": " + broken.rule);
     }

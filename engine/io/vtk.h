@@ -10,8 +10,9 @@ namespace vasa {
 
 enum class VtkContent { nothing, lines, surface };
 
-/// What a file is about, told by its counts: lines where it has any, else a surface. Files that cannot be
-/// read, or hold neither, hold nothing; reading them says why.
+/// What a file is about, told by its counts: lines where it has any, else a surface; that, too, where it has
+/// faces and no array tells radii of its lines. Files that cannot be read, or hold neither, hold nothing;
+/// reading them says why.
 VtkContent vtkContent(const std::filesystem::path& path);
 
 /// The lines of a legacy file, as readVtp gives them.

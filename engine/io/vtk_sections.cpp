@@ -236,8 +236,6 @@ class Reader {
 
 }  // namespace
 
-Sections sectionsOf(std::span<const std::byte> bytes) {
-  return Reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).run();
-}
+Sections sectionsOf(std::string_view text) { return Reader(text).run(); }
 
 }  // namespace vasa::vtk

@@ -3,6 +3,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct Sections {
   std::map<std::string, std::vector<double>> pointData, cellData;
 };
 
-/// Throws BrokenRule.
-Sections sectionsOf(std::span<const std::byte> bytes);
+/// Throws BrokenRule. @param text  plain (io/text_file.h)
+Sections sectionsOf(std::string_view text);
 
 }  // namespace vasa::vtk

@@ -7,6 +7,7 @@
 
 #include "io/base64.h"
 #include "io/read_limits.h"
+#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa::vtk {
@@ -67,6 +68,7 @@ std::int64_t countOf(const XMLElement& piece, const char* name, const std::strin
 
 XmlFile::XmlFile(std::span<const std::byte> bytes) : mostContent_(partOfMemory(bytes.size(), 6, 16)) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (isUtf16(text)) breaks("/", kNotUtf8);
   std::string xml(takeAppended(text));
   if (const std::size_t memory = xmlMemory(xml), most = partOfMemory(bytes.size(), 10, 24); memory > most)
     breaks("/", "the XML " + beyondMemory(memory, most) + "; split or reduce it");

@@ -74,6 +74,15 @@ class Reader {
       readFaces(*piece, "/VTKFile/PolyData/Piece[" + std::to_string(number++) + "]", mesh);
     return mesh;
   }
+  bool tellsRadii() {
+    const XMLElement& data = file_.polyData();
+    for (const XMLElement* piece = data.FirstChildElement("Piece"); piece;
+         piece = piece->NextSiblingElement("Piece"))
+      if (vtk::countOf(*piece, "NumberOfLines", "/VTKFile/PolyData/Piece") > 0)
+        for (const char* kind : {"PointData", "CellData"})
+          if (chooseRadius(scalarsOf(piece->FirstChildElement(kind)).names)) return true;
+    return false;
+  }
   std::string remark;  ///< on what was read
 
  private:
@@ -196,13 +205,11 @@ class Reader {
       radii = radiiOfPoints(out_.points.size(), std::span(out_.lines).subspan(firstLine), ofLine);
       radii.erase(radii.begin(), radii.begin() + firstPoint);
     }
+    const double metresPerUnit = choice.factor * (choice.unit > 0 ? choice.unit : frame_.metresPerUnit);
     for (std::size_t i = 0; i < points; ++i) {
-      const double radius = choice.factor * radii[i] * frame_.metresPerUnit;
-      if (!(radius >= 0) || radius > kLargestImportedCoordinate)
-        breaks(own,
-               "radius " + numberText(radii[i]) + " of point " + std::to_string(i) +
-                   " must be positive, and no more than 1000 km; vasa convert --unit gives the file's unit");
-      out_.points[firstPoint + i].w = float(radius);
+      if (const std::string fault = radiusFault(radii[i], metresPerUnit, i); !fault.empty())
+        breaks(own, fault);
+      out_.points[firstPoint + i].w = float(radii[i] * metresPerUnit);
     }
     remark = radiusRemark(name, choice, !byPoint);
   }
@@ -293,6 +300,14 @@ class Reader {
 const VtpLines::CellArray* VtpLines::find(std::string_view name) const {
   const auto found = std::ranges::find(cellArrays, name, &CellArray::name);
   return found == cellArrays.end() ? nullptr : &*found;
+}
+
+bool vtpTellsRadii(std::span<const std::byte> bytes) {
+  try {
+    return Reader(bytes, {}).tellsRadii();
+  } catch (const BrokenRule&) {
+    return true;
+  }
 }
 
 Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name,

@@ -26,19 +26,21 @@ struct VtpLines {
 };
 
 /// Reads the lines of a .vtp file: data in the text, in base64 or appended, plain or zlib-compressed, of any
-/// numeric type and byte order. The radius is the point array MaximumInscribedSphereRadius, or else Radius; a
-/// radius of zero becomes that of the nearest point of its line that has one, with a warning. Verts, strips,
-/// polygons and other arrays are passed over.
-/// Fails with badInput, naming file and place: XML that is not well formed, no PolyData, data cut short or
-/// not decodable, counts that disagree, a point index out of range, a value that is not finite or a radius
-/// below zero, no lines, no radius. More than a file of so many bytes may ask for is refused before it is
-/// unpacked: six times as many bytes of data and 16 MiB, a point for 4 bytes and 500,000, a line for 16 and
-/// 100,000 (io/read_limits.h).
+/// numeric type and byte order. The radius is the point array MaximumInscribedSphereRadius, or else another
+/// one (io/radius_array.h); a radius of zero becomes that of the nearest point of its line that has one, with
+/// a warning. Verts, strips, polygons and other arrays are passed over. Fails with badInput, naming file and
+/// place: XML that is not well formed, no PolyData, data cut short or not decodable, counts that disagree, a
+/// point index out of range, a value that is not finite or a radius below zero, no lines, no radius. More
+/// than a file of so many bytes may ask for is refused before it is unpacked: six times as many bytes of data
+/// and 16 MiB, a point for 4 bytes and 500,000, a line for 16 and 100,000 (io/read_limits.h).
 Result<VtpLines> readVtp(const std::filesystem::path& path, const ImportFrame& frame = {});
 
 /// The same from memory. @param name  for messages
 Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name,
                           const ImportFrame& frame = {});
+
+/// Whether a piece with lines has an array of radii; true, too, where the file cannot be read.
+bool vtpTellsRadii(std::span<const std::byte> bytes);
 
 /// The polygons and strips of such a file, cut into triangles; empty where there are none. Fails in the same
 /// way.

@@ -10,11 +10,6 @@
 // Plain text taken apart without copying.
 namespace vasa {
 
-/// The text behind the mark that some editors put before UTF-8.
-inline std::string_view withoutByteOrderMark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
-
 /// Takes the first word off a line; empty when there is none left.
 inline std::string_view nextWord(std::string_view& line, std::string_view blanks = " \t\r") {
   const std::size_t start = line.find_first_not_of(blanks);

@@ -49,14 +49,16 @@ float farthest(const Aabb& bounds) { return bounds.empty() ? 0 : bounds.distance
 template <class Read>
 auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame::Up up = ImportFrame::Up::y)
     -> decltype(read(VesselImport{})) {
+  HeldWarnings ofFirst;  // reading again says them again
   auto found = read(VesselImport{{1, up}, {}});
   const std::string extension = extensionOf(path);
   if (!found || extension == ".glb" || extension == ".gltf") return found;  // metres by definition
   const Aabb bounds = boundsOf(*found);
   const double unit = likelyUnit(bounds);
   if (unit == 1) return found;
-  logInfo(path.string() + ": vessels read as millimetres, as in metres " + sizeInMetres(bounds) +
+  logInfo(path.string() + ": read as millimetres, as in metres " + sizeInMetres(bounds) +
           "; --unit of vasa convert and vasa fit says otherwise");
+  ofFirst.drop();
   return read(VesselImport{{unit, up}, {}});
 }
 
@@ -101,16 +103,6 @@ Aabb boundsOf(const Centrelines& lines) {
   for (const Centrelines::Line& line : lines.lines)
     for (const vec4& sample : line.samples) box.add(vec3(sample));
   return box;
-}
-
-double metresOfUnit(std::string_view name) {
-  for (const auto& [unit, metres] : {std::pair<std::string_view, double>{"m", 1},
-                                     {"cm", 0.01},
-                                     {"mm", 0.001},
-                                     {"in", 0.0254},
-                                     {"um", 1e-6}})
-    if (name == unit) return metres;
-  return 0;
 }
 
 double likelyUnit(const Aabb& bounds) {

@@ -12,9 +12,6 @@
 // Vessels out of files that other programs wrote.
 namespace vasa {
 
-/// Lengths that files may be in [m]: "m", "cm", "mm", "in", "um"; 0 for another word.
-double metresOfUnit(std::string_view name);
-
 /// The one rule for files that do not say: metres, or millimetres where in metres they would be taller than
 /// kTallestBody or farther from the origin than kFarthestBody, as one vessel of a scan is.
 /// @param bounds  of all vessels, in the file's unit

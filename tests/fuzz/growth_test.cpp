@@ -327,6 +327,19 @@ TEST_CASE("OBJ of nasty shapes grows in proportion") {
         [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "f 1 2 3\n"); }},
        {"objects", 10'000,
         [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "o a\nf 1 2 3\n"); }},
+       {"groups in turn", 20'000,
+        [](std::size_t n) {
+          return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "g a\nf 1 2 3\ng b\nf 1 2 3\n");
+        }},
+       {"groups", 10'000,
+        [](std::size_t n) {
+          return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" +
+                 times(n, [](std::size_t i) { return "g a" + of(i) + "\nf 1 2 3\n"; });
+        }},
+       {"one line of many", 100'000,
+        [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl a" + times(n, "\\\n"); }},
+       {"lines of two", 20'000,
+        [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + times(n, "f 1\\\r\n2 3\r\n"); }},
        {"objects without faces", 20'000,
         [](std::size_t n) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + times(n, "g a\n"); }},
        {"vertices", 20'000, [](std::size_t n) { return times(n, "v 0 0 0\n") + "f 1 2 3\n"; }}},
@@ -339,6 +352,13 @@ TEST_CASE("STL of nasty shapes grows in proportion") {
            " endloop endfacet\n";
   };
   checkGrowth({{"facets", 3'000, [&](std::size_t n) { return "solid a\n" + times(n, facet) + "endsolid\n"; }},
+               {"solids of one name that are numbered by others", 3'000,
+                [&](std::size_t n) {
+                  return times(n, [&](std::size_t i) {
+                    return "solid f " + of(i) + "\n" + facet(i) + "endsolid\nsolid\n" + facet(i) +
+                           "endsolid\n";
+                  });
+                }},
                {"solids", 3'000,
                 [&](std::size_t n) {
                   return times(n, [&](std::size_t i) { return "solid a\n" + facet(i) + "endsolid\n"; });
@@ -422,9 +442,17 @@ TEST_CASE("BVH and joint maps of nasty shapes grow in proportion") {
            times(joints, "JOINT b\n{\nOFFSET 0 0 0\n}\n") + "}\nMOTION\nFrames: " + of(frames) +
            "\nFrame Time: 0.01\n" + times(frames, "0\n");
   };
-  checkGrowth({{"frames", 10'000, [&](std::size_t n) { return motion(1, n); }},
-               {"frames of joints without channels", 5'000, [&](std::size_t n) { return motion(4000, n); }}},
-              [](const std::string& file) { return messageOf(parseBvh(file, "f")); });
+  const auto rows = [](std::size_t n, const std::string& end) {
+    return "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 2 Xrotation Yrotation\n}\nMOTION\nFrames: " + of(n) +
+           "\nFrame Time: 0.01\n" + times(n, "0\n0\n") + end;
+  };
+  checkGrowth(
+      {{"frames", 10'000, [&](std::size_t n) { return motion(1, n); }},
+       {"frames of two rows", 10'000, [&](std::size_t n) { return rows(n, {}); }},
+       {"rows behind the last frame", 20'000, [&](std::size_t n) { return rows(3, times(n, "0 0\n")); }},
+       {"a long row", 50'000, [&](std::size_t n) { return rows(3, times(n, "0 ")); }},
+       {"frames of joints without channels", 5'000, [&](std::size_t n) { return motion(4000, n); }}},
+      [](const std::string& file) { return messageOf(parseBvh(file, "f")); });
   checkGrowth({{"pairs", 10'000,
                 [](std::size_t n) { return times(n, [](std::size_t i) { return of(i) + "=\n"; }); }}},
               [](const std::string& file) { return messageOf(parseJointMap(file, "f")); });

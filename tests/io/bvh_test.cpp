@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "core/atomic_file.h"
 #include "support/shared_data.h"
 
@@ -62,6 +64,52 @@ TEST_CASE("BVH of others: a byte order mark, no blank before the numbers") {
   expectFault("; a motion of another kind", "begins with HIERARCHY");
 }
 
+TEST_CASE("dialects of BVH: braces behind names, channels first, named ends, carriage returns") {
+  std::string text =
+      "HIERARCHY\nROOT Hips {\n CHANNELS 3 Zrotation Xrotation Yrotation\n OFFSET 0 1 0\n JOINT Left Leg{ OFFSET 0 -1 0\n"
+      "  End Site Left Toe {\n OFFSET 0 -2 0\n }\n }\n}\nMOTION\nFrames: 2\nFrame Time: 1\n1 2 3\n4 5 6\n";
+  for (const char end : {'\n', '\r'}) {
+    std::ranges::replace(text, '\n', end);
+    const auto motion = parseBvh(text, "a.bvh");
+    if (!motion.ok()) FAIL(motion.error().message);
+    REQUIRE(motion->joints.size() == 2);
+    CHECK(motion->joints[0].name == "Hips");
+    CHECK(motion->joints[1].name == "Left Leg");
+    CHECK(motion->joints[1].endOffset == vec3(0, -2, 0));
+    CHECK(motion->frameCount == 2);
+  }
+  expectFault(std::string("\xFF\xFEH\0I\0", 6), "a.bvh: the text is UTF-16; save it as UTF-8");
+  expectFault(std::string("H\0I\0E\0", 6), "UTF-16");
+  expectFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 33.3333\n1 2 3 0 0 0 0 0 0\n",
+              "in seconds, not milliseconds: write 0.0333333");
+}
+
+TEST_CASE("BVH frames are rows: what does not fit the hierarchy is named with its row") {
+  const std::string motion = kHierarchy + "MOTION\nFrames: 3\nFrame Time: 0.1\n";
+  const std::string row = "1 2 3 4 5 6 7 8 9\n", narrow = "1 2 3 4 5 6 7 8\n",
+                    broad = "1 2 3 4 5 6 7 8 9 10\n";
+  expectFault(
+      motion + broad + broad + broad,
+      "a.bvh:19: this row holds 10 values, and the hierarchy has 9 channels; export the motion again");
+  expectFault(motion + narrow + narrow + narrow + narrow, "a.bvh:19: this row holds 8 values");
+  expectFault(motion + row + narrow + row + row, "a.bvh:20: this row holds 8 values");
+  expectFault(motion + row + row + narrow, "a.bvh:21: this row holds 8 values");
+  expectFault(motion + row + row + "      \n", "the file ends after 2 of its 3 frames");
+  // Over several rows.
+  const std::string wrapped = "1 2 3 4\n5 6 7 8\n\n9\n";
+  const auto read = parseBvh(motion + wrapped + wrapped + wrapped.substr(0, wrapped.size() - 1), "a.bvh");
+  if (!read.ok()) FAIL(read.error().message);
+  CHECK(read->translation(2, 0) == vec3(1, 2, 3));
+  expectFault(motion + wrapped + "1 2 3 4\n5 6 7\n9\n" + wrapped,
+              "a.bvh:23: the 4 rows from here hold 12 values");
+  // What stands behind the last frame is told, and no reason to refuse the others.
+  for (const std::string& rest : {row, kHierarchy, std::string(" \r\n\0\x1a", 5)}) {
+    const auto more = parseBvh(motion + row + row + row + rest, "a.bvh");
+    if (!more.ok()) FAIL(more.error().message);
+    CHECK(more->frameCount == 3);
+  }
+}
+
 TEST_CASE("what is wrong with a BVH file is told with its line") {
   const std::string motion = "MOTION\nFrames: 1\nFrame Time: 0.1\n";
   expectFault("", "a.bvh:1: a motion in .bvh begins with HIERARCHY, found the file's end");
@@ -79,7 +127,7 @@ TEST_CASE("what is wrong with a BVH file is told with its line") {
   expectFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 0\n", "must be above zero");
   expectFault(kHierarchy + "MOTION\nFrames: 9999999\nFrame Time: 0.1\n", "fewer values");
   expectFault(kHierarchy + motion + "1 2 3 4 5 6 7 8 x         \n", "found 'x'");
-  expectFault(kHierarchy + motion + "1 2 3 4 5 6 7 8           \n", "found the file's end");
+  expectFault(kHierarchy + motion + "1 2 3 4 5 6 7 8           \n", "this row holds 8 values");
   std::string deep = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n";
   for (int i = 0; i < 400; ++i) deep += "JOINT b\n{\nOFFSET 0 0 0\n";
   expectFault(deep, "nested deeper than 256");

@@ -56,6 +56,43 @@ TEST_CASE("an OBJ's object knows the material of its first face, what comes befo
   CHECK((*elements)[2].surroundings == std::vector<std::string>{"red"});
 }
 
+TEST_CASE("an OBJ's group that is named again goes on, within its object") {
+  ObjFile file;
+  const auto elements =
+      file.read(std::string(kSquare) + "g a\nusemtl red\nf 1 2 3\ng b\nf 1 2 4\ng a\nusemtl blue\nf 1 3 4\n");
+  REQUIRE(elements.ok());
+  REQUIRE(elements->size() == 2);
+  CHECK((*elements)[0].name == "a");
+  CHECK((*elements)[0].mesh.triangles.size() == 2);
+  CHECK((*elements)[0].mesh.positions.size() == 4);
+  CHECK((*elements)[0].surroundings == std::vector<std::string>{"red"});
+  CHECK((*elements)[1].name == "b");
+  CHECK((*elements)[1].mesh.triangles.size() == 1);
+  // Groups of others, and groups without a name, are their own.
+  const auto apart =
+      file.read(std::string(kSquare) +
+                "o left\ng default\nf 1 2 3\no right\ng default\nf 1 3 4\ng\nf 1 2 3\ng\nf 1 2 4\n");
+  REQUIRE(apart.ok());
+  CHECK(apart->size() == 4);
+}
+
+TEST_CASE("an OBJ's lines go on behind a backslash, and may end with carriage returns") {
+  ObjFile file;
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text =
+        "# C:\\tubes\\\nv 0 0 0\nv 1 \\\n0 0\nv 1 2 0\nusemtl Portal \\\nvein\no a\nf 1 \\\n2 \\\n3\n";
+    for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += end.size())
+      text.replace(at, 1, end);
+    const auto elements = file.read(text);
+    if (!elements.ok()) FAIL(elements.error().message);
+    CHECK(elements->front().name == "a");
+    CHECK(elements->front().mesh.area() == doctest::Approx(1));
+    REQUIRE(elements->front().surroundings.size() == 1);
+  }
+  CHECK(contains(file.fault("v 0 \\\n0 x\n"), "vessel.obj:2: a vertex needs"));
+  CHECK(file.read(std::string(kSquare) + "f 1 2 3 \\").ok());
+}
+
 TEST_CASE("an OBJ in millimetres with Z up comes out in metres with Y up") {
   ObjFile file;
   const auto elements =
@@ -76,7 +113,10 @@ TEST_CASE("faults of an OBJ are named with file and line") {
   CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 7\n"),
                  ":5: face index 7 lies outside the 4 vertices"));
   CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 -9\n"), "face index -9"));
-  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 0\n"), "needs a vertex index"));
+  CHECK(contains(file.fault(std::string(kSquare) + "f 1 2 0\n"),
+                 "needs a vertex index, found '0'; indices begin at 1"));
+  CHECK(contains(file.fault("v 0,5 0 0\n"), "write decimal points, not commas"));
+  CHECK(contains(file.fault(std::string("\xFF\xFEv\0 \0", 6)), "the text is UTF-16; save it as UTF-8"));
   CHECK(contains(file.fault(std::string(kSquare) + "f a b c\n"), "needs a vertex index, found 'a'"));
   CHECK(contains(file.fault(kSquare), "has no faces"));
   CHECK(contains(file.fault(""), "has no faces"));

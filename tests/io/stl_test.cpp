@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <limits>
@@ -66,8 +67,37 @@ TEST_CASE("ASCII STL: one element a solid, equal corners shared") {
   CHECK((*elements)[0].name == "left vein");
   CHECK((*elements)[0].mesh.positions.size() == 4);
   CHECK((*elements)[0].mesh.triangles.size() == 2);
-  CHECK((*elements)[1].name == "vessel");
+  CHECK((*elements)[1].name == "vessel 1");
   CHECK((*elements)[1].mesh.triangles.size() == 1);
+}
+
+TEST_CASE("solids of an ASCII STL: one bears the file's name, of several each has its own") {
+  StlFile file;
+  const auto namesOf = [&](const std::vector<std::string>& titles) {
+    std::string text;
+    for (const std::string& title : titles)
+      text += "solid " + title + "\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid\n";
+    const auto elements = file.read(text);
+    if (!elements.ok()) FAIL(elements.error().message);
+    std::vector<std::string> names;
+    for (const MeshElement& element : *elements) names.push_back(element.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(namesOf({"Exported from Blender-2.82 (sub 7)"}) == Names{"vessel"});
+  CHECK(namesOf({"aorta", "left vein"}) == Names{"aorta", "left vein"});
+  CHECK(namesOf({"vcg", "vcg", "aorta", "", "vessel 2"}) ==
+        Names{"vessel 1", "vessel 3", "aorta", "vessel 4", "vessel 2"});
+}
+
+TEST_CASE("ASCII STL: carriage returns end lines, UTF-16 is named") {
+  StlFile file;
+  std::string text = "solid a\n" + facet("0 0 0", "1 0 0", "0 1 x");
+  std::ranges::replace(text, '\n', '\r');
+  CHECK(contains(file.fault(text), ":6: a corner needs three finite numbers"));
+  std::string wide;
+  for (const char c : text) wide.append({c, '\0'});
+  CHECK(contains(file.fault(wide), "the text is UTF-16; save it as UTF-8"));
 }
 
 TEST_CASE("STL of others: words in capitals; binary with bytes behind its triangles, or cut short") {

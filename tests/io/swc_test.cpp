@@ -31,6 +31,9 @@ TEST_CASE("SWC of others: a byte order mark, and roots whose parent is 0") {
   const auto counted = parseSwc("0 3 0 0 0 2 -1\n1 3 0 10 0 2 0\n", "a.swc");
   REQUIRE(counted.ok());
   CHECK((*counted)[1].parent == 0);
+  const auto oldLines = parseSwc("# made\r1 3 0 0 0 2 -1\r2 3 0 10 0 2 1\r", "a.swc");
+  REQUIRE(oldLines.ok());
+  CHECK(oldLines->size() == 2);
   expectFault("1,3,0,0,0,2,-1\n", "with blanks between and decimal points");
 }
 

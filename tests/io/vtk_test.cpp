@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "io/gltf_builder.h"
 #include "support/shared_data.h"
 
@@ -71,6 +73,34 @@ TEST_CASE("legacy VTK: radii of points under any name, and of lines") {
   CHECK_MESSAGE(none.error().message.find("it has flow") != std::string::npos, none.error().message);
 }
 
+TEST_CASE("legacy VTK: radii of least or of curves, and what is wrong with one") {
+  const std::string lines = "LINES 1 3\n2 0 1\nPOINT_DATA 6\nFIELD f ";
+  const auto read = parseVtkLines(
+      bytesOf(head("ASCII") + kPoints + lines +
+              "2\nCurvatureRadius 1 6 float\n9 9 9 9 9 9\nDiameter_cm 1 6 float\n2 4 6 1 1 1\n"),
+      "a.vtk");
+  if (!read.ok()) FAIL(read.error().message);
+  CHECK(read->points[1].w == 0.02f);
+  const auto bad = parseVtkLines(
+      bytesOf(head("ASCII") + kPoints + lines + "1\nRadius 1 6 float\n9 -1 9 9 9 9\n"), "a.vtk");
+  REQUIRE(!bad.ok());
+  CHECK_MESSAGE(
+      bad.error().message.find("radius -1 of point 1 must be positive; mend it") != std::string::npos,
+      bad.error().message);
+  CHECK(bad.error().message.find("--unit") == std::string::npos);
+}
+
+TEST_CASE("legacy VTK with carriage returns, and UTF-16") {
+  std::string text = head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 3\nTRIANGLE_STRIPS 1 5\n4 1 4 2 5\n";
+  std::ranges::replace(text, '\n', '\r');
+  expectSurface(text);
+  const TemporaryFolder folder;
+  CHECK(vtkContent(writeBytes(folder.path() / "a.vtk", text)) == VtkContent::surface);
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) wide.append({c, '\0'});
+  expectFault(wide, "the text is UTF-16; save it as UTF-8");
+}
+
 TEST_CASE("surfaces of legacy VTK: ASCII and binary, cells as before version 5 and since") {
   expectSurface(
       head("ASCII") + kPoints +
@@ -96,12 +126,27 @@ TEST_CASE("surfaces of XML VTK, and which of both a file is about") {
   CHECK(vtkContent(writeBytes(folder.path() / "a.vtp", xml)) == VtkContent::surface);
   std::string lines = xml;
   lines.replace(lines.find("NumberOfLines=\"0\""), 17, "NumberOfLines=\"2\"");
+  for (const char* faces : {"NumberOfPolys=\"", "NumberOfStrips=\""})
+    lines[lines.find(faces) + std::string(faces).size()] = '0';
   CHECK(vtkContent(writeBytes(folder.path() / "b.vtp", lines)) == VtkContent::lines);
   CHECK(vtkContent(writeBytes(folder.path() / "a.vtk",
                               head("ASCII") + kPoints + "POLYGONS 1 5\n4 0 1 2 3\n")) == VtkContent::surface);
   CHECK(vtkContent(writeBytes(folder.path() / "b.vtk", head("ASCII") + kPoints + "LINES 1 3\n2 0 1\n")) ==
         VtkContent::lines);
   CHECK(vtkContent(folder.path() / "none.vtk") == VtkContent::nothing);
+  // Edges drawn on a surface, and centre lines within one.
+  const std::string both =
+      head("ASCII") + kPoints + "LINES 1 3\n2 0 1\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 6\nFIELD f 1\n";
+  const std::string six = " 1 6 float\n1 1 1 1 1 1\n";
+  CHECK(vtkContent(writeBytes(folder.path() / "c.vtk", both + "flow" + six)) == VtkContent::surface);
+  CHECK(vtkContent(writeBytes(folder.path() / "d.vtk", both + "Radius" + six)) == VtkContent::lines);
+  const auto xmlOf = [&](const std::string& array) {
+    return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfLines=\"1\" NumberOfPolys=\"1\">"
+           "<PointData><DataArray type=\"Float32\" Name=\"" +
+           array + "\" format=\"ascii\">1 1 1</DataArray></PointData></Piece></PolyData></VTKFile>";
+  };
+  CHECK(vtkContent(writeBytes(folder.path() / "c.vtp", xmlOf("flow"))) == VtkContent::surface);
+  CHECK(vtkContent(writeBytes(folder.path() / "d.vtp", xmlOf("TubeRadius"))) == VtkContent::lines);
 }
 
 TEST_CASE("centre lines of legacy VTK, with radii as fields or scalars") {

@@ -78,6 +78,19 @@ TEST_CASE("VTP radii under other names, of lines, and diameters") {
   // The best of several, whatever their order.
   expectRead(
       file(kPoints, named("Diameter", "9 9 9") + named("r", "1 2 3") + named("Curvature", "7 7 7"), kLine));
+  expectRead(file(kPoints, named("CurvatureRadius", "9 9 9") + named("Diameter", "2 4 6"), kLine));
+  expectRead(file(kPoints, named("BallRadius", "9 9 9") + named("Diameter", "2 4 6"), kLine));
+  expectRead(file(kPoints, named("MinRadius", "9 9 9") + named("MaxRadius", "1 2 3"), kLine));
+  expectRead(file(kPoints, named("min_radius", "9 9 9") + named("Equivalent diameter", "2 4 6"), kLine));
+  expectRead(file(kPoints, named("MinRadius", "1 2 3"), kLine));
+  expectFault(file(kPoints, named("CurvatureRadius", "9 9 9"), kLine), "it has CurvatureRadius");
+  // A unit of their own.
+  expectRead(file(kPoints, named("radius_mm", "1000 2000 3000"), kLine));
+  expectRead(file(kPoints, named("Max Diameter (cm)", "200 400 600"), kLine));
+  const auto inMillimetres =
+      parseVtp(bytesOf(file(kPoints, named("radius [mm]", "1 2 3"), kLine)), "a.vtp", kMillimetres);
+  REQUIRE(inMillimetres.ok());
+  CHECK(inMillimetres->points[2] == vec4(0.002f, 0, 0, 0.003f));
   std::string ofLines = file(kPoints, "", kLine);
   ofLines.insert(ofLines.find("<PointData>"), "<CellData>" + named("Radius", "3") + "</CellData>");
   const auto read = parseVtp(bytesOf(ofLines), "a.vtp");

@@ -1,0 +1,25 @@
+#include "io/text_file.h"
+
+#include <algorithm>
+
+namespace vasa {
+
+bool isUtf16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
+  if (text.size() < 4) return false;
+  const auto zeros = [text](std::size_t first) {
+    return text[first] == 0 && text[first + 2] == 0 && text[1 - first] != 0 && text[3 - first] != 0;
+  };
+  return zeros(0) || zeros(1);
+}
+
+Result<std::string_view> plainText(std::string_view text, const std::string& name, std::string& kept) {
+  if (isUtf16(text)) return badInput(name + ": " + kNotUtf8);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.find('\r') == text.npos || text.find('\n') != text.npos) return text;
+  kept = text;
+  std::ranges::replace(kept, '\r', '\n');
+  return std::string_view(kept);
+}
+
+}  // namespace vasa

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+// What all readers of text ask of a file before they look at its words: UTF-8 (or ASCII), in lines.
+namespace vasa {
+
+/// Whether a text is UTF-16: by its byte order mark, or by zeros in every other one of its first bytes.
+bool isUtf16(std::string_view text);
+
+/// The text behind a byte order mark. Where no line feed ends a line, carriage returns do (as on old Macs):
+/// then line feeds stand in their places, and each line has its number as elsewhere. Fails with badInput
+/// where the text is UTF-16.
+/// @param text  outlives what is returned
+/// @param name  for messages
+/// @param kept  what is returned lies in it, or in `text`
+Result<std::string_view> plainText(std::string_view text, const std::string& name, std::string& kept);
+
+/// How plainText() fails, behind the file's name.
+inline constexpr const char* kNotUtf8 =
+    "the text is UTF-16; save it as UTF-8 (in an editor: Save as, encoding UTF-8)";
+
+}  // namespace vasa
