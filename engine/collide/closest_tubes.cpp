@@ -107,15 +107,16 @@ struct Candidate {
 };
 
 constexpr int kNewtonSteps = 6;
+constexpr std::size_t kMostlyEnough = 256;  // candidates
 
 struct Search {
   Piece a, b;  // whole tubes
   double tolerance;
   bool asks;  // only whether f < limit
   double limit;
+  std::vector<Candidate>& heap;
   double best = std::numeric_limits<double>::infinity();
   double bestS = 0, bestT = 0;
-  std::vector<Candidate> heap = {};
 
   void tryValue(double s, double t) {
     const dvec4 p = at(a, s), q = at(b, t);
@@ -169,7 +170,10 @@ struct Search {
 
 Search searchOf(const Bezier& a, const Bezier& b, double tolerance, bool asks, double limit) {
   const dvec4 origin(dvec3(a.b[0]), 0);
-  Search search{pieceOf(a, origin), pieceOf(b, origin), tolerance, asks, limit};
+  static thread_local std::vector<Candidate> heap;  // kept, so that a search allocates nothing
+  heap.clear();
+  heap.reserve(kMostlyEnough);
+  Search search{pieceOf(a, origin), pieceOf(b, origin), tolerance, asks, limit, heap};
   double size = 0;
   for (int i = 0; i < 4; ++i)
     for (int axis = 0; axis < 4; ++axis)

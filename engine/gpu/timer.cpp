@@ -49,23 +49,23 @@ GpuTimer::Scope::~Scope() {
   timer_.device_.endLabel(commands_);
 }
 
-std::vector<GpuTimer::Time> GpuTimer::results() const {
+std::span<const GpuTimer::Time> GpuTimer::results() {
   if (!queries_ || names_.empty()) return {};
-  std::vector<std::uint64_t> stamps(2 * names_.size());
+  stamps_.resize(2 * names_.size());
   const VkResult result =
-      check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, std::uint32_t(stamps.size()),
-                                  stamps.size() * sizeof(std::uint64_t), stamps.data(), sizeof(std::uint64_t),
-                                  VK_QUERY_RESULT_64_BIT),
+      check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, std::uint32_t(stamps_.size()),
+                                  stamps_.size() * sizeof(std::uint64_t), stamps_.data(),
+                                  sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT),
             "vkGetQueryPoolResults");
   if (result == VK_NOT_READY) return {};
   // Counters narrower than 64 bits wrap; the difference does not mind.
   const std::uint32_t bits = device_.timestampBits();
   const std::uint64_t mask = bits >= 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << bits) - 1;
   const double tickMs = double(device_.limits().timestampPeriod) * 1e-6;
-  std::vector<Time> times;
+  times_.clear();
   for (std::size_t i = 0; i < names_.size(); ++i)
-    times.push_back({names_[i], double((stamps[2 * i + 1] - stamps[2 * i]) & mask) * tickMs});
-  return times;
+    times_.push_back({names_[i], double((stamps_[2 * i + 1] - stamps_[2 * i]) & mask) * tickMs});
+  return times_;
 }
 
 }  // namespace vasa::gpu

@@ -2,6 +2,7 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,14 +45,16 @@ class GpuTimer {
   [[nodiscard]] Scope scope(VkCommandBuffer commands, const char* name) { return {*this, commands, name}; }
 
   /// After the ticket is done: a time for each scope, in the order they began; empty where the device has no
-  /// timestamps, or lost them.
-  std::vector<Time> results() const;
+  /// timestamps, or lost them. Until the next call.
+  std::span<const Time> results();
 
  private:
   Device& device_;
   std::uint32_t mostScopes_;
   Unique<VkQueryPool> queries_;  // empty where the device has no timestamps
   std::vector<const char*> names_;
+  std::vector<std::uint64_t> stamps_;
+  std::vector<Time> times_;
 };
 
 }  // namespace vasa::gpu

@@ -1,5 +1,6 @@
 #include "io/obj.h"
 
+#include <algorithm>
 #include <map>
 
 #include "core/atomic_file.h"
@@ -27,6 +28,10 @@ struct Object {
   };
   std::string name, material;  // the latter of its first face
   std::vector<Run> runs;
+};
+struct Material {
+  std::size_t firstFace;  // that is drawn with it, until the next one
+  std::string name;
 };
 // Longer ones name nothing that a reader knows; each object has a copy.
 constexpr std::size_t kLongestMaterial = 128;
@@ -56,6 +61,7 @@ class Reader {
                                  " objects and groups accepted for a file of this size; split it");
       } else if (keyword == "usemtl") {
         material_ = restOf(line);
+        isMaterialNew_ = true;
       } else if (keyword == "o" || keyword == "g") {
         begin(line, keyword == "g");
       }
@@ -122,6 +128,8 @@ class Reader {
 
   Result<void> face(std::string_view line) {
     if (!inRun_) beginRun();
+    if (isMaterialNew_) materials_.push_back({faces_.size(), material_});
+    isMaterialNew_ = false;
     faces_.push_back({corners_.size(), line_});
     objects_[object_].runs.back().end = faces_.size();
     const auto vertices = std::int64_t(positions_.size());
@@ -172,8 +180,8 @@ class Reader {
     std::vector<MeshElement> elements;
     elements.reserve(objects_.size());
     for (Object& object : objects_) {
-      MeshElement element{
-          object.name.empty() ? path_.stem().string() : std::move(object.name), {}, {}, meshOf(object.runs)};
+      MeshElement element{object.name.empty() ? path_.stem().string() : std::move(object.name), {}, {}, {}};
+      takeFaces(object.runs, element);
       if (!object.material.empty()) element.surroundings.push_back(std::move(object.material));
       if (!element.mesh.empty()) elements.push_back(std::move(element));
     }
@@ -181,17 +189,21 @@ class Reader {
     return elements;
   }
 
-  TriangleMesh meshOf(std::span<const Object::Run> runs) {
-    TriangleMesh mesh;
+  void takeFaces(std::span<const Object::Run> runs, MeshElement& element) {
+    TriangleMesh& mesh = element.mesh;
     used_.clear();
     Checkpoints checkpoints;
-    for (const auto [first, end] : runs)
+    for (const auto [first, end] : runs) {
+      auto material = std::ranges::upper_bound(materials_, first, {}, &Material::firstFace);
+      if (material != materials_.begin()) --material;
       for (std::size_t face = first; face < end; ++face) {
         checkpoints.pass();
+        for (; material != materials_.end() && material->firstFace <= face; ++material)
+          element.materials.push_back({material->name, {}, std::uint32_t(mesh.triangles.size())});
         addFace(cornersOf(face), mesh);
       }
+    }
     for (const std::uint32_t vertex : used_) numbers_[vertex] = kNone;
-    return mesh;
   }
   void addFace(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
     places_.clear(), cut_.clear();
@@ -225,6 +237,8 @@ class Reader {
   std::string joined_;                         // the line in work where it is of several
   std::string name_, material_;                // of the faces to come
   bool group_ = false;                         // the name is a group's
+  bool isMaterialNew_ = false;                 // no face has it yet
+  std::vector<Material> materials_;            // by their first faces
   bool inRun_ = false;                         // faces of the name have come
   std::size_t object_ = 0;                     // of the last face
   std::map<std::string, std::size_t> groups_;  // of the file's object in work

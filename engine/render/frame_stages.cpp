@@ -4,7 +4,7 @@
 
 namespace vasa::stage {
 
-void addTo(FrameTimes& times, const gpu::GpuTimer& timer) {
+void addTo(FrameTimes& times, gpu::GpuTimer& timer) {
   for (const auto& [name, ms] : timer.results()) {
     const std::string_view stage(name);
     (stage == kTessellate    ? times.tessellate

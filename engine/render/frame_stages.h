@@ -13,6 +13,6 @@ constexpr const char* kMeshes = "meshes";
 constexpr std::uint32_t kScopes = 7, kScopesOfRound = 3;  ///< at most
 
 /// What the timer measured of what was submitted last, on top of what a frame took so far.
-void addTo(FrameTimes& times, const gpu::GpuTimer& timer);
+void addTo(FrameTimes& times, gpu::GpuTimer& timer);
 
 }  // namespace vasa::stage

@@ -135,3 +135,22 @@ TEST_CASE("a published vessel lands in the house frame") {
   CHECK(glm::distance(box.low, vec3(-0.021459f, 1.062281f, 0.123590f)) < 1e-3f);
   CHECK(glm::distance(box.high, vec3(-0.007088f, 1.111062f, 0.144200f)) < 1e-3f);
 }
+
+TEST_CASE("which of an element's triangles have which material is told, in the order of its own faces") {
+  const auto elements = parseObj(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\ng tube\nf 1 2 3\nusemtl blue\nf 1 2 4\nf 1 3 4\n"
+      "g other\nf 2 3 4\nusemtl red\ng tube\nf 2 3 4\n",
+      "x.obj", {});
+  REQUIRE(elements);
+  REQUIRE(elements->size() == 2);
+  const std::vector<MeshMaterial>& tube = (*elements)[0].materials;
+  REQUIRE(tube.size() == 3);
+  CHECK(tube[0].name == "red");
+  CHECK(tube[0].firstTriangle == 0);
+  CHECK(tube[1].name == "blue");
+  CHECK(tube[1].firstTriangle == 1);
+  CHECK(tube[2].name == "red");
+  CHECK(tube[2].firstTriangle == 3);
+  REQUIRE((*elements)[1].materials.size() == 1);
+  CHECK((*elements)[1].materials[0].name == "blue");
+}

@@ -12,9 +12,12 @@
 #define VASA_OWN_ALLOCATOR 1
 #endif
 
+// The program's code, without the libraries that it loads.
+extern "C" const char __executable_start, etext;
+
 namespace {
 
-std::atomic<std::size_t> live{0}, peak{0}, allocations{0};
+std::atomic<std::size_t> live{0}, peak{0}, allocations{0}, ownAllocations{0};
 
 }  // namespace
 
@@ -30,6 +33,7 @@ std::size_t restartPeak() {
 std::size_t peakMemory() { return peak; }
 
 std::size_t allocationCount() { return allocations; }
+std::size_t ownAllocationCount() { return ownAllocations; }
 
 }  // namespace vasa::test
 
@@ -38,6 +42,8 @@ void* operator new(std::size_t size) {
   void* const memory = std::malloc(size ? size : 1);
   if (!memory) throw std::bad_alloc();
   ++allocations;
+  const auto from = reinterpret_cast<const char*>(__builtin_return_address(0));
+  if (from >= &__executable_start && from < &etext) ++ownAllocations;
   const std::size_t now = live += malloc_usable_size(memory);
   std::size_t most = peak;
   while (now > most && !peak.compare_exchange_weak(most, now)) {

@@ -11,5 +11,7 @@ std::size_t restartPeak();
 std::size_t peakMemory();
 /// How often anything was allocated so far.
 std::size_t allocationCount();
+/// The same by the program itself, and not by the libraries that it loads (a driver).
+std::size_t ownAllocationCount();
 
 }  // namespace vasa::test
