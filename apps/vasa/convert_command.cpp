@@ -194,7 +194,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   const bool quantised = isQuantised(options, settings, conversion->network);
   std::optional<PatchReport> patches;
   if (options.keepPatches) {
-    auto kept = addPatches(*conversion, *sources, quantised);
+    const std::vector<SourceElement> lumina = byLumen(*sources, settings.element.weldTolerance);
+    auto kept = addPatches(*conversion, lumina.empty() ? *sources : lumina, quantised);
     if (!kept) return kept.error();
     patches = std::move(*kept);
   }

@@ -54,13 +54,13 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
 
 Result<void> checkNear(const Body& body, std::span<const vec4> points, std::string_view name) {
   Aabb box;
-  for (const SkinnedMesh& mesh : body.meshes) box.add(mesh.mesh.bounds());
   for (const Skeleton::Joint& joint : body.skeleton.joints) box.add(vec3(joint.restWorld[3]));
+  const float most = kFarHeights * body.height();
   std::size_t outside = 0;
   float farthest = 0;
   for (const vec4& point : points) {
     const float off = box.distance(vec3(point));
-    outside += off > kFarHeights * body.height();
+    outside += off > most;
     farthest = std::max(farthest, off);
   }
   if (float(outside) <= kMostOutside * float(points.size())) return {};

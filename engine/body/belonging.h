@@ -18,7 +18,7 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
 
 /// Whether vessels are anywhere near a body at rest: of one network of several, which may be in another unit.
 /// Fails with badInput that names both and how far off they lie, where more than 15 % of its points lie
-/// outside the body's box by more than 15 % of its height.
+/// outside the box around its joints by more than 15 % of its height.
 Result<void> checkNear(const Body& body, std::span<const vec4> points, std::string_view name);
 
 }  // namespace vasa

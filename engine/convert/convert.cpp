@@ -28,21 +28,6 @@ std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
   return result;
 }
 
-// The elements whose walls have an outside, by lumen alone; empty where there is none.
-std::vector<std::optional<TriangleMesh>> lumina(std::span<const SourceElement> elements,
-                                                float weldTolerance) {
-  std::vector<std::optional<TriangleMesh>> result(elements.size());
-  parallelFor(elements.size(), 1,
-              [&](std::size_t e) { result[e] = withoutOuterWalls(elements[e].element.mesh, weldTolerance); });
-  const auto isHollow = [](const auto& lumen) { return lumen.has_value(); };
-  const auto first = std::ranges::find_if(result, isHollow);
-  if (first == result.end()) return {};
-  logInfo(std::to_string(std::ranges::count_if(result, isHollow)) +
-          " elements are walls with an inside and an outside, which is left out: '" +
-          elements[std::size_t(first - result.begin())].element.name + "' first");
-  return result;
-}
-
 float heightOf(std::span<const SourceElement> elements) {
   Aabb box;
   for (const SourceElement& source : elements)
@@ -65,15 +50,25 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
 
 }  // namespace
 
+std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, float weldTolerance) {
+  std::vector<std::optional<TriangleMesh>> lumina(elements.size());
+  parallelFor(elements.size(), 1,
+              [&](std::size_t e) { lumina[e] = withoutOuterWalls(elements[e].element.mesh, weldTolerance); });
+  if (std::ranges::none_of(lumina, [](const auto& lumen) { return lumen.has_value(); })) return {};
+  std::vector<SourceElement> changed(elements.begin(), elements.end());
+  for (std::size_t e = 0; e < changed.size(); ++e)
+    if (lumina[e]) changed[e].element.mesh = std::move(*lumina[e]), changed[e].byLumen = true;
+  return changed;
+}
+
 Result<Conversion> convertElements(std::span<const SourceElement> given, const ConvertOptions& options) {
-  std::vector<std::optional<TriangleMesh>> hollow = lumina(given, options.element.weldTolerance);
-  std::vector<SourceElement> byLumen;
-  for (std::size_t e = 0; e < hollow.size(); ++e) {
-    byLumen.push_back(given[e]);
-    if (hollow[e]) byLumen[e].element.mesh = *hollow[e];
-  }
+  const std::vector<SourceElement> lumina = byLumen(given, options.element.weldTolerance);
   const std::span<const SourceElement> elements =
-      hollow.empty() ? given : std::span<const SourceElement>(byLumen);
+      lumina.empty() ? given : std::span<const SourceElement>(lumina);
+  if (const auto first = std::ranges::find(elements, true, &SourceElement::byLumen); first != elements.end())
+    logInfo(std::to_string(std::ranges::count(elements, true, &SourceElement::byLumen)) +
+            " elements are walls with an inside and an outside, which is left out: '" + first->element.name +
+            "' first");
   const auto duplicateOf = findDuplicates(elements, options.duplicates);
   const std::vector<ElementSkeleton> found = skeletons(elements, duplicateOf, options);
 
@@ -82,7 +77,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
     checkpoint();
     outcomes[e] = {found[e].method, found[e].reason, {}};
-    if (!hollow.empty() && hollow[e])
+    if (elements[e].byLumen)
       outcomes[e].reason += std::string(outcomes[e].reason.empty() ? "" : "; ") +
                             "by its lumen, without the outside of its wall";
     if (duplicateOf[e]) outcomes[e].standIn.push_back(*duplicateOf[e]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "convert/duplicates.h"
@@ -19,7 +20,8 @@ constexpr std::size_t kSamples = 200;
 constexpr float kNearlyAll = 0.85f;  // of the samples, as elements that repeat others have (duplicates.h)
 // Of the outside's radius: walls of arteries are up to a third of it thick, stiff and narrowed ones half.
 constexpr float kThickest = 0.6f;
-constexpr double kLeastShare = 0.1;  // of the outside's area: less cannot be a wall's inside
+constexpr double kLeastShare = 0.1;   // of the outside's area: less cannot be a wall's inside
+constexpr double kLeastOfAll = 0.01;  // of the surface: an outside has more
 
 template <class Test>
 bool nearlyAll(std::span<const vec3> samples, const Test& test) {
@@ -29,8 +31,7 @@ bool nearlyAll(std::span<const vec3> samples, const Test& test) {
   return !samples.empty() && float(count) >= kNearlyAll * float(samples.size());
 }
 
-bool liesInside(const TriangleMesh& inner, const TriangleMesh& outer) {
-  const WindingNumber winding(outer.positions, outer.triangles);
+bool liesInside(const TriangleMesh& inner, const WindingNumber& winding) {
   return nearlyAll(sampleSurface(inner, kSamples), [&](vec3 p) { return std::abs(winding.at(p)) > 0.5f; });
 }
 
@@ -55,20 +56,30 @@ std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float we
   std::vector<Aabb> boxes;
   std::vector<double> areas;
   for (const TriangleMesh& piece : pieces) boxes.push_back(piece.bounds()), areas.push_back(piece.area());
-  const double least = 0.01 * *std::ranges::max_element(areas);  // debris is no wall
-  const auto isWallOf = [&](std::size_t outer, std::size_t inner) {
-    return inner != outer && areas[inner] < areas[outer] && areas[inner] > kLeastShare * areas[outer] &&
-           couldLieIn(boxes[inner], boxes[outer]) && liesInside(pieces[inner], pieces[outer]) &&
-           liesAlong(pieces[outer], pieces[inner]);
+  // Debris is no wall: so there are a hundred walls at most, and a thousand pieces that may lie in them.
+  const double least = kLeastOfAll * std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::vector<std::size_t> large;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (areas[i] > kLeastShare * least) large.push_back(i);
+  const auto isWall = [&](std::size_t outer) {
+    if (areas[outer] <= least) return false;
+    std::optional<WindingNumber> winding;
+    return std::ranges::any_of(large, [&](std::size_t inner) {
+      if (inner == outer || areas[inner] >= areas[outer] || areas[inner] <= kLeastShare * areas[outer] ||
+          !couldLieIn(boxes[inner], boxes[outer]))
+        return false;
+      if (!winding) winding.emplace(pieces[outer].positions, pieces[outer].triangles);
+      return liesInside(pieces[inner], *winding) && liesAlong(pieces[outer], pieces[inner]);
+    });
   };
   TriangleMesh left;
   bool any = false;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     checkpoint();
-    bool isWall = false;
-    for (std::size_t j = 0; j < pieces.size() && areas[i] > least && !isWall; ++j) isWall = isWallOf(i, j);
-    any |= isWall;
-    if (isWall) continue;
+    if (isWall(i)) {
+      any = true;
+      continue;
+    }
     const auto first = std::uint32_t(left.positions.size());
     left.positions.insert(left.positions.end(), pieces[i].positions.begin(), pieces[i].positions.end());
     for (const uvec3& t : pieces[i].triangles) left.triangles.push_back(t + first);

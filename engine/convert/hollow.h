@@ -9,7 +9,8 @@ namespace vasa {
 /// the outside: what is left is the lumen. A piece of the surface is the outside of another where that lies
 /// inside it and it lies all along that one.
 /// @param weldTolerance  [m] vertices nearer than this are one
-/// @return nothing where no piece is another's outside. O(n log n) a pair of pieces that could be
+/// @return nothing where no piece is another's outside. O(n log n), and as much for each pair of pieces that
+/// could be
 std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float weldTolerance);
 
 }  // namespace vasa

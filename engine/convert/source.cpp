@@ -52,6 +52,7 @@ std::vector<MeshElement> byMaterials(const MeshElement& element) {
     own.name =
         element.name + " (" + (material.name.empty() ? std::string(kindName(kind)) : material.name) + ")";
     own.surroundings = {material.name};
+    own.category = element.category, own.ontologyId = element.ontologyId;
     own.colour = material.colour;
   }
   takeUpTo(element.mesh.triangles.size());
@@ -59,12 +60,13 @@ std::vector<MeshElement> byMaterials(const MeshElement& element) {
   return parts;
 }
 
-bool saysBoth(const MeshElement& element) {
+bool saysBoth(const MeshElement& element, std::string_view fileName) {
   const auto says = [&](VesselKind kind) {
     return std::ranges::any_of(element.materials,
                                [&](const MeshMaterial& own) { return sameFamily(kindOf(own), kind); });
   };
-  return kindOfTexts(element) == VesselKind::other && says(VesselKind::artery) && says(VesselKind::vein);
+  return kindOfTexts(element, fileName) == VesselKind::other && says(VesselKind::artery) &&
+         says(VesselKind::vein);
 }
 
 }  // namespace
@@ -78,7 +80,7 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
     described.push_back({std::move(element), kind, std::move(label)});
   };
   for (MeshElement& element : elements) {
-    if (!saysBoth(element)) {
+    if (!saysBoth(element, fileName)) {
       add(std::move(element));
       continue;
     }

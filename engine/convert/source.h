@@ -12,7 +12,8 @@ namespace vasa {
 struct SourceElement {
   MeshElement element;
   VesselKind kind = VesselKind::other;
-  std::string label;  ///< the vessel's name: the element's without its leading catalogue number
+  std::string label;     ///< the vessel's name: the element's without its leading catalogue number
+  bool byLumen = false;  ///< the outside of its wall is left out
 };
 
 /// The kind of vessel: by what the file says of the element, else by an ontology's number (FMA, UBERON) of a
@@ -22,8 +23,9 @@ struct SourceElement {
 /// A vein whose name says "portal" is a portal vein. `other` where nothing tells.
 VesselKind kindOf(const MeshElement& element, std::string_view fileName);
 
-/// What an element's own texts say, its category, its name and its number; and what a material says.
-VesselKind kindOfTexts(const MeshElement& element);
+/// What texts say of an element: its category, its name and number, the file's name, what it belongs to
+/// without its materials; and what a material says.
+VesselKind kindOfTexts(const MeshElement& element, std::string_view fileName);
 VesselKind kindOf(const MeshMaterial& material);
 
 /// "FJ1654M left anterior cerebral artery" -> "left anterior cerebral artery"; other names stay as they are.

@@ -42,22 +42,27 @@ std::string spaced(std::string_view text) {
   return words;
 }
 
-// "A. femoralis", "Vv. hepaticae", "v_femoralis": anatomists' short forms, before a word of their language.
-VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
-  const std::size_t end = raw.find_first_of("._");
-  if (end == raw.npos || end > 2 || end + 1 == raw.size()) return VesselKind::other;
-  const std::string_view rest = words.substr(std::min(words.size(), end + 2)),
-                         next = rest.substr(0, rest.find(' '));
-  const bool latin = next.ends_with("is") || next.ends_with("ae") || next.ends_with("a");
-  if (next.size() < 4 || (raw[end] == '_' && !latin)) return VesselKind::other;
-  const std::string_view form = words.substr(1, end);
-  if (form == "a" || form == "aa") return VesselKind::artery;
-  return form == "v" || form == "vv" ? VesselKind::vein : VesselKind::other;
-}
-
 template <std::size_t N>
 bool hasAny(const std::string& text, const std::array<std::string_view, N>& words) {
   return std::ranges::any_of(words, [&](std::string_view word) { return text.find(word) != text.npos; });
+}
+
+// "A. femoralis", "Vv. hepaticae", "v_femoralis": anatomists' short forms, before a word that is Latin by its
+// ending where no blank stands between.
+VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
+  const std::size_t end = raw.find_first_of("._");
+  if (end == raw.npos || end > 2 || end + 1 >= raw.size() || words.size() < end + 3) return VesselKind::other;
+  const std::string_view rest = words.substr(end + 2), next = rest.substr(0, rest.find(' '));
+  static constexpr std::array<std::string_view, 10> kLatin{"alis", "aris", "otis", "ae",  "ica",
+                                                           "aca",  "avia", "tea",  "ena", "cava"};
+  const bool latin =
+      std::ranges::any_of(kLatin, [&](std::string_view ending) { return next.ends_with(ending); });
+  const bool word =
+      next.size() >= 4 && std::ranges::all_of(next, [](char c) { return c >= 'a' && c <= 'z'; });
+  if (!word || !(latin || (raw[end] == '.' && raw[end + 1] == ' '))) return VesselKind::other;
+  const std::string_view form = words.substr(1, end);
+  if (form == "a" || form == "aa") return VesselKind::artery;
+  return form == "v" || form == "vv" ? VesselKind::vein : VesselKind::other;
 }
 
 // A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next
@@ -88,8 +93,9 @@ VesselKind kindInText(std::string_view raw) {
                                                             "plantar arch",
                                                             "carpal arch",
                                                             "intestinal arcade"};
-  static constexpr std::array<std::string_view, 34> kVein{" vein",
+  static constexpr std::array<std::string_view, 35> kVein{" vein",
                                                           " vena ",
+                                                          " venas ",
                                                           " venae ",
                                                           "vene ",
                                                           "venen ",
@@ -179,11 +185,12 @@ VesselKind kindOf(const MeshMaterial& material) {
   return kind == VesselKind::other && material.colour ? kindOfColour(*material.colour) : kind;
 }
 
-VesselKind kindOfTexts(const MeshElement& element) {
-  VesselKind kind = kindInText(element.category);
-  for (const std::string_view text : {element.ontologyId, element.name})
-    if (kind == VesselKind::other) kind = kindByNumber(text);
-  return kind == VesselKind::other ? kindInText(element.name) : kind;
+VesselKind kindOfTexts(const MeshElement& element, std::string_view fileName) {
+  MeshElement bare{element.name, element.category, element.ontologyId, {}};
+  for (const std::string& text : element.surroundings)
+    if (std::ranges::find(element.materials, text, &MeshMaterial::name) == element.materials.end())
+      bare.surroundings.push_back(text);
+  return kindOf(bare, fileName);
 }
 
 VesselKind kindOf(const MeshElement& element, std::string_view fileName) {

@@ -59,8 +59,10 @@ std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree
 
 // Of the triangles that are still to come.
 MeshMaterial materialOf(const Model& model, int material, const Geometry& geometry) {
+  const auto first = std::uint32_t(geometry.mesh.triangles.size());
+  if (material < 0) return {{}, {}, first};
   const auto& own = model.materials[std::size_t(material)];
-  return {own.name, vec3(own.baseColour), std::uint32_t(geometry.mesh.triangles.size())};
+  return {own.name, vec3(own.baseColour), first};
 }
 
 std::optional<vec3> colourOf(const Model& model, int node) {
@@ -83,7 +85,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     Geometry geometry;
     std::vector<MeshMaterial> materials;
     for (const auto& primitive : mesh.primitives) {
-      if (primitive.material >= 0) materials.push_back(materialOf(asset.model, primitive.material, geometry));
+      materials.push_back(materialOf(asset.model, primitive.material, geometry));
       appendPrimitive(asset, primitive, node.skin >= 0, geometry);
     }
     if (node.skin < 0)

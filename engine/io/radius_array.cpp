@@ -26,11 +26,13 @@ std::string wordsOf(std::string_view name) {
   return words;
 }
 
-// The last word where it is a unit, and others stand before it.
-std::string_view takeUnit(std::string_view& words) {
+// The last word where it is a unit, and others stand before it; m and in only in brackets, as they mean other
+// things (mean, inner).
+std::string_view takeUnit(std::string_view& words, bool bracketed) {
   const std::size_t blank = words.rfind(' ');
   if (blank == words.npos || metresOfUnit(words.substr(blank + 1)) == 0) return {};
   const std::string_view unit = words.substr(blank + 1);
+  if (!bracketed && (unit == "m" || unit == "in")) return {};
   words = words.substr(0, blank);
   return unit;
 }
@@ -45,7 +47,7 @@ Meaning meaningOf(std::string_view name) {
   if (name == kVmtk) return {0, {}};
   const std::string all = wordsOf(name);
   std::string_view words = all;
-  RadiusChoice choice{.unit = metresOfUnit(takeUnit(words))};
+  RadiusChoice choice{.unit = metresOfUnit(takeUnit(words, name.find_first_of("([") != name.npos))};
   bool diameter = false;
   const auto ends = [&](std::string_view word) {
     if (!words.ends_with(word)) return false;

@@ -159,6 +159,8 @@ class AsciiReader {
   // What stands behind "solid" tells solids of a file apart; of a single one it is most often the exporter's
   // own name, and the file's says more.
   void giveNames(std::vector<MeshElement>& solids) const {
+    for (MeshElement& solid : solids)
+      if (!solid.name.empty()) solid.surroundings = {solid.name};  // it may still say what it is
     if (solids.size() == 1) solids.front().name = name_;
     if (solids.size() < 2) return;
     std::map<std::string, std::size_t> titles;

@@ -171,7 +171,11 @@ VtkContent vtkContent(const std::filesystem::path& path) {
   std::string_view text = textOf(*bytes);
   std::string kept;
   const bool legacy = isLegacy(text);
-  if (legacy) text = *plainText(text, {}, kept);
+  if (legacy) {
+    const auto plain = plainText(text, {}, kept);
+    if (!plain) return VtkContent::nothing;
+    text = *plain;
+  }
   const auto counted = [&](std::string_view mark, char quote) {
     for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + mark.size())) {
       std::string_view rest = text.substr(at + mark.size(), 24);

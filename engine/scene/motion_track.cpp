@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -116,6 +117,7 @@ void MotionTrack::restart(const Clip& clip, const Correction& first) {
 }
 
 void MotionTrack::add(const Correction& correction) {
+  assert(keeps_ == Keeps::all || frames_.size() == 1);
   if (keeps_ == Keeps::latest)
     ++first_;
   else

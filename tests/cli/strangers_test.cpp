@@ -124,7 +124,7 @@ TEST_CASE(
   };
   const auto check = [&](const std::string& file) {
     return runProgram({"check", "--body", humanBody().string(), "--network", humanVessels().string(),
-                       "--network", file, "--frames", "0", "--no-avoid"});
+                       "--network", file, "--frames", "0"});
   };
   // A perforating artery of the thigh, 3 mm of it, in millimetres.
   const auto small = check(trace("left perforating artery.swc", {95, 700, 20}, {0.4f, 0.1f, 0}));

@@ -107,7 +107,7 @@ TEST_CASE("what is too wide for any vessel is doubtful, with what may be the mat
   CHECK(made->report.elements[0].status == ElementStatus::ok);
   CHECK(made->report.elements[1].status == ElementStatus::doubtful);
   CHECK(statusName(made->report.elements[1].status) == "doubtful");
-  CHECK(made->report.elements[1].reason.find("--scale") != std::string::npos);
+  CHECK(made->report.elements[1].reason.find("--unit") != std::string::npos);
   CHECK(made->report.summary.ok == 1);
   CHECK(made->report.summary.doubtful == 1);
 }

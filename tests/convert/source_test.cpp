@@ -65,7 +65,8 @@ TEST_CASE("anatomists' short forms and other languages tell the kind, too") {
     CHECK_MESSAGE(kindOf(named(vein), "x") == VesselKind::vein, std::string(vein));
   for (const char* portal : {"V. portae", "Pfortader"})
     CHECK_MESSAGE(kindOf(named(portal), "x") == VesselKind::portalVein, std::string(portal));
-  for (const char* neither : {"v_001", "v_mesh", "a.001", "A", "V.", "_", "a_", "model_a.b", "vessel_left"})
+  for (const char* neither : {"v_001", "v_mesh", "a.001", "A", "V.", "_", "a_", "model_a.b", "vessel_left",
+                              "A_pelvis", "a_tibia", "v_data", "v.left", "a.0001", "A.Metal"})
     CHECK_MESSAGE(kindOf(named(neither), "x") == VesselKind::other, std::string(neither));
 }
 
@@ -83,6 +84,11 @@ TEST_CASE("a mesh whose materials say artery and vein is divided by them, unless
   CHECK(divided[1].label == "Mesh.001 (vein)");
   CHECK(divided[1].kind == VesselKind::vein);
   CHECK(divided[1].element.mesh.positions.size() == 3);
+  CHECK(describeElements({element}, "arteries").size() == 1);
+  element.surroundings = {"arteries", "Veins"};
+  CHECK(describeElements({element}, "scan").size() ==
+        1);  // a collection says it; "arteries" is a material's name
+  element.surroundings = {"arteries"};
   element.name = "aorta";
   CHECK(describeElements({element}, "scan").size() == 1);
   element.name = "Mesh.001";

@@ -36,7 +36,9 @@ TEST_CASE(
   RenderOptions options;
   options.width = 320, options.height = 240;
   gpu::Device device;  // without the validation layer, which allocates
+  const std::size_t own = test::ownAllocationCount();
   Renderer renderer(device, scene.network, scene.body.meshes, options);
+  CHECK(test::ownAllocationCount() > own);  // it counts
   const Camera camera =
       cameraFrom(View::front, measure(scene.network, scene.network.points()).bounds, 4.0f / 3);
   std::size_t frames = 0, solving = 0, drawing = 0;

@@ -11,7 +11,6 @@
 #include "collide/network_tubes.h"
 #include "core/hash.h"
 #include "core/log.h"
-#include "support/live_memory.h"
 #include "fuzz/processor_time.h"
 #include "growth/growth_rules.h"
 #include "growth/regions.h"
@@ -27,6 +26,7 @@
 #include "network/centrelines.h"
 #include "network/file.h"
 #include "scene/scene_file.h"
+#include "support/live_memory.h"
 
 using namespace vasa;
 using namespace vasa::test;

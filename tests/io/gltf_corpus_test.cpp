@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "support/live_memory.h"
 #include "fuzz/processor_time.h"
 #include "io/gltf.h"
 #include "io/read_limits.h"
+#include "support/live_memory.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
