@@ -36,7 +36,8 @@ TEST_CASE("a hundred frames with everything switched on, without a word from the
   CHECK(first == last);
 }
 
-// Compiling shaders with what looks up each access takes long, those of forks most of all: `./test.sh validation` has them.
+// Compiling shaders with what looks up each access takes long, those of forks most of all: `./test.sh
+// validation` has them.
 TEST_CASE("frames with everything switched on under validation, GPU-assisted where the device can") {
   VASA_REQUIRE_GPU(rig);
   // What the layer writes addresses with.
