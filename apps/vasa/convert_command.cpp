@@ -194,8 +194,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   const bool quantised = isQuantised(options, settings, conversion->network);
   std::optional<PatchReport> patches;
   if (options.keepPatches) {
-    const std::vector<SourceElement> lumina = byLumen(*sources, settings.element.weldTolerance);
-    auto kept = addPatches(*conversion, lumina.empty() ? *sources : lumina, quantised);
+    auto kept =
+        addPatches(*conversion, conversion->lumina.empty() ? *sources : conversion->lumina, quantised);
     if (!kept) return kept.error();
     patches = std::move(*kept);
   }

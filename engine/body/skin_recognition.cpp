@@ -8,6 +8,7 @@
 #include "body/bone_field.h"
 #include "body/mesh_role.h"
 #include "math/aabb.h"
+#include "mesh/components.h"
 #include "mesh/winding_number.h"
 
 namespace vasa {
@@ -68,9 +69,7 @@ bool holds(const SkinnedMesh& around, const SkinnedMesh& mesh) {
 }
 
 void append(SkinnedMesh& to, const SkinnedMesh& from) {
-  const auto base = std::uint32_t(to.mesh.positions.size());
-  to.mesh.positions.insert(to.mesh.positions.end(), from.mesh.positions.begin(), from.mesh.positions.end());
-  for (const uvec3& t : from.mesh.triangles) to.mesh.triangles.push_back(t + base);
+  appendMesh(to.mesh, from.mesh);
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
   to.influences.insert(to.influences.end(), from.influences.begin(), from.influences.end());
 }

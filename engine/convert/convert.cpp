@@ -37,6 +37,18 @@ float heightOf(std::span<const SourceElement> elements) {
   return extent.y > 0 ? extent.y : std::max(extent.x, extent.z);
 }
 
+// With every hollow wall by its lumen alone; empty where there is none.
+std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, float weldTolerance) {
+  std::vector<std::optional<TriangleMesh>> lumina(elements.size());
+  parallelFor(elements.size(), 1,
+              [&](std::size_t e) { lumina[e] = withoutOuterWalls(elements[e].element.mesh, weldTolerance); });
+  if (std::ranges::none_of(lumina, [](const auto& lumen) { return lumen.has_value(); })) return {};
+  std::vector<SourceElement> changed(elements.begin(), elements.end());
+  for (std::size_t e = 0; e < changed.size(); ++e)
+    if (lumina[e]) changed[e].element.mesh = std::move(*lumina[e]), changed[e].byLumen = true;
+  return changed;
+}
+
 Error nothingFound(std::span<const SourceElement> elements, std::span<const ElementOutcome> outcomes) {
   std::string why = "no element holds a tube";
   for (std::size_t e = 0; e < elements.size(); ++e)
@@ -50,19 +62,8 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
 
 }  // namespace
 
-std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, float weldTolerance) {
-  std::vector<std::optional<TriangleMesh>> lumina(elements.size());
-  parallelFor(elements.size(), 1,
-              [&](std::size_t e) { lumina[e] = withoutOuterWalls(elements[e].element.mesh, weldTolerance); });
-  if (std::ranges::none_of(lumina, [](const auto& lumen) { return lumen.has_value(); })) return {};
-  std::vector<SourceElement> changed(elements.begin(), elements.end());
-  for (std::size_t e = 0; e < changed.size(); ++e)
-    if (lumina[e]) changed[e].element.mesh = std::move(*lumina[e]), changed[e].byLumen = true;
-  return changed;
-}
-
 Result<Conversion> convertElements(std::span<const SourceElement> given, const ConvertOptions& options) {
-  const std::vector<SourceElement> lumina = byLumen(given, options.element.weldTolerance);
+  std::vector<SourceElement> lumina = byLumen(given, options.element.weldTolerance);
   const std::span<const SourceElement> elements =
       lumina.empty() ? given : std::span<const SourceElement>(lumina);
   if (const auto first = std::ranges::find(elements, true, &SourceElement::byLumen); first != elements.end())
@@ -77,9 +78,6 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   for (std::uint32_t e = 0; e < elements.size(); ++e) {
     checkpoint();
     outcomes[e] = {found[e].method, found[e].reason, {}};
-    if (elements[e].byLumen)
-      outcomes[e].reason += std::string(outcomes[e].reason.empty() ? "" : "; ") +
-                            "by its lumen, without the outside of its wall";
     if (duplicateOf[e]) outcomes[e].standIn.push_back(*duplicateOf[e]);
     pruneSlivers(graph, addSkeleton(graph, found[e], e, elements[e].kind), options.slivers);
   }
@@ -106,7 +104,8 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   for (const ElementOutcome& outcome : outcomes) standIns.push_back(outcome.standIn);
   const auto errors = measureSurfaceErrors(*assembly, elements, standIns, options.error);
   ConvertReport report = makeReport(*assembly, elements, outcomes, errors, joins);
-  return Conversion{std::move(assembly->network), std::move(report), std::move(assembly->elementOf)};
+  return Conversion{std::move(assembly->network), std::move(report), std::move(assembly->elementOf),
+                    std::move(lumina)};
 }
 
 }  // namespace vasa

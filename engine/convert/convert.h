@@ -28,11 +28,10 @@ struct Conversion {
   Network network;
   ConvertReport report;
   std::vector<std::uint32_t> elementOf;  ///< vessel -> element
+  /// The elements with every wall that has an inside and an outside by its lumen alone (convert/hollow.h);
+  /// empty where there is none.
+  std::vector<SourceElement> lumina = {};
 };
-
-/// The elements with every wall that has an inside and an outside by its lumen alone (convert/hollow.h);
-/// empty where there is none. convertElements() does this by itself.
-std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, float weldTolerance);
 
 /// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and
 /// separate elements, fit splines, measure. The result does not depend on the number of threads. Shows a

@@ -76,13 +76,10 @@ std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float we
   bool any = false;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     checkpoint();
-    if (isWall(i)) {
+    if (isWall(i))
       any = true;
-      continue;
-    }
-    const auto first = std::uint32_t(left.positions.size());
-    left.positions.insert(left.positions.end(), pieces[i].positions.begin(), pieces[i].positions.end());
-    for (const uvec3& t : pieces[i].triangles) left.triangles.push_back(t + first);
+    else
+      appendMesh(left, pieces[i]);
   }
   if (!any) return std::nullopt;
   return left;

@@ -86,6 +86,7 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   report.ontologyId = source.element.ontologyId;
   report.method = outcome.method;
   report.reason = outcome.reason;
+  if (source.byLumen) append(report.reason, "by its lumen, without the outside of its wall");
   report.vessels = std::uint32_t(assembly.vesselsOf[index].size());
   for (const std::uint32_t v : assembly.vesselsOf[index])
     report.sweeps += assembly.network.vessels()[v].spanCount();

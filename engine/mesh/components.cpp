@@ -37,6 +37,12 @@ TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> tri
   return partOf(mesh, triangles, number);
 }
 
+void appendMesh(TriangleMesh& mesh, const TriangleMesh& more) {
+  const auto first = std::uint32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+  for (const uvec3& t : more.triangles) mesh.triangles.push_back(t + first);
+}
+
 std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh) {
   DisjointSets sets(mesh.triangles.size());
   std::vector<std::uint32_t> firstAt(mesh.positions.size(), kNone);

@@ -32,4 +32,7 @@ std::vector<TriangleMesh> splitComponents(const TriangleMesh& mesh);
 /// Some of a mesh's triangles, with the vertices that they use. O(n).
 TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 
+/// Adds a mesh's vertices and triangles to another's.
+void appendMesh(TriangleMesh& mesh, const TriangleMesh& more);
+
 }  // namespace vasa

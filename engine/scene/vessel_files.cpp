@@ -14,6 +14,7 @@
 #include "io/swc.h"
 #include "io/vtk.h"
 #include "io/vtp.h"
+#include "mesh/components.h"
 #include "network/file.h"
 #include "network/join_lines.h"
 
@@ -153,12 +154,7 @@ Result<std::vector<SourceElement>> readSurfacesInLikelyUnit(const std::filesyste
 
 TriangleMesh meshOf(const std::vector<SourceElement>& sources) {
   TriangleMesh whole;
-  for (const SourceElement& source : sources) {
-    const TriangleMesh& mesh = source.element.mesh;
-    const auto first = std::uint32_t(whole.positions.size());
-    whole.positions.insert(whole.positions.end(), mesh.positions.begin(), mesh.positions.end());
-    for (const uvec3& t : mesh.triangles) whole.triangles.push_back(t + first);
-  }
+  for (const SourceElement& source : sources) appendMesh(whole, source.element.mesh);
   return whole;
 }
 
