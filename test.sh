@@ -35,7 +35,7 @@ if [ "$preset" = format ]; then
 fi
 if [ "$preset" = tidy ]; then
   scripts/install-dependencies.sh clang-tidy
-  cmake --preset release -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+  cmake --preset release -B build/tidy -DVASA_UNITY=OFF > /dev/null
   cmake --build build/tidy --target vasa_gpu_shaders_spirv vasa_render_shaders_spirv apps/vasa/made/engine_print.h
   git ls-files 'engine/*.cpp' 'apps/*.cpp' | xargs -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet
   echo "tidy: nothing found"
@@ -46,7 +46,7 @@ if [ "$preset" = compilers ]; then
   for compiler in "gcc g++" "clang clang++"; do
     read -r c cxx <<< "$compiler"
     for each in release debug asan tsan; do
-      folder=build/compilers/$c-$each
+      folder=build/$c-$each
       cmake --preset "$each" -B "$folder" -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" > /dev/null
       cmake --build "$folder"
       echo "compilers: $c $each builds without a warning"
@@ -121,13 +121,13 @@ if [ "$preset" = same ]; then
   programs=()
   for each in gcc-release clang-release gcc-debug; do
     preset=${each#*-}
-    cmake --preset "$preset" -B "build/compilers/$each" -DCMAKE_C_COMPILER="${each%-*}" -DCMAKE_CXX_COMPILER="$([ "${each%-*}" = gcc ] && echo g++ || echo clang++)" > /dev/null
+    cmake --preset "$preset" -B "build/$each" -DCMAKE_C_COMPILER="${each%-*}" -DCMAKE_CXX_COMPILER="$([ "${each%-*}" = gcc ] && echo g++ || echo clang++)" > /dev/null
     targets=(vasa)
     [ "$each" = gcc-release ] && targets+=(human)
-    cmake --build "build/compilers/$each" --target "${targets[@]}"
-    programs+=("build/compilers/$each/bin/vasa")
+    cmake --build "build/$each" --target "${targets[@]}"
+    programs+=("build/$each/bin/vasa")
   done
-  tests/soak/same.sh build/compilers/gcc-release/data/human.glb build/compilers/gcc-release/data/human.vasa "${programs[@]}"
+  tests/soak/same.sh build/gcc-release/data/human.glb build/gcc-release/data/human.vasa "${programs[@]}"
   exit 0
 fi
 if [[ "$preset" = faults || "$preset" = soak ]]; then

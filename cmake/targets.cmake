@@ -8,7 +8,6 @@ function(vasa_library name)
   add_library(vasa::${name} ALIAS vasa_${name})
   target_include_directories(vasa_${name} PUBLIC
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/engine>" "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/shaders>")
-  target_precompile_headers(vasa_${name} REUSE_FROM vasa_precompiled)
   target_link_libraries(vasa_${name} PUBLIC $<BUILD_INTERFACE:vasa_compiler> ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   foreach(target IN LISTS ARG_BUILD_LINK)
     target_link_libraries(vasa_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
@@ -21,12 +20,20 @@ function(vasa_library name)
   vasa_install_library(${name} ${ARG_HEADERS})
 endfunction()
 
+# vasa_alone(SOURCES ...): not compiled in one with others, as their macros or another's would act on both.
+function(vasa_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# Most of a test's time is the engine's, whose libraries are compiled in full; inline functions may be the tests' copies.
+add_library(vasa_test_compiler INTERFACE)
+target_compile_options(vasa_test_compiler INTERFACE $<$<CONFIG:Release>:-O1>)
+
 # vasa_test(NAME SOURCES ... LINK ...): one doctest program, one ctest entry. SECONDS: of one that takes long, so that it begins first
 # where several run at a time.
 function(vasa_test name)
   cmake_parse_arguments(ARG "" "SECONDS" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
-  target_precompile_headers(test_${name} REUSE_FROM vasa_precompiled_tests)
   target_link_libraries(test_${name} PRIVATE vasa_test_compiler vasa_test_support ${ARG_LINK})
   add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
   if(ARG_LABELS)

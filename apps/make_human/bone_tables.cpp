@@ -8,7 +8,7 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kStep = 2.5e-3f;                                // [m] between the stations of a tube, at most
+constexpr float kStationStep = 2.5e-3f;                         // [m] between the stations of a tube, at most
 constexpr float kGrooveStep = 1.5e-3f, kGrooveSwing = 1.1e-3f;  // of a suture's zigzag
 
 /// Where a form's axes lie in the body, and how long its units are.
@@ -226,7 +226,7 @@ class FormReader {
       const float cap = 1e-3f * forms_.numberOr(row, "cap_mm", 0);
       piece.capStart = cap > 0 ? cap : std::min(rough.front().width, rough.front().height);
       piece.capEnd = cap > 0 ? cap : std::min(rough.back().width, rough.back().height);
-      rough = refined(rough, operation == "groove" ? kGrooveStep : kStep);
+      rough = refined(rough, operation == "groove" ? kGrooveStep : kStationStep);
       if (operation == "groove") rough = ontoSurface(form, rough, kGrooveSwing);
       finish(piece, rough);
     }

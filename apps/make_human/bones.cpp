@@ -7,12 +7,12 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kCell = 0.020f;  // [m] largest polygon of an organ
-constexpr float kLofted = 25;    // beside thin lofted plates distances come out many times too long
+constexpr float kOrganCell = 0.020f;  // [m] largest polygon of an organ
+constexpr float kLofted = 25;         // beside thin lofted plates distances come out many times too long
 
 // What is left is still dense enough that distances to a bone's vertices tell distances to the bone
 // (body/bone_field.h).
-constexpr float kThinningError = 0.15e-3f;  // [m]
+constexpr float kBoneError = 0.15e-3f;  // [m]
 
 struct Tissue {
   const char* name;
@@ -42,7 +42,7 @@ void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
   solid.mesh =
       polygonise({[&](vec3 p) { return shape.distance(p); },
                   [&](vec3 p, float reach) { return shape.cellSize(p, kLofted * reach); }, shape.bounds()},
-                 kCell);
+                 kOrganCell);
   solid.normals = vertexNormals(solid.mesh);
   append(to, solid, rig.points[std::size_t(shape.parts.front().path.front())].joint, false);
 }
@@ -51,7 +51,7 @@ void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
 
 std::vector<SkinnedMesh> makeBones(const std::vector<BoneForm>& forms, const Rig& rig) {
   std::vector<FormSurface> surfaces(forms.size());
-  parallelFor(forms.size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], kThinningError); });
+  parallelFor(forms.size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], kBoneError); });
   std::vector<SkinnedMesh> meshes;
   for (const Tissue& tissue : kTissues) {
     SkinnedMesh& mesh = meshes.emplace_back();

@@ -11,7 +11,7 @@ namespace vasa::human {
 namespace {
 
 constexpr float kReferenceSweeps = 4030;
-constexpr float kStep = 0.0035f, kClearance = 0.35e-3f, kFromBone = 0.5e-3f,
+constexpr float kGrowthStep = 0.0035f, kClearance = 0.35e-3f, kFromBone = 0.5e-3f,
                 kFitTolerance = 0.25e-3f;                                          // [m] at the reference
 constexpr float kHostCell = 0.016f, kObstacleCell = 0.010f, kLeastCell = 0.0015f;  // of grids of segments
 constexpr int kCandidates = 8;  // places of which the emptiest is chosen, at first
@@ -25,9 +25,9 @@ constexpr float kShortenings[] = {1, 0.6f, 0.35f};
 constexpr float kStemReserve = 2.3f;  // of a branch's radius over its tip's, for the branches to come
 constexpr float kMuch = 0.9f, kLengthOfStemRadius = 55;
 constexpr float kShareOfHost = 0.62f;
-constexpr float kLongest = 1.6f;        // of a branch, over its ends' distance
-constexpr float kStraightest = 1.025f;  // likewise; straighter ones look like hairs
-constexpr float kFarthestMoved = 1.7f;  // of a branch's point from its middle, over what it was
+constexpr float kMostWinding = 1.6f;     // of a branch, over its ends' distance
+constexpr float kLeastWinding = 1.025f;  // likewise; straighter ones look like hairs
+constexpr float kFarthestMoved = 1.7f;   // of a branch's point from its middle, over what it was
 
 /// Numbers in [0, 1) that depend on a seed and a counter only.
 class Dice {
@@ -68,7 +68,7 @@ struct Grower::State {
         around_(around),
         options_(options),
         scale_(std::min(1.0f, std::cbrt(kReferenceSweeps / float(options.sweeps)))),
-        tree_(vessels, kStep * std::max(scale_, 0.4f), kClearance * scale_,
+        tree_(vessels, kGrowthStep * std::max(scale_, 0.4f), kClearance * scale_,
               std::max(kObstacleCell * scale_, kLeastCell)),
         laidCount_(vessels.size()) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -242,7 +242,7 @@ struct Grower::State {
     const vec3 wobble = vec3(x, y, z) - 0.5f;
     const vec3 arriving = glm::normalize(direct + 0.6f * wobble);
     const vec3 b1 = root + 0.36f * length * leaving, b2 = target - 0.36f * length * arriving;
-    const int steps = std::max(4, int(std::ceil(length / (kStep * scale_))));
+    const int steps = std::max(4, int(std::ceil(length / (kGrowthStep * scale_))));
     const float phase = 2 * kPi * dice.next(), waves = 0.4f + dice.next();
     const vec3 across = anyPerpendicular(direct), up = glm::cross(direct, across);
     std::vector<vec3> points;
@@ -312,14 +312,14 @@ struct Grower::State {
     float length = 0;
     for (std::size_t k = 1; k < points.size(); ++k) {
       const float step = glm::distance(points[k], points[k - 1]);
-      if (step < 0.2f * kStep * scale_) return false;
+      if (step < 0.2f * kGrowthStep * scale_) return false;
       length += step;
       if (k + 1 < points.size() &&
           glm::dot(points[k + 1] - points[k], points[k] - points[k - 1]) < 0.5f * step * step)
         return false;  // folded up against something
     }
     const float straight = glm::distance(points.front(), points.back());
-    if (length > kLongest * straight || length < kStraightest * straight || straight < 8 * branch.tip)
+    if (length > kMostWinding * straight || length < kLeastWinding * straight || straight < 8 * branch.tip)
       return false;
     for (std::size_t k = 1; k < points.size(); ++k) {
       for (const auto& [solid, need] :

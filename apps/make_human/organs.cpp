@@ -10,12 +10,12 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kThinningError = 0.3e-3f;                       // [m]
-constexpr float kGrooveStep = 2e-3f;                            // [m] along a vessel
+constexpr float kOrganError = 0.3e-3f;                          // [m]
+constexpr float kPressStep = 2e-3f;                             // [m] along a vessel
 constexpr float kGrooveWider = 0.6e-3f;                         // [m] than the vessel's wall
 constexpr float kNarrowest = 1.7e-3f;                           // [m] that the polygons can show
 constexpr float kGrooveBlend = 2.5e-3f, kGrooveCell = 2.5e-3f;  // [m]
-constexpr float kDeepest = 9e-3f;  // [m] below the surface: what lies deeper goes through the organ
+constexpr float kDeepestGroove = 9e-3f;  // [m] below the surface: what lies deeper goes through the organ
 
 void addGroove(BoneForm& form, BonePiece& groove) {
   if (groove.stations.size() > 1) {
@@ -39,9 +39,9 @@ void carveGroove(BoneForm& form, std::span<const vec4> points) {
     const vec4 at = evaluate(points, u);
     const vec3 p(at), way(evaluateDerivative(points, u));
     const float distance = uncut.distance(p), radius = std::max(at.w + kGrooveWider, kNarrowest);
-    if (distance < -kDeepest) addGroove(form, groove);
-    if (distance < -kDeepest || glm::length(way) == 0) continue;
-    if (!groove.stations.empty() && glm::distance(p, groove.stations.back().centre) < kGrooveStep) continue;
+    if (distance < -kDeepestGroove) addGroove(form, groove);
+    if (distance < -kDeepestGroove || glm::length(way) == 0) continue;
+    if (!groove.stations.empty() && glm::distance(p, groove.stations.back().centre) < kPressStep) continue;
     const vec3 along = glm::normalize(way);
     vec3 up = uncut.gradient(p);
     up -= glm::dot(up, along) * along;
@@ -103,7 +103,7 @@ Result<std::vector<SkinnedMesh>> makeOrgans(const std::filesystem::path& tables,
   if (!table->state().ok()) return table->state().error();
   if (const Result<void> carved = carveGrooves(*table, vessels, forms); !carved.ok()) return carved.error();
   std::vector<FormSurface> surfaces(forms.size());
-  parallelFor(forms.size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], kThinningError); });
+  parallelFor(forms.size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], kOrganError); });
   std::vector<SkinnedMesh> organs(forms.size());
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const BoneForm& form = forms[i];

@@ -9,7 +9,7 @@
 namespace vasa::human {
 namespace {
 
-constexpr float kCoarseCell = 0.030f;
+constexpr float kSkinCell = 0.030f;
 constexpr int kSmoothingRounds = 6;
 constexpr float kBelow = 0.010f;  // [m] under the skin it is plainer whose flesh this is, as in an armpit
 
@@ -56,7 +56,7 @@ SkinnedMesh makeSkin(const Shape& shape, const Rig& rig) {
   skin.colour = {0.85f, 0.62f, 0.52f, 0.32f};
   skin.mesh = polygonise({[&](vec3 p) { return shape.distance(p); },
                           [&](vec3 p, float reach) { return shape.cellSize(p, reach); }, shape.bounds()},
-                         kCoarseCell);
+                         kSkinCell);
   std::vector<Weights> weights;
   for (vec3 p : skin.mesh.positions) {
     skin.normals.push_back(glm::normalize(shape.gradient(p)));

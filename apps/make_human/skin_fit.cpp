@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "body/skinning.h"
+#include "core/ids.h"
 #include "core/parallel.h"
 #include "make_human/extreme_poses.h"
 #include "make_human/path_weights.h"
@@ -19,8 +20,8 @@
 namespace vasa::human {
 namespace {
 
-constexpr int kPosesPerClip = 3;
-constexpr int kRounds = 4, kSheetSteps = 25, kSmoothingRounds = 12;
+constexpr int kFittedPoses = 3;
+constexpr int kFitRounds = 4, kSheetSteps = 25, kFieldRounds = 12;
 constexpr float kThickness = 5e-3f;   // [m] of skin over a bone, at least, if it has as much at rest
 constexpr float kRestShare = 0.8f;    // of what it has at rest
 constexpr float kSkinReach = 0.05f;   // [m] bones deeper than this at rest never come near the skin
@@ -32,7 +33,6 @@ constexpr float kPushedCounts = 10;                    // times as much as a she
 constexpr float kThinnest = 0.3e-3f;                   // [m] of skin, at least
 constexpr std::size_t kBoneStep = 3;                   // bones' vertices looked at
 constexpr float kFirst = 1;  // [m] more than any push: what covers a bone at rest goes before what is near
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Floor = SkinSheet::Floor;
 
@@ -103,7 +103,7 @@ quat mainTurn(const SoughtWeights& sought, const std::vector<mat4>& matrices) {
 class Fit {
  public:
   explicit Fit(Body& body) : skin_(body.meshes[0]), bones_(body.meshes[1]), sheet_(skin_.mesh) {
-    for (const Pose& pose : extremePoses(body, kPosesPerClip))
+    for (const Pose& pose : extremePoses(body, kFittedPoses))
       matrices_.push_back(skinMatrices(body.skeleton, pose));
     joints_ = body.skeleton.joints.size();
     start_ = sought_ = candidates(skin_, sheet_, joints_);
@@ -111,10 +111,10 @@ class Fit {
   }
 
   void run() {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kFitRounds; ++round) {
       shapes_.resize(matrices_.size());
       parallelFor(matrices_.size(), 1, [&](std::size_t p) { shapes_[p] = wantedShape(matrices_[p]); });
-      if (round + 2 == kRounds) keepFour();
+      if (round + 2 == kFitRounds) keepFour();
       fitWeights();
     }
     for (std::size_t i = 0; i < sought_.size(); ++i) {
@@ -212,7 +212,7 @@ class Fit {
   void fitWeights() {
     std::vector<WeightQuadric> quadrics(sought_.size());
     parallelFor(sought_.size(), 256, [&](std::size_t i) { quadrics[i] = quadricOf(i); });
-    for (int round = 0; round < kSmoothingRounds; ++round) {
+    for (int round = 0; round < kFieldRounds; ++round) {
       std::vector<SoughtWeights> next = sought_;
       parallelFor(sought_.size(), 256, [&](std::size_t i) {
         WeightQuadric q = quadrics[i];

@@ -9,7 +9,7 @@ namespace vasa::human {
 namespace {
 
 constexpr int kTurnRounds = 2;
-constexpr float kStep = 0.7f;  // of the way to where the neighbours want a vertex
+constexpr float kSheetRelaxation = 0.7f;  // of the way to where the neighbours want a vertex
 
 quat turnTowards(quat turn, const mat3& covariance) {
   for (int round = 0; round < kTurnRounds; ++round) {
@@ -60,7 +60,7 @@ void SkinSheet::relax(std::span<vec3> positions, std::span<quat> turns, std::spa
       wanted[i] = sum / float(neighbours(i).size());
     }
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      positions[i] += kStep * (wanted[i] - positions[i]);
+      positions[i] += kSheetRelaxation * (wanted[i] - positions[i]);
       if (!floors[i].bounds()) continue;
       const float short_ = floors[i].offset - glm::dot(positions[i], floors[i].normal);
       if (short_ > 0) positions[i] += short_ * floors[i].normal;

@@ -9,7 +9,7 @@ namespace vasa::human {
 namespace {
 
 constexpr float kCell = 0.008f;
-constexpr float kCoarseCell = 0.012f, kFarthest = 0.03f;  // [m] of the cells that tell at once what is far
+constexpr float kFarCell = 0.012f, kFarthestTold = 0.03f;  // [m] of the cells that tell at once what is far
 constexpr float kUnknown = -1;
 
 double sideOf(const dvec3& a, const dvec3& b, double x, double y) {
@@ -79,20 +79,20 @@ int Solid::winding(vec3 p) const {
 /// True only if p lies outside and farther than `within`: the middle of its coarse cell is farther by more
 /// than p is from it. Threads that find the same cell unknown write the same number.
 bool Solid::isFar(vec3 p, float within) const {
-  const uvec3 counts = uvec3(box_.extent() / kCoarseCell) + 1u;
+  const uvec3 counts = uvec3(box_.extent() / kFarCell) + 1u;
   std::call_once(cleared_, [&] {
     clear_ = std::vector<std::atomic<float>>(std::size_t(counts.x) * counts.y * counts.z);
     for (std::atomic<float>& cell : clear_) cell.store(kUnknown, std::memory_order_relaxed);
   });
-  const vec3 at = glm::floor((p - box_.low) / kCoarseCell);
+  const vec3 at = glm::floor((p - box_.low) / kFarCell);
   if (glm::any(glm::lessThan(at, vec3(0))) || glm::any(glm::greaterThanEqual(at, vec3(counts)))) return false;
   const uvec3 cell(at);
-  const vec3 middle = box_.low + (at + 0.5f) * kCoarseCell;
+  const vec3 middle = box_.low + (at + 0.5f) * kFarCell;
   std::atomic<float>& known = clear_[(std::size_t(cell.z) * counts.y + cell.y) * counts.x + cell.x];
   float clear = known.load(std::memory_order_relaxed);
   if (clear == kUnknown) {
-    const TriangleTree::Nearest nearest = tree().nearest(middle, kFarthest);
-    const float distance = nearest.triangle == 0xffffffffu ? kFarthest : nearest.distance;
+    const TriangleTree::Nearest nearest = tree().nearest(middle, kFarthestTold);
+    const float distance = nearest.triangle == 0xffffffffu ? kFarthestTold : nearest.distance;
     clear = winding(middle) > 0 ? 0 : distance;
     known.store(clear, std::memory_order_relaxed);
   }

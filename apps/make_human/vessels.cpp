@@ -12,7 +12,7 @@ constexpr float kAllowedOut = 0.2e-3f;   // [m] of a centre line, in the poses l
 constexpr float kAllowedInBone = 4e-3f;  // [m] of a grown one's; less is put right as the vessels move
 constexpr float kStraightest = 0.98f;    // chord over length of a grown one: straighter ones look like hairs
 constexpr float kDeeper = 2.5e-3f;       // [m] than would just do
-constexpr float kDeepest = 6e-3f;        // at a time
+constexpr float kDeepestSink = 6e-3f;    // at a time
 
 Result<void> sinkEscapes(VesselLayout& layout, const MotionProbe& probe, float bodyHeight) {
   layout.settle();
@@ -24,7 +24,7 @@ Result<void> sinkEscapes(VesselLayout& layout, const MotionProbe& probe, float b
     bool any = false;
     for (const Escape& escape : *escapes)
       if (escape.excess > kAllowedOut) {
-        layout.sink(escape.vessel, escape.share, std::min(escape.excess + kDeeper, kDeepest));
+        layout.sink(escape.vessel, escape.share, std::min(escape.excess + kDeeper, kDeepestSink));
         any = true;
       }
     if (!any) break;

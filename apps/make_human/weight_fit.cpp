@@ -5,7 +5,7 @@
 namespace vasa::human {
 namespace {
 
-constexpr int kRounds = 12;
+constexpr int kWeightRounds = 12;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ void lower(const WeightQuadric& quadric, SoughtWeights& weights) {
     slope[j] = -quadric.b[j];
     for (int k = 0; k < weights.count; ++k) slope[j] += quadric.a[j][k] * w[k];
   }
-  for (int round = 0; round < kRounds; ++round)
+  for (int round = 0; round < kWeightRounds; ++round)
     for (int j = 0; j < weights.count; ++j)
       for (int k = 0; k < j; ++k) {
         const float bend = quadric.a[j][j] + quadric.a[k][k] - 2 * quadric.a[j][k];

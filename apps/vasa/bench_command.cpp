@@ -16,7 +16,7 @@
 // again would flatter (its memory accesses and branches are learnt by heart), so each timed run has a shape
 // of its own, near the pose asked for.
 namespace vasa::cli {
-namespace {
+namespace bench_command {
 
 struct Options {
   std::string tubes, pairs, method = "exact";
@@ -122,9 +122,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(*report) : printText(asText(*report));
 }
 
-}  // namespace
+}  // namespace bench_command
 
 void addBench(CLI::App& app, Command& command) {
+  using namespace bench_command;
   auto options = std::make_shared<Options>();
   CLI::App* bench = app.add_subcommand("bench", "Time one part of the program alone");
   bench->require_subcommand(1);

@@ -22,7 +22,7 @@
 
 // vasa check: what is wrong with each frame of a clip, before vessels are moved apart and after.
 namespace vasa::cli {
-namespace {
+namespace check_command {
 
 struct Options {
   SceneOptions scene;
@@ -351,9 +351,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(report) : printText(checkText(report));
 }
 
-}  // namespace
+}  // namespace check_command
 
 void addCheck(CLI::App& app, Command& command) {
+  using namespace check_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand(
       "check", "Interference before and after, certificate, volume, kinks and jumps of each frame");

@@ -1,5 +1,6 @@
 #include "command_text.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <sstream>
 
@@ -64,6 +65,10 @@ CommandText describeBelow(const CLI::App& app, std::vector<std::string> path) {
 }
 
 }  // namespace
+
+std::string joined(const std::vector<std::string>& parts, std::string_view between) {
+  return fmt::format("{}", fmt::join(parts, between));
+}
 
 CommandText describe(const CLI::App& app) { return describeBelow(app, {}); }
 

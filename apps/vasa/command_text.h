@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -7,6 +8,8 @@ class App;
 }
 
 namespace vasa::cli {
+
+std::string joined(const std::vector<std::string>& parts, std::string_view between = " ");
 
 /// An option or positional argument as manuals and shells want it.
 struct OptionText {

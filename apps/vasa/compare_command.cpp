@@ -10,7 +10,7 @@
 
 // vasa compare: what two networks in one body tell of the vessels that both have.
 namespace vasa::cli {
-namespace {
+namespace compare_command {
 
 struct Options {
   std::string network, other;
@@ -69,9 +69,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(report) : printText(asText(all, report, options.rows));
 }
 
-}  // namespace
+}  // namespace compare_command
 
 void addCompare(CLI::App& app, Command& command) {
+  using namespace compare_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("compare", "Lengths and courses of the vessels that two networks both have");

@@ -21,12 +21,6 @@ void visit(const CommandText& command, const std::function<void(const CommandTex
   for (const auto& below : command.commands) visit(below, look);
 }
 
-std::string joined(const std::vector<std::string>& parts, const char* between = " ") {
-  std::string out;
-  for (const auto& part : parts) out += (out.empty() ? "" : between) + part;
-  return out;
-}
-
 std::vector<std::string> wordsOf(const CommandText& command, const CommandText& program) {
   std::vector<std::string> words;
   for (const auto& below : command.commands) words.push_back(below.path.back());

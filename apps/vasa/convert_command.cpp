@@ -20,7 +20,7 @@
 
 // vasa convert: surfaces of vessels -> one network of sweeps.
 namespace vasa::cli {
-namespace {
+namespace convert_command {
 
 // Rounding is taken for granted where it is this small beside the fit's least tolerance.
 constexpr float kRoundingShare = 0.5f;
@@ -212,9 +212,10 @@ Result<void> run(const Globals& globals, const Options& options) {
                    convertText(conversion->report, *output));
 }
 
-}  // namespace
+}  // namespace convert_command
 
 void addConvert(CLI::App& app, Command& command) {
+  using namespace convert_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("convert", "Turn surfaces or centre lines of vessels into one network of sweeps");

@@ -11,7 +11,7 @@
 // vasa devices: the Vulkan devices of this machine and what each lacks. Ends with "no usable device" where
 // none can be used, after the list of them.
 namespace vasa::cli {
-namespace {
+namespace devices_command {
 
 struct Listing {
   std::vector<gpu::Adapter> adapters;
@@ -99,9 +99,10 @@ Result<void> run(const Globals& globals) {
   return {};
 }
 
-}  // namespace
+}  // namespace devices_command
 
 void addDevices(CLI::App& app, Command& command) {
+  using namespace devices_command;
   CLI::App* devices = app.add_subcommand("devices", "Vulkan devices, and what each lacks");
   devices->footer(
       "Examples:\n  vasa devices\n  vasa devices --json --device llvmpipe\n"

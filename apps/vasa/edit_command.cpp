@@ -18,7 +18,7 @@
 
 // vasa edit: replays a journal of edits onto a network.
 namespace vasa::cli {
-namespace {
+namespace edit_command {
 
 struct Options {
   std::vector<std::string> files;
@@ -157,9 +157,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(report) : printText(asText(report));
 }
 
-}  // namespace
+}  // namespace edit_command
 
 void addEdit(CLI::App& app, Command& command) {
+  using namespace edit_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand(
       "edit", "Change vessels by a journal: stenosis, aneurysm, stent, graft, branch, cut and more");

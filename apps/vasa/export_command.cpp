@@ -12,7 +12,7 @@
 
 // vasa export: vessels in motion as files that other programs read.
 namespace vasa::cli {
-namespace {
+namespace export_command {
 
 struct Options {
   SceneOptions scene;
@@ -123,9 +123,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return printText(text);
 }
 
-}  // namespace
+}  // namespace export_command
 
 void addExport(CLI::App& app, Command& command) {
+  using namespace export_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand(
       "export", "Animated surface, posed surface, centre lines or measurements for other programs");

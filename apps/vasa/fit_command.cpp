@@ -25,7 +25,7 @@
 
 // vasa fit: a network carried from one body, or from the surface around it, to another body.
 namespace vasa::cli {
-namespace {
+namespace fit_command {
 
 struct Options {
   std::string network, from, to, output, jointMap, unit, up;
@@ -214,9 +214,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(report) : printText(restRepairText(repair) + asText(report));
 }
 
-}  // namespace
+}  // namespace fit_command
 
 void addFit(CLI::App& app, Command& command) {
+  using namespace fit_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("fit", "Carry a network from one body, or the surface around it, to another");

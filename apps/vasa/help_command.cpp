@@ -15,7 +15,7 @@
 
 // vasa help: the commands' own help, topics beside them, and both as manual pages.
 namespace vasa::cli {
-namespace {
+namespace help_command {
 
 struct Options {
   std::vector<std::string> subject;
@@ -99,9 +99,10 @@ Result<void> writeAll(const CommandText& program, const std::filesystem::path& f
   return {};
 }
 
-}  // namespace
+}  // namespace help_command
 
 void addHelp(CLI::App& app, Command& command) {
+  using namespace help_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("help", "Explain a command or a topic");
   sub->footer(

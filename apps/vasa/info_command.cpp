@@ -26,7 +26,7 @@
 
 // vasa info: counts, sizes, lengths and volumes of a network, a body or a scene.
 namespace vasa::cli {
-namespace {
+namespace info_command {
 
 struct Options {
   std::string file, profile, to, output;
@@ -368,9 +368,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(*report) : printText(withTables(std::move(*report)));
 }
 
-}  // namespace
+}  // namespace info_command
 
 void addInfo(CLI::App& app, Command& command) {
+  using namespace info_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("info", "Counts, sizes, lengths and volumes of a network, body, motion or scene");

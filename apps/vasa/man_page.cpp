@@ -9,40 +9,34 @@ namespace vasa::cli {
 namespace {
 
 // Backslashes and hyphens mean something to troff, and so does a line that begins with a dot or a quote.
-std::string escaped(std::string_view text) {
+std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) out += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
   if (out.starts_with('.') || out.starts_with('\'')) out.insert(0, "\\&");
   return out;
 }
 
-std::string joined(const std::vector<std::string>& parts, const std::string& between) {
-  std::string out;
-  for (const auto& part : parts) out += (out.empty() ? "" : between) + part;
-  return out;
-}
-
 std::string header(const std::string& name, int section, const std::string& about) {
   std::string title = name;
   for (char& c : title) c = char(std::toupper(static_cast<unsigned char>(c)));
-  return fmt::format(".TH {} {} \"\" \"vasa {}\" \"vasa\"\n.SH NAME\n{} \\- {}\n", escaped(title), section,
-                     VASA_VERSION, escaped(name), escaped(about));
+  return fmt::format(".TH {} {} \"\" \"vasa {}\" \"vasa\"\n.SH NAME\n{} \\- {}\n", roff(title), section,
+                     VASA_VERSION, roff(name), roff(about));
 }
 
 std::string listing(const std::vector<std::string>& lines) {
   std::string out = ".PP\n.nf\n.RS 4\n";
-  for (const auto& line : lines) out += escaped(line) + "\n";
+  for (const auto& line : lines) out += roff(line) + "\n";
   return out + ".RE\n.fi\n";
 }
 
 std::string optionEntry(const OptionText& option) {
   std::vector<std::string> names;
-  for (const auto& name : option.names) names.push_back(fmt::format("\\fB{}\\fR", escaped(name)));
+  for (const auto& name : option.names) names.push_back(fmt::format("\\fB{}\\fR", roff(name)));
   std::string out = fmt::format(".TP\n{}", joined(names, ", "));
-  if (!option.positional && !option.value.empty()) out += fmt::format(" \\fI{}\\fR", escaped(option.value));
-  out += fmt::format("\n{}", escaped(option.description));
-  if (!option.choices.empty()) out += fmt::format(". One of {}", escaped(joined(option.choices, ", ")));
-  if (!option.standard.empty()) out += fmt::format(". Default: {}", escaped(option.standard));
+  if (!option.positional && !option.value.empty()) out += fmt::format(" \\fI{}\\fR", roff(option.value));
+  out += fmt::format("\n{}", roff(option.description));
+  if (!option.choices.empty()) out += fmt::format(". One of {}", roff(joined(option.choices, ", ")));
+  if (!option.standard.empty()) out += fmt::format(". Default: {}", roff(option.standard));
   if (option.required) out += ". Required";
   return out + ".\n";
 }
@@ -55,12 +49,12 @@ std::string options(const CommandText& command, const char* heading, bool positi
 }
 
 std::string synopsis(const CommandText& command) {
-  std::string out = fmt::format(".SH SYNOPSIS\n.B {}\n", escaped(joined(command.path, " ")));
+  std::string out = fmt::format(".SH SYNOPSIS\n.B {}\n", roff(joined(command.path, " ")));
   if (!command.commands.empty()) out += ".I COMMAND\n";
   out += "[\\fIOPTION\\fR]...";
   for (const OptionText& option : command.options)
     if (option.positional)
-      out += fmt::format(" {}\\fI{}\\fR{}{}", option.required ? "" : "[", escaped(option.names.front()),
+      out += fmt::format(" {}\\fI{}\\fR{}{}", option.required ? "" : "[", roff(option.names.front()),
                          option.repeated ? "..." : "", option.required ? "" : "]");
   return out + "\n";
 }
@@ -79,7 +73,7 @@ std::string seeAlso(const CommandText& program, const std::string& self) {
   std::string out = ".SH SEE ALSO\n";
   for (std::size_t i = 0, written = 0; i < pages.size(); ++i)
     if (!pages[i].starts_with(self + "("))
-      out += (written++ ? ", " : "") + fmt::format("\\fB{}\\fR", escaped(pages[i]));
+      out += (written++ ? ", " : "") + fmt::format("\\fB{}\\fR", roff(pages[i]));
   return out + "\n";
 }
 
@@ -96,13 +90,13 @@ std::string manName(const Topic& topic) { return fmt::format("vasa-{}", topic.na
 
 std::string manPage(const CommandText& command, const CommandText& program) {
   std::string out = header(manName(command), 1, lowerFirst(command.description)) + synopsis(command);
-  out += fmt::format(".SH DESCRIPTION\n{}.\n", escaped(command.description));
-  for (const auto& note : command.notes) out += fmt::format("{}\n", escaped(note));
+  out += fmt::format(".SH DESCRIPTION\n{}.\n", roff(command.description));
+  for (const auto& note : command.notes) out += fmt::format("{}\n", roff(note));
   out += options(command, "ARGUMENTS", true) + options(command, "OPTIONS", false);
   if (!command.commands.empty()) {
     out += ".SH COMMANDS\n";
     for (const auto& below : command.commands)
-      out += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", escaped(below.path.back()), escaped(below.description));
+      out += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", roff(below.path.back()), roff(below.description));
   }
   if (command.path.size() > 1) out += ".PP\nThe options of \\fBvasa\\fR(1) may be given, too.\n";
   if (!command.examples.empty()) out += fmt::format(".SH EXAMPLES\n{}", listing(command.examples));
@@ -128,11 +122,11 @@ std::string manPage(const Topic& topic) {
     endBlock();
     if (line.empty()) continue;
     if (line.starts_with("## "))
-      out += fmt::format(".SH {}\n", escaped(line.substr(3)));
+      out += fmt::format(".SH {}\n", roff(line.substr(3)));
     else if (line.starts_with("* "))
-      out += fmt::format(".IP \\(bu 2\n{}\n", escaped(line.substr(2)));
+      out += fmt::format(".IP \\(bu 2\n{}\n", roff(line.substr(2)));
     else
-      out += (gap ? ".PP\n" : "") + escaped(line.substr(line.find_first_not_of(' '))) + "\n";
+      out += (gap ? ".PP\n" : "") + roff(line.substr(line.find_first_not_of(' '))) + "\n";
   }
   endBlock();
   return out;

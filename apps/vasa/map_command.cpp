@@ -14,7 +14,7 @@
 
 // vasa map: the pairs of joints by which a motion moves a body, to be read and mended by hand.
 namespace vasa::cli {
-namespace {
+namespace map_command {
 
 struct Options {
   std::string body, motion, output, jointMap;
@@ -132,9 +132,10 @@ Result<void> run(const Globals& globals, const Options& options) {
                    "; mend it where a pair is wrong, and give it with --joint-map\n");
 }
 
-}  // namespace
+}  // namespace map_command
 
 void addMap(CLI::App& app, Command& command) {
+  using namespace map_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand(
       "map", "Which joint of a motion moves which joint of a body, as a file to mend by hand");

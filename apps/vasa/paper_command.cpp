@@ -18,7 +18,7 @@
 
 // vasa paper: what the source paper prints, made by this program, beside the paper's own numbers.
 namespace vasa::cli {
-namespace {
+namespace paper_command {
 
 struct Options {
   SceneOptions scene;
@@ -168,9 +168,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return {};
 }
 
-}  // namespace
+}  // namespace paper_command
 
 void addPaper(CLI::App& app, Command& command) {
+  using namespace paper_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("paper", "The source paper's tables and figures, beside its own numbers, as a page");

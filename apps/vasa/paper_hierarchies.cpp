@@ -7,6 +7,7 @@
 #include "core/cancellation.h"
 #include "core/clock.h"
 #include "core/parallel.h"
+#include "paper_look.h"
 #include "paper_study.h"
 #include "scene/frame.h"
 
@@ -14,8 +15,6 @@
 // through one another in the same poses, before vessels are moved apart, neighbours left out, on one thread.
 namespace vasa::cli {
 namespace {
-
-constexpr float kPaperTolerance = 1e-3f;  // of the body height
 
 struct Poses {
   NetworkTubes layout;

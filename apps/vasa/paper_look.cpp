@@ -7,8 +7,6 @@
 namespace vasa::cli {
 namespace {
 
-constexpr float kPaperTolerance = 1e-3f;  // of the body height (the paper, section 5)
-
 std::vector<Bezier> shapeOf(const NetworkTubes& layout, std::span<const vec4> points) {
   std::vector<Bezier> tubes(layout.count());
   layout.shape(points, tubes);

@@ -6,6 +6,8 @@
 
 namespace vasa::cli {
 
+constexpr float kPaperTolerance = 1e-3f;  ///< of the body height (the paper, section 5)
+
 /// A network's shapes as the source paper's detection sees them, beside the exact one: which pairs of tubes
 /// run through one another (neighbours along the network left out), and how long finding them takes.
 /// Tolerance: the paper's 1e-3 of the body height. The paper's takes one thread, the exact one as many as

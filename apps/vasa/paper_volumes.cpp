@@ -32,7 +32,7 @@ struct Shape {
 
 // A ball where the ends are one place.
 TriangleMesh capsuleMesh(const Capsule& capsule) {
-  constexpr std::uint32_t kAround = 48, kRings = 12;  // rings a half ball
+  constexpr std::uint32_t kBallAround = 48, kRings = 12;  // rings a half ball
   const vec3 along = capsule.b - capsule.a;
   const float length = glm::length(along);
   const vec3 axis = length > 0 ? along / length : vec3(0, 1, 0), u = anyPerpendicular(axis),
@@ -41,18 +41,18 @@ TriangleMesh capsuleMesh(const Capsule& capsule) {
   for (std::uint32_t ring = 0; ring < 2 * kRings; ++ring) {
     const bool upper = ring >= kRings;
     const float latitude = kPi * (float(upper ? ring - 1 : ring) / float(2 * kRings - 2) - 0.5f);
-    for (std::uint32_t k = 0; k < kAround; ++k) {
-      const float longitude = 2 * kPi * float(k) / kAround;
+    for (std::uint32_t k = 0; k < kBallAround; ++k) {
+      const float longitude = 2 * kPi * float(k) / kBallAround;
       const vec3 out = std::cos(latitude) * (std::cos(longitude) * u + std::sin(longitude) * v) +
                        std::sin(latitude) * axis;
       mesh.positions.push_back((upper ? capsule.b : capsule.a) + capsule.radius * out);
     }
   }
   for (std::uint32_t ring = 0; ring + 1 < 2 * kRings; ++ring)
-    for (std::uint32_t k = 0; k < kAround; ++k) {
-      const std::uint32_t a = ring * kAround + k, b = ring * kAround + (k + 1) % kAround;
-      mesh.triangles.push_back({a, b, b + kAround});
-      mesh.triangles.push_back({a, b + kAround, a + kAround});
+    for (std::uint32_t k = 0; k < kBallAround; ++k) {
+      const std::uint32_t a = ring * kBallAround + k, b = ring * kBallAround + (k + 1) % kBallAround;
+      mesh.triangles.push_back({a, b, b + kBallAround});
+      mesh.triangles.push_back({a, b + kBallAround, a + kBallAround});
     }
   return mesh;
 }

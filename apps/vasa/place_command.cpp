@@ -23,7 +23,7 @@
 // vasa place: a network that stands elsewhere moved into a body: turned, moved and scaled, by hand or by
 // landmarks.
 namespace vasa::cli {
-namespace {
+namespace place_command {
 
 struct Options {
   std::string network, body, output;
@@ -200,9 +200,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(report) : printText(asText(report));
 }
 
-}  // namespace
+}  // namespace place_command
 
 void addPlace(CLI::App& app, Command& command) {
+  using namespace place_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand(
       "place", "Move, turn and scale a network that stands elsewhere into a body, by hand or by landmarks");

@@ -23,7 +23,7 @@
 
 // vasa plate: a part of the body as a page of an atlas.
 namespace vasa::cli {
-namespace {
+namespace plate_command {
 
 namespace fs = std::filesystem;
 using plate::PlatePlan;
@@ -297,9 +297,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return {};
 }
 
-}  // namespace
+}  // namespace plate_command
 
 void addPlate(CLI::App& app, Command& command) {
+  using namespace plate_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("plate", "A part of the body as a labelled page of an atlas: PNG, SVG, PDF");

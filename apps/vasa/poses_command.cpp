@@ -25,7 +25,7 @@
 
 // vasa poses: which poses kink, squeeze, stretch or press which vessel.
 namespace vasa::cli {
-namespace {
+namespace poses_command {
 
 namespace fs = std::filesystem;
 
@@ -347,9 +347,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(report) : printText(asText(report));
 }
 
-}  // namespace
+}  // namespace poses_command
 
 void addPoses(CLI::App& app, Command& command) {
+  using namespace poses_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("poses", "Which poses kink, squeeze, stretch or press which vessel");
   sub->footer(

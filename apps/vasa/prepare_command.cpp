@@ -15,7 +15,7 @@
 
 // vasa prepare: what takes long to make of a body and stays the same, made beforehand.
 namespace vasa::cli {
-namespace {
+namespace prepare_command {
 
 struct Options {
   SceneOptions scene;
@@ -79,9 +79,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return {};
 }
 
-}  // namespace
+}  // namespace prepare_command
 
 void addPrepare(CLI::App& app, Command& command) {
+  using namespace prepare_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("prepare", "Make beforehand what takes long at a body's first use");
   sub->footer(

@@ -22,7 +22,7 @@
 // vasa profile: the paper's Tables I to III on this machine. Each row draws a clip's changing poses at one
 // resolution, and beside it the same triangles from ready vertex buffers (render/profiler.h).
 namespace vasa::cli {
-namespace {
+namespace profile_command {
 
 constexpr const char* kMeasured =
     "frame_ms: from one picture to the next, while the next pose is solved on another thread; latency_ms: from a pose to its "
@@ -187,9 +187,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return globals.json ? printJson(*report) : printText(asText(*report));
 }
 
-}  // namespace
+}  // namespace profile_command
 
 void addProfile(CLI::App& app, Command& command) {
+  using namespace profile_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("profile", "How long each stage takes at several tessellations");
   sub->footer(

@@ -15,7 +15,7 @@
 
 // vasa realism: the deformation beside figures that were measured in living people and cadavers.
 namespace vasa::cli {
-namespace {
+namespace realism_command {
 
 struct Options {
   SceneOptions scene;
@@ -144,9 +144,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return {};
 }
 
-}  // namespace
+}  // namespace realism_command
 
 void addRealism(CLI::App& app, Command& command) {
+  using namespace realism_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub =
       app.add_subcommand("realism", "How vessels change with the pose, beside figures measured in people");

@@ -28,7 +28,7 @@
 
 // vasa render: frames of a clip to PNG files and a video.
 namespace vasa::cli {
-namespace {
+namespace render_command {
 
 struct Options {
   SceneOptions scene;
@@ -321,9 +321,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   return {};
 }
 
-}  // namespace
+}  // namespace render_command
 
 void addRender(CLI::App& app, Command& command) {
+  using namespace render_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("render", "Frames of a clip to PNG files and a video");
   sub->footer(

@@ -20,7 +20,7 @@
 
 // vasa view: the interactive app (apps/viewer), from the command line.
 namespace vasa::cli {
-namespace {
+namespace view_command {
 
 struct Options {
   SceneOptions scene;
@@ -199,9 +199,10 @@ std::string footer() {
   return text;
 }
 
-}  // namespace
+}  // namespace view_command
 
 void addView(CLI::App& app, Command& command) {
+  using namespace view_command;
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand("view", "The interactive app");
   sub->footer(footer());

@@ -19,7 +19,7 @@ const Shortcut kMouse[] = {
 
 bool isDigit(Key key) { return key >= keyOf('1') && key <= keyOf('9'); }
 
-const char* nameOf(Key key) {
+const char* signOf(Key key) {
   constexpr std::pair<Key, const char*> kNames[] = {
       {Key::space, "Space"}, {Key::tab, "Tab"},   {Key::escape, "Esc"},  {Key::del, "Del"},
       {Key::home, "Home"},   {Key::left, "Left"}, {Key::right, "Right"}, {Key::up, "Up"},
@@ -31,7 +31,7 @@ const char* nameOf(Key key) {
 
 std::string textOf(Key key) {
   if (key == kAnyDigit) return "1-9";
-  if (const char* name = nameOf(key)) return name;
+  if (const char* name = signOf(key)) return name;
   if (key >= Key::f1 && key <= Key::f12) return fmt::format("F{}", int(key) - int(Key::f1) + 1);
   return std::string(1, char(key));
 }

@@ -13,9 +13,9 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_AlwaysAutoResize;
+constexpr ImGuiWindowFlags kFixedTool = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                        ImGuiWindowFlags_AlwaysAutoResize;
 
 void showTools(const PanelInput& in) {
   Editor& editor = *in.editor;
@@ -109,7 +109,7 @@ void showEdit(const PanelInput& in) {
   const float width = std::min(316 * in.scale, picture.width - 2 * edge);
   ImGui::SetNextWindowPos({picture.left + edge, picture.top + below});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(picture.height - below - edge, 1.0f)});
-  if (ImGui::Begin("##edit", nullptr, kFixed)) showContents(in);
+  if (ImGui::Begin("##edit", nullptr, kFixedTool)) showContents(in);
   ImGui::End();
 }
 
@@ -143,7 +143,7 @@ void showQuestion(const PanelInput& in) {
   const Rect& picture = in.layout.picture;
   ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
                           {0.5f, 0.5f});
-  if (ImGui::Begin("##question", nullptr, kFixed)) {
+  if (ImGui::Begin("##question", nullptr, kFixedTool)) {
     ImGui::TextUnformatted("Edits or the pose are not saved.");
     if (ImGui::Button(quits ? "Save and quit" : "Save and open"))
       in.state.wishSave = in.state.wishGoOn = true;
@@ -160,7 +160,7 @@ void showFailure(const PanelInput& in) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, 0, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(460 * in.scale, window.x - 24 * in.scale), 0});
-  if (ImGui::Begin("##failure", nullptr, kFixed & ~ImGuiWindowFlags_AlwaysAutoResize)) {
+  if (ImGui::Begin("##failure", nullptr, kFixedTool & ~ImGuiWindowFlags_AlwaysAutoResize)) {
     ImGui::TextUnformatted("That could not be done.");
     ImGui::TextWrapped("%s", in.state.failure.c_str());
     if (ImGui::Button("All right (Esc)")) in.state.failure.clear();

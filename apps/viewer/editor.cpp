@@ -14,7 +14,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReach = 9;          // [pixels of an ordinary screen] of the handle, as a joint's
+constexpr float kHandleReach = 9;          // [pixels of an ordinary screen] of the handle, as a joint's
 constexpr double kSamePlace = 2e-3;  // of a vessel
 // [radii] to either side that a drag takes along, where the default of `move` (three times the way) is less:
 // a wall that is moved within less of its own width folds. An abdominal aorta of 6.6 mm is moved by 1 mm and
@@ -54,7 +54,7 @@ std::optional<Line> lineThere(const std::optional<Chosen>& chosen, const ViewSta
   return line;
 }
 
-void write(ViewState& state, const EditOperation& operation, bool anew) {
+void writeLine(ViewState& state, const EditOperation& operation, bool anew) {
   if (anew) state.journal.pop_back();
   state.journal.push_back(journalLine(operation));
 }
@@ -114,7 +114,7 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
     for (int axis = 0; axis < 3; ++axis) held_->line.byMm[axis] = decimals(1e3 * double(way[axis]), 2);
     const bool narrow = kWayToFalloff * glm::length(held_->line.byMm) < held_->leastFalloffMm;
     held_->line.falloffMm = narrow ? held_->leastFalloffMm : 0;
-    write(state, held_->line, std::exchange(held_->written, true));
+    writeLine(state, held_->line, std::exchange(held_->written, true));
     return true;
   }
   const auto* button = std::get_if<ButtonChanged>(&event);
@@ -123,7 +123,7 @@ bool Editor::feed(const InputEvent& event, const Document& document, const Posed
   if (state.editTool != EditTool::change || !state.selected) return false;
   const vec3 centre = centreOf(document, body, *state.selected);
   const auto seen = seenAt(centre, camera, picture);
-  if (!seen || glm::distance(*seen, place_) > kReach * scale_) return false;
+  if (!seen || glm::distance(*seen, place_) > kHandleReach * scale_) return false;
   const auto chosen = chosenOf(document, state);
   held_ = Held{};  // clang 14 knows no emplace() of a class that is nested here
   Held& held = *held_;
@@ -171,7 +171,7 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
     for (const vec3& passed : std::exchange(way_, {}).via)
       line.via.emplace_back(decimals(1e3 * double(passed.x), 1), decimals(1e3 * double(passed.y), 1),
                             decimals(1e3 * double(passed.z), 1));
-    write(state, line, false);
+    writeLine(state, line, false);
     return true;
   }
   state.editTool = EditTool::change;
@@ -181,7 +181,7 @@ bool Editor::click(vec2 place, const std::optional<VesselPlace>& hit, const Docu
   line.lengthMm = decimals(1e3 * double(glm::length(way)), 2);
   for (int axis = 0; axis < 3; ++axis)
     line.direction[axis] = decimals(double(way[axis]) / std::max(double(glm::length(way)), 1e-9), 3);
-  write(state, line, false);
+  writeLine(state, line, false);
   return true;
 }
 
@@ -222,7 +222,7 @@ void Editor::setStenosis(double percent, const Document& document, ViewState& st
   StenosisEdit line = before.value_or(StenosisEdit{chosen->vessel, chosen->share});
   line.lengthMm = decimals(lengthMm, 1);
   line.percent = std::round(percent);
-  write(state, line, before.has_value());
+  writeLine(state, line, before.has_value());
 }
 
 // All along the stretch, which may be cut short by the vessel's ends.
@@ -235,11 +235,11 @@ void Editor::setRadius(double factor, const Document& document, ViewState& state
   RadiusEdit line{chosen->vessel, decimals(chosen->share - half, 4), decimals(chosen->share + half, 4)};
   if (before) line = *before;
   line.factor = decimals(factor, 2);
-  write(state, line, before.has_value());
+  writeLine(state, line, before.has_value());
 }
 
 void Editor::remove(const Document& document, ViewState& state) const {
-  if (const auto chosen = chosenOf(document, state)) write(state, DeleteEdit{chosen->vessel}, false);
+  if (const auto chosen = chosenOf(document, state)) writeLine(state, DeleteEdit{chosen->vessel}, false);
 }
 
 }  // namespace vasa::viewer

@@ -119,10 +119,10 @@ void showOutliner(const PanelInput& in) {
   const Rect& rect = in.layout.outliner;
   ImGui::SetNextWindowPos({rect.left, rect.top});
   ImGui::SetNextWindowSize({rect.width, rect.height});
-  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                      ImGuiWindowFlags_NoCollapse;
-  if (ImGui::Begin("##outliner", nullptr, kFixed)) {
+  constexpr ImGuiWindowFlags kFixedList = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                          ImGuiWindowFlags_NoCollapse;
+  if (ImGui::Begin("##outliner", nullptr, kFixedList)) {
     list.focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
     ImGui::SetNextItemWidth(-1);
     const bool entered = ImGui::InputTextWithHint("##find", "Find vessels: femrl art", &in.state.search,

@@ -9,7 +9,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kReach = 10;  // [pixels of an ordinary screen] of a handle
+constexpr float kJointReach = 10;  // [pixels of an ordinary screen] of a handle
 // [pixels of an ordinary screen] between two; those of the body may overlap a little.
 constexpr float kApart = 1.5f * kHandleRadius, kFineApart = 2 * kHandleRadius;
 
@@ -77,7 +77,7 @@ std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& po
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale) {
   const auto nearest = std::ranges::min_element(
       handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place); });
-  if (nearest == handles.end() || glm::distance(nearest->place, place) > kReach * scale) return std::nullopt;
+  if (nearest == handles.end() || glm::distance(nearest->place, place) > kJointReach * scale) return std::nullopt;
   return *nearest;
 }
 

@@ -57,7 +57,7 @@ Key keyNamed(const std::string& name) {
   return Key::none;
 }
 
-std::string nameOf(Key key) {
+std::string wordOf(Key key) {
   for (const NamedKey& known : kKeys)
     if (key == known.key) return known.name;
   if (int(key) < 128 && std::isalnum(int(key))) return std::string(1, char(std::tolower(int(key))));
@@ -212,7 +212,7 @@ struct EventWriter {
   }
   std::string operator()(const Scrolled& e) const { return fmt::format("scroll {:g}", e.steps); }
   std::string operator()(const KeyChanged& e) const {
-    const std::string name = nameOf(e.key);
+    const std::string name = wordOf(e.key);
     return name.empty() ? "" : (e.down ? "hold " : "let ") + name;
   }
   std::string operator()(const TextTyped& e) const {

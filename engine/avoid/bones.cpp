@@ -21,10 +21,10 @@ constexpr int kLeastPieces = 3, kMostPieces = 6;  // of one tube
 constexpr std::size_t kTubesPerTask = 64;
 constexpr float kWidest = 0.6f;  // of the field's band: radius of a ball that is looked at
 constexpr int kRing = 8;
-constexpr float kStep = 0.001f;       // [m] of the search for the way out, at least
-constexpr float kStride = 0.8f;       // ... and of the distance
-constexpr float kSteepest = 1.7321f;  // a field's slope along each axis is at most 1
-constexpr float kRounding = 1e-6f;    // [m] of what a field gives for a place
+constexpr float kSearchStep = 0.001f;  // [m] of the search for the way out, at least
+constexpr float kStride = 0.8f;        // ... and of the distance
+constexpr float kSteepest = 1.7321f;   // a field's slope along each axis is at most 1
+constexpr float kRounding = 1e-6f;     // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
 constexpr float kWorthKeeping = 1.02f;  // that many times what was kept is kept instead
 constexpr float kMovedFar = 0.002f;     // [m] less brings no tube from beyond a field's band into a part
@@ -132,7 +132,7 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
   const auto distanceAt = [&](float at) { return solid.field.distance(glm::mix(from, towards, at)); };
   // Through the part to the place at rest: in within a radius, and out again.
   float inside = 2, outside = 1;
-  if (way > kStep && solid.field.distance(towards) > 0) {
+  if (way > kSearchStep && solid.field.distance(towards) > 0) {
     for (float at = 0; at < 1;) {
       const float distance = distanceAt(at);
       if (distance < 0)
@@ -142,7 +142,7 @@ void Bones::State::leave(const Solid& solid, vec3 from, vec3 towards, float radi
         break;
       } else if (at * way > radius)
         break;
-      at += std::max(kStep, kStride * std::abs(distance)) / way;
+      at += std::max(kSearchStep, kStride * std::abs(distance)) / way;
     }
   }
   if (inside <= 1) {

@@ -17,9 +17,9 @@ constexpr std::uint32_t kCarried = 2;
 // A step; forces last, so that steps go on where the last one ended.
 constexpr unsigned kSweeps = 20;
 // Of the way to the solution: normals turn as tubes pass one another.
-constexpr float kStep = 0.5f;
+constexpr float kPartingStep = 0.5f;
 // [m] the motion of a point: out of the side of a vessel as wide as a vena cava
-constexpr float kFarthest = 0.006f;
+constexpr float kFarthestMove = 0.006f;
 // [m] what lay against one another is still told when it swings back by so much
 constexpr float kWatched = 0.0003f;
 // N · J W⁻¹ Jᵀ n: below, a place moves with what it should move from.
@@ -88,8 +88,8 @@ void RestParting::move(std::span<const Interference::Place> places, const Networ
   forces_.clear();
   for (const Push& push : pushes) forces_.push_back({push.tubes, push.force});
   for (std::size_t k = 0; k < z_.size(); ++k) {
-    z_[k] += kStep * (wanted[k] - z_[k]);
-    if (const float far = glm::length(z_[k]); far > kFarthest) z_[k] *= kFarthest / far;
+    z_[k] += kPartingStep * (wanted[k] - z_[k]);
+    if (const float far = glm::length(z_[k]); far > kFarthestMove) z_[k] *= kFarthestMove / far;
   }
   shape();
 }

@@ -16,17 +16,17 @@ namespace vasa {
 namespace {
 
 constexpr unsigned kPasses = 4, kSteps = 40;
-constexpr unsigned kStepsOfMotion = 20;   // the first, before anything is thinned
-constexpr float kLeastClearance = 1e-6f;  // [m] well above what detection is exact to
+constexpr unsigned kStepsOfMotion = 20;    // the first, before anything is thinned
+constexpr float kRepairClearance = 1e-6f;  // [m] well above what detection is exact to
 // Of coordinates that two vessels may come nearer by, √3 each, and of radii.
 constexpr float kRoundings = 4.5f;
 
 // Two vessels are one told twice where they are so alike along so much of both. (An artery and a vein that
 // are merely drawn over one another can go side by side.)
-constexpr float kSameAxis = 0.25f;      // of the smaller radius
-constexpr float kSameRadius = 1.25f;    // factor
-constexpr float kSameDirection = 0.8f;  // |cos|
-constexpr float kSameShare = 0.8f;      // of a vessel's spans
+constexpr float kSameAxis = 0.25f;    // of the smaller radius
+constexpr float kSameRadius = 1.25f;  // factor
+constexpr float kSameCourse = 0.8f;   // |cos|
+constexpr float kSameShare = 0.8f;    // of a vessel's spans
 
 using VesselPair = std::pair<std::uint32_t, std::uint32_t>;  // a <= b
 
@@ -40,7 +40,7 @@ bool alongOneAxis(const Contact& contact, std::span<const Bezier> tubes) {
   const vec3 alongA = tubes[contact.i].derivative(contact.s), alongB = tubes[contact.j].derivative(contact.t);
   const auto [thin, wide] = std::minmax(a.w, b.w);
   return glm::distance(vec3(a), vec3(b)) < kSameAxis * thin && wide < kSameRadius * thin &&
-         std::abs(glm::dot(alongA, alongB)) > kSameDirection * glm::length(alongA) * glm::length(alongB);
+         std::abs(glm::dot(alongA, alongB)) > kSameCourse * glm::length(alongA) * glm::length(alongB);
 }
 
 // Pairs of vessels that tell one course.
@@ -124,7 +124,7 @@ RestRepair separateAtRest(const Network& network) {
   std::set<VesselPair> twice;
   for (const RestOverlap& overlap : repair.left)
     if (overlap.reason == OverlapReason::twice) twice.emplace(overlap.first.value, overlap.second.value);
-  const float clearance = std::max(kLeastClearance, kRoundings * quantisationError(network));
+  const float clearance = std::max(kRepairClearance, kRoundings * quantisationError(network));
   RestParting parting(network, clearance);
   for (unsigned pass = 0; pass < kPasses; ++pass) {
     const bool done = part(parting, repair.network, twice, clearance, pass > 0);

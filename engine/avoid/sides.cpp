@@ -14,12 +14,12 @@ namespace {
 constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
 // Sums of radii apart, below which the side at rest is the less sure.
 constexpr float kTooClose = 0.25f;
-constexpr float kCrossing = 0.7f;  // |u - v| from which two tubes cross (40 degrees)
-constexpr float kSure = 0.5f;      // how sure the rest pose must be for a change of sides
-constexpr float kAhead = 0.34f;    // cosine of the way to what lies ahead of an end (70 degrees)
-constexpr int kMostSteps = 4;      // from tube to tube
-constexpr float kInto = 0.01f;     // of a tube, where the search goes on in the next
-constexpr float kNearer = 1e-6f;   // [m]
+constexpr float kCrossing = 0.7f;    // |u - v| from which two tubes cross (40 degrees)
+constexpr float kSureAtRest = 0.5f;  // how sure the rest pose must be for a change of sides
+constexpr float kAhead = 0.34f;      // cosine of the way to what lies ahead of an end (70 degrees)
+constexpr int kMostSteps = 4;        // from tube to tube
+constexpr float kInto = 0.01f;       // of a tube, where the search goes on in the next
+constexpr float kNearer = 1e-6f;     // [m]
 constexpr std::size_t kGrain = 1024;
 
 float fadeOut(float x, float from, float to) {
@@ -125,7 +125,7 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
       const vec3 side = carried({now.i, now.j, now.s, now.t}, shape, rotations);
       const vec3 nearest = vec3(shape[now.i].at(now.s)) - vec3(shape[now.j].at(now.t));
       const float sure = glm::length(side);
-      if (sure < kSure) continue;
+      if (sure < kSureAtRest) continue;
       const float depth = glm::dot(nearest, side) / sure;
       if (depth > cosine * glm::length(nearest) || depth > -1e-6f) continue;
       if (beyondEnd(now.i, now.s, -nearest, shape) || beyondEnd(now.j, now.t, nearest, shape)) continue;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kNearHeights = 0.012f;  // of the body's height: what lay deeper is not looked at
 // [m] what is farther out has its skin in a fold, where a plane is no wall
-constexpr float kFarthest = 0.025f;
+constexpr float kFoldedSkin = 0.025f;
 constexpr std::array<float, 3> kPlaces{0, 0.5f, 1};
 
 }  // namespace
@@ -61,7 +61,7 @@ void SkinWall::addContacts(std::span<const Bezier> tubes, std::uint32_t part,
   for (const Place& place : places_) {
     const vec4 ball = tubes[place.tube].at(place.s);
     const float f = glm::dot(place.inwards, vec3(ball) - place.point) - ball.w;
-    if (place.inwards == vec3(0) || f < place.allowed - kFarthest) continue;
+    if (place.inwards == vec3(0) || f < place.allowed - kFoldedSkin) continue;
     const BoneContact contact{.tube = place.tube,
                               .part = part,
                               .s = place.s,

@@ -42,8 +42,8 @@ constexpr float kNear = 0.045f;
 // [m] ... to what has got caught: it starts anew first, at its pace. With 0 the scanned body's punch stays
 // caught.
 constexpr float kHere = 0.005f;
-constexpr float kFarthest =
-    0.04f;  // [m] that anything is held aside: what is caught on another limb is let go there
+// [m] that anything is held aside: what is caught on another limb is let go there
+constexpr float kFarthestAside = 0.04f;
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -231,7 +231,8 @@ void Avoider::State::keepPace(const Input& in) {
     return mayJump && anewPoints[point] ? distance
                                         : posedSteps.longest(vec3(in.posed.points[point]), distance);
   });
-  space.keepNear(none, correction.motions, kFarthest, [](std::uint32_t, float) { return kFarthest; });
+  space.keepNear(none, correction.motions, kFarthestAside,
+                 [](std::uint32_t, float) { return kFarthestAside; });
 }
 
 // The shape that belongs to a correction.

@@ -136,16 +136,16 @@ void shortenArcs(SpineSet& spines, std::span<const float> reach, std::span<const
 }
 
 bool boneRunsBeside(const SpineSet& spines, const BoneField& bones, std::size_t j) {
-  constexpr int kSamples = 9;
+  constexpr int kLinkSamples = 9;
   const SpineJoint& joint = spines.joints[j];
   std::vector<float> own(spines.joints.size()), behind(own.size()), before(own.size());
   int beside = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    bones.distances(joint.centre + joint.axis * (joint.link * (float(i) + 0.5f) / kSamples), own);
+  for (int i = 0; i < kLinkSamples; ++i) {
+    bones.distances(joint.centre + joint.axis * (joint.link * (float(i) + 0.5f) / kLinkSamples), own);
     distancesAcrossJoints(spines, own, behind, before);
     beside += before[j] < kBesideLink * joint.link;
   }
-  return beside > kSamples * 2 / 3;
+  return beside > kLinkSamples * 2 / 3;
 }
 
 }  // namespace

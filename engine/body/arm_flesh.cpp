@@ -7,6 +7,7 @@
 
 #include "body/rig.h"
 #include "body/skinning.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
@@ -135,7 +136,7 @@ std::vector<char> armJointsOf(const Body& body) {
   std::vector<char> arm(body.skeleton.joints.size(), 0);
   const Rig rig = rigOf(body.skeleton);
   for (const char* side : {"left", "right"})
-    if (const std::uint32_t top = upperArm(rig, side); top != Rig::kNone)
+    if (const std::uint32_t top = upperArm(rig, side); top != kNone)
       for (std::uint32_t j = 0; j < arm.size(); ++j)
         if (hangsOn(rig.parents, j, top)) arm[j] = 1;
   return arm;
@@ -146,7 +147,7 @@ std::vector<ArmPlaces> armsOf(const Body& body, const SkinnedMesh& skin) {
   const Rig rig = rigOf(body.skeleton);
   for (const char* side : {"left", "right"}) {
     const std::uint32_t top = upperArm(rig, side), lower = rig.partNamed(std::string(side) + "LowerArm");
-    if (top == Rig::kNone || lower == Rig::kNone || !hangsOn(rig.parents, lower, top)) continue;
+    if (top == kNone || lower == kNone || !hangsOn(rig.parents, lower, top)) continue;
     const auto onLowerArm = [&](std::uint32_t v) {
       return weightOn(skin.influences[v],
                       [&](std::size_t j) { return hangsOn(rig.parents, std::uint32_t(j), lower); }) > 0.5f;

@@ -13,10 +13,8 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kSamples = 400;
 constexpr float kOutsideHeights = 0.01f;
 constexpr float kFarHeights = 0.15f;
-constexpr float kMostOutside = 0.15f;
 
 bool farFromLinks(const SpineSet& spines, vec3 p, float margin) {
   for (const SpineJoint& joint : spines.joints) {
@@ -33,7 +31,7 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
                           std::string_view name) {
   const float height = body.height();
   const SkinnedMesh* skin = skinOf(body);
-  const std::size_t samples = std::min(points.size(), kSamples);
+  const std::size_t samples = std::min(points.size(), kPlacesAsked);
   std::optional<SkinShell> shell;
   if (skin) shell.emplace(skin->mesh);
   const auto outsideSkin = [&](vec3 p) {

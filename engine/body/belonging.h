@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -7,6 +8,9 @@
 #include "core/result.h"
 
 namespace vasa {
+
+constexpr std::size_t kPlacesAsked = 400;  ///< of a network: whether they lie in a body or a surface
+constexpr float kMostOutside = 0.15f;      ///< share of them, of what belongs there
 
 /// Whether vessels lie in a body at rest, judged by a fixed sample of their points. With a skin, by the share
 /// that lies outside it by more than 1 % of the body's height; without, by the share farther than 15 % of it

@@ -12,7 +12,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kNearest = 6;
+constexpr std::size_t kNearestPlaces = 6;
 constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
 constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
@@ -145,9 +145,9 @@ void BoneField::distances(vec3 p, std::span<float> distances) const {
     const float toBox = glm::distance(p, glm::clamp(p, part.box.low, part.box.high));
     distances[i] = toBox;
     if (toBox > reach_) continue;
-    std::array<std::uint32_t, kNearest> index{};
-    std::array<float, kNearest> squared{};
-    const std::size_t found = part.tree->knnSearch(&p.x, kNearest, index.data(), squared.data());
+    std::array<std::uint32_t, kNearestPlaces> index{};
+    std::array<float, kNearestPlaces> squared{};
+    const std::size_t found = part.tree->knnSearch(&p.x, kNearestPlaces, index.data(), squared.data());
     float sum = 0;
     for (std::size_t k = 0; k < found; ++k) sum += 1 / std::max(squared[k] * squared[k], 1e-20f);
     distances[i] = std::pow(float(found) / sum, 0.25f);

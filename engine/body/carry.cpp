@@ -10,12 +10,11 @@
 #include "body/retarget.h"
 #include "body/skin_warp.h"
 #include "body/ties.h"
+#include "core/ids.h"
 #include "core/parallel.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = JointId::kNone;
 
 // In a hand with more fingers than the other body's, single fingers would be drawn aside: they go with the
 // palm.

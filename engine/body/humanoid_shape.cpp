@@ -13,7 +13,6 @@
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kEqual = 0.12f;  // a pair's lengths differ by no more than this share
 constexpr float kShortLimb =
     0.15f;  // of the longest way from the root to a tip: fingers, eyes and ribs are no limbs

@@ -7,10 +7,10 @@
 namespace vasa {
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kInsideRounds = 3;
 constexpr float kSkinThickness = 0.0012f;  // of the body's height
 constexpr float kMost = 4;                 // times that a point is asked to lie below the skin
-constexpr float kNegligible = 1e-5f;       // [m]
+constexpr float kNegligibleDepth = 1e-5f;  // [m]
 
 // A neighbour moves half as far, its neighbour a quarter: no kinks.
 void spreadAlongVessels(const Network& network, std::vector<vec3>& moves) {
@@ -34,11 +34,11 @@ std::uint32_t moveInside(const Network& network, std::span<const float> depths, 
   for (std::size_t i = 0; i < wanted.size(); ++i)
     wanted[i] = std::min(std::min(points[i].w, kMost * thickness) + thickness, depths[i]);
   std::uint32_t moved = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kInsideRounds; ++round) {
     std::vector<vec3> moves(points.size(), vec3(0));
     parallelFor(moves.size(), 32, [&](std::size_t i) {
       const auto place = skin.look(vec3(points[i]));
-      if (place.depth < wanted[i] - kNegligible)
+      if (place.depth < wanted[i] - kNegligibleDepth)
         moves[i] = place.nearest - wanted[i] * place.normal - vec3(points[i]);
     });
     if (round == 0)

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <set>
 
+#include "core/ids.h"
 #include "core/nearest_names.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = JointId::kNone;
 
 std::string perhaps(const std::string& name, std::span<const std::string> names) {
   const std::string near = didYouMean(name, names);

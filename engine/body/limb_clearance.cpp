@@ -34,7 +34,7 @@ vec3 vectorOf(quat turn) {
 }
 
 // One arm in one frame.
-struct Stance {
+struct ArmStance {
   vec3 shoulder{0};
   vec3 aside{0};  // from the other shoulder
   std::vector<vec3> places;
@@ -70,7 +70,7 @@ class ArmClearing {
     for (int k = 0;; ++k) {
       std::atomic<bool> done = true;
       parallelFor(frames, 1, [&](std::size_t f) {
-        const Stance here = stance(f);
+        const ArmStance here = stance(f);
         depths[f] = deepest(here, turns[f]).depth;
         if (depths[f] <= kFleshGives || k == kRounds) return;
         asked[f] = cleared(here, turns[f]);
@@ -88,11 +88,11 @@ class ArmClearing {
 
  private:
   // @param unturned  kept from one time to the next: most of the cost
-  Stance stanceIn(const Pose& pose, std::vector<float>& unturned) const {
+  ArmStance stanceIn(const Pose& pose, std::vector<float>& unturned) const {
     const vec3 shoulder(pose.world[arm_.shoulder.value][3]);
     const vec3 aside =
         arm_.other.valid() ? directionOf(shoulder - vec3(pose.world[arm_.other.value][3])) : vec3(0);
-    Stance stance{
+    ArmStance stance{
         shoulder, aside, arm_.posed(skin_, skinMatrices(body_.skeleton, pose)), flesh_.toRest(pose), {}};
     if (unturned.empty()) unturned = flesh_.depths(stance.toRest, stance.places);
     stance.unturned = unturned;
@@ -100,7 +100,7 @@ class ArmClearing {
   }
 
   // A place that a turn takes less far than it was from the flesh is out of it still.
-  Deepest deepest(const Stance& stance, vec3 turn) const {
+  Deepest deepest(const ArmStance& stance, vec3 turn) const {
     const quat q = turnOf(turn);
     const float angle = glm::length(turn);
     Deepest found;
@@ -116,7 +116,7 @@ class ArmClearing {
 
   // The least turn that takes the arm out, from one that does not. A hand that is most of the way through a
   // limb would leave it on the wrong side: where the nearest way out is none, it is taken aside.
-  vec3 cleared(const Stance& stance, vec3 turn) const {
+  vec3 cleared(const ArmStance& stance, vec3 turn) const {
     const vec3 nearest = turnedOut(stance, turn, vec3(0));
     const float left = deepest(stance, nearest).depth;
     if (stance.aside == vec3(0) || left <= kFleshGives) return nearest;
@@ -124,7 +124,7 @@ class ArmClearing {
     return deepest(stance, aside).depth < left ? aside : nearest;
   }
 
-  vec3 turnedOut(const Stance& stance, vec3 turn, vec3 way) const {
+  vec3 turnedOut(const ArmStance& stance, vec3 turn, vec3 way) const {
     for (int k = 0; k < kSteps; ++k) {
       const Deepest at = deepest(stance, turn);
       if (at.depth <= kFleshGives) break;

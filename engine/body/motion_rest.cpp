@@ -4,10 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "core/ids.h"
+
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = JointId::kNone;
 constexpr std::uint32_t kFramesAsked = 64;
 constexpr float kUpright = 0.5f;  // least cosine between the trunk and +Y for +Y to be up
 constexpr float kSteady = 0.8f;   // length of the mean of unit vectors that say the same
@@ -18,9 +19,9 @@ quat orIdentity(const Motion& motion, std::uint32_t frame, std::size_t joint) {
   return frame == MotionPose::kZero ? quat(1, 0, 0, 0) : motion.rotation(frame, joint);
 }
 
-class Stance {
+class RestStance {
  public:
-  explicit Stance(std::span<const std::string_view> parts) : parts_(parts) {
+  explicit RestStance(std::span<const std::string_view> parts) : parts_(parts) {
     hips_ = of("hips");
     for (const char* part : {"neck", "head", "upperChest", "chest"})
       if (top_ == kNone) top_ = of(part);
@@ -115,7 +116,7 @@ std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t mos
 
 vec3 upOf(const Motion& motion, std::span<const std::string_view> parts) {
   const vec3 house(0, 1, 0);
-  const Stance stance(parts);
+  const RestStance stance(parts);
   if (stance.hips() == kNone) return house;
   vec3 mean(0), hips(0);
   float away = 0;
@@ -158,7 +159,7 @@ Motion withUp(const Motion& motion, vec3 up) {
 }
 
 std::uint32_t standingPose(const Motion& motion, std::span<const std::string_view> parts) {
-  const Stance stance(parts);
+  const RestStance stance(parts);
   if (stance.hips() == kNone) return MotionPose::kZero;
   const auto zero = stance.uprightness(motionPose(motion, MotionPose::kZero));
   if (zero.trunk >= kStandingTrunk && zero.worstLeg >= kStandingLeg) return MotionPose::kZero;
@@ -171,7 +172,7 @@ std::uint32_t standingPose(const Motion& motion, std::span<const std::string_vie
 }
 
 double metresAUnit(const Motion& motion, std::span<const std::string_view> parts) {
-  const double leg = double(Stance(parts).legLength(motionPose(motion, MotionPose::kZero)));
+  const double leg = double(RestStance(parts).legLength(motionPose(motion, MotionPose::kZero)));
   for (const double unit : {1.0, 0.01, 0.0254, 0.0564, 0.001})
     if (leg * unit > 0.45 && leg * unit < 1.15) return unit;
   return 0;

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <optional>
 
+#include "core/ids.h"
+
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = Rig::kNone;
 constexpr float kLeastBend = 0.1f;  // sine of an elbow's bend
 constexpr float kMostHingeTurn = 1.0f;
 // Cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant.
 constexpr float kFacingDoubt = 0.87f;
-const quat kIdentity(1, 0, 0, 0);
 
 std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<mat3>& to) {
   if (!from || !to) return std::nullopt;

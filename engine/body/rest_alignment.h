@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "body/rig.h"
+#include "core/ids.h"
 
 namespace vasa {
 
@@ -12,7 +13,7 @@ namespace vasa {
 /// @param motion    upright
 /// @param standing  one of its frames, or MotionPose::kZero; `from` is placed in it
 /// @param turns     of the motion's joints there (MotionPose::world)
-/// @param source    the motion's joint that each of the body's follows; Rig::kNone where there is none
+/// @param source    the motion's joint that each of the body's follows; kNone where there is none
 /// O(frames + joints²)
 std::vector<quat> alignRest(const Motion& motion, std::uint32_t standing, std::span<const quat> turns,
                             const Rig& from, const Rig& to, std::span<const std::uint32_t> source);

@@ -7,6 +7,7 @@
 #include "body/motion_rest.h"
 #include "body/rest_alignment.h"
 #include "body/rig.h"
+#include "core/ids.h"
 
 // Rotations are kept relative to a pose in which the motion's skeleton stands (its zero pose, as a rule), in
 // world axes: Q = world · standing⁻¹. A joint that follows has Q_body = Q_motion · A, with A the constant
@@ -14,7 +15,6 @@
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = JointId::kNone;
 constexpr std::size_t kLeastJoints = 6;
 constexpr float kKneeCapShare = 0.6f;
 constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower than the floor, a little
@@ -22,7 +22,6 @@ constexpr std::uint32_t kFramesCompared = 12;
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
 constexpr float kStiffSure = 0.8f;                      // where the trunk is not followed
 constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
-const quat kIdentity(1, 0, 0, 0);
 
 class Retargeter {
  public:

@@ -6,11 +6,11 @@
 
 #include "body/humanoid_shape.h"
 #include "body/trunk.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = Rig::kNone;
 constexpr float kLongBone = 2.5f;                   // times the other bone of a limb: no person's
 constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand and foot
 constexpr int kGross = 8;                           // what no person has counts as much as this many doubts

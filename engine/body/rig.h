@@ -7,14 +7,16 @@
 #include "body/humanoid.h"
 #include "body/motion_rest.h"
 #include "body/skeleton.h"
+#include "core/ids.h"
 #include "math/direction.h"
 
 namespace vasa {
 
+inline const quat kIdentity(1, 0, 0, 0);
+
 /// What a body's skeleton and a motion's have in common: joints with names, parents and places, and what part
 /// of a person each is.
 struct Rig {
-  static constexpr std::uint32_t kNone = JointId::kNone;
   std::vector<std::string> names;
   std::vector<std::uint32_t> parents;  ///< kNone at a root
   std::vector<vec3> centres, tips;     ///< a tip's end where the file has one, else the centre

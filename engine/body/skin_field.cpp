@@ -11,9 +11,9 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kNearest = 48;
-constexpr float kFacing = 0.25f;  // smallest cosine between the way to a vertex and its normal
-constexpr float kBlur = 0.006f;   // of the body's height, added to distances before vertices are weighed
+constexpr std::size_t kNearestVertices = 48;
+constexpr float kFacingWay = 0.25f;   // smallest cosine between the way to a vertex and its normal
+constexpr float kFieldBlur = 0.006f;  // of the body's height, added to distances before vertices are weighed
 
 }  // namespace
 
@@ -59,7 +59,7 @@ const SkinnedMesh* skinOf(const Body& body) {
 SkinField::SkinField(const Body& body) {
   const SkinnedMesh* skin = skinOf(body);
   if (skin && skin->influences.size() == skin->mesh.positions.size())
-    vertices_ = std::make_unique<Vertices>(*skin, kBlur * body.height());
+    vertices_ = std::make_unique<Vertices>(*skin, kFieldBlur * body.height());
 }
 
 SkinField::~SkinField() = default;
@@ -73,16 +73,16 @@ bool SkinField::follows(JointId joint) const {
 float SkinField::shares(const SpineSet& spines, vec3 p, std::span<float> shares) const {
   std::fill(shares.begin(), shares.end(), 0.0f);
   if (!vertices_) return BoneField::kFar;
-  std::array<std::uint32_t, kNearest> index{};
-  std::array<float, kNearest> squared{};
-  const std::size_t found = vertices_->tree.knnSearch(&p.x, kNearest, index.data(), squared.data());
+  std::array<std::uint32_t, kNearestVertices> index{};
+  std::array<float, kNearestVertices> squared{};
+  const std::size_t found = vertices_->tree.knnSearch(&p.x, kNearestVertices, index.data(), squared.data());
   float sum = 0, nearest = BoneField::kFar;
   for (std::size_t k = 0; k < found; ++k) {
     const float distance = std::sqrt(squared[k]);
     const vec3 way = vertices_->cloud.points[index[k]] - p;
     const float facing = distance > vertices_->blur
-                             ? glm::dot(way, vertices_->normals[index[k]]) / distance - kFacing
-                             : 1 - kFacing;
+                             ? glm::dot(way, vertices_->normals[index[k]]) / distance - kFacingWay
+                             : 1 - kFacingWay;
     if (facing <= 0) continue;
     const float far = distance + vertices_->blur, weight = facing / (far * far * far);
     const SkinInfluence& influence = vertices_->influences[index[k]];

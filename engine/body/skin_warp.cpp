@@ -8,12 +8,12 @@
 namespace vasa {
 namespace {
 
-constexpr int kRounds = 4;
-constexpr int kSmoothing = 24;      // rounds of averaging over edges
-constexpr float kFacing = 0.2f;     // least cosine between two skins' normals that belong together
-constexpr float kFarthest = 0.12f;  // of the body's height, that a wish may ask for
-constexpr std::size_t kSamples = 3000;
-constexpr float kBlur = 0.012f;  // of the body's height
+constexpr int kWarpRounds = 4;
+constexpr int kSmoothing = 24;       // rounds of averaging over edges
+constexpr float kFacingSkin = 0.2f;  // least cosine between two skins' normals that belong together
+constexpr float kFarthest = 0.12f;   // of the body's height, that a wish may ask for
+constexpr std::size_t kWarpSamples = 3000;
+constexpr float kWarpBlur = 0.012f;  // of the body's height
 
 struct Wishes {
   std::vector<vec3> move;
@@ -32,7 +32,7 @@ Wishes askAll(const TriangleMesh& skin, const std::vector<vec3>& normals, const 
     const vec3 a = target.mesh().positions[t.x];
     const vec3 normal = glm::cross(target.mesh().positions[t.y] - a, target.mesh().positions[t.z] - a);
     const float size = glm::length(normal);
-    if (!(size > 0) || glm::dot(normal / size, normals[v]) < kFacing) return;
+    if (!(size > 0) || glm::dot(normal / size, normals[v]) < kFacingSkin) return;
     wishes.move[v] = near.point - skin.positions[v];
     wishes.weight[v] = 1;
   });
@@ -63,13 +63,13 @@ void smooth(const TriangleMesh& skin, Wishes& wishes) {
 
 SkinWarp::SkinWarp(TriangleMesh skin, const SkinShell& target) {
   const float height = target.mesh().bounds().extent().y;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kWarpRounds; ++round) {
     const std::vector<vec3> normals = vertexNormals(skin);
     Wishes wishes = askAll(skin, normals, target, kFarthest * height);
     smooth(skin, wishes);
     Round done;
-    done.blur = kBlur * height;
-    const std::size_t step = std::max<std::size_t>(1, skin.positions.size() / kSamples);
+    done.blur = kWarpBlur * height;
+    const std::size_t step = std::max<std::size_t>(1, skin.positions.size() / kWarpSamples);
     for (std::size_t v = 0; v < skin.positions.size(); v += step) {
       done.places.push_back(skin.positions[v]);
       done.normals.push_back(normals[v]);

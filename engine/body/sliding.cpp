@@ -27,7 +27,7 @@ constexpr float kCarried =
 // Of the radius of the thinner of two vessels that go on in one another at a fork: what is thicker holds it,
 // as the anterior tibial artery, which goes through its membrane, holds the popliteal (0.81).
 constexpr float kSideBranch = 0.8f;
-constexpr std::uint32_t kSamples = 6;  // a span
+constexpr std::uint32_t kSpanSamples = 6;  // a span
 constexpr float kUnstrained =
     2e-4f;  // more than rounding makes of legs of a millimetre, less than shifts anything by 0.03 mm
 
@@ -72,8 +72,8 @@ void sample(const Network& network, const Pieces& pieces, std::span<const vec4> 
     const std::size_t joined = course.places.empty() ? 0 : 1, before = course.places.size();
     for (std::uint32_t span = 0; span < spans; ++span) {
       const Bezier segment = bezierOfSpan(own, span);
-      for (std::uint32_t k = 0; k < kSamples; ++k)
-        course.places.emplace_back(segment.at(float(k) / kSamples));
+      for (std::uint32_t k = 0; k < kSpanSamples; ++k)
+        course.places.emplace_back(segment.at(float(k) / kSpanSamples));
     }
     course.places.emplace_back(own.back());
     if (piece.backwards) std::reverse(course.places.begin() + std::ptrdiff_t(before), course.places.end());
@@ -154,13 +154,13 @@ void VesselSlider::layOut(Course& course, std::span<const VesselHold> holds, std
   std::uint32_t first = 0;
   for (const Piece& piece : course.pieces) {
     const Vessel& vessel = network.vessel(piece.vessel);
-    const std::uint32_t last = first + kSamples * vessel.spanCount();
+    const std::uint32_t last = first + kSpanSamples * vessel.spanCount();
     for (const VesselHold& hold : holds)
       if (hold.vessel == vessel.name)
         course.holds.push_back(
             glm::mix(rest.along[first], rest.along[last], piece.backwards ? 1 - hold.at : hold.at));
     for (std::uint32_t j = 0; j < vessel.pointCount; ++j) {  // symmetric: the same from either end
-      samples.push_back(first + kSamples / 3 * grevilleThirds(j, vessel.spanCount()));
+      samples.push_back(first + kSpanSamples / 3 * grevilleThirds(j, vessel.spanCount()));
       course.points.push_back(vessel.firstPoint + (piece.backwards ? vessel.pointCount - 1 - j : j));
       course.along.push_back(rest.along[samples.back()]);
     }

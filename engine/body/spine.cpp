@@ -29,12 +29,12 @@ vec3 direction(vec3 v) {
   return length > 0 ? v / length : vec3(0);
 }
 
-struct Similarity {
+struct TurnAndScale {
   quat rotation;
   float scale;
 };
 
-Similarity similarityOf(const mat4& m) {
+TurnAndScale turnAndScaleOf(const mat4& m) {
   const mat3 a(m);
   const float determinant = glm::determinant(a);
   const vec3 x = direction(a[0]);
@@ -168,7 +168,7 @@ void SpinePose::run(const SpineSet& spines, const Pose& pose) {
   assert(pose.world.size() == spines.joints.size() && motions_.size() == spines.joints.size());
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const SpineJoint& joint = spines.joints[i];
-    const Similarity own = similarityOf(pose.world[i] * joint.restInverse);
+    const TurnAndScale own = turnAndScaleOf(pose.world[i] * joint.restInverse);
     Motion& motion = motions_[i];
     motion.centre = joint.centre;
     motion.after = own.rotation;
@@ -233,9 +233,9 @@ vec3 SpinePose::placeAfter(JointId joint, vec3 p) const {
 vec3 bendOf(const SpineSet& spines, const Pose& pose, JointId id) {
   const SpineJoint& joint = spines.joints[id.value];
   if (!joint.parent.valid()) return vec3(0);
-  const quat own = similarityOf(pose.world[id.value] * joint.restInverse).rotation;
+  const quat own = turnAndScaleOf(pose.world[id.value] * joint.restInverse).rotation;
   const SpineJoint& parent = spines.joints[joint.parent.value];
-  const quat before = similarityOf(pose.world[joint.parent.value] * parent.restInverse).rotation;
+  const quat before = turnAndScaleOf(pose.world[joint.parent.value] * parent.restInverse).rotation;
   const quat turn = glm::conjugate(before) * own;
   if (joint.axis == vec3(0)) {
     const AngleAxis whole = angleAxis(turn);

@@ -7,7 +7,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kSamples = 200;
+constexpr std::size_t kStillSamples = 200;
 constexpr std::uint32_t kFrames = 8;  // of a clip
 constexpr float kGoesHeights = 0.05f;
 constexpr float kStaysShare = 0.1f;
@@ -34,7 +34,7 @@ std::vector<JointId> nearLinks(const SpineSet& spines, vec3 p, float blur) {
 }  // namespace
 
 float shareLeftBehind(const Body& body, const Binding& binding, std::span<const vec4> points) {
-  const std::size_t count = std::min(points.size(), kSamples);
+  const std::size_t count = std::min(points.size(), kStillSamples);
   if (count == 0 || body.clips.empty()) return 0;
   const float height = body.height();
   const std::vector<Station> stations = mainStations(binding);

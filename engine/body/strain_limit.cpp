@@ -12,7 +12,7 @@ namespace vasa {
 namespace {
 
 constexpr float kAround = 0.03f;     // of the body's height
-constexpr int kRounds = 200;         // of all steps
+constexpr int kMostRounds = 200;     // of all steps
 constexpr float kHostShare = 0.25f;  // of a move of an end on a host's side, beside a free point's
 constexpr float kWithin = 1.01f;     // of the limit: where steps are held to
 constexpr float kShortest = 1e-5f;   // [m] of a step that tells anything
@@ -149,7 +149,7 @@ StrainLimitReport limitStrain(const Network& network, std::span<const vec4> befo
   for (const Piece& piece : pieces) beyond += excessOf(piece, points) > 1;
   Limiter limiter(network, before, points);
   std::uint32_t left = beyond;
-  for (int round = 0; round < kRounds && left > 0; ++round) {
+  for (int round = 0; round < kMostRounds && left > 0; ++round) {
     checkpoint();
     for (const Piece& piece : pieces)
       if (excessOf(piece, points) > 1) limiter.hold(piece);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/belonging.h"
 #include "body/deform.h"
 #include "body/inside.h"
 #include "body/skin_warp.h"
@@ -14,11 +15,9 @@
 namespace vasa {
 namespace {
 
-constexpr float kWeld = 1e-6f;         // [m] corners that are one
-constexpr float kCutMargin = 0.005f;   // of the surface's height
-constexpr float kLevel = 0.97f;        // least cosine of a cut to the axis
-constexpr std::size_t kSamples = 400;  // of the points, asked whether they lie in the surface
-constexpr float kMostOutside = 0.15f;  // of them, as between a body and its vessels
+constexpr float kWeld = 1e-6f;        // [m] corners that are one
+constexpr float kCutMargin = 0.005f;  // of the surface's height
+constexpr float kLevel = 0.97f;       // least cosine of a cut to the axis
 
 // Whole and outward. The volume is taken about the middle, so that an open end does not tell its sign.
 TriangleMesh cleaned(const TriangleMesh& surface) {
@@ -48,7 +47,7 @@ TriangleMesh withoutCuts(const TriangleMesh& mesh) {
 }
 
 float shareOutside(const SkinShell& shell, std::span<const vec4> points) {
-  const std::size_t samples = std::min(points.size(), kSamples);
+  const std::size_t samples = std::min(points.size(), kPlacesAsked);
   std::size_t outside = 0;
   for (std::size_t i = 0; i < samples; ++i)
     outside += !shell.contains(vec3(points[i * points.size() / samples]));

@@ -16,11 +16,12 @@ constexpr std::size_t kRefined = 6;  // of the starts
 constexpr int kFacings = 4, kHeights = 9;
 constexpr float kSizes[] = {0.8f, 1, 1.25f};
 constexpr float kSmallest = 0.6f, kLargest = 1.6f;
-constexpr float kFacing = 0.3f;               // least cosine between normals that belong together
-constexpr float kFar = 0.15f, kNear = 0.03f;  // of the body's height: pairs, at first and at last
-constexpr float kOddSize = 0.25f;             // of the logarithm: a size as odd as this ...
-constexpr float kOddSizeCost = 0.05f;         // ... is as bad as this share of the surface elsewhere
-constexpr float kTurnedCost = 0.02f;          // and so is another facing than the file's
+constexpr float kFacingSurface = 0.3f;  // least cosine between normals that belong together
+constexpr float kFarAtFirst = 0.15f,
+                kNearAtLast = 0.03f;   // of the body's height: pairs, at first and at last
+constexpr float kOddSize = 0.25f;      // of the logarithm: a size as odd as this ...
+constexpr float kOddSizeCost = 0.05f;  // ... is as bad as this share of the surface elsewhere
+constexpr float kTurnedCost = 0.02f;   // and so is another facing than the file's
 
 struct Sample {
   vec3 place, normal;
@@ -56,7 +57,7 @@ class Fitter {
     std::size_t near = 0;
     double sum = 0;
     for (const Sample& sample : fine_)
-      if (const auto there = partnerOf(sample, best.by, kNear * height_))
+      if (const auto there = partnerOf(sample, best.by, kNearAtLast * height_))
         ++near, sum += glm::distance(*there, best.by(sample.place));
     fit.share = float(near) / float(std::max<std::size_t>(1, fine_.size()));
     fit.distance = near ? float(sum / double(near)) : 0;
@@ -98,14 +99,14 @@ class Fitter {
     const auto& at = skin_.mesh().positions;
     const vec3 normal = glm::cross(at[t.y] - at[t.x], at[t.z] - at[t.x]);
     const float size = glm::length(normal);
-    if (!(size > 0) || glm::dot(normal / size, by.turn * sample.normal) < kFacing) return std::nullopt;
+    if (!(size > 0) || glm::dot(normal / size, by.turn * sample.normal) < kFacingSurface) return std::nullopt;
     return near.point;
   }
 
   void refine(Try& one, std::span<const Sample> samples, int steps) const {
     std::vector<std::pair<vec3, vec3>> pairs;
     for (int step = 0; step < steps; ++step) {
-      const float within = height_ * glm::mix(kFar, kNear, float(step) / float(steps - 1));
+      const float within = height_ * glm::mix(kFarAtFirst, kNearAtLast, float(step) / float(steps - 1));
       pairs.clear();
       for (const Sample& sample : samples)
         if (const auto there = partnerOf(sample, one.by, within)) pairs.push_back({sample.place, *there});
@@ -126,7 +127,7 @@ class Fitter {
   float costOf(const Try& one, std::span<const Sample> samples) const {
     double sum = 0;
     for (const Sample& sample : samples) {
-      const float within = 2 * kNear * height_;
+      const float within = 2 * kNearAtLast * height_;
       const auto there = partnerOf(sample, one.by, within);
       sum += there ? glm::distance(*there, one.by(sample.place)) / within : 1;
     }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "core/ids.h"
+
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = Rig::kNone;
 constexpr std::size_t kSpineNames = 3;
 
 bool isSpine(std::string_view part) { return part == "spine" || part == "chest" || part == "upperChest"; }

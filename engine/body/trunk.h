@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "body/rig.h"
+#include "core/ids.h"
 
 namespace vasa {
 
 /// A rig's trunk, by how its joints hang together: what lies between hips and neck, whatever it is called.
 struct Trunk {
-  std::uint32_t hips = Rig::kNone;
+  std::uint32_t hips = kNone;
   std::vector<std::uint32_t> joints;  ///< above the hips and below the neck, from low to high
   std::vector<std::uint32_t> ends;    ///< where it ends is the mean of these: the neck, or both shoulders
   std::vector<float> shares;          ///< of each joint: how far from hips to end it lies, along the joints
@@ -18,7 +19,7 @@ struct Trunk {
     joints.erase(joints.begin() + std::ptrdiff_t(index)),
         shares.erase(shares.begin() + std::ptrdiff_t(index));
   }
-  bool known() const { return hips != Rig::kNone && !ends.empty(); }
+  bool known() const { return hips != kNone && !ends.empty(); }
   vec3 end(std::span<const vec3> places) const;
   /// From hips to end.
   vec3 way(std::span<const vec3> places) const { return end(places) - places[hips]; }

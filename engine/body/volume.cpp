@@ -15,7 +15,7 @@
 namespace vasa {
 namespace {
 
-constexpr double kNegligible = 2e-5;  // of the volume
+constexpr double kNegligibleError = 2e-5;  // of the volume
 
 struct Quadratic {
   double a = 0, b = 0, volume = 0;
@@ -32,11 +32,11 @@ using Places = std::array<Place, kGauss4.size()>;
 
 // They depend on how near the ends are, no farther than two spans (curve/bspline.cpp).
 const Places& placesOf(std::uint32_t span, std::uint32_t spans) {
-  constexpr std::uint32_t kNear = 2;
+  constexpr std::uint32_t kNearEnds = 2;
   static const auto places = [] {
-    std::array<std::array<Places, kNear + 1>, kNear + 1> table{};
-    for (std::uint32_t before = 0; before <= kNear; ++before)
-      for (std::uint32_t behind = 0; behind <= kNear; ++behind) {
+    std::array<std::array<Places, kNearEnds + 1>, kNearEnds + 1> table{};
+    for (std::uint32_t before = 0; before <= kNearEnds; ++before)
+      for (std::uint32_t behind = 0; behind <= kNearEnds; ++behind) {
         const mat4 matrix = spanToBezier(before, before + 1 + behind);
         for (std::size_t k = 0; k < kGauss4.size(); ++k) {
           const auto [t, weight] = kGauss4[k];
@@ -45,7 +45,7 @@ const Places& placesOf(std::uint32_t span, std::uint32_t spans) {
       }
     return table;
   }();
-  return places[std::min(span, kNear)][std::min(spans - 1 - span, kNear)];
+  return places[std::min(span, kNearEnds)][std::min(spans - 1 - span, kNearEnds)];
 }
 
 bool pinned(const Vessel& vessel, std::uint32_t point) {
@@ -162,7 +162,7 @@ void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const flo
     }
     if (!settled) continue;
     const double error = restVolume > 0 ? std::abs(q.at(kept) - restVolume) / restVolume : 0;
-    const bool clamped = error > kNegligible;
+    const bool clamped = error > kNegligibleError;
     outcome.clampedCount += clamped;
     float& worst = clamped ? outcome.clampedError : outcome.largestError;
     worst = std::max(worst, float(error));

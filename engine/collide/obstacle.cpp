@@ -9,6 +9,7 @@
 #include "collide/box_tree.h"
 #include "collide/spatial_order.h"
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "core/parallel.h"
 #include "curve/bounds.h"
 #include "math/closest_point.h"
@@ -17,9 +18,8 @@
 namespace vasa {
 namespace {
 
-constexpr int kMostPieces = 32;  // of one tube
+constexpr int kMostTubePieces = 32;  // of one tube
 constexpr std::uint32_t kTubesPerTask = 64;
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 vec3 unitOrZero(vec3 v) {
   const float length = glm::length(v);
@@ -138,10 +138,10 @@ void Obstacle::State::fitNormals() {
 
 void Obstacle::State::trianglesNear(const Aabb& box, std::vector<std::uint32_t>& near) const {
   near.clear();
-  struct Node {
+  struct TreeNode {
     std::uint32_t level, group;
   };
-  std::array<Node, 128> stack;  // eight a level at most, less the one taken
+  std::array<TreeNode, 128> stack;  // eight a level at most, less the one taken
   std::size_t size = 0;
   stack[size++] = {std::uint32_t(levelStart.size()) - 2, 0};
   while (size > 0) {
@@ -202,7 +202,8 @@ void Obstacle::State::contactsOf(std::uint32_t tube, const Bezier& shape, float 
   if (near.empty()) return;
   float length = 0;
   for (std::size_t k = 0; k < 3; ++k) length += glm::distance(vec3(shape.b[k]), vec3(shape.b[k + 1]));
-  const int pieces = largest > 0 ? std::clamp(int(std::ceil(length / largest)), 1, kMostPieces) : kMostPieces;
+  const int pieces =
+      largest > 0 ? std::clamp(int(std::ceil(length / largest)), 1, kMostTubePieces) : kMostTubePieces;
   Signed end = signedDistance(shape.b[0], near);
   for (int piece = 0; piece < pieces; ++piece) {
     const float from = float(piece) / float(pieces), to = float(piece + 1) / float(pieces);

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ids.h"
 #include "core/parallel.h"
 #include "network/builder.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = StrandGraph::kNone;
 
 // Strands in the order of the network: by element, the longest first.
 std::vector<std::uint32_t> strandOrder(const StrandGraph& graph) {

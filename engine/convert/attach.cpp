@@ -12,12 +12,12 @@
 
 #include "convert/shared_rims.h"
 #include "convert/vessel_names.h"
+#include "core/ids.h"
 #include "core/parallel.h"
 
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = StrandGraph::kNone;
 constexpr float kSnapRadii = 1.0f;     // a side place this near to an end is that end
 constexpr float kFacing = 0.2f;        // least -cos between outward directions for ends to meet as ends
 constexpr float kAligned = 0.82f;      // 35 degrees
@@ -46,7 +46,7 @@ struct Candidate {
   bool sharesRim = false;  // their surfaces hang together: no gap, whatever lies between the axes
 };
 
-struct Tip {
+struct OpenTip {
   StrandEnd end;
   vec3 place;
   vec3 outward;
@@ -105,7 +105,7 @@ class Attacher {
         if (graph_.isFree({s, last})) tips_.push_back(tipOf({s, last}));
     }
   }
-  Tip tipOf(StrandEnd end) const {
+  OpenTip tipOf(StrandEnd end) const {
     const Sections& sections = graph_.strands[end.strand].sections;
     return {end, vec3(graph_.sectionAt(end)), outwardDirection(sections, end.last),
             endRadius(sections, end.last)};
@@ -115,7 +115,7 @@ class Attacher {
            sameFamily(graph_.strands[a].kind, graph_.strands[b].kind);
   }
 
-  std::vector<Candidate> candidatesOf(const Tip& tip) const {
+  std::vector<Candidate> candidatesOf(const OpenTip& tip) const {
     std::vector<Candidate> found;
     const float reach = std::max({options_.aheadMax, options_.nearMax});
     for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
@@ -124,7 +124,7 @@ class Attacher {
       if (box.low -= reach, box.high += reach; !box.overlaps({tip.place, tip.place})) continue;
       if (auto side = sideCandidate(tip, s)) found.push_back(*side);
     }
-    for (const Tip& other : tips_)
+    for (const OpenTip& other : tips_)
       if (mayJoin(tip.end.strand, other.end.strand))
         if (auto facing = facingCandidate(tip, other)) found.push_back(*facing);
     for (const std::uint32_t rim : rimsOf_[graph_.strands[tip.end.strand].element])
@@ -134,7 +134,7 @@ class Attacher {
 
   // Where a tip's surface goes on in another element's, no mesh is missing, however wide the collar between
   // them: the first ring of a branch lies on the rim of a collar that is its host's.
-  std::optional<Candidate> rimCandidate(const Tip& tip, const SharedRim& rim) const {
+  std::optional<Candidate> rimCandidate(const OpenTip& tip, const SharedRim& rim) const {
     const float reach = kRimRadii * tip.radius, away = glm::distance(tip.place, rim.centre);
     if (away > reach || rim.radius > reach || rim.radius < kLeastRimRadii * tip.radius) return std::nullopt;
     const std::uint32_t own = graph_.strands[tip.end.strand].element;
@@ -151,7 +151,7 @@ class Attacher {
     return best;
   }
 
-  std::optional<Candidate> sideCandidate(const Tip& tip, std::uint32_t host) const {
+  std::optional<Candidate> sideCandidate(const OpenTip& tip, std::uint32_t host) const {
     const Sections& sections = graph_.strands[host].sections;
     const Along at = nearestAlong(sections, tip.place);
     const float gap = std::max(0.0f, at.distance - at.section.w);
@@ -173,7 +173,7 @@ class Attacher {
   }
 
   // Coarse meshes taper towards an end and miss their host, but the walls near the end still touch it.
-  std::vector<Candidate> touchingCandidates(const Tip& tip) const {
+  std::vector<Candidate> touchingCandidates(const OpenTip& tip) const {
     std::vector<Candidate> found;
     for (std::uint32_t s = 0; s < graph_.strands.size(); ++s) {
       if (!mayJoin(tip.end.strand, s) || !boxes_[s].overlaps(boxes_[tip.end.strand])) continue;
@@ -187,7 +187,7 @@ class Attacher {
   }
   // Counted from the tip: the section within two radii of the tip whose wall comes nearest to the host's, if
   // they touch.
-  std::size_t touchingSection(const Tip& tip, std::uint32_t host) const {
+  std::size_t touchingSection(const OpenTip& tip, std::uint32_t host) const {
     const Sections& own = graph_.strands[tip.end.strand].sections;
     std::size_t best = kNoSection;
     float least = kTouchRadii * tip.radius;
@@ -201,7 +201,7 @@ class Attacher {
     return best;
   }
 
-  std::optional<Candidate> facingCandidate(const Tip& tip, const Tip& other) const {
+  std::optional<Candidate> facingCandidate(const OpenTip& tip, const OpenTip& other) const {
     const vec3 between = other.place - tip.place;
     const float gap = glm::length(between), large = std::max(tip.radius, other.radius);
     const float far = std::clamp(options_.facingRadii * large, options_.facingMin, options_.facingMax);
@@ -214,15 +214,15 @@ class Attacher {
     candidate.cost = 0.5f + 0.5f * gap / far;
     return candidate;
   }
-  static bool aligned(const Tip& tip, const Tip& other, float least) {
+  static bool aligned(const OpenTip& tip, const OpenTip& other, float least) {
     const vec3 way = glm::normalize(other.place - tip.place);
     return glm::dot(way, tip.outward) >= least && glm::dot(way, other.outward) <= -least;
   }
 
   std::vector<Candidate> bridgeCandidates() const {
     std::vector<Candidate> found;
-    for (const Tip& tip : tips_)
-      for (const Tip& other : tips_) {
+    for (const OpenTip& tip : tips_)
+      for (const OpenTip& other : tips_) {
         if (!mayJoin(tip.end.strand, other.end.strand) || tip.end.strand > other.end.strand) continue;
         const float gap = glm::distance(tip.place, other.place), large = std::max(tip.radius, other.radius);
         const float limit = std::min(options_.bridgeRadii * large, options_.bridgeBodyHeights * bodyHeight_);
@@ -296,7 +296,7 @@ class Attacher {
     Sections& own = graph_.strands[candidate.end.strand].sections;
     for (std::size_t i = 0; i < candidate.cutTo && own.size() > 2; ++i)
       candidate.end.last ? own.pop_back() : void(own.erase(own.begin()));
-    const Tip tip = tipOf(candidate.end);
+    const OpenTip tip = tipOf(candidate.end);
     const Sections& host = graph_.strands[candidate.strand].sections;
     const Along at = nearestAlong(host, tip.place);
     // Near an end of the host that faces this one, or that has a joint, the end is meant.
@@ -317,7 +317,7 @@ class Attacher {
   }
 
   // Ahead of the tip rather than square across, so that a branch keeps its slant into the host.
-  static vec3 placeOnHost(const Tip& tip, const Sections& host, const Along& at) {
+  static vec3 placeOnHost(const OpenTip& tip, const Sections& host, const Along& at) {
     return vec3(nearestAlong(host, tip.place + 0.7f * at.distance * tip.outward).section);
   }
 
@@ -406,7 +406,7 @@ class Attacher {
   std::vector<std::vector<std::uint32_t>> rimsOf_, strandsOf_;  // by element
   float bodyHeight_;
   AttachOptions options_;
-  std::vector<Tip> tips_;
+  std::vector<OpenTip> tips_;
   std::vector<Aabb> boxes_;
   std::vector<std::uint32_t> parts_;  // union-find over connected strands
   std::vector<Circuit> circuit_;      // of a part, at its root

@@ -75,20 +75,20 @@ std::uint32_t bridgeGaps(ElementSkeleton& skeleton, float bridgeRadii, float det
   const std::vector<FreeEnd> ends = freeEnds(skeleton);
   DisjointSets pieces(skeleton.nodes.size());
   for (const ElementBranch& branch : skeleton.branches) pieces.unite(branch.startNode, branch.endNode);
-  struct Gap {
+  struct Crossing {
     float distance;
     std::uint32_t a, b;
   };
-  std::vector<Gap> gaps;
+  std::vector<Crossing> gaps;
   for (std::uint32_t i = 0; i < ends.size(); ++i)
     for (std::uint32_t j = i + 1; j < ends.size(); ++j)
       if (pieces.find(ends[i].node) != pieces.find(ends[j].node) &&
           faces(ends[i], ends[j], bridgeRadii, detail))
         gaps.push_back({glm::distance(ends[i].position, ends[j].position), i, j});
   std::stable_sort(gaps.begin(), gaps.end(),
-                   [](const Gap& a, const Gap& b) { return a.distance < b.distance; });
+                   [](const Crossing& a, const Crossing& b) { return a.distance < b.distance; });
   std::uint32_t closed = 0;
-  for (const Gap& gap : gaps) {
+  for (const Crossing& gap : gaps) {
     const std::uint32_t a = ends[gap.a].node, b = ends[gap.b].node;
     if (pieces.find(a) == pieces.find(b) || skeleton.nodes[a].valence != 1 || skeleton.nodes[b].valence != 1)
       continue;

@@ -52,7 +52,7 @@ void trimStart(std::vector<vec4>& points, vec3 from, float distance) {
   points.erase(points.begin(), points.begin() + std::ptrdiff_t(drop));
 }
 
-float endRadius(const std::vector<vec4>& points, bool last) {
+float tipRadius(const std::vector<vec4>& points, bool last) {
   const std::size_t count = std::min<std::size_t>(7, points.size());
   std::vector<float> radii;
   for (std::size_t i = 0; i < count; ++i) radii.push_back(points[last ? points.size() - 1 - i : i].w);
@@ -100,12 +100,12 @@ PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
     const AxisChain& chain = result.graph.chains[i];
     std::vector<vec4> rough = chain.points;
     const auto trim = [&](std::uint32_t node, bool last) {
-      float distanceFrom = endRadius(chain.points, last);  // level sets near a tip are askew
+      float distanceFrom = tipRadius(chain.points, last);  // level sets near a tip are askew
       if (ends[node].size() > 1) {
         distanceFrom = 0;
         for (const ChainEnd& end : ends[node])
           if (end.chain != i || end.last != last)
-            distanceFrom = std::max(distanceFrom, endRadius(result.graph.chains[end.chain].points, end.last));
+            distanceFrom = std::max(distanceFrom, tipRadius(result.graph.chains[end.chain].points, end.last));
       }
       if (last) std::reverse(rough.begin(), rough.end());
       trimStart(rough, result.graph.nodes[node], distanceFrom);

@@ -17,7 +17,7 @@ constexpr float kSure = 0.3f;   // of the winding number from 1/2, there
 constexpr float kClear = 1.2f;  // cells: a node this far from any wall has the next one on its side
 // Of an edge: crossings stay this far from its ends, so that no triangle has no area.
 constexpr float kAside = 0.06f;
-constexpr int kRounds = 2;  // of smoothing
+constexpr int kSmoothings = 2;  // of smoothing
 using ivec3 = glm::ivec3;
 
 // The six tetrahedra around a cell's diagonal: one for each order of the axes.
@@ -171,7 +171,7 @@ class Polygoniser {
 // Vertices move to their neighbours' mean: takes off the steps where a skin closes a tear, and where walls
 // meet.
 void smooth(TriangleMesh& mesh) {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSmoothings; ++round) {
     std::vector<vec4> sums(mesh.positions.size(), vec4(0));
     for (const uvec3& t : mesh.triangles)
       for (int k = 0; k < 3; ++k)

@@ -6,11 +6,10 @@
 
 #include "convert/source.h"
 #include "core/cancellation.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = StrandGraph::kNone;
 
 vec3 directionAt(const Sections& sections, std::size_t i) {
   const std::size_t before = i ? i - 1 : 0, after = std::min(i + 1, sections.size() - 1);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kEased = 0.5f;      // weight from which on the wall turns into the tube
 constexpr float kEaseLimit = 0.6f;  // of the radius: farther from the tube it stays as it is
-constexpr int kRounds = 400;        // of relaxation
+constexpr int kRelaxations = 400;   // of relaxation
 
 // Vertices on the wall's loops: its first ones.
 std::size_t onLoops(const WallPiece& wall) {
@@ -31,7 +31,7 @@ std::vector<vec4> harmonicWeights(const WallPiece& wall) {
   for (std::size_t i = fixed; i < weights.size(); ++i)
     for (std::size_t loop = 0; loop < wall.loops.size(); ++loop)
       weights[i][int(loop)] = 1.0f / float(wall.loops.size());
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRelaxations; ++round) {
     std::vector<vec4> sum(weights.size(), vec4(0));
     std::vector<float> total(weights.size());
     for (const uvec2& e : edges.vertices) {

@@ -5,12 +5,11 @@
 #include <map>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "mesh/components.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 // The part of a triangle inside a band is numbered first[triangle] + band - low[triangle].
 struct Bands {

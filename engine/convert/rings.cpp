@@ -5,11 +5,10 @@
 #include <numeric>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 struct Neighbours {
   std::vector<std::uint32_t> first, vertices;

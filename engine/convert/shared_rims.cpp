@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "mesh/components.h"
 
 namespace vasa {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t kLeastVertices = 3;
 constexpr std::size_t kMostOwners = 8;  // of a place: no more vessels meet along one rim
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// A vertex of an element.
 struct Corner {
@@ -84,7 +84,7 @@ std::vector<std::vector<std::uint32_t>> runsOf(const std::vector<Edge>& edges) {
   std::vector<std::uint32_t> all;
   for (const auto& [a, b] : edges) all.insert(all.end(), {a, b});
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   const auto index = [&](std::uint32_t place) {
     return std::uint32_t(std::ranges::lower_bound(all, place) - all.begin());
   };

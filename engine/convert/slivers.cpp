@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "core/ids.h"
+
 namespace vasa {
 namespace {
 
@@ -36,7 +38,7 @@ std::size_t partsWithout(const StrandGraph& graph, std::span<const Wall> walls, 
   std::size_t parts = parent.size();
   std::map<std::uint32_t, std::uint32_t> atJoint;  // joint -> some strand there
   const auto touch = [&](std::uint32_t joint, std::uint32_t strand) {
-    if (joint == StrandGraph::kNone) return;
+    if (joint == kNone) return;
     const auto [entry, fresh] = atJoint.try_emplace(joint, strand);
     const std::uint32_t a = root(entry->second), b = root(strand);
     if (a != b) parent[a] = b, --parts;
@@ -46,7 +48,7 @@ std::size_t partsWithout(const StrandGraph& graph, std::span<const Wall> walls, 
   for (const std::uint32_t strand : alive)
     for (const std::uint32_t joint : {graph.strands[strand].startJoint, graph.strands[strand].endJoint}) {
       touch(joint, strand);
-      if (joint == StrandGraph::kNone || !graph.joints[joint].host) continue;
+      if (joint == kNone || !graph.joints[joint].host) continue;
       if (const std::uint32_t host = *graph.joints[joint].host; parent.contains(host)) touch(joint, host);
     }
   return parts;
@@ -76,7 +78,7 @@ std::uint32_t pruneSlivers(StrandGraph& graph, std::span<const std::uint32_t> st
       if (wall.radius() > options.radiusShare * radius && wall.length > options.lengthRadii * radius)
         continue;
       if (gone + wall.area > options.pruned * area) break;
-      if (partsWithout(graph, walls, wall.strand) > partsWithout(graph, walls, StrandGraph::kNone)) continue;
+      if (partsWithout(graph, walls, wall.strand) > partsWithout(graph, walls, kNone)) continue;
       const bool hosts =
           std::ranges::any_of(graph.joints, [&](const Joint& j) { return j.host == wall.strand; });
       if (hosts) continue;

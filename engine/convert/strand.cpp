@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ids.h"
 #include "math/closest_point.h"
 
 namespace vasa {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/ids.h"
 #include "math/types.h"
 #include "network/network.h"
 
@@ -66,8 +67,6 @@ void trimTaper(Sections& sections, bool last);
 
 class StrandGraph {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
   std::vector<Strand> strands;
   std::vector<Joint> joints;
 

@@ -5,10 +5,11 @@
 #include <map>
 #include <set>
 
+#include "core/ids.h"
+
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = StrandGraph::kNone;
 // Two branches continue one another when their outward directions are this far from parallel at most.
 constexpr float kLeastStraight = 0.0f;
 constexpr float kRadiusWeight = 0.5f;

@@ -15,7 +15,7 @@
 namespace vasa {
 namespace {
 
-constexpr float kFarthest = 0.5f;       // [m] no error is told larger
+constexpr float kLargestError = 0.5f;   // [m] no error is told larger
 constexpr float kInsideMargin = 1e-5f;  // [m]
 
 // For each vessel those that share a node with it, itself included.
@@ -58,7 +58,7 @@ struct Measurer {
     Checkpoints checkpoints;
     for (const vec3& p : samples) {
       checkpoints.pass();
-      const TubeTree::Hit hit = tree.nearestWall(p, kFarthest);
+      const TubeTree::Hit hit = tree.nearestWall(p, kLargestError);
       const float distance = std::abs(hit.distance);
       error.forward.distances.push_back(distance);
       covered += distance <= std::max(options.coverLeast, options.coverRadii * hit.radius);
@@ -101,7 +101,7 @@ struct Measurer {
     error.backward.areaEach = float(areaEach);
   }
   static float distanceTo(std::span<const TriangleTree* const> meshes, vec3 p) {
-    float best = kFarthest;
+    float best = kLargestError;
     for (const TriangleTree* mesh : meshes) best = std::min(best, mesh->nearest(p, best).distance);
     return best;
   }

@@ -9,7 +9,7 @@ namespace vasa {
 namespace {
 
 constexpr int kSteps = 60, kAlone = 20;  // of these, so many without the neighbours
-constexpr float kStep = 0.5f;            // of the way to the neighbours' middle
+constexpr float kMiddleStep = 0.5f;      // of the way to the neighbours' middle
 
 vec3 middleOfNeighbours(const TriangleMesh& mesh, const VertexTriangles& around, std::uint32_t vertex) {
   vec3 sum(0);
@@ -51,7 +51,7 @@ std::size_t unfold(TriangleMesh& mesh, std::span<const vec3> held) {
     }
     std::vector<vec3> moved = mesh.positions;
     for (std::uint32_t v = std::uint32_t(held.size()); v < moved.size(); ++v)
-      if (moves[v]) moved[v] = glm::mix(moved[v], middleOfNeighbours(mesh, around, v), kStep);
+      if (moves[v]) moved[v] = glm::mix(moved[v], middleOfNeighbours(mesh, around, v), kMiddleStep);
     mesh.positions.swap(moved);
   }
 }

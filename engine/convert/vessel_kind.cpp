@@ -172,9 +172,9 @@ VesselKind kindByNumber(std::string_view raw) {
 
 // Red and blue as every atlas has them, if it has; pink organs and grey plaster say nothing.
 VesselKind kindOfColour(vec3 c) {
-  constexpr float kClear = 2;  // times as much as of either other colour
-  if (c.r > 0.05f && c.r > kClear * std::max(c.g, c.b)) return VesselKind::artery;
-  if (c.b > 0.05f && c.b > kClear * c.r && c.b > 1.25f * c.g) return VesselKind::vein;
+  constexpr float kClearly = 2;  // times as much as of either other colour
+  if (c.r > 0.05f && c.r > kClearly * std::max(c.g, c.b)) return VesselKind::artery;
+  if (c.b > 0.05f && c.b > kClearly * c.r && c.b > 1.25f * c.g) return VesselKind::vein;
   return VesselKind::other;
 }
 

@@ -5,15 +5,16 @@
 #include <map>
 #include <set>
 
+#include "core/ids.h"
 #include "mesh/edges.h"
 
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 // Around the openings: what is cut out does not go beyond.
 constexpr float kReachRadii = 4;
-constexpr float kNearest = 0.45f, kFarthest = 2.0f;  // of a contour from the axis, in radii of the opening
+constexpr float kNearestContour = 0.45f,
+                kFarthestContour = 2.0f;  // of a contour from the axis, in radii of the opening
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 Edge edgeOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
@@ -121,8 +122,8 @@ class Cutter {
         area += cross / 2;
         nearest = std::min(nearest, glm::length(a)), farthest = std::max(farthest, glm::length(a));
       }
-      if (std::abs(turn) < kPi || nearest < kNearest * opening.radius ||
-          farthest > kFarthest * opening.radius)
+      if (std::abs(turn) < kPi || nearest < kNearestContour * opening.radius ||
+          farthest > kFarthestContour * opening.radius)
         continue;
       if (std::abs(area) < least) least = std::abs(area), best = std::move(contour), turned = area < 0;
     }

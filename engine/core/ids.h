@@ -6,10 +6,12 @@
 
 namespace vasa {
 
+constexpr std::uint32_t kNone = 0xffffffffu;  ///< what an index holds that leads nowhere
+
 /// A typed 32-bit index: a vessel's number cannot be mistaken for a node's.
 template <class Tag>
 struct Id {
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = vasa::kNone;
   std::uint32_t value = kNone;
 
   constexpr bool valid() const { return value != kNone; }

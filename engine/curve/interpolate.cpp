@@ -14,7 +14,7 @@
 namespace vasa {
 namespace {
 
-constexpr int kRounds = 8;
+constexpr int kHalvings = 8;
 constexpr float kSwing = 0.5f;         // of a chord, that a control point may leave it
 constexpr float kLeastRadius = 0.25f;  // of the samples around it
 
@@ -139,7 +139,7 @@ SampledSpline interpolateSamples(std::span<const vec4> samples) {
   for (int round = 0;; ++round) {
     checkpoint();
     result.points = solve(dense);
-    if (round == kRounds) break;
+    if (round == kHalvings) break;
     const std::vector<bool> split = toSplit(result.points, dense);
     std::vector<vec4> finer{dense.front()};
     std::vector<std::uint32_t> moved{0};

@@ -8,6 +8,8 @@
 
 namespace vasa {
 
+constexpr float kMm = 0.001f;  ///< [m] journals are in mm
+
 /// A network while it is edited. Vessels keep their numbers and new ones are appended; what is taken away
 /// stays as a gap until build() closes it.
 struct Draft {

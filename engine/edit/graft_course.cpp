@@ -14,9 +14,9 @@
 namespace vasa {
 namespace {
 
-constexpr int kPieces = 4;                // straight ones of an obstacle's span
-constexpr int kRounds = 600, kLook = 20;  // all rounds; those between looks for who is near
-constexpr float kReach = 0.02f;           // [m] farther than the band moves between looks
+constexpr int kPieces = 4;                      // straight ones of an obstacle's span
+constexpr int kCourseRounds = 600, kLook = 20;  // all rounds; those between looks for who is near
+constexpr float kReach = 0.02f;                 // [m] farther than the band moves between looks
 // Times both radii: how far along the band it may still be inside its host's reach.
 constexpr float kClear = 1.2f;
 constexpr int kDirections = 16;  // tried around a host
@@ -64,10 +64,10 @@ class Band {
   }
 
   void relax() {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kCourseRounds; ++round) {
       if (round % kLook == 0) spread(), look();
       // First taut, to find its way; then stiff, which rounds its corners over some three diameters.
-      if (round < kRounds / 2)
+      if (round < kCourseRounds / 2)
         tighten(0.3f, 0);
       else
         tighten(0.01f, 0.1f);

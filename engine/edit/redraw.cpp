@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kGrowth = 0.4f;  // of a step, by which the next may be longer
 constexpr int kPlaces = 6;       // of a span, at which it is fitted
-constexpr int kRounds = 5;       // of fitting and moving places
+constexpr int kFitRounds = 5;    // of fitting and moving places
 constexpr int kHalvings = 1;     // shorter spans than that bend with the rounding of a file's coordinates
 constexpr float kCentreShare = 0.02f, kRadiusShare = 0.003f;
 constexpr std::uint32_t kMostSpans = 20000;
@@ -156,7 +156,7 @@ class Fitter {
           samples.back().along = old_.arc.along(float(span) + t + float(old_.spans) - float(spans_));
       }
     const int unknowns = int(freeEnd_) - int(firstFree_);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kFitRounds; ++round) {
       std::vector<Eigen::Triplet<double>> entries;
       Eigen::MatrixXd right = Eigen::MatrixXd::Zero(unknowns, 4);
       for (const Sample& sample : samples) {

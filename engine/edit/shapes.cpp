@@ -14,7 +14,6 @@
 namespace vasa {
 namespace {
 
-constexpr float kMm = 0.001f;
 constexpr float kStepsOfLesion = 10;  // spans over a lesion's length: bump() is then met within 0.3 %
 // A tube has a radius everywhere; a hundredth of it lets nothing through.
 constexpr float kOccludedPercent = 99;

@@ -18,7 +18,6 @@
 namespace vasa {
 namespace {
 
-constexpr float kMm = 0.001f;
 // Of 15 degrees: a branch less steep runs within its host for four radii.
 constexpr float kLeastLeavingCosine = 0.966f;
 constexpr float kBranchSpan = 0.01f;     // [m] so that it bends with the body as others do

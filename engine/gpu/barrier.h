@@ -3,6 +3,8 @@
 
 namespace vasa::gpu {
 
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+
 /// Everything written by stages `from` of earlier commands (of earlier submits too) is seen by stages `to` of
 /// later ones, and is not overwritten while it is still read. Whole memory: a barrier for every buffer costs
 /// drivers the same, and is forgotten more easily.

@@ -26,7 +26,7 @@ using shared::GrowthChild;
 using shared::GrowthSymbol;
 using shared::GrowthSystem;
 
-constexpr std::size_t kMaximumBytes = 1 << 20;
+constexpr std::size_t kMaximumRulesBytes = 1 << 20;
 
 struct Branch {
   GrowthChild child;
@@ -339,7 +339,7 @@ Result<GrowthRules> parseGrowthRules(std::string_view text, const std::string& n
 }
 
 Result<GrowthRules> readGrowthRules(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, kMaximumRulesBytes);
   if (!bytes) return bytes.error();
   return parseGrowthRules({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
 }

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 11> kColumns{"region",  "system",      "j
                                                     "kinds",   "thinnest_mm", "thickest_mm", "bed_mm",
                                                     "surface", "organs",      "wall_mm"};
 constexpr std::size_t kFewestColumns = 9;  // tables that know of no organs
-constexpr std::size_t kMaximumBytes = 1 << 20;
+constexpr std::size_t kMaximumRegionsBytes = 1 << 20;
 constexpr std::size_t kMostRegions = 255;  // beds keep a byte; 255 is none
 
 std::string_view trimmed(std::string_view text) {
@@ -203,7 +203,7 @@ Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std:
 }
 
 Result<std::vector<GrowthRegion>> readRegions(const std::filesystem::path& path, const GrowthRules& rules) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, kMaximumRegionsBytes);
   if (!bytes) return bytes.error();
   return parseRegions({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), rules);
 }

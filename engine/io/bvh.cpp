@@ -11,7 +11,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kMaximumBytes = std::size_t(1) << 29;
+constexpr std::size_t kMaximumBvhBytes = std::size_t(1) << 29;
 constexpr std::size_t kMostJoints = 4096;
 constexpr int kDeepest = 256;
 constexpr double kRadians = 3.14159265358979323846 / 180;
@@ -19,7 +19,7 @@ constexpr double kFarthest = 1e9;  // in any unit
 // No motion is recorded at less than a frame a second, and any is in milliseconds at more than 1 of them.
 constexpr double kLongestFrame = 1;  // [s]
 
-struct BrokenRule {
+struct BrokenLine {
   std::size_t line;
   std::string rule;
 };
@@ -48,7 +48,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void breaks(std::string rule) const { throw BrokenRule{line_, std::move(rule)}; }
+  [[noreturn]] void breaks(std::string rule) const { throw BrokenLine{line_, std::move(rule)}; }
   void warn(const std::string& what) const {
     logWarning(motion_.name + ":" + std::to_string(line_) + ": " + what);
   }
@@ -284,13 +284,13 @@ Result<Motion> parseBvh(std::string_view text, const std::string& name) {
   if (!plain) return plain.error();
   try {
     return Parser(*plain, name).run();
-  } catch (const BrokenRule& broken) {
+  } catch (const BrokenLine& broken) {
     return badInput(name + ":" + std::to_string(broken.line) + ": " + broken.rule);
   }
 }
 
 Result<Motion> readBvh(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, kMaximumBvhBytes);
   if (!bytes) return bytes.error();
   return parseBvh({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
 }

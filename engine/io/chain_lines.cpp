@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kSamePlace = 0.05f;        // of a radius
 constexpr std::size_t kMostLookedAt = 64;  // samples in a slab of that width: more are another scale's
 

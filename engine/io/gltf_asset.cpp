@@ -25,12 +25,6 @@ json parseJson(std::string_view text) {
   }
 }
 
-bool uses(const JsonView& root, std::string_view extension) {
-  for (const JsonView& item : root.items("extensionsUsed"))
-    if (item.text() == extension) return true;
-  return false;
-}
-
 }  // namespace
 
 Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path) {

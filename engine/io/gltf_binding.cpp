@@ -19,13 +19,6 @@ bool sound(const mat4& m) {
   return std::isfinite(determinant) && determinant > 1e-12f && std::isfinite(glm::dot(m[3], m[3]));
 }
 
-float difference(const mat4& a, const mat4& b) {
-  float largest = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(a[i][k] - b[i][k]));
-  return largest;
-}
-
 // T R S of a matrix, where it is one.
 std::optional<JointTransform> parts(const mat4& m) {
   JointTransform out;
@@ -109,6 +102,13 @@ bool isPosed(const Skeleton& skeleton, const BoundSkin& skin) {
 }
 
 }  // namespace
+
+float difference(const mat4& a, const mat4& b) {
+  float largest = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(a[i][k] - b[i][k]));
+  return largest;
+}
 
 bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins) {
   const auto largest =

@@ -11,6 +11,9 @@ struct BoundSkin {
   std::vector<mat4> inverseBinds;  ///< one a joint
 };
 
+/// The largest between elements of two matrices.
+float difference(const mat4& a, const mat4& b);
+
 /// Moves a skeleton from the pose that a file's nodes have (a frame of some motion, as a rule) to the one in
 /// which its largest skin is bound; joints that no skin binds keep their place beside their parent.
 ///

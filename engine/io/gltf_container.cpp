@@ -98,11 +98,11 @@ Container splitGlb(std::span<const std::byte> bytes, const std::filesystem::path
 constexpr std::size_t kASlot = 48, kAMember = 96, kAText = 48, kABracket = 64;
 
 // @return the memory that the parsed document takes [bytes]
-std::size_t checkNesting(std::string_view json) {
+std::size_t checkNesting(std::string_view text) {
   std::size_t depth = 0, memory = 0, textBegin = 0;
   bool inString = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (inString) {
       if (c == '\\')
         ++i;

@@ -58,14 +58,14 @@ std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree
 }
 
 // Of the triangles that are still to come.
-MeshMaterial materialOf(const Model& model, int material, const Geometry& geometry) {
+MeshMaterial meshMaterialOf(const Model& model, int material, const Geometry& geometry) {
   const auto first = std::uint32_t(geometry.mesh.triangles.size());
   if (material < 0) return {{}, {}, first};
   const auto& own = model.materials[std::size_t(material)];
   return {own.name, vec3(own.baseColour), first};
 }
 
-std::optional<vec3> colourOf(const Model& model, int node) {
+std::optional<vec3> colourTold(const Model& model, int node) {
   for (const auto& primitive : model.meshes[std::size_t(model.nodes[std::size_t(node)].mesh)].primitives)
     if (primitive.material >= 0) return vec3(model.materials[std::size_t(primitive.material)].baseColour);
   return std::nullopt;
@@ -85,7 +85,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     Geometry geometry;
     std::vector<MeshMaterial> materials;
     for (const auto& primitive : mesh.primitives) {
-      materials.push_back(materialOf(asset.model, primitive.material, geometry));
+      materials.push_back(meshMaterialOf(asset.model, primitive.material, geometry));
       appendPrimitive(asset, primitive, node.skin >= 0, geometry);
     }
     if (node.skin < 0)
@@ -97,7 +97,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
         {nameOf(node.name, mesh.name, int(i)), std::move(labels.category), std::move(labels.ontologyId),
          node.skin < 0 ? std::move(geometry.mesh) : atRest(std::move(geometry), node.skin, *rest)});
     elements.back().surroundings = surroundingsOf(asset.model, tree, int(i));
-    elements.back().colour = colourOf(asset.model, int(i));
+    elements.back().colour = colourTold(asset.model, int(i));
     elements.back().materials = std::move(materials);
     mustBeFinite(elements.back().mesh.positions, int(i));
   }

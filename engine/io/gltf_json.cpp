@@ -166,4 +166,10 @@ std::size_t countOf(const JsonView& root, const char* array) {
   return found ? found->size() : 0;
 }
 
+bool uses(const JsonView& root, std::string_view extension) {
+  for (const JsonView& name : root.items("extensionsUsed"))
+    if (name.text() == extension) return true;
+  return false;
+}
+
 }  // namespace vasa::gltf

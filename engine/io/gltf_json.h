@@ -53,4 +53,7 @@ class JsonView {
 /// How many elements a top-level array has; 0 where it is absent.
 std::size_t countOf(const JsonView& root, const char* array);
 
+/// Whether a document names an extension among those that it uses.
+bool uses(const JsonView& root, std::string_view extension);
+
 }  // namespace vasa::gltf

@@ -11,13 +11,6 @@
 namespace vasa::gltf {
 namespace {
 
-float difference(const mat4& a, const mat4& b) {
-  float largest = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 4; ++k) largest = std::max(largest, std::abs(a[i][k] - b[i][k]));
-  return largest;
-}
-
 float size(const mat4& m) { return difference(m, mat4(0)); }
 
 bool invertible(const mat4& m) {

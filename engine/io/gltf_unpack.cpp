@@ -185,12 +185,6 @@ void unpackPrimitives(json& document, Buffers& buffers, Quota& quota) {
   for (const Packed& each : packed.all) (*each.primitive)["extensions"].erase(kDraco);
 }
 
-bool uses(const JsonView& root, const char* extension) {
-  for (const JsonView& name : root.items("extensionsUsed"))
-    if (name.text() == extension) return true;
-  return false;
-}
-
 }  // namespace
 
 std::size_t addView(json& document, Buffers& buffers, Bytes bytes) {

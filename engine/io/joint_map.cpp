@@ -1,5 +1,6 @@
 #include "core/atomic_file.h"
 #include "io/bvh.h"
+#include "io/csv.h"
 #include "io/text_file.h"
 #include "io/words.h"
 
@@ -7,12 +8,6 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kMaximumMapBytes = std::size_t(1) << 20;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == text.npos ? std::string_view{}
-                            : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 }  // namespace
 
@@ -30,14 +25,14 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
   JointMap map;
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = nextLine(text);
-    line = trimmed(line.substr(0, line.find('#')));
+    line = csv::trimmed(line.substr(0, line.find('#')));
     if (line.empty()) continue;
     const std::size_t sign = line.find('=');
-    const std::string_view from = trimmed(line.substr(0, sign));
+    const std::string_view from = csv::trimmed(line.substr(0, sign));
     if (sign == line.npos || from.empty())
       return badInput(name + ":" + std::to_string(number) +
                       ": a line must be `motion's joint = body's joint`");
-    map[std::string(from)] = std::string(trimmed(line.substr(sign + 1)));
+    map[std::string(from)] = std::string(csv::trimmed(line.substr(sign + 1)));
   }
   return map;
 }

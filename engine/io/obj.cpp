@@ -5,6 +5,7 @@
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "io/text_file.h"
 #include "io/words.h"
 #include "mesh/polygon.h"
@@ -12,8 +13,6 @@
 namespace vasa {
 namespace {
 
-// Cutting a polygon takes the square of them at worst.
-constexpr std::size_t kMostCorners = 512;
 // An object takes some 500 bytes of memory.
 constexpr std::size_t kBytesAnObject = 64, kFreeObjects = 100'000;
 
@@ -36,9 +35,9 @@ struct Material {
 // Longer ones name nothing that a reader knows; each object has a copy.
 constexpr std::size_t kLongestMaterial = 128;
 
-class Reader {
+class ObjReader {
  public:
-  Reader(const std::filesystem::path& path, const ImportFrame& frame)
+  ObjReader(const std::filesystem::path& path, const ImportFrame& frame)
       : path_(path), file_(path.string()), frame_(frame) {}
 
   Result<std::vector<MeshElement>> run(std::string_view text) {
@@ -225,7 +224,6 @@ class Reader {
     }
   }
 
-  static constexpr std::uint32_t kNone = 0xffffffffu;
   const std::filesystem::path& path_;
   std::string file_;
   ImportFrame frame_;
@@ -258,7 +256,7 @@ Result<std::vector<MeshElement>> readObj(const std::filesystem::path& path, cons
 
 Result<std::vector<MeshElement>> parseObj(std::string_view text, const std::filesystem::path& path,
                                           const ImportFrame& frame) {
-  return Reader(path, frame).run(text);
+  return ObjReader(path, frame).run(text);
 }
 
 }  // namespace vasa

@@ -11,7 +11,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kMaximumBytes = std::size_t(1) << 30;
+constexpr std::size_t kMaximumSwcBytes = std::size_t(1) << 30;
 constexpr const char* kLine =
     "id type x y z radius parent, with blanks between and decimal points; # begins a comment";
 
@@ -21,9 +21,9 @@ struct Row {
   std::size_t line = 0;
 };
 
-class Reader {
+class SwcReader {
  public:
-  Reader(const std::string& name, const ImportFrame& frame) : name_(name), frame_(frame) {}
+  SwcReader(const std::string& name, const ImportFrame& frame) : name_(name), frame_(frame) {}
 
   Result<std::vector<SwcSample>> run(std::string_view text) {
     std::string kept;
@@ -170,11 +170,11 @@ class Reader {
 
 Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name,
                                         const ImportFrame& frame) {
-  return Reader(name, frame).run(text);
+  return SwcReader(name, frame).run(text);
 }
 
 Result<std::vector<SwcSample>> readSwc(const std::filesystem::path& path, const ImportFrame& frame) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, kMaximumSwcBytes);
   if (!bytes) return bytes.error();
   return parseSwc({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), frame);
 }

@@ -1,13 +1,12 @@
 #include <algorithm>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "io/swc.h"
 
 // An SWC file's forest of samples and vessels: both ways.
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = SwcSample::kRoot;
 
 // The children of each sample in the file's order, in one list.
 class Children {

@@ -23,9 +23,6 @@ namespace {
 
 using vtk::breaks, vtk::BrokenRule, vtk::Cells, vtk::Sections, vtk::sectionsOf;
 
-constexpr std::size_t kMaximumBytes = std::size_t(1) << 28;
-constexpr std::size_t kMostCorners = 512;  // as for .obj: cutting a polygon takes the square of them at worst
-
 vec3 placed(const dvec3& p, const ImportFrame& frame, std::size_t number) {
   if (!(glm::length(p) * frame.metresPerUnit <= kLargestImportedCoordinate))
     breaks("POINTS",
@@ -166,7 +163,7 @@ void addStrip(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
 }
 
 VtkContent vtkContent(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, vtk::kMaximumBytes);
   if (!bytes) return VtkContent::nothing;
   std::string_view text = textOf(*bytes);
   std::string kept;
@@ -208,7 +205,7 @@ Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::stri
 }
 
 Result<VtpLines> readVtkLines(const std::filesystem::path& path, const ImportFrame& frame) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, vtk::kMaximumBytes);
   if (!bytes) return bytes.error();
   return parseVtkLines(*bytes, path.string(), frame);
 }
@@ -238,7 +235,7 @@ Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> byte
 }
 
 Result<std::vector<MeshElement>> readVtkSurface(const std::filesystem::path& path, const ImportFrame& frame) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, vtk::kMaximumBytes);
   if (!bytes) return bytes.error();
   return parseVtkSurface(*bytes, path, frame);
 }

@@ -39,9 +39,9 @@ std::string upper(std::string_view word) {
   return text;
 }
 
-class Reader {
+class SectionReader {
  public:
-  explicit Reader(std::string_view text) : rest_(text) {}
+  explicit SectionReader(std::string_view text) : rest_(text) {}
 
   Sections run() {
     if (!line().starts_with("# vtk DataFile"))
@@ -236,6 +236,6 @@ class Reader {
 
 }  // namespace
 
-Sections sectionsOf(std::string_view text) { return Reader(text).run(); }
+Sections sectionsOf(std::string_view text) { return SectionReader(text).run(); }
 
 }  // namespace vasa::vtk

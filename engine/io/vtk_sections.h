@@ -4,20 +4,12 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "io/vtk_rule.h"
 #include "math/types.h"
 
 namespace vasa::vtk {
-
-/// What a file does not keep to: thrown by sectionsOf(), and by whoever reads on.
-struct BrokenRule {
-  std::string place, rule;
-};
-[[noreturn]] inline void breaks(std::string place, std::string rule) {
-  throw BrokenRule{std::move(place), std::move(rule)};
-}
 
 /// One after the other: files may have a cell for two bytes.
 struct Cells {

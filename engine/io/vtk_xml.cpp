@@ -42,8 +42,6 @@ std::vector<double> asciiNumbers(std::string_view text, const std::string& place
 
 }  // namespace
 
-void breaks(std::string place, std::string rule) { throw BrokenRule{std::move(place), std::move(rule)}; }
-
 std::string_view attribute(const XMLElement& element, const char* name) {
   const char* value = element.Attribute(name);
   return value ? value : "";

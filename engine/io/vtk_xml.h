@@ -7,16 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "io/vtk_rule.h"
 #include "io/vtp_data.h"
 
 // Files of VTK's XML kinds below what they describe: elements, and arrays of numbers in every encoding.
 namespace vasa::vtk {
-
-/// The first rule that reading finds broken; what is thrown.
-struct BrokenRule {
-  std::string place, rule;
-};
-[[noreturn]] void breaks(std::string place, std::string rule);
 
 /// Empty where there is none.
 std::string_view attribute(const tinyxml2::XMLElement& element, const char* name);

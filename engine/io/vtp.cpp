@@ -12,6 +12,7 @@
 #include "io/radius_array.h"
 #include "io/vtk_xml.h"
 #include "io/words.h"
+#include "mesh/polygon.h"
 
 namespace vasa {
 namespace {
@@ -23,8 +24,7 @@ using vtk::breaks;
 using vtk::BrokenRule;
 using vtk::Numbers;
 
-constexpr std::size_t kMaximumBytes = std::size_t(1) << 28;
-constexpr std::size_t kMostCellArrays = 100, kMostCorners = 512;
+constexpr std::size_t kMostCellArrays = 100;
 
 // What a file of so many bytes may hold. Points, lines and names take 16, 100 and 80 bytes of memory.
 struct Amounts {
@@ -44,9 +44,9 @@ struct Amounts {
   }
 };
 
-class Reader {
+class VtpReader {
  public:
-  Reader(std::span<const std::byte> bytes, const ImportFrame& frame)
+  VtpReader(std::span<const std::byte> bytes, const ImportFrame& frame)
       : frame_(frame), most_(bytes.size()), file_(bytes) {}
 
   VtpLines run() {
@@ -304,7 +304,7 @@ const VtpLines::CellArray* VtpLines::find(std::string_view name) const {
 
 bool vtpTellsRadii(std::span<const std::byte> bytes) {
   try {
-    return Reader(bytes, {}).tellsRadii();
+    return VtpReader(bytes, {}).tellsRadii();
   } catch (const BrokenRule&) {
     return true;
   }
@@ -313,7 +313,7 @@ bool vtpTellsRadii(std::span<const std::byte> bytes) {
 Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& name,
                           const ImportFrame& frame) {
   try {
-    Reader reader(bytes, frame);
+    VtpReader reader(bytes, frame);
     VtpLines lines = reader.run();
     if (!reader.remark.empty()) logWarning(name + ": " + reader.remark);
     return lines;
@@ -325,14 +325,14 @@ Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& n
 Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name,
                                      const ImportFrame& frame) {
   try {
-    return Reader(bytes, frame).surface();
+    return VtpReader(bytes, frame).surface();
   } catch (const BrokenRule& broken) {
     return badInput(name + ": " + broken.place + ": " + broken.rule);
   }
 }
 
 Result<VtpLines> readVtp(const std::filesystem::path& path, const ImportFrame& frame) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, vtk::kMaximumBytes);
   if (!bytes) return bytes.error();
   return parseVtp(*bytes, path.string(), frame);
 }

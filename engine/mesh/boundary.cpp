@@ -4,11 +4,10 @@
 #include <queue>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 // Border edges at each vertex.
 struct BorderGraph {

@@ -1,11 +1,10 @@
 #include "mesh/components.h"
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 // @param number  kNone of every vertex, before and after
 TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles,

@@ -1,10 +1,14 @@
 #pragma once
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "math/types.h"
 
 namespace vasa {
+
+/// Of a face that is read from a file: cutting takes the square of them at worst.
+constexpr std::size_t kMostCorners = 512;
 
 /// Cuts a polygon into triangles that turn as it does: a quadrangle along its shorter diagonal, others by ear
 /// clipping (Meisters 1975) in the coordinate plane that they face most. Corners that lie in a line,

@@ -8,11 +8,10 @@
 #include <unordered_set>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Cell = std::array<std::int64_t, 3>;
 struct CellHash {

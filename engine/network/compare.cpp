@@ -12,7 +12,7 @@
 namespace vasa {
 namespace {
 
-constexpr double kStep = 0.002;  // [m] between the places at which distances are taken
+constexpr double kSampleStep = 0.002;  // [m] between the places at which distances are taken
 
 struct Segment {
   vec3 a, b;
@@ -46,7 +46,7 @@ std::vector<Pieces> piecesOf(const Network& network) {
     Pieces& pieces = all[found->second];
     const auto points = network.pointsOf(vessel);
     const double length = lengthOf(points);
-    const int steps = std::max(int(vessel.spanCount()), int(std::ceil(length / kStep)));
+    const int steps = std::max(int(vessel.spanCount()), int(std::ceil(length / kSampleStep)));
     vec3 last(evaluate(points, 0));
     for (int k = 1; k <= steps; ++k) {
       const vec3 next(evaluate(points, float(vessel.spanCount()) * float(k) / float(steps)));

@@ -17,7 +17,6 @@ namespace {
 constexpr char kMagic[4] = {'V', 'A', 'S', 'A'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = 24;
-constexpr float kSteps = 65535;
 
 struct Grid {
   vec3 origin{0};
@@ -30,8 +29,8 @@ struct Grid {
   }
   void encode(const vec4& p, std::uint16_t q[4]) const {
     for (int axis = 0; axis < 3; ++axis)
-      q[axis] = std::uint16_t(std::clamp(std::round((p[axis] - origin[axis]) / step()), 0.0f, kSteps));
-    q[3] = std::uint16_t(std::clamp(std::round(p.w / radiusStep), 1.0f, kSteps));
+      q[axis] = std::uint16_t(std::clamp(std::round((p[axis] - origin[axis]) / step()), 0.0f, kGridSteps));
+    q[3] = std::uint16_t(std::clamp(std::round(p.w / radiusStep), 1.0f, kGridSteps));
   }
 };
 
@@ -47,11 +46,11 @@ Grid gridOf(std::span<const vec4> points) {
   const vec3 extent = box.extent();
   const float largest = std::max({extent.x, extent.y, extent.z});
   int exponent = -40;  // finer than any float needs
-  while (std::ldexp(kSteps - 1, exponent) < largest) ++exponent;
+  while (std::ldexp(kGridSteps - 1, exponent) < largest) ++exponent;
   grid.exponent = std::int8_t(exponent);
   for (int axis = 0; axis < 3; ++axis)
     grid.origin[axis] = std::round(box.low[axis] / grid.step()) * grid.step();
-  grid.radiusStep = radius / kSteps;
+  grid.radiusStep = radius / kGridSteps;
   return grid;
 }
 

@@ -14,6 +14,8 @@ namespace vasa {
 static_assert(std::endian::native == std::endian::little);
 /// That a name may share with the one before: bounds what a file expands to.
 constexpr std::size_t kMaximumText = 4096;
+/// Steps of a quantised coordinate, on 16 bits.
+constexpr float kGridSteps = 65535;
 
 /// Little-endian; counts as LEB128, texts as their length and bytes.
 class ByteWriter {

@@ -8,7 +8,7 @@
 namespace vasa {
 namespace {
 
-constexpr float kStep = 0.001f;  // [m]
+constexpr float kCourseStep = 0.001f;  // [m]
 constexpr float kShareOfArc = 1 / 60.0f;
 // [radians] a turn from station to station that is none: its plane is chance
 constexpr float kStraight = 0.02f;
@@ -43,7 +43,7 @@ CourseMeasures measureCourse(std::span<const vec4> points) {
   sharpestBend(points, out);
   out.arc = lengthOf(points);
   out.chord = glm::distance(vec3(points.front()), vec3(points.back()));
-  const auto stations = stationsOf(points, std::max(kStep, kShareOfArc * out.arc));
+  const auto stations = stationsOf(points, std::max(kCourseStep, kShareOfArc * out.arc));
   std::vector<vec3> steps;
   for (std::size_t i = 1; i < stations.size(); ++i)
     steps.push_back(stations[i].centre - stations[i - 1].centre);

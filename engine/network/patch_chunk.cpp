@@ -8,7 +8,6 @@ namespace vasa {
 namespace {
 
 constexpr int kFinest = -22;  // steps of a coordinate below 4 m are exact in a float
-constexpr float kSteps = 65535;
 
 void write(const ForkPatch& patch, ByteWriter& out) {
   out.raw(std::uint8_t(patch.rings.size()));
@@ -24,7 +23,7 @@ void write(const ForkPatch& patch, ByteWriter& out) {
   for (const vec3& p : patch.positions) box.add(p);
   const vec3 extent = box.extent();
   int exponent = kFinest;
-  while (std::ldexp(kSteps - 1, exponent) < std::max({extent.x, extent.y, extent.z})) ++exponent;
+  while (std::ldexp(kGridSteps - 1, exponent) < std::max({extent.x, extent.y, extent.z})) ++exponent;
   const float step = std::ldexp(1.0f, exponent);
   vec3 origin;
   for (int axis = 0; axis < 3; ++axis) origin[axis] = std::round(box.low[axis] / step) * step;
@@ -34,7 +33,7 @@ void write(const ForkPatch& patch, ByteWriter& out) {
   for (std::size_t i = 0; i < patch.positions.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
       out.raw(std::uint16_t(
-          std::clamp(std::round((patch.positions[i][axis] - origin[axis]) / step), 0.0f, kSteps)));
+          std::clamp(std::round((patch.positions[i][axis] - origin[axis]) / step), 0.0f, kGridSteps)));
     for (std::size_t k = 0; k < patch.rings.size(); ++k) out.raw(patch.weights[i][k]);
   }
   out.number(patch.triangles.size());

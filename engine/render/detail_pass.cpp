@@ -12,8 +12,7 @@
 namespace vasa {
 namespace {
 
-constexpr std::uint32_t kGroup = 64;
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr std::uint32_t kGroupVessels = 64;
 
 // Sides of the view volume, from rows of the matrix (Gribb, Hartmann 2001). Clip space holds -w <= x, y <= w,
 // z <= w.
@@ -81,20 +80,20 @@ void DetailPass::fit(gpu::Device& device, const TubeSet& tubes) {
 
 void DetailPass::record(VkCommandBuffer commands, const TubeSet& tubes, VkDeviceAddress points,
                         const shared::DetailView& view) const {
-  gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_TRANSFER_BIT);
+  gpu::stageBarrier(commands, gpu::kCompute, VK_PIPELINE_STAGE_2_TRANSFER_BIT);
   vkCmdUpdateBuffer(commands, view_.handle(), 0, sizeof view, &view);
-  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT | kCompute, kCompute);
+  gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT | gpu::kCompute, gpu::kCompute);
   const std::uint32_t sweeps = std::uint32_t(tubes.table().sweeps.size());
   measure_.dispatch(commands,
                     shared::MeasurePush{points, tubes.sweeps(), tubes.tables(), view_.address(),
                                         tubes.colours(), along_.address(), sizes_.address(), sweeps, 0},
-                    gpu::groupsFor(sweeps, kGroup));
-  gpu::stageBarrier(commands, kCompute, kCompute);
+                    gpu::groupsFor(sweeps, kGroupVessels));
+  gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   choose_.dispatch(commands,
                    shared::AroundPush{tubes.tables(), view_.address(), sizes_.address(), around_.address(),
                                       tubes.vesselCount(), 0},
-                   gpu::groupsFor(tubes.vesselCount(), kGroup));
-  gpu::stageBarrier(commands, kCompute, kCompute);
+                   gpu::groupsFor(tubes.vesselCount(), kGroupVessels));
+  gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
 }
 
 }  // namespace vasa

@@ -7,8 +7,6 @@
 namespace vasa {
 namespace {
 
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-
 TubeDetail detailOf(const RenderOptions& options) {
   return {options.shape, options.pixelError, options.forks, options.table};
 }
@@ -87,13 +85,13 @@ void DrawnVessels::recordFill(VkCommandBuffer commands, const Frame& frame, std:
     const auto scope = frame.timer.scope(commands, stage::kTessellate);
     tubePass_.record(commands,
                      {tubes_, detailPass_, upload.points(), upload.knots(), filling_, into, frame.cull});
-    gpu::stageBarrier(commands, kCompute, kCompute);
+    gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   }
   const auto scope = frame.timer.scope(commands, stage::kForks);
   if (range_.forkEnd > 0) {
     forkPass_.record(
         commands, {tubes_, forks_, detailPass_, upload.points(), upload.knots(), filling_, into, frame.cull});
-    gpu::stageBarrier(commands, kCompute, kCompute);
+    gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   }
   planPass_.record(commands, filling_, into);
 }

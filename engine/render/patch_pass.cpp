@@ -27,7 +27,6 @@ std::vector<shared::PatchWall> wallsOf(const PatchTable& table) {
   return walls;
 }
 
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr std::uint32_t kGroupTriangles = shared::kPatchThreads * shared::kThreadTriangles;
 
 }  // namespace
@@ -114,7 +113,7 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                       .count = patches.seamCount_,
                                       .unused = 0},
                   gpu::groupsFor(patches.seamCount_, 64));
-  gpu::stageBarrier(commands, kCompute, kCompute);
+  gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   skin_.dispatch(commands,
                  shared::SkinPush{.rest = patches.rest_.address(),
                                   .joints = patches.joints_.address(),
@@ -133,7 +132,7 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                            .count = patches.patchCount_,
                                            .unused = 0},
                    1);
-  gpu::stageBarrier(commands, kCompute, kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
+  gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
   smooth_.dispatchIndirect(commands,
                            shared::PatchSmoothPush{.walls = patches.walls_.address(),
                                                    .strained = patches.strained_.address(),
@@ -142,7 +141,7 @@ void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
                                                    .vertices = draws.vertices.address(),
                                                    .between = patches.between_.address()},
                            patches.dispatch_);
-  gpu::stageBarrier(commands, kCompute, kCompute);
+  gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   recordTriangles(commands, patches, input.detail, input.cull);
 }
 

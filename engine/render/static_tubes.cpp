@@ -7,7 +7,6 @@
 namespace vasa {
 namespace {
 
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 // Within any storage range.
 constexpr std::uint32_t kPartBlocks = (64u << 20) / (sizeof(shared::TubeVertex) * shared::kBlockVertices);
 
@@ -42,10 +41,10 @@ void StaticTubes::recordVertices(VkCommandBuffer commands, const TubePass& pass,
       pass.record(commands, {tubes_, detail, points, knots, part.filling, part.made, false});
     else
       forkPass.record(commands, {tubes_, forks_, detail, points, knots, part.filling, part.made, false});
-    gpu::stageBarrier(commands, kCompute, kCompute);
+    gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
     plan.record(commands, part.filling, part.made);
   }
-  gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
+  gpu::stageBarrier(commands, gpu::kCompute, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT);
 }
 
 void StaticTubes::recordDraw(VkCommandBuffer commands, const SurfacePass& pass,

@@ -28,7 +28,7 @@ constexpr int kSlopeReach = 2;          // cubes either way that the skin's dire
 // [tenths of a cube] For a way into or out of an organ: with 16 cm, more than one measures, its own vessels
 // feed it where it has any.
 constexpr std::uint32_t kToll = 400;
-constexpr std::int32_t kNone = -1;
+constexpr std::int32_t kNobody = -1;
 
 using Cubes = std::vector<std::int32_t>;
 
@@ -135,7 +135,7 @@ struct Piece {
   std::int32_t centre = 0;                         // cube
   std::array<vec4, shared::kGrowthWalls> walls{};  // from the centre, at rest
   vec4 surface{0};
-  std::array<std::int32_t, 2> from{kNone, kNone};  // piece, or itself: a vessel
+  std::array<std::int32_t, 2> from{kNobody, kNobody};  // piece, or itself: a vessel
   std::array<double, 2> flow{};  // [m³] cubes of radii: own and of all that goes on from it
   std::array<vec3, 2> start{}, end{}, through{};
 };
@@ -151,7 +151,7 @@ class Sharing {
     parallelFor(2, 1, [&](std::size_t side) { findWays(side); });
     findDepths();
     findPieces();
-    pieceOf_.assign(tissue_.count(), kNone);
+    pieceOf_.assign(tissue_.count(), kNobody);
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       for (const std::int32_t cube : pieces_[i].cubes) pieceOf_[std::size_t(cube)] = std::int32_t(i);
     parallelFor(pieces_.size(), 16, [&](std::size_t i) { fitRoom(pieces_[i]); });
@@ -299,7 +299,7 @@ class Sharing {
       piece.from[side] = std::int32_t(i);
       for (std::int32_t cube = piece.centre;; cube = ways_[side].before[std::size_t(cube)]) {
         const std::int32_t other = pieceOf_[std::size_t(cube)];
-        if (other >= 0 && std::size_t(other) != i && pieces_[std::size_t(other)].from[side] != kNone &&
+        if (other >= 0 && std::size_t(other) != i && pieces_[std::size_t(other)].from[side] != kNobody &&
             wayOf(std::size_t(other)) < wayOf(i)) {
           piece.from[side] = other;
           break;
@@ -372,7 +372,7 @@ class Sharing {
     for (std::size_t w = 0; w < piece.walls.size(); ++w)
       bed.wall[w] = vec4(inverse * vec3(piece.walls[w]), piece.walls[w].w);
     bed.surface = vec4(inverse * vec3(piece.surface), piece.surface.w);
-    const std::size_t first = piece.from[0] == kNone ? 1 : 0;
+    const std::size_t first = piece.from[0] == kNobody ? 1 : 0;
     bed.entry = inBox(piece.start[first] - centre);
     for (const std::size_t side : {0u, 1u}) bed.stem[side] = stemOf(i, side, inverse);
     return bed;
@@ -382,7 +382,7 @@ class Sharing {
     const Piece& piece = pieces_[i];
     GrowthStem stem{};
     stem.from = shared::kNoStem;
-    if (piece.from[side] == kNone) return stem;
+    if (piece.from[side] == kNobody) return stem;
     std::size_t root = i;
     while (std::size_t(pieces_[root].from[side]) != root) root = std::size_t(pieces_[root].from[side]);
     const BedSource& source = sourceOf(side, pieces_[root].centre);

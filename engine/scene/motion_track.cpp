@@ -23,7 +23,7 @@ struct Header {
   std::uint64_t key, hash;  // hash: of all, itself as 0
   std::uint32_t variables, points, frames, reserved;
 };
-using Frame = MotionTrack::Frame;
+using TrackFrame = MotionTrack::Frame;
 using Moved = MotionTrack::Moved;
 using Narrowed = MotionTrack::Narrowed;
 static_assert(sizeof(Moved) == 16 && sizeof(Narrowed) == 8);  // as they are in a file
@@ -33,7 +33,7 @@ bool moves(const vec3& by) {
   return std::bit_cast<std::array<std::uint32_t, 3>>(by) != std::array<std::uint32_t, 3>{};
 }
 
-void take(const Correction& correction, Frame& frame) {
+void take(const Correction& correction, TrackFrame& frame) {
   frame.moved.clear(), frame.narrowed.clear();
   frame.moved.reserve(std::size_t(std::ranges::count_if(correction.motions, moves)));
   for (std::uint32_t v = 0; v < correction.motions.size(); ++v)
@@ -42,7 +42,7 @@ void take(const Correction& correction, Frame& frame) {
     if (std::isfinite(correction.widest[p])) frame.narrowed.push_back({p, correction.widest[p]});
 }
 
-bool takeFrame(ByteReader& reader, const Header& header, Frame& frame) {
+bool takeFrame(ByteReader& reader, const Header& header, TrackFrame& frame) {
   std::uint32_t moved = 0, narrowed = 0;
   if (!reader.take(moved) || !reader.take(narrowed)) return false;
   for (std::uint32_t k = 0; k < moved; ++k) {
@@ -102,7 +102,7 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
 }
 
 void MotionTrack::restart(const Clip& clip, std::size_t variables, std::size_t points,
-                          std::vector<Frame> frames) {
+                          std::vector<TrackFrame> frames) {
   clip_ = &clip;
   first_ = 0;
   variables_ = variables;
@@ -128,14 +128,14 @@ void MotionTrack::add(const Correction& correction) {
 void MotionTrack::at(std::uint32_t frame, Correction& correction) const {
   correction.motions.assign(variables_, vec3(0));
   correction.widest.assign(points_, std::numeric_limits<float>::infinity());
-  const Frame& kept = frames_[frame - first_];
+  const TrackFrame& kept = frames_[frame - first_];
   for (const Moved& own : kept.moved) correction.motions[own.variable] = own.by;
   for (const Narrowed& own : kept.narrowed) correction.widest[own.point] = own.widest;
 }
 
 Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& track, std::uint64_t key) {
   ByteWriter frames;
-  for (const Frame& frame : track.frames()) {
+  for (const TrackFrame& frame : track.frames()) {
     frames.add(std::uint32_t(frame.moved.size())), frames.add(std::uint32_t(frame.narrowed.size()));
     frames.addRaw(std::as_bytes(std::span(frame.moved)));
     frames.addRaw(std::as_bytes(std::span(frame.narrowed)));
@@ -179,8 +179,8 @@ Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& sc
   if (header.frames > clip.frameCount() ||
       (header.frames > 0 && (header.points != points || header.variables != variables)))
     return damaged;
-  std::vector<Frame> frames(header.frames);
-  for (Frame& frame : frames)
+  std::vector<TrackFrame> frames(header.frames);
+  for (TrackFrame& frame : frames)
     if (!takeFrame(reader, header, frame)) return damaged;
   if (!reader.rest().empty()) return damaged;
   MotionTrack track;

@@ -32,7 +32,7 @@ std::string lower(std::string_view text) {
 
 // Items whose name is `wanted`, or else those that contain it, in their order.
 template <class Items>
-std::vector<std::uint32_t> named(const Items& items, const std::string& wanted) {
+std::vector<std::uint32_t> numbersNamed(const Items& items, const std::string& wanted) {
   std::vector<std::uint32_t> partial;
   for (std::uint32_t i = 0; i < items.size(); ++i) {
     const std::string name = lower(items[i].name);
@@ -224,14 +224,14 @@ Result<Subject> findSubject(const Scene& scene, std::string_view name) {
     for (std::size_t i = 1; i < found.size(); ++i) first.others.push_back(items[found[i]].name);
     return first;
   };
-  if (const auto found = named(vessels, wanted); !found.empty())
+  if (const auto found = numbersNamed(vessels, wanted); !found.empty())
     return subject(vessels, found, {.vessel = {found.front()}, .joint = {}, .others = {}});
-  if (const auto found = named(joints, wanted); !found.empty())
+  if (const auto found = numbersNamed(joints, wanted); !found.empty())
     return subject(joints, found, {.vessel = {}, .joint = {found.front()}, .others = {}});
   std::vector<std::string> names;
   addNames(vessels, names);
   addNames(joints, names);
-  return badInput("no vessel and no joint is named '" + std::string(name) + "'; " +
+  return badInput("no vessel and no joint is numbersNamed '" + std::string(name) + "'; " +
                   didYouMean(std::string(name), names, "vasa info NET.vasa --vessels lists the vessels"));
 }
 

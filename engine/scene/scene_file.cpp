@@ -14,7 +14,7 @@ namespace vasa {
 namespace {
 
 using Json = nlohmann::json;
-constexpr std::size_t kMaximumBytes = 1 << 20;
+constexpr std::size_t kMaximumSceneBytes = 1 << 20;
 constexpr int kMaximumDepth = 16;
 constexpr std::size_t kMostFiles = 1000;
 constexpr std::size_t kMostNames = 100'000;  // a file of 1 MiB has room for no more
@@ -261,7 +261,7 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
 }
 
 Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMaximumBytes);
+  const auto bytes = readFile(path, kMaximumSceneBytes);
   if (!bytes && bytes.error().fault == Fault::badInput && extensionOf(path) != ".json")  // larger than any
     return noScene(path.string());
   if (!bytes) return bytes.error();

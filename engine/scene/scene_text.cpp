@@ -10,35 +10,35 @@
 namespace vasa {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // The shortest number that reads back as this one.
-Json number(float value) { return std::stod(fmt::format("{}", value)); }
+OrderedJson number(float value) { return std::stod(fmt::format("{}", value)); }
 
 template <class Vector>
-Json list(const Vector& vector) {
-  Json numbers = Json::array();
+OrderedJson list(const Vector& vector) {
+  OrderedJson numbers = OrderedJson::array();
   for (int i = 0; i < vector.length(); ++i) numbers.push_back(number(vector[i]));
   return numbers;
 }
 
-std::string named(const std::filesystem::path& file, const std::filesystem::path& folder) {
+std::string pathFrom(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const auto base = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
   return std::filesystem::absolute(file).lexically_normal().lexically_proximate(base).generic_string();
 }
 
 // A list where nothing is moved.
-Json turned(const TurnChoice& choice) {
+OrderedJson turned(const TurnChoice& choice) {
   if (choice.metres == vec3(0)) return list(choice.degrees);
-  Json json = Json::object();
+  OrderedJson json = OrderedJson::object();
   if (choice.degrees != vec3(0)) json["turn"] = list(choice.degrees);
   json["move"] = list(choice.metres);
   return json;
 }
 
-Json camera(const CameraChoice& choice) {
+OrderedJson camera(const CameraChoice& choice) {
   const CameraChoice usual;
-  Json json = Json::object();
+  OrderedJson json = OrderedJson::object();
   if (choice.view != usual.view) json["view"] = choice.view;
   if (choice.position) json["position"] = list(*choice.position);
   if (choice.target) json["target"] = list(*choice.target);
@@ -49,8 +49,8 @@ Json camera(const CameraChoice& choice) {
   return json;
 }
 
-Json look(const LookChoice& choice) {
-  Json json = Json::object();
+OrderedJson look(const LookChoice& choice) {
+  OrderedJson json = OrderedJson::object();
   if (!choice.preset.empty()) json["preset"] = choice.preset;
   if (choice.background) json["background"] = list(*choice.background);
   const std::pair<const char*, bool> parts[] = {{"skin", choice.skin},
@@ -73,10 +73,10 @@ Json look(const LookChoice& choice) {
   return json;
 }
 
-Json views(const std::vector<ViewChoice>& choices) {
-  Json json = Json::object();
+OrderedJson views(const std::vector<ViewChoice>& choices) {
+  OrderedJson json = OrderedJson::object();
   for (const ViewChoice& view : choices) {
-    Json& own = json[std::to_string(view.number)];
+    OrderedJson& own = json[std::to_string(view.number)];
     own = {{"position", list(view.position)},
            {"target", list(view.target)},
            {"angle", number(view.angleDegrees)}};
@@ -85,42 +85,43 @@ Json views(const std::vector<ViewChoice>& choices) {
   return json;
 }
 
-Json capillaries(const CapillaryChoice& choice, const std::filesystem::path& folder) {
+OrderedJson capillaries(const CapillaryChoice& choice, const std::filesystem::path& folder) {
   const CapillaryChoice usual;
-  Json json = Json::object();
+  OrderedJson json = OrderedJson::object();
   if (choice.levels != usual.levels) json["levels"] = choice.levels;
   if (choice.edges != usual.edges) json["edges"] = choice.edges;
   if (choice.budget != usual.budget) json["budget"] = choice.budget;
   if (choice.smallest != usual.smallest) json["smallest"] = number(choice.smallest);
-  if (!choice.rules.empty()) json["rules"] = named(choice.rules, folder);
+  if (!choice.rules.empty()) json["rules"] = pathFrom(choice.rules, folder);
   return json;
 }
 
 }  // namespace
 
 std::string sceneText(const SceneFile& scene, const std::filesystem::path& folder) {
-  Json json = Json::object();
-  const auto add = [&](const char* key, Json value) {
+  OrderedJson json = OrderedJson::object();
+  const auto add = [&](const char* key, OrderedJson value) {
     if (!value.empty()) json[key] = std::move(value);
   };
   const auto names = [&](const std::vector<std::filesystem::path>& files) {
-    Json all = Json::array();
-    for (const auto& file : files) all.push_back(named(file, folder));
+    OrderedJson all = OrderedJson::array();
+    for (const auto& file : files) all.push_back(pathFrom(file, folder));
     return all;
   };
-  if (!scene.body.empty()) json["body"] = named(scene.body, folder);
+  if (!scene.body.empty()) json["body"] = pathFrom(scene.body, folder);
   add("networks", names(scene.networks));
   add("edits", names(scene.edits));
-  if (!scene.holds.empty()) json["holds"] = named(scene.holds, folder);
-  if (!scene.clip.empty()) json["clip"] = isMotionFile(scene.clip) ? named(scene.clip, folder) : scene.clip;
-  if (!scene.jointMap.empty()) json["joint_map"] = named(scene.jointMap, folder);
+  if (!scene.holds.empty()) json["holds"] = pathFrom(scene.holds, folder);
+  if (!scene.clip.empty())
+    json["clip"] = isMotionFile(scene.clip) ? pathFrom(scene.clip, folder) : scene.clip;
+  if (!scene.jointMap.empty()) json["joint_map"] = pathFrom(scene.jointMap, folder);
   if (scene.asRecorded) json["as_recorded"] = true;
   add("camera", camera(scene.camera));
   add("look", look(scene.look));
   add("capillaries", capillaries(scene.capillaries, folder));
   add("hidden", scene.hidden);
   if (scene.time != 0) json["time"] = number(scene.time);
-  std::map<std::string, Json> pose;  // by name, as readers hand them out
+  std::map<std::string, OrderedJson> pose;  // by name, as readers hand them out
   for (const TurnChoice& turn : scene.pose) pose[turn.joint] = turned(turn);
   add("pose", pose);
   if (!scene.chosen.empty()) json["chosen"] = scene.chosen;

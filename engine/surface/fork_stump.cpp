@@ -21,12 +21,12 @@ vec3 directionOf(const Section& ring, vec2 direction) {
   return direction.x * ring.frame.u + direction.y * ring.frame.v;
 }
 
-// Rows of a stump.
-struct Rows {
+// StumpRows of a stump.
+struct StumpRows {
   std::uint32_t ring, wide, tip;
 };
 
-void write(const Stump& stump, const ForkShape& shape, const ForkSeam& seam, Rows rows,
+void write(const Stump& stump, const ForkShape& shape, const ForkSeam& seam, StumpRows rows,
            std::span<SurfacePoint> vertices) {
   const std::uint32_t around = shape.rowSize(rows.ring);
   const std::vector<vec2> directions = ringDirections(around);

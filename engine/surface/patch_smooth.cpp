@@ -11,8 +11,8 @@ namespace vasa {
 namespace {
 
 constexpr float kLeastStrain = 1.0f, kFullStrain = 2.0f;  // of the rings' radii
-constexpr float kSpared = 0.6f;  // of its size at rest: a larger triangle moves no corner
-constexpr float kStep = 0.6f;    // of the way to the neighbours' middle
+constexpr float kSpared = 0.6f;      // of its size at rest: a larger triangle moves no corner
+constexpr float kMiddleStep = 0.6f;  // of the way to the neighbours' middle
 // Times the share that is pressed: vertices are free to move as far as they like.
 constexpr float kFreedSoon = 4;
 constexpr float kSameSide = 0.8f;     // cosine: a normal that is so near to the surface's stays
@@ -28,13 +28,13 @@ vec3 carried(const shared::JointRows& joint, vec3 p) {
   return {row(joint.row0), row(joint.row1), row(joint.row2)};
 }
 
-float lengthOf(vec3 d) { return std::sqrt(dotOf(d, d)); }
+float sizeOf(vec3 d) { return std::sqrt(dotOf(d, d)); }
 
 // How far two rings' maps differ about their centres, in radii.
 float disagreement(const shared::PatchSeam& a, const shared::JointRows& byA, const shared::PatchSeam& b,
                    const shared::JointRows& byB) {
-  const float apart = lengthOf(carried(byA, a.centre) - carried(byB, a.centre)) +
-                      lengthOf(carried(byA, b.centre) - carried(byB, b.centre));
+  const float apart = sizeOf(carried(byA, a.centre) - carried(byB, a.centre)) +
+                      sizeOf(carried(byA, b.centre) - carried(byB, b.centre));
   return apart / (a.radius + b.radius);
 }
 
@@ -123,7 +123,7 @@ void addFans(PatchTable& table) {
         const std::uint32_t own = t[k], a = t[(k + 1) % 3], b = t[(k + 2) % 3], v = own - patch.firstVertex;
         if (count[v] == 0) continue;
         const vec3 at = positionOf(own);
-        const float area = lengthOf(glm::cross(positionOf(a) - at, positionOf(b) - at));
+        const float area = sizeOf(glm::cross(positionOf(a) - at, positionOf(b) - at));
         table.fans[next[v]++] = {(a - patch.firstVertex) | (b - patch.firstVertex) << 16,
                                  1.0f / std::max(area, kLeastArea)};
       }
@@ -150,7 +150,7 @@ void smoothPatch(const PatchTable& table, const PatchTable::Patch& patch, float 
     for (std::uint32_t v = 0; v < patch.vertexCount; ++v) {
       if (free[v] == 0) continue;
       const Pressed pressed = pressedAt(fanOf(table, patch.firstVertex + v), from, from[v]);
-      const float part = share * kStep * pressed.share * free[v];
+      const float part = share * kMiddleStep * pressed.share * free[v];
       to[v].position = from[v].position + part * (pressed.middle - from[v].position);
     }
     from.swap(to);

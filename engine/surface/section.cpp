@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/reference.h"
+
 // The specification of shaders/lib/section.glsl: same operations in the same order, so that both round alike.
 //
 // The normal: with a frame that does not spin about T, d' = −|C'| (κ·d) T, hence
@@ -12,7 +14,6 @@
 namespace vasa {
 namespace {
 
-constexpr float kTiny2 = 1e-20f;    // squared lengths below this carry no direction
 constexpr float kFoldGuard = 0.1f;  // least 1 − r κ·d
 
 vec3 tangentOf(const Bezier& bezier, vec3 derivative, vec3 vesselChord) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/hash.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
@@ -85,7 +86,6 @@ class Joiner {
         group_(network.vessels().size()) {
     std::iota(group_.begin(), group_.end(), 0u);
   }
-  static constexpr std::uint32_t kNone = ~0u;
 
   // Joins the best pair of these ends.
   bool joinBest(const std::vector<VesselEnd>& ends) {
@@ -249,24 +249,24 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
     if (ends.size() >= 2) joiner.joinBest(ends);
   }
   VesselLines result;
-  std::vector<std::uint32_t> lineOf(network.vessels().size(), Joiner::kNone);
+  std::vector<std::uint32_t> lineOf(network.vessels().size(), kNone);
   for (std::uint32_t v = 0; v < lineOf.size(); ++v) {
     result.doubles += doubles[v].has_value();
-    if (lineOf[v] != Joiner::kNone || doubles[v]) continue;
+    if (lineOf[v] != kNone || doubles[v]) continue;
     std::uint32_t start = 2 * v;  // walk back to the line's first end
-    while (joiner.partner(start) != Joiner::kNone) start = joiner.partner(start) ^ 1u;
+    while (joiner.partner(start) != kNone) start = joiner.partner(start) ^ 1u;
     std::vector<VesselLine::Part> parts;
     for (std::uint32_t end = start;;) {
       parts.push_back({{end / 2}, (end & 1) != 0});
       lineOf[end / 2] = std::uint32_t(result.lines.size());
       end = joiner.partner(end ^ 1u);
-      if (end == Joiner::kNone) break;
+      if (end == kNone) break;
     }
     result.lines.emplace_back(network, std::move(parts));
   }
   result.ends.resize(result.lines.size());
   const auto settle = [&](const VesselEnd& end, Host host) {
-    if (!drawn(end) || joiner.partner(key(end)) != Joiner::kNone) return;
+    if (!drawn(end) || joiner.partner(key(end)) != kNone) return;
     if (const auto& twin = doubles[host.vessel.value]) {
       const float share = host.parameter / float(network.vessel(host.vessel).spanCount());
       host = {twin->vessel, glm::mix(twin->at[0], twin->at[1], share)};
@@ -287,7 +287,7 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
     if (ends.empty()) continue;
     // The joined ones, or the largest, carry the others.
     const auto rank = [&](const VesselEnd& end) {
-      return (joiner.partner(key(end)) != Joiner::kNone ? 1e6f : 0.0f) + armOf(network, end).radius;
+      return (joiner.partner(key(end)) != kNone ? 1e6f : 0.0f) + armOf(network, end).radius;
     };
     const VesselEnd carrier = *std::max_element(
         ends.begin(), ends.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });

@@ -3,31 +3,20 @@
 #include <doctest/doctest.h>
 
 #include "avoid/interference.h"
-#include "network/builder.h"
+#include "avoid/walk.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
 namespace {
 
-std::vector<vec4> line(vec3 from, vec3 to, float radius) {
-  std::vector<vec4> points;
-  for (int k = 0; k < 20; ++k) points.emplace_back(glm::mix(from, to, float(k) / 19), radius);
-  return points;
-}
-
-Network built(NetworkBuilder& builder) {
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
-}
-
 // A wide vessel, and a thin one across it that lies in its side.
 Network grazing(float height) {
   NetworkBuilder builder;
-  builder.addVessel({"wide", "", VesselKind::vein}, line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.006f));
+  builder.addVessel({"wide", "", VesselKind::vein}, test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.006f, 20));
   builder.addVessel({"thin", "", VesselKind::artery},
-                    line({0, height, -0.1f}, {0.005f, height, 0.1f}, 0.001f));
-  return built(builder);
+                    test::line({0, height, -0.1f}, {0.005f, height, 0.1f}, 0.001f, 20));
+  return test::built(builder);
 }
 
 }  // namespace
@@ -60,9 +49,10 @@ TEST_CASE("a network without overlaps stays as it is, to the byte") {
 
 TEST_CASE("a vessel that is told twice is left and said to be") {
   NetworkBuilder builder;
-  builder.addVessel({"once", "", VesselKind::artery}, line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.002f));
-  builder.addVessel({"again", "", VesselKind::artery}, line({-0.1f, 0.0001f, 0}, {0.1f, 0.0001f, 0}, 0.002f));
-  const Network network = built(builder);
+  builder.addVessel({"once", "", VesselKind::artery}, test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.002f, 20));
+  builder.addVessel({"again", "", VesselKind::artery},
+                    test::line({-0.1f, 0.0001f, 0}, {0.1f, 0.0001f, 0}, 0.002f, 20));
+  const Network network = test::built(builder);
   const RestRepair repair = separateAtRest(network);
   REQUIRE(repair.left.size() == 1);
   CHECK(repair.left[0].reason == OverlapReason::twice);

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "network/builder.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
@@ -18,9 +18,7 @@ Network crossing(float angle, float height) {
       points.emplace_back(along * (0.012f * float(k - 6)) + vec3(0, v == 0 ? 0 : height, 0), 0.002f);
     builder.addVessel({"vessel " + std::to_string(v), "", VesselKind::vein}, points);
   }
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
+  return test::built(builder);
 }
 
 std::size_t changedAfter(const Network& network, float lowered, quat turn = {1, 0, 0, 0}) {

@@ -21,21 +21,14 @@ Body boxedBody() {
   return body;
 }
 
-struct Solved {
-  PosedLook posed;
-  AvoidReport report;
-  std::vector<vec4> points;
-};
-
-Solved solve(const Network& network, bool wall, float raised) {
+// From rest to a bow.
+test::Solved bent(const Network& network, bool wall, float raised) {
   const Body body = boxedBody();
   Avoider avoider(network, &body, {.skinWall = wall});
   const test::Posed rest = test::atRest(network, 2);
   test::Posed bow = rest;  // so that the ends stay below
   for (vec4& p : bow.points) p.y += raised * std::max(0.0f, 1 - std::abs(p.x) / 0.03f);
-  test::Walker walker(avoider, rest);
-  const AvoidReport report = walker.to(bow);
-  return {avoider.look(bow, bow.points), report, walker.points()};
+  return test::solve(avoider, rest, bow);
 }
 
 float highest(std::span<const vec4> points) {
@@ -48,19 +41,19 @@ float highest(std::span<const vec4> points) {
 
 TEST_CASE("a vessel that a pose pushes through the skin is held below it, if that is asked for") {
   const Network network = test::levelVessel(0.045f, 0.046f);
-  const Solved without = solve(network, false, 0.008f);
-  CHECK(without.posed.skinContacts == 0);
+  const test::Solved without = bent(network, false, 0.008f);
+  CHECK(without.before.skinContacts == 0);
   CHECK(highest(without.points) > 0.051f);
-  const Solved held = solve(network, true, 0.008f);
-  CHECK(held.posed.skinContacts > 0);
+  const test::Solved held = bent(network, true, 0.008f);
+  CHECK(held.before.skinContacts > 0);
   CHECK(held.report.skinContactsAfter == 0);
   CHECK(highest(held.points) < 0.0485f);
 }
 
 TEST_CASE("a vessel that was through the skin at rest may stay as far out as it was") {
   const Network network = test::levelVessel(0.045f, 0.051f);
-  const Solved solved = solve(network, true, 0);
-  CHECK(solved.posed.skinContacts == 0);
+  const test::Solved solved = bent(network, true, 0);
+  CHECK(solved.before.skinContacts == 0);
   CHECK(solved.report.skinContactsAfter == 0);
   CHECK(std::abs(highest(solved.points) - 0.051f) < 1e-6f);
 }

@@ -7,44 +7,22 @@
 #include "avoid/walk.h"
 #include "core/hash.h"
 #include "core/parallel.h"
-#include "network/builder.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
 namespace {
 
-std::vector<vec4> line(vec3 from, vec3 to, float radius, std::uint32_t count) {
-  std::vector<vec4> points;
-  for (std::uint32_t k = 0; k < count; ++k)
-    points.emplace_back(glm::mix(from, to, float(k) / float(count - 1)), radius);
-  return points;
-}
-
-Network built(const NetworkBuilder& builder) {
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
-}
-
 Network separateVessels(const std::vector<std::vector<vec4>>& vessels) {
   NetworkBuilder builder;
   for (std::size_t v = 0; v < vessels.size(); ++v)
     builder.addVessel({"vessel " + std::to_string(v), "", VesselKind::artery}, vessels[v]);
-  return built(builder);
+  return test::built(builder);
 }
 
-struct Solved {
-  PosedLook before;  // of the pose without any correction
-  AvoidReport report;
-  std::vector<vec4> points;
-};
-
 // From rest straight to a pose.
-Solved solve(Avoider& avoider, const Network& network, const std::vector<vec4>& points) {
-  const test::Posed posed = test::unturned(points);
-  test::Walker walker(avoider, test::atRest(network));
-  const AvoidReport report = walker.to(posed);
-  return {avoider.look(posed, points), report, walker.points()};
+test::Solved solve(Avoider& avoider, const Network& network, const std::vector<vec4>& points) {
+  return test::solve(avoider, test::atRest(network), test::unturned(points));
 }
 
 // 64 vessels along z in a jittered square, and a pose that squeezes it.
@@ -55,7 +33,7 @@ Network bundle() {
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y) {
       const vec3 foot(0.01f * float(x) + jitter(), 0.01f * float(y) + jitter(), 0);
-      vessels.push_back(line(foot, foot + vec3(jitter(), jitter(), 0.3f), 0.003f, 16));
+      vessels.push_back(test::line(foot, foot + vec3(jitter(), jitter(), 0.3f), 0.003f, 16));
     }
   return separateVessels(vessels);
 }
@@ -73,8 +51,8 @@ std::vector<vec4> squeezed(const Network& network, float factor) {
 
 // Two vessels that cross at right angles; at rest the second is `height` above the first.
 Network crossing(float height) {
-  return separateVessels({line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 12),
-                          line({0, height, -0.1f}, {0, height, 0.1f}, 0.004f, 12)});
+  return separateVessels({test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 12),
+                          test::line({0, height, -0.1f}, {0, height, 0.1f}, 0.004f, 12)});
 }
 
 std::vector<vec4> lowered(const Network& network, float by) {
@@ -109,7 +87,7 @@ TEST_CASE("what does not interfere is not touched") {
   const Network network = crossing(0.02f);
   Avoider avoider(network);
   const std::vector<vec4> posed = lowered(network, 0.005f);
-  const Solved solved = solve(avoider, network, posed);
+  const test::Solved solved = solve(avoider, network, posed);
   CHECK(solved.points == posed);
   CHECK(solved.report.after.holds());
   CHECK(solved.report.movedMax == 0);
@@ -119,7 +97,7 @@ TEST_CASE("two crossing vessels are pushed apart by the same amount") {
   const Network network = crossing(0.012f);
   Avoider avoider(network);
   const auto posed = lowered(network, 0.008f);  // centre lines 4 mm apart, radii 8 mm
-  const Solved solved = solve(avoider, network, posed);
+  const test::Solved solved = solve(avoider, network, posed);
   CHECK(solved.before.vessels.contacts > 0);
   CHECK(std::abs(solved.before.vessels.depth - 0.004f) < 1e-5f);
   CHECK(solved.report.after.holds());
@@ -139,8 +117,8 @@ TEST_CASE("a vessel that is swept across another never passes through it") {
       CAPTURE(angle);
       CAPTURE(height);
       const vec3 along(std::cos(angle), 0, std::sin(angle)), up(0, height, 0);
-      const Network network = separateVessels({line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 12),
-                                               line(up - 0.1f * along, up + 0.1f * along, 0.004f, 12)});
+      const Network network = separateVessels({test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 12),
+                                               test::line(up - 0.1f * along, up + 0.1f * along, 0.004f, 12)});
       Avoider avoider(network);
       test::Walker walker(avoider, test::atRest(network));
       walker.seen = [&](const AvoidReport& report) {
@@ -160,8 +138,8 @@ TEST_CASE("a vessel that is swept across another never passes through it") {
 }
 
 TEST_CASE("crossing vessels that lie on the other side than at rest stay there, and apart") {
-  const Network network = separateVessels({line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.001f, 12),
-                                           line({0, 0.003f, -0.1f}, {0, 0.003f, 0.1f}, 0.001f, 12)});
+  const Network network = separateVessels({test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.001f, 12),
+                                           test::line({0, 0.003f, -0.1f}, {0, 0.003f, 0.1f}, 0.001f, 12)});
   Avoider avoider(network);
   const test::Posed below = test::unturned(lowered(network, 0.024f));
   std::vector<vec4> points(network.points().size());
@@ -179,9 +157,9 @@ TEST_CASE("a vessel that is swept across a bundle passes none of its vessels") {
   std::vector<std::vector<vec4>> vessels;
   for (int k = 0; k < 4; ++k) {
     const float y = -0.01f * float(k);
-    vessels.push_back(line({-0.1f, y, 0}, {0.1f, y, 0}, 0.003f, 12));
+    vessels.push_back(test::line({-0.1f, y, 0}, {0.1f, y, 0}, 0.003f, 12));
   }
-  vessels.push_back(line({0, 0.012f, -0.1f}, {0, 0.012f, 0.1f}, 0.004f, 12));
+  vessels.push_back(test::line({0, 0.012f, -0.1f}, {0, 0.012f, 0.1f}, 0.004f, 12));
   const Network network = separateVessels(vessels);
   const auto swept = [&](float by) {
     test::Posed posed = test::atRest(network);
@@ -269,7 +247,7 @@ TEST_CASE("what overlaps at rest stays admissible") {
   Avoider avoider(network);
   CHECK(avoider.restPairCount() > 0);
   const std::vector<vec4> rest(network.points().begin(), network.points().end());
-  Solved solved = solve(avoider, network, rest);
+  test::Solved solved = solve(avoider, network, rest);
   CHECK(solved.report.after.holds());
   CHECK(solved.report.after.restContacts == avoider.restPairCount());
   CHECK(solved.points == rest);
@@ -281,7 +259,7 @@ TEST_CASE("what overlaps at rest stays admissible") {
 TEST_CASE("a squeezed bundle finds room") {
   const Network network = bundle();
   Avoider avoider(network);
-  const Solved solved = solve(avoider, network, squeezed(network, 0.5f));
+  const test::Solved solved = solve(avoider, network, squeezed(network, 0.5f));
   CHECK(solved.before.vessels.contacts > 100);
   MESSAGE(solved.before.vessels.contacts << " contacts, " << solved.report.rounds << " rounds, "
                                          << solved.report.constraints << " constraints, "
@@ -291,24 +269,24 @@ TEST_CASE("a squeezed bundle finds room") {
 
 TEST_CASE("a fork stays joined when its vessels are pushed") {
   NetworkBuilder builder;
-  const auto hostPoints = line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 14);
+  const auto hostPoints = test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.004f, 14);
   const VesselId host = builder.addVessel({"host", "", VesselKind::artery}, hostPoints);
   const vec3 root(evaluate(hostPoints, 5.3f));
-  const VesselId side =
-      builder.addVessel({"side", "", VesselKind::artery}, line(root, root + vec3(0, 0, 0.1f), 0.003f, 10));
-  const VesselId left =
-      builder.addVessel({"left", "", VesselKind::artery}, line({0.1f, 0, 0}, {0.15f, 0, 0.05f}, 0.003f, 9));
-  const VesselId right =
-      builder.addVessel({"right", "", VesselKind::artery}, line({0.1f, 0, 0}, {0.15f, 0, -0.05f}, 0.003f, 9));
+  const VesselId side = builder.addVessel({"side", "", VesselKind::artery},
+                                          test::line(root, root + vec3(0, 0, 0.1f), 0.003f, 10));
+  const VesselId left = builder.addVessel({"left", "", VesselKind::artery},
+                                          test::line({0.1f, 0, 0}, {0.15f, 0, 0.05f}, 0.003f, 9));
+  const VesselId right = builder.addVessel({"right", "", VesselKind::artery},
+                                           test::line({0.1f, 0, 0}, {0.15f, 0, -0.05f}, 0.003f, 9));
   builder.addVessel({"bar", "", VesselKind::vein},
-                    line({-0.12f, 0.02f, 0.006f}, {0.2f, 0.02f, 0.006f}, 0.004f, 20));
+                    test::line({-0.12f, 0.02f, 0.006f}, {0.2f, 0.02f, 0.006f}, 0.004f, 20));
   const NodeId sideNode = builder.joinToSide({side, false}, {host, 5.3f});
   const NodeId fork = builder.joinEnds({{host, true}, {left, false}, {right, false}});
-  const Network network = built(builder);
+  const Network network = test::built(builder);
   std::vector<vec4> posed(network.points().begin(), network.points().end());
   for (std::uint32_t p = network.vessels()[4].firstPoint; p < posed.size(); ++p) posed[p].y -= 0.018f;
   Avoider avoider(network);
-  const Solved solved = solve(avoider, network, posed);
+  const test::Solved solved = solve(avoider, network, posed);
   CHECK(solved.before.vessels.contacts > 0);
   CHECK(solved.report.after.holds());
   CHECK(solved.report.movedMax > 0.001f);
@@ -345,7 +323,7 @@ TEST_CASE("a pack that there is no time to part gives way, or says that it could
 TEST_CASE("where vessels are short of room their lumen gives way") {
   const Network network = crossing(0.012f);
   Avoider avoider(network, nullptr, {.rounds = 0});
-  const Solved solved = solve(avoider, network, lowered(network, 0.006f));  // 6 mm for 8 mm
+  const test::Solved solved = solve(avoider, network, lowered(network, 0.006f));  // 6 mm for 8 mm
   CHECK(solved.report.after.holds());
   CHECK(solved.report.movedMax == 0);
   CHECK(std::abs(solved.report.leastLumen - 0.75f) < 0.05f);

@@ -104,4 +104,17 @@ void Walker::arrive(const Posed& posed, const AvoidReport& report) {
   seen(report);
 }
 
+Solved solve(Avoider& avoider, const Posed& rest, const Posed& pose) {
+  Walker walker(avoider, rest);
+  const AvoidReport report = walker.to(pose);
+  return {avoider.look(pose, pose.points), report, walker.points()};
+}
+
+std::vector<vec4> line(vec3 from, vec3 to, float radius, std::uint32_t count) {
+  std::vector<vec4> points;
+  for (std::uint32_t k = 0; k < count; ++k)
+    points.emplace_back(glm::mix(from, to, float(k) / float(count - 1)), radius);
+  return points;
+}
+
 }  // namespace vasa::test

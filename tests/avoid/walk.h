@@ -65,4 +65,16 @@ class Walker {
   float correctionStep_ = 0;
 };
 
+struct Solved {
+  PosedLook before;  ///< of the pose without any correction
+  AvoidReport report;
+  std::vector<vec4> points;
+};
+
+/// From rest straight to a pose.
+Solved solve(Avoider& avoider, const Posed& rest, const Posed& pose);
+
+/// Control points evenly along a line.
+std::vector<vec4> line(vec3 from, vec3 to, float radius, std::uint32_t count);
+
 }  // namespace vasa::test

@@ -92,7 +92,9 @@ TEST_CASE(
   const Body body = person();
   const SkinShell skin(skinAtRest(body));
   const Network network = archNetwork();
-  for (const auto& [turn, size] : {std::pair(0.0f, 1.0f), {90.0f, 0.9f}, {180.0f, 1.0f}, {-90.0f, 1.15f}}) {
+  for (const auto& [degrees, times] :
+       {std::pair(0.0f, 1.0f), {90.0f, 0.9f}, {180.0f, 1.0f}, {-90.0f, 1.15f}}) {
+    const float turn = degrees, size = times;
     // Someone else's trunk, which is where the body's would be by `by`.
     Similarity by{size, glm::angleAxis(turn * kPi / 180, vec3(0, 1, 0)), vec3(-0.4f, 0.7f, 1.3f)};
     TriangleMesh trunk = stacked({personTrunk().begin(), personTrunk().end() - 1}, 0);

@@ -8,7 +8,7 @@
 namespace vasa::test {
 namespace {
 
-mat3 about(vec3 axis, float degrees) {
+mat3 turnAbout(vec3 axis, float degrees) {
   return glm::mat3_cast(glm::angleAxis(degrees * kPi / 180, glm::normalize(axis)));
 }
 
@@ -27,16 +27,17 @@ mat3 performed(const std::string& part, int frame) {
   const float t = float(frame) / float(kDollFrames), swing = std::sin(2 * kPi * 2 * t);
   const bool left = part.starts_with("left");
   const float side = left ? 1.0f : -1.0f;
-  const mat3 trunk = about({0, 1, 0}, 60 * t);  // turns as it goes
-  const mat3 chest = trunk * about({1, 0, 0}, 12 * swing);
+  const mat3 trunk = turnAbout({0, 1, 0}, 60 * t);  // turns as it goes
+  const mat3 chest = trunk * turnAbout({1, 0, 0}, 12 * swing);
   if (part == "hips" || part == "spine") return trunk;
   if (has(part, "UpperLeg") || has(part, "LowerLeg") || has(part, "Foot") || has(part, "Toes")) {
-    const mat3 thigh = trunk * about({1, 0, 0}, -25 * side * swing);
-    return has(part, "UpperLeg") ? thigh : thigh * about({1, 0, 0}, 20 + 15 * side * swing);
+    const mat3 thigh = trunk * turnAbout({1, 0, 0}, -25 * side * swing);
+    return has(part, "UpperLeg") ? thigh : thigh * turnAbout({1, 0, 0}, 20 + 15 * side * swing);
   }
-  const mat3 upper = chest * about({1, 0, 0}, 30 * side * swing) * about({0, 0, 1}, -75 * side);
+  const mat3 upper = chest * turnAbout({1, 0, 0}, 30 * side * swing) * turnAbout({0, 0, 1}, -75 * side);
   if (has(part, "UpperArm")) return upper;
-  if (has(part, "LowerArm") || has(part, "Hand")) return upper * about({0, 1, 0}, -side * (35 + 20 * swing));
+  if (has(part, "LowerArm") || has(part, "Hand"))
+    return upper * turnAbout({0, 1, 0}, -side * (35 + 20 * swing));
   return chest;
 }
 
@@ -52,14 +53,14 @@ vec3 boneOf(int part) {
 mat3 zeroTurn(const std::string& part, DollDialect::Zero zero) {
   const float side = part.starts_with("left") ? 1.0f : -1.0f;
   const bool arm = has(part, "Arm") || has(part, "Hand");
-  if (zero == DollDialect::Zero::a) return arm ? about({0, 0, 1}, -side * 45) : mat3(1);
-  if (zero == DollDialect::Zero::i) return arm ? about({0, 0, 1}, -side * 88) : mat3(1);
+  if (zero == DollDialect::Zero::a) return arm ? turnAbout({0, 0, 1}, -side * 45) : mat3(1);
+  if (zero == DollDialect::Zero::i) return arm ? turnAbout({0, 0, 1}, -side * 88) : mat3(1);
   if (zero == DollDialect::Zero::t || part == "hips" || part == "chest" || part.empty()) return mat3(1);
   const vec3 bone = glm::normalize(boneOf(indexOf(part)));  // along +Y, whatever it is
   const float cosine = bone.y;
   if (cosine > 0.9999f) return mat3(1);
-  if (cosine < -0.9999f) return about({1, 0, 0}, 180);
-  return about(glm::cross(bone, vec3(0, 1, 0)), std::acos(cosine) * 180 / kPi);
+  if (cosine < -0.9999f) return turnAbout({1, 0, 0}, 180);
+  return turnAbout(glm::cross(bone, vec3(0, 1, 0)), std::acos(cosine) * 180 / kPi);
 }
 
 const mat3 kLaysUp(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));  // +Y -> +Z, +Z -> -Y
@@ -69,7 +70,7 @@ struct Writer {
   std::string text;
   std::vector<int> order;
 
-  mat3 aside() const { return about({0, 1, 0}, dialect.facing); }
+  mat3 aside() const { return turnAbout({0, 1, 0}, dialect.facing); }
   vec3 inFile(vec3 p) const { return float(dialect.unitsAMetre) * (dialect.zUp ? kLaysUp * p : p); }
   void numbers(vec3 v) {
     for (int i = 0; i < 3; ++i) text.append(1, ' ').append(std::to_string(v[i]));
@@ -235,7 +236,7 @@ Body dollBody(const std::string& family) {
     const int parent = parts[i].parent;
     const std::string above = parent < 0 ? "" : parts[std::size_t(parent)].part;
     const bool arm = has(above, "Arm") || has(above, "Hand");
-    const mat3 turn = arm ? about({0, 0, 1}, above.starts_with("left") ? -40.0f : 40.0f) : mat3(1);
+    const mat3 turn = arm ? turnAbout({0, 0, 1}, above.starts_with("left") ? -40.0f : 40.0f) : mat3(1);
     places.push_back(parent < 0 ? parts[i].place
                                 : places[std::size_t(parent)] +
                                       turn * (parts[i].place - parts[std::size_t(parent)].place));

@@ -54,7 +54,7 @@ vec3 placeOf(const Body& body, const Pose& pose, const char* joint) {
   return vec3(pose.world[body.skeleton.find(joint).value][3]);
 }
 
-bool near(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-4f; }
+bool isAt(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-4f; }
 
 }  // namespace
 
@@ -68,11 +68,11 @@ TEST_CASE("joints bend the way anatomists say, whichever way the body faces") {
       REQUIRE(pose.ok());
       return *pose;
     };
-    CHECK(near(placeOf(body, posed({"leftUpperLeg", right}), "LeftLeg"), turn * vec3(0.1f, 0.95f, 0.45f)));
-    CHECK(near(placeOf(body, posed({"leftLowerLeg", right}), "LeftFoot"), turn * vec3(0.1f, 0.5f, -0.4f)));
-    CHECK(near(placeOf(body, posed({"leftLowerArm", right}), "LeftHand"), turn * vec3(0.2f, 1.15f, 0.25f)));
-    CHECK(near(placeOf(body, posed({"leftUpperLeg", 0, right}), "LeftLeg"), turn * vec3(0.55f, 0.95f, 0)));
-    CHECK(near(placeOf(body, posed({"rightUpperLeg", 0, right}), "RightLeg"), turn * vec3(-0.55f, 0.95f, 0)));
+    CHECK(isAt(placeOf(body, posed({"leftUpperLeg", right}), "LeftLeg"), turn * vec3(0.1f, 0.95f, 0.45f)));
+    CHECK(isAt(placeOf(body, posed({"leftLowerLeg", right}), "LeftFoot"), turn * vec3(0.1f, 0.5f, -0.4f)));
+    CHECK(isAt(placeOf(body, posed({"leftLowerArm", right}), "LeftHand"), turn * vec3(0.2f, 1.15f, 0.25f)));
+    CHECK(isAt(placeOf(body, posed({"leftUpperLeg", 0, right}), "LeftLeg"), turn * vec3(0.55f, 0.95f, 0)));
+    CHECK(isAt(placeOf(body, posed({"rightUpperLeg", 0, right}), "RightLeg"), turn * vec3(-0.55f, 0.95f, 0)));
   }
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("twist is inwards on both sides, and a neck's is shared by its joints"
     auto pose = poseByAngles(body.skeleton, std::array{JointAngles{side + "UpperLeg", 0, 0, right},
                                                        JointAngles{side + "LowerLeg", right}});
     REQUIRE(pose.ok());
-    CHECK(near(placeOf(body, *pose, left ? "LeftFoot" : "RightFoot"), vec3(left ? 0.5f : -0.5f, 0.5f, 0)));
+    CHECK(isAt(placeOf(body, *pose, left ? "LeftFoot" : "RightFoot"), vec3(left ? 0.5f : -0.5f, 0.5f, 0)));
   }
   auto pose = poseByAngles(body.skeleton, std::array{JointAngles{"neck", 0, 0, right}});
   REQUIRE(pose.ok());

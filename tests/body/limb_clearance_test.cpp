@@ -126,7 +126,7 @@ TEST_CASE("clearance: a clip that goes round does so still") {
   // Begun where it is deepest.
   auto& turns = clip.tracks[0].rotation.values;
   turns.pop_back();
-  std::ranges::rotate(turns, turns.begin() + kFrames / 2);
+  std::rotate(turns.begin(), turns.begin() + kFrames / 2, turns.end());
   turns.push_back(turns.front());
   REQUIRE(closes(body.skeleton, clip));
   CHECK(left(keepArmsClear(body, {&clip, 1})).left == 0);

@@ -20,7 +20,7 @@ struct LimbRig {
 
 // A left arm that hangs down, as the built-in human's: collar bone, shoulder, elbow, a roll joint in
 // mid-forearm that only follows, wrist. The rig's axes are anyhow.
-LimbRig arm() {
+LimbRig leftArm() {
   LimbRig rig;
   const vec3 places[] = {{0.024f, 1.424f, 0.036f},
                          {0.178f, 1.405f, -0.018f},
@@ -81,7 +81,7 @@ std::vector<vec3> anyAngles(const ReachLimb& limb, std::mt19937& random) {
 }  // namespace
 
 TEST_CASE("angles since rest say where a limb's end is, and what hangs between its joints goes along") {
-  const LimbRig rig = arm();
+  const LimbRig rig = leftArm();
   std::mt19937 random(3);
   for (int i = 0; i < 20; ++i) {
     const std::vector<vec3> angles = anyAngles(rig.limb, random);
@@ -94,7 +94,7 @@ TEST_CASE("angles since rest say where a limb's end is, and what hangs between i
 }
 
 TEST_CASE("a wrist is taken to every place that its arm can reach, to a millimetre and within the limits") {
-  const LimbRig rig = arm();
+  const LimbRig rig = leftArm();
   std::mt19937 random(7);
   int missed = 0;
   float worst = 0;
@@ -111,7 +111,7 @@ TEST_CASE("a wrist is taken to every place that its arm can reach, to a millimet
 }
 
 TEST_CASE("what cannot be reached is approached as near as the limits let it") {
-  const LimbRig rig = arm();
+  const LimbRig rig = leftArm();
   std::mt19937 random(11);
   std::vector<vec3> ends;
   for (int i = 0; i < 300000; ++i) ends.push_back(endAt(rig, anyAngles(rig.limb, random)));
@@ -128,7 +128,7 @@ TEST_CASE("what cannot be reached is approached as near as the limits let it") {
 }
 
 TEST_CASE("the arm follows a target steadily, in reach and out of it, and comes back to the same pose") {
-  const LimbRig rig = arm();
+  const LimbRig rig = leftArm();
   std::vector<vec3> angles = rig.rest();
   vec3 end = endAt(rig, angles);
   float fastest = 0, farthest = 0;
@@ -156,7 +156,7 @@ TEST_CASE("the arm follows a target steadily, in reach and out of it, and comes 
 }
 
 TEST_CASE("the collar bone helps little where the arm alone can reach, and beyond it as far as it can") {
-  const LimbRig rig = arm();
+  const LimbRig rig = leftArm();
   const Reached near = go(rig, {0.35f, 1.2f, 0.3f}, rig.rest()),
                 far = go(rig, {0.9f, 2.3f, 0.3f}, rig.rest());
   CHECK(near.miss < 1e-4f);
@@ -166,7 +166,7 @@ TEST_CASE("the collar bone helps little where the arm alone can reach, and beyon
 }
 
 TEST_CASE("the same question has the same answer, to the last bit") {
-  const LimbRig rig = arm();
+  const LimbRig rig = leftArm();
   const vec3 target{0.4f, 1.3f, 0.35f};
   CHECK(go(rig, target, rig.rest()).angles == go(rig, target, rig.rest()).angles);
 }

@@ -53,8 +53,8 @@ Motion stretched() {
   return motion;
 }
 
-const std::vector<std::string> kCmu{"Hips",     "Spine1",    "LeftArm", "LeftForeArm",
-                                    "LeftHand", "LeftUpLeg", "LeftLeg", "LeftFoot"};
+const std::vector<std::string> kCmuNames{"Hips",     "Spine1",    "LeftArm", "LeftForeArm",
+                                         "LeftHand", "LeftUpLeg", "LeftLeg", "LeftFoot"};
 
 vec3 place(const Body& body, const Clip& clip, const char* joint) {
   return vec3(samplePose(body.skeleton, clip, 0).world[body.skeleton.find(joint).value][3]);
@@ -90,7 +90,7 @@ TEST_CASE("names tell the parts of a body in each family") {
 
 TEST_CASE(
     "arms that hang at rest are stretched out where the motion's are, and the feet stand on their floor") {
-  const Body body = standing(kCmu);
+  const Body body = standing(kCmuNames);
   const auto clip = retarget(stretched(), body);
   if (!clip.ok()) FAIL(clip.error().message);
   CHECK(clip->frameCount() == 1);
@@ -102,7 +102,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a turn of the motion's joint in space is the body's, however the rests differ") {
-  const Body body = standing(kCmu);
+  const Body body = standing(kCmuNames);
   Motion motion = stretched();
   motion.rotations[2] = glm::angleAxis(kPi / 2, vec3(0, 0, 1));  // the arm goes up
   const auto clip = retarget(motion, body);
@@ -112,7 +112,7 @@ TEST_CASE("a turn of the motion's joint in space is the body's, however the rest
 }
 
 TEST_CASE("a motion with Biovision's names moves a body with CMU's: its Shoulder is the upper arm") {
-  const Body body = standing(kCmu);
+  const Body body = standing(kCmuNames);
   Motion motion = stretched();
   const char* names[] = {"Hips",      "Chest",   "LeftShoulder", "LeftElbow",
                          "LeftWrist", "LeftHip", "LeftKnee",     "LeftAnkle"};
@@ -127,7 +127,7 @@ TEST_CASE("a motion with Biovision's names moves a body with CMU's: its Shoulder
 TEST_CASE("joints without a common name are paired by a map; what is missing is told") {
   std::vector<std::string> names;
   JointMap map;
-  for (const std::string& name : kCmu) names.push_back("x" + name), map[name] = names.back();
+  for (const std::string& name : kCmuNames) names.push_back("x" + name), map[name] = names.back();
   const Body body = standing(names);
   const auto alone = retarget(stretched(), body);
   REQUIRE(!alone.ok());

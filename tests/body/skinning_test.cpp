@@ -24,7 +24,7 @@ Body twoJoints() {
   return body;
 }
 
-bool near(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-6f; }
+bool same(vec3 a, vec3 b) { return glm::distance(a, b) < 1e-6f; }
 
 }  // namespace
 
@@ -39,13 +39,13 @@ TEST_CASE("vertices rest where they are bound and follow their joints") {
   local[1].rotation = glm::angleAxis(kPi / 2, vec3(0, 0, 1));
   const auto matrices = skinMatrices(body.skeleton, poseFromLocal(body.skeleton, local));
   skinVertices(body.meshes[0], matrices, positions, normals);
-  CHECK(near(positions[0], {1, 0, 0}));
-  CHECK(near(positions[1], {0.5f, 1.5f, 0}));
-  CHECK(near(positions[2], {-1, 2, 0}));
+  CHECK(same(positions[0], {1, 0, 0}));
+  CHECK(same(positions[1], {0.5f, 1.5f, 0}));
+  CHECK(same(positions[2], {-1, 2, 0}));
   const float s = std::sqrt(0.5f);
-  CHECK(near(normals[0], {1, 0, 0}));
-  CHECK(near(normals[1], {s, s, 0}));
-  CHECK(near(normals[2], {0, 1, 0}));
+  CHECK(same(normals[0], {1, 0, 0}));
+  CHECK(same(normals[1], {s, s, 0}));
+  CHECK(same(normals[2], {0, 1, 0}));
   std::vector<vec3> alone;
   skinPositions(body.meshes[0], matrices, alone);
   CHECK(alone == positions);

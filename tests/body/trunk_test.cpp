@@ -119,7 +119,7 @@ Body bodyOf(const Figure& figure) {
   return body;
 }
 
-constexpr std::uint32_t kFrames = 13;
+constexpr std::uint32_t kBendFrames = 13;
 constexpr float kMostBend = 70 * kPi / 180;
 
 // Bends forward and aside, evenly over the spine's joints, while it turns, arms lift and knees bend.
@@ -128,9 +128,9 @@ Motion bending(const Figure& figure) {
   motion.name = "bend.bvh";
   const std::vector<vec3> offsets = motion.translations;
   motion.rotations.clear(), motion.translations.clear();
-  motion.frameCount = kFrames;
-  for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
-    const float t = float(frame) / (kFrames - 1);
+  motion.frameCount = kBendFrames;
+  for (std::uint32_t frame = 0; frame < kBendFrames; ++frame) {
+    const float t = float(frame) / (kBendFrames - 1);
     std::vector<quat> turns(figure.names.size(), quat(1, 0, 0, 0));
     turns[0] = glm::angleAxis(0.4f * t, vec3(0, 1, 0));
     for (std::size_t i = 0; i < figure.spine; ++i)
@@ -157,7 +157,7 @@ struct Angles {
 Angles anglesBetween(const Figure& from, const Motion& motion, const Figure& to, const Clip& clip) {
   Angles worst;
   const Body body = bodyOf(to);
-  for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+  for (std::uint32_t frame = 0; frame < kBendFrames; ++frame) {
     const MotionPose theirs = motionPose(motion, frame);
     const Pose own = samplePose(body.skeleton, clip, clip.timeOfFrame(frame));
     const auto way = [&](int a, int b) {
@@ -256,7 +256,7 @@ TEST_CASE("a trunk is what lies between hips and neck, wherever the arms and the
     rig.centres.push_back(place), rig.tips.push_back(place);
     rig.parts.of.push_back(humanoidPart(part));
   };
-  add("root", Rig::kNone, {0, 1, 0}, "");
+  add("root", JointId::kNone, {0, 1, 0}, "");
   add("pelvis", 0, {0, 1, 0}, "hips");
   add("a", 0, {0, 1.1f, 0}, "");
   add("b", 2, {0, 1.3f, 0}, "");

@@ -19,8 +19,6 @@ Outcome renderTo(const std::filesystem::path& picture, std::initializer_list<std
   return runProgram(arguments);
 }
 
-void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
-
 }  // namespace
 
 TEST_CASE("capillaries grow from the built-in human, the same again, more with each generation") {
@@ -59,13 +57,13 @@ TEST_CASE("what is wrong with capillaries is told") {
   CHECK(renderTo(picture, {"--capillaries", "2", "--capillary-edges", "6"}).exit == 2);
   CHECK(renderTo(picture, {"--capillaries", "2", "--growth", (folder.path() / "nothing").string()}).exit ==
         6);
-  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S\nS -> F [@3 S]\n");
-  write(folder.path() / "regions.csv",
-        "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,bed_mm,surface\nall,b,,,,0,3,20,\n");
+  std::ofstream(folder.path() / "capillaries.lsys") << "system a\naxiom S\ndraw S\nS -> F [@3 S]\n";
+  std::ofstream(folder.path() / "regions.csv")
+      << "region,system,joints,vessels,kinds,thinnest_mm,thickest_mm,bed_mm,surface\nall,b,,,,0,3,20,\n";
   auto outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("capillaries.lsys:4: '@3' wants a number from 0.02 to 1") != std::string::npos);
-  write(folder.path() / "capillaries.lsys", "system a\naxiom S\ndraw S\nS -> F [@1 S]\n");
+  std::ofstream(folder.path() / "capillaries.lsys") << "system a\naxiom S\ndraw S\nS -> F [@1 S]\n";
   outcome = renderTo(picture, {"--capillaries", "2", "--growth", folder.path().string()});
   CHECK(outcome.exit == 3);
   CHECK(outcome.err.find("regions.csv:2: there is no system 'b'; use one of -, a") != std::string::npos);
@@ -84,8 +82,8 @@ TEST_CASE("info counts what would grow, without drawing it") {
 TEST_CASE("a scene file may ask for capillaries, and the command line may have it otherwise") {
   TemporaryFolder folder;
   const auto scene = folder.path() / "scene.json";
-  write(scene, R"({"body": ")" + humanBody().string() + R"(", "networks": [")" + humanVessels().string() +
-                   R"("], "capillaries": {"levels": 1}})");
+  std::ofstream(scene) << R"({"body": ")" + humanBody().string() + R"(", "networks": [")" +
+                              humanVessels().string() + R"("], "capillaries": {"levels": 1}})";
   const auto render = [&](std::initializer_list<std::string> more) {
     std::vector<std::string> arguments{"render", scene.string(), "--size",
                                        "64x64",  "--hide",       "skin",

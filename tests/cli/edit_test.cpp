@@ -17,11 +17,6 @@ nlohmann::json vesselOf(const nlohmann::json& report, const std::string& name) {
   return {};
 }
 
-std::string bytesOf(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::string journal(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
   const auto path = folder.path() / name;
   std::ofstream(path) << text;
@@ -71,7 +66,7 @@ TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are
   CHECK(std::count(way.out.begin(), way.out.end(), '\n') > 400);  // millimetres of aorta, iliac and femoral
   const auto chart = (folder.path() / "way.png").string();
   CHECK(runProgram({"info", out, "--profile", "abdominal aorta", "-o", chart}).exit == 0);
-  CHECK(bytesOf(chart).starts_with("\x89PNG"));
+  CHECK(contentOf(chart).starts_with("\x89PNG"));
   CHECK(runProgram({"info", out, "--profile", "abdominal aorta", "-o", "way.txt"}).exit == 2);
   CHECK(runProgram({"info", out, "--to", "abdominal aorta"}).exit == 2);
 }
@@ -84,14 +79,14 @@ TEST_CASE(
     const auto out = folder.path() / "out.vasa";
     const auto outcome = runProgram({"edit", network, journal(folder, "e.vedit", text), "-o", out.string()});
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
-    return bytesOf(out);
+    return contentOf(out);
   };
   const std::string first = "occlude \"left femoral artery\" 0.6\n",
                     second = "rename \"abdominal aorta\" \"belly aorta\"\n";
   const auto one = write(first);
   CHECK(write(first + second) != one);
   CHECK(write(first + "# " + second) == one);
-  CHECK(write("# nothing\n") == bytesOf(network));
+  CHECK(write("# nothing\n") == contentOf(network));
 }
 
 TEST_CASE("refused edits are told with line, vessel, place and rule, and nothing is written") {

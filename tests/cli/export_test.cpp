@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "cli/program.h"
@@ -27,11 +26,6 @@ nlohmann::json exported(std::vector<std::string> arguments) {
   return outcome.json();
 }
 
-std::string textOf(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
 
 TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes for any number of threads") {
@@ -49,7 +43,7 @@ TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes f
   REQUIRE_MESSAGE(summary.ok(), summary.error().message);
   CHECK(summary->animations == 1);
   exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--threads", "1", "-o", again});
-  CHECK(textOf(file) == textOf(again));
+  CHECK(contentOf(file) == contentOf(again));
   // One key a frame strays farther between keys than more keys do.
   const auto sparse = exported({"--clip", "walk", "--frames", "8:13", "--quads", "4x2", "--between", "1000",
                                 "--no-avoid", "-o", again});
@@ -100,12 +94,12 @@ TEST_CASE("export: a posed surface, and centre lines that convert reads back") {
           doctest::Approx(lengthOf(human->pointsOf(human->vessels()[v]))).epsilon(0.01));
   }
   // Written, read and written: the same bytes.
-  const std::string vtp = textOf(path("rest.vtp"));
+  const std::string vtp = contentOf(path("rest.vtp"));
   const auto lines = parseVtp(std::as_bytes(std::span(vtp)), "rest.vtp", {0.001});
   REQUIRE(lines.ok());
   CHECK(encodeVtp(*lines, {0.001}) == vtp);
   exported({"--clip", "walk", "--frames", "0:2", "--unit", "m", "-o", path("{frame}.swc")});
-  const std::string swc = textOf(path("2.swc"));
+  const std::string swc = contentOf(path("2.swc"));
   const auto samples = parseSwc(swc, "2.swc");
   REQUIRE(samples.ok());
   CHECK(encodeSwc(*samples) == swc);
@@ -146,7 +140,7 @@ TEST_CASE("export: a row a frame and vessel") {
   const TemporaryFolder folder;
   const auto file = (folder.path() / "a.csv").string();
   const auto report = exported({"--clip", "walk", "--frames", "0:1", "-o", file});
-  std::istringstream text(textOf(file));
+  std::istringstream text(contentOf(file));
   std::string line;
   std::getline(text, line);
   CHECK(
@@ -216,10 +210,10 @@ TEST_CASE(
   exported({"--clip", "squat", "--frames", "12", "--track", at("squat.track"), "-o", at("kept.vtp")});
   for (const char* threads : {"1", "8"}) {
     exported({"--clip", "squat", "--frames", "12", "--threads", threads, "-o", at("threads.vtp")});
-    CHECK(textOf(at("threads.vtp")) == textOf(at("all-12.vtp")));
+    CHECK(contentOf(at("threads.vtp")) == contentOf(at("all-12.vtp")));
   }
-  CHECK(textOf(at("alone.vtp")) == textOf(at("all-12.vtp")));
-  CHECK(textOf(at("kept.vtp")) == textOf(at("all-12.vtp")));
+  CHECK(contentOf(at("alone.vtp")) == contentOf(at("all-12.vtp")));
+  CHECK(contentOf(at("kept.vtp")) == contentOf(at("all-12.vtp")));
   // A track of another motion is told, and nothing is written.
   const auto other = runProgram(
       {"export", "--clip", "run", "--frames", "2", "--track", at("squat.track"), "-o", at("other.vtp")});

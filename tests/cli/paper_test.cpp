@@ -1,18 +1,11 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
-
 #include "cli/program.h"
 #include "support/shared_data.h"
 
 using namespace vasa::test;
 
 namespace {
-
-std::string textOf(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::size_t countOf(const std::string& text, const std::string& part) {
   std::size_t count = 0;
@@ -82,7 +75,7 @@ TEST_CASE("paper makes the tables and figures of the built-in human, each beside
   const auto outcome = runProgram({"paper", "-o", to, "--quick", "--size", "128x72", "--json"});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
   CHECK(listOf(to) == std::vector<std::string>{"index.html", "report.json"});
-  const auto report = nlohmann::json::parse(textOf(folder.path() / "page" / "report.json"));
+  const auto report = nlohmann::json::parse(contentOf(folder.path() / "page" / "report.json"));
   CHECK(report == outcome.json());
   checkTableOne(report["table1"]);
   checkTableTwo(report["table2"]);
@@ -92,7 +85,7 @@ TEST_CASE("paper makes the tables and figures of the built-in human, each beside
   for (std::size_t i = 0; i < 7; ++i) CHECK(report["figures"][i]["panels"].size() == std::size_t(panels[i]));
   CHECK(report["figures"][2]["facts"]["capillaries"][2] > report["figures"][2]["facts"]["capillaries"][0]);
 
-  const std::string page = textOf(folder.path() / "page" / "index.html");
+  const std::string page = contentOf(folder.path() / "page" / "index.html");
   CHECK(countOf(page, "<img ") == 23);
   CHECK(countOf(page, "src=\"data:image/png;base64,iVBORw0KGgo") == 23);
   CHECK(countOf(page, "src=") == 23);  // nothing from elsewhere

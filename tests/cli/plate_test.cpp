@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 #include <tinyxml2.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "cli/program.h"
@@ -12,11 +11,6 @@ using namespace vasa;
 using namespace vasa::test;
 
 namespace {
-
-std::string textOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 struct Point {
   double x = 0, y = 0;
@@ -57,7 +51,7 @@ TEST_CASE("a plate as SVG names what it labels, and its lines do not cross") {
   CHECK(report["page_mm"] == nlohmann::json({110, 150}));
 
   tinyxml2::XMLDocument document;
-  REQUIRE(document.Parse(textOf(file).c_str()) == tinyxml2::XML_SUCCESS);
+  REQUIRE(document.Parse(contentOf(file).c_str()) == tinyxml2::XML_SUCCESS);
   const auto* svg = document.FirstChildElement("svg");
   REQUIRE(svg);
   CHECK(std::string(svg->Attribute("viewBox")) == "0 0 110 150");
@@ -101,14 +95,14 @@ TEST_CASE("a plate as PNG has its size and is the same every time; a PDF is one"
                     pdf = (folder.path() / "c.pdf").string();
   REQUIRE(runProgram(small("hand", first, {"--threads", "1"})).exit == 0);
   REQUIRE(runProgram(small("hand", second, {"--threads", "2"})).exit == 0);
-  CHECK(textOf(first) == textOf(second));
+  CHECK(contentOf(first) == contentOf(second));
   const auto picture = readPng(first);
   REQUIRE(picture.ok());
   CHECK(picture->width == 173);
   CHECK(picture->height == 236);
   CHECK(picture->rgba[0] == 255);
   REQUIRE(runProgram(small("hand", pdf)).exit == 0);
-  CHECK(textOf(pdf).starts_with("%PDF-1.5"));
+  CHECK(contentOf(pdf).starts_with("%PDF-1.5"));
 }
 
 TEST_CASE("names choose labels; one that is not seen is told, one that is unknown refused") {
@@ -121,9 +115,9 @@ TEST_CASE("names choose labels; one that is not seen is told, one that is unknow
   CHECK(chosen.json()["labels"][0]["text"] == "Great saphenous vein");
   CHECK(chosen.json()["unseen"] == nlohmann::json({"basilar artery"}));
   CHECK(chosen.err.find("'basilar artery' is not seen in this picture") != std::string::npos);
-  CHECK(textOf(file).find("Left, anterior view") != std::string::npos);
+  CHECK(contentOf(file).find("Left, anterior view") != std::string::npos);
   REQUIRE(runProgram(small("leg", file, {"--view", "back", "--labels", "none"})).exit == 0);
-  CHECK(textOf(file).find("Right, posterior view") != std::string::npos);
+  CHECK(contentOf(file).find("Right, posterior view") != std::string::npos);
   const auto unknown = runProgram(small("leg", file, {"--labels", "no such vessel"}));
   CHECK(unknown.exit == 3);
   CHECK(unknown.err.find("no vessel is named 'no such vessel'") != std::string::npos);
@@ -137,7 +131,7 @@ TEST_CASE("a plate's colours and what they mean") {
                                     {"radius", ">16 mm</text>"}}) {
     const auto outcome = runProgram(small("thorax", file, {"--colour", colour, "--labels", "none"}));
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
-    CHECK(textOf(file).find(key) != std::string::npos);
+    CHECK(contentOf(file).find(key) != std::string::npos);
   }
 }
 

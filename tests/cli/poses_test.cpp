@@ -9,11 +9,6 @@ using namespace vasa::test;
 
 namespace {
 
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // Two short ways: a knee's and a toe's.
 std::string shortRanges(const TemporaryFolder& folder) {
   const auto path = folder.path() / "ranges.csv";

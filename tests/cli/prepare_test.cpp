@@ -13,17 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // The built-in human in a folder of its own, without what ships of it: a body like any other.
-struct Body {
+struct OwnBody {
   TemporaryFolder folder;
   fs::path cache = folder.path() / "cache", kept = cache / "vasa";
 
-  Body() {
+  OwnBody() {
     for (const char* name : {"human.glb", "human.vasa", "human.holds.csv", "growth"})
       fs::create_symlink(humanBody().parent_path() / name, folder.path() / name);
   }
@@ -52,7 +47,7 @@ std::vector<std::string> keptFiles(const fs::path& folder) {
 
 TEST_CASE(
     "the first run keeps what the second finds, and pictures are the same to the bit, damaged files or none") {
-  const Body body;
+  const OwnBody body;
   const std::string without = body.picture(body.with(body.cache), {"--no-cache"});
   CHECK_FALSE(fs::exists(body.kept));
   CHECK(body.picture(body.with(body.cache)) == without);
@@ -78,7 +73,7 @@ TEST_CASE(
 }
 
 TEST_CASE("where nothing can be kept the program goes on without, and says so with --verbose") {
-  const Body body;
+  const OwnBody body;
   const auto outcome = runProgram({"render", "--size", "96x160", "--no-avoid", "--verbose", "-o",
                                    (body.folder.path() / "p.png").string()},
                                   body.with("/dev/full"));

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "support/shared_data.h"
@@ -18,15 +16,6 @@
 extern char** environ;
 
 namespace vasa::test {
-namespace {
-
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
-
 nlohmann::json Outcome::json() const {
   auto parsed = nlohmann::json::parse(out, nullptr, false);
   REQUIRE_MESSAGE(!parsed.is_discarded(), "not JSON: " << out << err);

@@ -37,9 +37,7 @@ TEST_CASE(
   CHECK(row["on_the_way"].size() == 4);
   CHECK(outcome.json()["score"]["within_2_sd"] == 1);
   CHECK(std::filesystem::exists(out / "report.json"));
-  std::ifstream page(out / "index.html");
-  const std::string html{std::istreambuf_iterator<char>(page), {}};
-  CHECK(html.find("Somebody 2006") != std::string::npos);
+  CHECK(contentOf(out / "index.html").find("Somebody 2006") != std::string::npos);
   writeProtocol(folder.path(), "A1," + landmarks + "length_change_percent,,6,1,,,,Somebody 2006,,");
   outcome = runProgram({"realism", "--protocol", folder.path().string(), "--least", "0.8"});
   CHECK(outcome.exit == 1);

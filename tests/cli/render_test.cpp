@@ -13,11 +13,6 @@ using namespace vasa::test;
 
 namespace {
 
-std::string bytesOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::vector<std::string> walk(const std::filesystem::path& folder, std::initializer_list<std::string> more) {
   std::vector<std::string> arguments{"render", "--clip",  "walk",
                                      "--size", "192x320", "--quads",
@@ -70,7 +65,7 @@ TEST_CASE(
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto outcome = runProgram(arguments);
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
-    return std::pair(bytesOf(folder.path() / (name + ".png")), outcome.err);
+    return std::pair(contentOf(folder.path() / (name + ".png")), outcome.err);
   };
   const auto pixels = [&](const std::string& name) { return readPng(folder.path() / (name + ".png"))->rgba; };
   draw("all", "}", {});
@@ -98,9 +93,9 @@ TEST_CASE("the same frame has the same bits on one and two threads, and in any o
   REQUIRE(runProgram(walk(single.path(), {"--frames", "3"})).exit == 0);
   REQUIRE(runProgram(walk(single.path(), {"--frames", "1"})).exit == 0);
   for (const char* name : {"000.png", "001.png", "002.png", "003.png"})
-    CHECK(bytesOf(one.path() / name) == bytesOf(two.path() / name));
+    CHECK(contentOf(one.path() / name) == contentOf(two.path() / name));
   for (const char* name : {"001.png", "003.png"})
-    CHECK(bytesOf(one.path() / name) == bytesOf(single.path() / name));
+    CHECK(contentOf(one.path() / name) == contentOf(single.path() / name));
 }
 
 TEST_CASE("a track alone draws nothing, needs no device, and gives the pictures of a run without it") {
@@ -112,7 +107,7 @@ TEST_CASE("a track alone draws nothing, needs no device, and gives the pictures 
   CHECK(solved.json()["frames"] == 4);
   REQUIRE(runProgram(walk(with.path(), {"--frames", "3", "--track", track})).exit == 0);
   REQUIRE(runProgram(walk(without.path(), {"--frames", "3"})).exit == 0);
-  CHECK(bytesOf(with.path() / "003.png") == bytesOf(without.path() / "003.png"));
+  CHECK(contentOf(with.path() / "003.png") == contentOf(without.path() / "003.png"));
   // A motion, and one that is solved, is needed.
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{}, {"--clip", "walk", "--no-avoid"}}) {

@@ -10,12 +10,6 @@ using namespace vasa;
 
 namespace {
 
-Bezier straight(vec3 from, vec3 to, float radius) {
-  Bezier tube;
-  for (int k = 0; k < 4; ++k) tube.b[std::size_t(k)] = vec4(glm::mix(from, to, float(k) / 3), radius);
-  return tube;
-}
-
 dvec4 at(const Bezier& tube, double t) {
   const double s = 1 - t;
   return s * s * s * dvec4(tube.b[0]) + 3 * s * s * t * dvec4(tube.b[1]) + 3 * s * t * t * dvec4(tube.b[2]) +
@@ -61,7 +55,8 @@ double sampledMinimum(const Bezier& a, const Bezier& b) {
 }  // namespace
 
 TEST_CASE("two straight tubes that cross") {
-  const Bezier a = straight({-1, 0, 0}, {1, 0, 0}, 0.25f), b = straight({0, -1, 0.6f}, {0, 1, 0.6f}, 0.25f);
+  const Bezier a = test::straight({-1, 0, 0}, {1, 0, 0}, 0.25f),
+               b = test::straight({0, -1, 0.6f}, {0, 1, 0.6f}, 0.25f);
   const Contact contact = closestOfTubes(a, b, 1e-9);
   CHECK(contact.f == doctest::Approx(0.1).epsilon(1e-5));
   CHECK(contact.s == doctest::Approx(0.5).epsilon(1e-3));
@@ -85,23 +80,24 @@ TEST_CASE("the search agrees with dense sampling") {
 }
 
 TEST_CASE("degenerate tubes have an answer") {
-  const Bezier point = straight(vec3(0), vec3(0), 0.1f), line = straight({0.05f, 0, 0}, {1, 0, 0}, 0.01f);
+  const Bezier point = test::straight(vec3(0), vec3(0), 0.1f),
+               line = test::straight({0.05f, 0, 0}, {1, 0, 0}, 0.01f);
   CHECK(tubesIntersect(point, point, 1e-9));
   CHECK(closestOfTubes(point, point, 1e-9).f == doctest::Approx(-0.2));
   CHECK(closestOfTubes(point, line, 1e-9).f == doctest::Approx(-0.06));
-  const Bezier thin = straight({0, 1e-6f, 0}, {1, 1e-6f, 0}, 1e-20f),
-               huge = straight({0, 2e5f, 0}, {1, 2e5f, 0}, 1e5f);
-  CHECK(!tubesIntersect(thin, straight({0, 0, 0}, {1, 0, 0}, 1e-20f), 5e-8));
+  const Bezier thin = test::straight({0, 1e-6f, 0}, {1, 1e-6f, 0}, 1e-20f),
+               huge = test::straight({0, 2e5f, 0}, {1, 2e5f, 0}, 1e5f);
+  CHECK(!tubesIntersect(thin, test::straight({0, 0, 0}, {1, 0, 0}, 1e-20f), 5e-8));
   CHECK(!tubesIntersect(thin, huge, 5e-8));
-  CHECK(tubesIntersect(huge, straight({0, 0.5e5f, 0}, {0, 1e5f, 0}, 1e3f), 5e-8));
+  CHECK(tubesIntersect(huge, test::straight({0, 0.5e5f, 0}, {0, 1e5f, 0}, 1e3f), 5e-8));
 }
 
 TEST_CASE("nearly parallel tubes that just miss or just touch") {
   for (int k = 0; k < 200; ++k) {
     const float tilt = std::pow(10.0f, -1 - float(k % 40) / 5);
-    const Bezier a = straight({0, 0, 0}, {0.04f, 0, 0}, 0.001f);
+    const Bezier a = test::straight({0, 0, 0}, {0.04f, 0, 0}, 0.001f);
     const float gap = 0.002f + (k % 2 ? 2e-7f : -2e-7f);
-    const Bezier b = straight({0, gap, -0.02f * tilt}, {0.04f, gap, 0.02f * tilt}, 0.001f);
+    const Bezier b = test::straight({0, gap, -0.02f * tilt}, {0.04f, gap, 0.02f * tilt}, 0.001f);
     const double f = double(gap) - 2 * double(0.001f);
     CHECK(tubesIntersect(a, b, 2e-8) == (f < 0));
   }

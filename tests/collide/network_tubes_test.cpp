@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "collide/closest_tubes.h"
-#include "network/builder.h"
 #include "support/networks.h"
 
 using namespace vasa;
@@ -26,9 +25,7 @@ Network tee() {
   for (int k = 0; k < 7; ++k) branch.emplace_back(root.x, 0, 0.1f * float(k), 0.02f);
   const VesselId branchId = builder.addVessel({"branch", "", VesselKind::artery}, branch);
   builder.joinToSide({branchId, false}, {hostId, 3.25f});
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
+  return test::built(builder);
 }
 
 }  // namespace

@@ -39,21 +39,16 @@ TriangleMesh ball(std::uint32_t around, std::uint32_t along) {
   return mesh;
 }
 
-Bezier straight(vec3 from, vec3 to, float radius) {
-  Bezier tube;
-  for (int k = 0; k < 4; ++k) tube.b[std::size_t(k)] = vec4(glm::mix(from, to, float(k) / 3), radius);
-  return tube;
-}
-
 }  // namespace
 
 TEST_CASE("a tube beside, touching, piercing and inside a ball") {
   const TriangleMesh mesh = ball(64, 32);
   CHECK(mesh.volume() == doctest::Approx(4.0 / 3 * 3.14159).epsilon(0.02));
   Obstacle obstacle(mesh.positions, mesh.triangles);
-  const Bezier tubes[] = {
-      straight({-1, 1.2f, 0}, {1, 1.2f, 0}, 0.1f), straight({-1, 1.05f, 0}, {1, 1.05f, 0}, 0.1f),
-      straight({0, 0, 0.5f}, {0, 0, 2}, 0.1f), straight({-0.02f, 0.9f, 0}, {0.02f, 0.9f, 0}, 0.02f)};
+  const Bezier tubes[] = {test::straight({-1, 1.2f, 0}, {1, 1.2f, 0}, 0.1f),
+                          test::straight({-1, 1.05f, 0}, {1, 1.05f, 0}, 0.1f),
+                          test::straight({0, 0, 0.5f}, {0, 0, 2}, 0.1f),
+                          test::straight({-0.02f, 0.9f, 0}, {0.02f, 0.9f, 0}, 0.02f)};
   const auto contacts = obstacle.contacts(tubes, 0, 0.6f);
   float deepest[4] = {1, 1, 1, 1};
   for (const ObstacleContact& contact : contacts) {
@@ -73,7 +68,7 @@ TEST_CASE("a tube beside, touching, piercing and inside a ball") {
 TEST_CASE("the obstacle follows its vertices") {
   const TriangleMesh mesh = ball(32, 16);
   Obstacle obstacle(mesh.positions, mesh.triangles);
-  const Bezier tube[] = {straight({4.5f, 0, 0}, {4.5f, 0, 1}, 0.1f)};
+  const Bezier tube[] = {test::straight({4.5f, 0, 0}, {4.5f, 0, 1}, 0.1f)};
   CHECK(obstacle.contacts(tube, 0, 0.5f).empty());
   auto moved = mesh.positions;
   for (vec3& p : moved) p += vec3(3.5f, 0, 0);

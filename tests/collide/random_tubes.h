@@ -6,6 +6,13 @@
 
 namespace vasa::test {
 
+/// A tube along a line, as wide everywhere.
+inline Bezier straight(vec3 from, vec3 to, float radius) {
+  Bezier tube;
+  for (int k = 0; k < 4; ++k) tube.b[std::size_t(k)] = vec4(glm::mix(from, to, float(k) / 3), radius);
+  return tube;
+}
+
 /// Tubes thrown at random into a cube of the given side.
 /// @param length  of the chord, about;  @param radius  largest
 inline std::vector<Bezier> randomTubes(std::uint32_t count, std::uint32_t seed, float side, float length,

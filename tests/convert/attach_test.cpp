@@ -23,8 +23,6 @@ struct Scene {
   std::uint32_t jointOf(std::uint32_t strand, bool last) const { return graph.jointAt({strand, last}); }
 };
 
-constexpr std::uint32_t kNone = StrandGraph::kNone;
-
 }  // namespace
 
 TEST_CASE("an end on a vessel's wall is led to its centre line") {

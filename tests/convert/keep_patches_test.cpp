@@ -17,6 +17,7 @@
 #include "network/file.h"
 #include "network/merge.h"
 #include "network/reshape.h"
+#include "support/frames.h"
 #include "support/manifold.h"
 #include "support/shared_data.h"
 #include "surface/octahedral.h"
@@ -26,12 +27,6 @@ using namespace vasa;
 using namespace vasa::test;
 
 namespace {
-
-std::vector<quat> framesOf(const Network& network, std::span<const vec4> points) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, points, restReferences(network), frames);
-  return frames;
-}
 
 std::size_t openEdgesOf(const Network& network, std::span<const vec4> points, const SweepShape& shape) {
   const SurfaceMesh mesh = surfaceMesh(network, points, framesOf(network, points), shape);
@@ -89,8 +84,7 @@ TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside
   REQUIRE(!made.network.patches().empty());
   const TriangleTree wall(made.elements[0].element.mesh);
   const Network& network = made.network;
-  const SurfaceMesh mesh =
-      surfaceMesh(network, network.points(), framesOf(network, network.points()), {8, 5});
+  const SurfaceMesh mesh = surfaceMesh(network, network.points(), framesOf(network), {8, 5});
   std::size_t on = 0, all = 0;
   for (const ForkPatch& patch : network.patches())
     for (std::size_t i = 0; i < patch.positions.size(); ++i, ++all) {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "convert/forked_source.h"
+#include "support/frames.h"
 #include "support/manifold.h"
 #include "surface/fork_check.h"
 #include "surface/surface_mesh.h"
@@ -20,8 +21,7 @@ struct Walls {
   explicit Walls(const Network& drawn) : network(drawn), table(makeSweepTable(drawn)) {}
 
   std::vector<shared::JointRows> joints(std::span<const vec4> points) const {
-    std::vector<quat> frames(network.sectionCount());
-    networkFrames(network, points, restReferences(network), frames);
+    const std::vector<quat> frames = framesOf(network, points);
     const PosedNetwork posed{table, points, frames};
     std::vector<shared::JointRows> found;
     for (std::uint32_t seam = 0; seam < table.patches.seams.size(); ++seam)
@@ -110,8 +110,7 @@ TEST_CASE("a wall that a pose presses together folds less when it is smoothed, a
       before += walls.foldedShare(patch, walls.unsmoothed(patch, joints));
       after += walls.foldedShare(patch, posePatch(walls.table.patches, patch, joints));
     }
-    std::vector<quat> frames(made.network.sectionCount());
-    networkFrames(made.network, points, restReferences(made.network), frames);
+    const std::vector<quat> frames = framesOf(made.network, points);
     for (const std::uint32_t around : {3u, 8u, 16u})
       CHECK(openEdges(surfaceMesh(made.network, points, frames, {around, 3}).triangles) == 0);
   }

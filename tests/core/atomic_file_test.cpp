@@ -15,16 +15,6 @@
 
 using namespace vasa;
 
-namespace {
-
-std::size_t filesIn(const std::filesystem::path& folder) {
-  std::size_t count = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
-  return count;
-}
-
-}  // namespace
-
 TEST_CASE("a file appears whole, replacing what was there") {
   test::TemporaryFolder folder;
   const auto path = folder.path() / "a.txt";
@@ -33,7 +23,7 @@ TEST_CASE("a file appears whole, replacing what was there") {
   const auto bytes = readFile(path);
   REQUIRE(bytes.ok());
   CHECK(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) == "second");
-  CHECK(filesIn(folder.path()) == 1);
+  CHECK(test::filesIn(folder.path()).size() == 1);
 }
 
 TEST_CASE("a file that is not committed leaves nothing and keeps the old content") {
@@ -45,7 +35,7 @@ TEST_CASE("a file that is not committed leaves nothing and keeps the old content
     REQUIRE(file.ok());
     REQUIRE(file->write(std::as_bytes(std::span("new", 3))).ok());
   }
-  CHECK(filesIn(folder.path()) == 1);
+  CHECK(test::filesIn(folder.path()).size() == 1);
   CHECK(readFile(path)->size() == 3);
 }
 
@@ -67,7 +57,7 @@ TEST_CASE("a process that is killed while it writes leaves nothing, or what the 
   if (next == 0) _exit(writeFileAtomically(folder.path() / "b.txt", std::string("b")).ok() ? 0 : 1);
   REQUIRE(waitpid(next, &status, 0) == next);
   CHECK(status == 0);
-  CHECK(filesIn(folder.path()) == 2);
+  CHECK(test::filesIn(folder.path()).size() == 2);
 }
 
 TEST_CASE("files in progress that nobody writes any more are removed, others are left alone") {
@@ -104,7 +94,7 @@ TEST_CASE("a name may be as long as the file system allows") {
   test::TemporaryFolder folder;
   const auto path = folder.path() / std::string(255, 'n');
   for (const char* text : {"first", "second"}) CHECK(writeFileAtomically(path, std::string(text)).ok());
-  CHECK(filesIn(folder.path()) == 1);
+  CHECK(test::filesIn(folder.path()).size() == 1);
   const auto refused = writeFileAtomically(folder.path() / std::string(256, 'n'), std::string("x"));
   REQUIRE(!refused.ok());
   CHECK(refused.error().message.find("choose a shorter name") != std::string::npos);
@@ -126,7 +116,7 @@ TEST_CASE("a limit on file sizes is told, and nothing is left") {
   int status = 0;
   REQUIRE(waitpid(child, &status, 0) == child);
   CHECK(status == 0);
-  CHECK(filesIn(folder.path()) == 0);
+  CHECK(test::filesIn(folder.path()).size() == 0);
 }
 
 TEST_CASE("a full disk is told, with the remedy") {

@@ -33,15 +33,9 @@ std::vector<std::byte> bytesOf(std::size_t count, int first = 1) {
   return bytes;
 }
 
-std::vector<fs::path> filesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& file : fs::directory_iterator(folder)) files.push_back(file.path());
-  return files;
-}
-
 std::uintmax_t sizeOf(const fs::path& folder) {
   std::uintmax_t sum = 0;
-  for (const fs::path& file : filesIn(folder)) sum += fs::file_size(file);
+  for (const fs::path& file : test::filesIn(folder)) sum += fs::file_size(file);
   return sum;
 }
 
@@ -68,7 +62,7 @@ TEST_CASE("what is kept is found again, by kind, key and engine") {
   CHECK_FALSE(findKept("things", 3));
   keep("things", 1, bytesOf(10));
   CHECK(findKept("things", 1) == bytesOf(10));
-  CHECK(filesIn(folder.path() / "new" / "vasa").size() == 2);
+  CHECK(test::filesIn(folder.path() / "new" / "vasa").size() == 2);
   setKeptFolders({.shipped = {}, .own = folder.path() / "new" / "vasa", .engine = 8});
   CHECK_FALSE(findKept("things", 1));
 }
@@ -92,15 +86,15 @@ TEST_CASE("what ships is found, and never written") {
   CHECK(findKept("things", 1) == bytesOf(100));
   CHECK_FALSE(fs::exists(folder.path() / "own"));
   keep("things", 2, bytesOf(100));
-  CHECK(filesIn(folder.path() / "ships").size() == 1);
-  CHECK(filesIn(folder.path() / "own").size() == 1);
+  CHECK(test::filesIn(folder.path() / "ships").size() == 1);
+  CHECK(test::filesIn(folder.path() / "own").size() == 1);
 }
 
 TEST_CASE("a damaged, cut, longer or foreign file is not found, and is renewed") {
   const test::TemporaryFolder folder;
   const Keeping keeping({.shipped = {}, .own = folder.path(), .engine = 7});
   keep("things", 1, bytesOf(1000));
-  const fs::path file = filesIn(folder.path()).front();
+  const fs::path file = test::filesIn(folder.path()).front();
   const std::uintmax_t whole = fs::file_size(file);
   const auto renewed = [&] {
     const bool lost = !findKept("things", 1);
@@ -134,7 +128,7 @@ TEST_CASE("the folder's bound holds: what nobody has used for longest goes first
   const Keeping keeping({.shipped = {}, .own = folder.path(), .engine = 7, .most = 4 * 1032});
   std::ofstream(folder.path() / "view.json") << std::string(5000, ' ');
   const auto age = [&](std::uint64_t key, int hours) {
-    for (const fs::path& file : filesIn(folder.path()))
+    for (const fs::path& file : test::filesIn(folder.path()))
       if (file.filename().string().starts_with("things-000000000000000" + std::to_string(key)))
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(hours));
   };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 
 #include "core/log.h"
 #include "fuzz/targets.h"
@@ -16,16 +15,10 @@ using namespace vasa::test;
 namespace {
 
 std::vector<std::string> corpusOf(const char* name) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(sourceDirectory() / "tests/fuzz/corpus" / name))
-    files.push_back(entry.path());
+  auto files = filesIn(sourceDirectory() / "tests/fuzz/corpus" / name);
   std::sort(files.begin(), files.end());
   std::vector<std::string> contents;
-  for (const auto& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    contents.push_back({std::istreambuf_iterator<char>(stream), {}});
-  }
+  for (const auto& file : files) contents.push_back(contentOf(file));
   return contents;
 }
 

@@ -33,7 +33,7 @@ const Human& human() {
   return loaded;
 }
 
-struct Shot {
+struct HumanShot {
   const char* preset = "atlas";
   const char* clip = "";
   std::uint32_t frame = 0;
@@ -47,7 +47,7 @@ struct Shot {
   bool avoid = false;                       // vessels are moved apart
 };
 
-Look lookOf(const Shot& shot) {
+Look lookOf(const HumanShot& shot) {
   Look look = *lookNamed(shot.preset);
   const std::string_view parts(shot.parts);
   look.drawArteries = parts.find('a') != std::string_view::npos;
@@ -70,7 +70,7 @@ std::size_t jointNamed(std::string_view name) {
   throw std::runtime_error("no joint " + std::string(name));
 }
 
-Aabb boxOf(const Shot& shot, const FrameMaker& maker) {
+Aabb boxOf(const HumanShot& shot, const FrameMaker& maker) {
   const Scene& scene = human().scene;
   if (*shot.subject) {
     Aabb close;
@@ -82,7 +82,7 @@ Aabb boxOf(const Shot& shot, const FrameMaker& maker) {
   return box;
 }
 
-Image draw(gpu::Device& device, const Shot& shot) {
+Image draw(gpu::Device& device, const HumanShot& shot) {
   const Human& all = human();
   FrameMaker maker(all.scene, {.avoid = shot.avoid, .beat = shot.beating});
   const Clip* clip = *shot.clip ? taken(findClip(all.scene.body, shot.clip)) : nullptr;
@@ -108,7 +108,7 @@ Image draw(gpu::Device& device, const Shot& shot) {
   return renderer.readBack();
 }
 
-Picture picture(std::string name, const Shot& shot) {
+Picture ofHuman(std::string name, const HumanShot& shot) {
   return {std::move(name), [shot](gpu::Device& device) { return draw(device, shot); }};
 }
 
@@ -116,47 +116,47 @@ Picture picture(std::string name, const Shot& shot) {
 
 std::vector<Picture> humanPictures() {
   return {
-      picture("parts/arteries", {.parts = "a"}),
-      picture("parts/veins", {.parts = "v"}),
-      picture("parts/bones", {.parts = "b"}),
-      picture("parts/heart", {.subject = "Spine1", .parts = "hav"}),
-      picture("parts/heart_beating", {.subject = "Spine1", .parts = "hav", .beating = true}),
-      picture("parts/organs", {.subject = "Spine", .around = 0.24f, .parts = "ahov"}),
-      picture("parts/skin", {.parts = "s"}),
-      picture("presets/atlas", {.view = View::left, .subject = "Head"}),
-      picture("presets/clinical", {.preset = "clinical", .subject = "Head"}),
-      picture("presets/xray", {.preset = "xray", .subject = "Head"}),
-      picture("presets/flat", {.subject = "Spine1", .occlusion = false}),
-      picture("presets/transparent", {.subject = "Spine1", .transparent = true}),
-      picture("poses/front", {}),
-      picture("poses/left", {.view = View::left}),
-      picture("poses/back", {.view = View::back}),
-      picture("poses/walk", {.clip = "walk", .frame = 9}),
-      picture("poses/squat", {.clip = "squat", .frame = 30, .view = View::left}),
-      picture("poses/fist", {.clip = "fist", .frame = 20, .view = View::left, .subject = "LeftHandFinger2"}),
-      picture("poses/top", {.view = View::top, .parts = "abhov"}),
-      picture("poses/run", {.clip = "run", .frame = 5, .view = View::right}),
-      picture("poses/arms_overhead", {.clip = "arms_overhead", .frame = 60, .view = View::back}),
-      picture("poses/moved_apart", {.clip = "stand",
+      ofHuman("parts/arteries", {.parts = "a"}),
+      ofHuman("parts/veins", {.parts = "v"}),
+      ofHuman("parts/bones", {.parts = "b"}),
+      ofHuman("parts/heart", {.subject = "Spine1", .parts = "hav"}),
+      ofHuman("parts/heart_beating", {.subject = "Spine1", .parts = "hav", .beating = true}),
+      ofHuman("parts/organs", {.subject = "Spine", .around = 0.24f, .parts = "ahov"}),
+      ofHuman("parts/skin", {.parts = "s"}),
+      ofHuman("presets/atlas", {.view = View::left, .subject = "Head"}),
+      ofHuman("presets/clinical", {.preset = "clinical", .subject = "Head"}),
+      ofHuman("presets/xray", {.preset = "xray", .subject = "Head"}),
+      ofHuman("presets/flat", {.subject = "Spine1", .occlusion = false}),
+      ofHuman("presets/transparent", {.subject = "Spine1", .transparent = true}),
+      ofHuman("poses/front", {}),
+      ofHuman("poses/left", {.view = View::left}),
+      ofHuman("poses/back", {.view = View::back}),
+      ofHuman("poses/walk", {.clip = "walk", .frame = 9}),
+      ofHuman("poses/squat", {.clip = "squat", .frame = 30, .view = View::left}),
+      ofHuman("poses/fist", {.clip = "fist", .frame = 20, .view = View::left, .subject = "LeftHandFinger2"}),
+      ofHuman("poses/top", {.view = View::top, .parts = "abhov"}),
+      ofHuman("poses/run", {.clip = "run", .frame = 5, .view = View::right}),
+      ofHuman("poses/arms_overhead", {.clip = "arms_overhead", .frame = 60, .view = View::back}),
+      ofHuman("poses/moved_apart", {.clip = "stand",
                                     .frame = 0,
                                     .subject = "LeftForeArm",
                                     .around = 0.06f,
                                     .parts = "av",
                                     .avoid = true}),
-      picture("opacity/bones", {.subject = "Spine1", .parts = "abv", .boneOpacity = 0.4f}),
-      picture("opacity/skin", {.view = View::left, .subject = "Head", .skinOpacity = 0.9f}),
-      picture("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 2}),
-      picture("regions/foot", {.subject = "LeftToeBase", .parts = "ab", .growLevels = 2}),
-      picture("regions/head", {.subject = "Head", .parts = "abo", .growLevels = 3}),
+      ofHuman("opacity/bones", {.subject = "Spine1", .parts = "abv", .boneOpacity = 0.4f}),
+      ofHuman("opacity/skin", {.view = View::left, .subject = "Head", .skinOpacity = 0.9f}),
+      ofHuman("regions/hand", {.subject = "LeftHandFinger2", .parts = "ab", .growLevels = 2}),
+      ofHuman("regions/foot", {.subject = "LeftToeBase", .parts = "ab", .growLevels = 2}),
+      ofHuman("regions/head", {.subject = "Head", .parts = "abo", .growLevels = 3}),
   };
 }
 
 std::vector<Picture> humanMutations() {
   return {
-      picture("parts/arteries", {.parts = "av"}),
-      picture("presets/clinical", {.preset = "atlas", .subject = "Head"}),
-      picture("poses/walk", {.clip = "walk", .frame = 13}),
-      picture("regions/head", {.subject = "Head", .parts = "abo", .growLevels = 2}),
+      ofHuman("parts/arteries", {.parts = "av"}),
+      ofHuman("presets/clinical", {.preset = "atlas", .subject = "Head"}),
+      ofHuman("poses/walk", {.clip = "walk", .frame = 13}),
+      ofHuman("regions/head", {.subject = "Head", .parts = "abo", .growLevels = 2}),
   };
 }
 

@@ -79,7 +79,6 @@ struct RoomyBuffer {
 };
 
 constexpr gpu::Validation kSynchronization{.synchronization = true};
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
@@ -99,7 +98,7 @@ TEST_CASE("a barrier left out between two compute passes is reported, by address
   Bench bench(kSynchronization);
   const std::string correct = bench.messagesOf([&](VkCommandBuffer commands) {
     bench.scale(commands);
-    gpu::stageBarrier(commands, kCompute, kCompute);
+    gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
     bench.scale(commands);
   });
   CHECK_MESSAGE(correct.empty(), correct);
@@ -151,7 +150,7 @@ TEST_CASE("a barrier left out between a compute pass and a draw is reported") {
   const auto draw = [&](bool barrier) {
     return bench.messagesOf([&](VkCommandBuffer commands) {
       bench.pipeline.dispatch(commands, test::ScalePush{indices.address(), 3}, 1);
-      if (barrier) gpu::stageBarrier(commands, kCompute, VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT);
+      if (barrier) gpu::stageBarrier(commands, gpu::kCompute, VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT);
       target.begin(commands, {0, 0, 0, 1});
       pipeline.bind(commands, Push{bench.floats.address(), {1, 1, 1, 1}});
       vkCmdBindIndexBuffer(commands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);

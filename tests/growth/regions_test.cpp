@@ -16,7 +16,7 @@ GrowthRules rules() {
   return std::move(*read);
 }
 
-std::string messageOf(const std::string& text) {
+std::string refusalOf(const std::string& text) {
   const auto regions = parseRegions(text, "r.csv", rules());
   REQUIRE_FALSE(regions.ok());
   CHECK(regions.error().fault == Fault::badInput);
@@ -86,21 +86,21 @@ TEST_CASE("what the program ships can be read") {
 }
 
 TEST_CASE("faults are told with file, line, cause and remedy") {
-  CHECK(messageOf("").starts_with("r.csv: has no regions"));
-  CHECK(messageOf("region,system\n") == "r.csv:1: the first line must name the columns: " +
+  CHECK(refusalOf("").starts_with("r.csv: has no regions"));
+  CHECK(refusalOf("region,system\n") == "r.csv:1: the first line must name the columns: " +
                                             kColumns.substr(0, kColumns.size() - 1) + ",organs,wall_mm");
-  CHECK(messageOf(kColumns.substr(0, kColumns.size() - 1) + ",organs,wall_mm\na,oak,Head,,,,,8,,liver,\n") ==
+  CHECK(refusalOf(kColumns.substr(0, kColumns.size() - 1) + ",organs,wall_mm\na,oak,Head,,,,,8,,liver,\n") ==
         "r.csv:2: names organs and joints; an organ is filled whatever vessels are near, leave that empty");
-  CHECK(messageOf(kColumns + "a,oak\n").starts_with("r.csv:2: has 2 cells but must have 9"));
-  CHECK(messageOf(kColumns + "a,elm,,,,0,3,8,\n") ==
+  CHECK(refusalOf(kColumns + "a,oak\n").starts_with("r.csv:2: has 2 cells but must have 9"));
+  CHECK(refusalOf(kColumns + "a,elm,,,,0,3,8,\n") ==
         "r.csv:2: there is no system 'elm'; use one of -, oak, reed");
-  CHECK(messageOf(kColumns + "a,oak,,,tube,0,3,8,\n").find("no kind of vessel") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,three,8,\n") ==
+  CHECK(refusalOf(kColumns + "a,oak,,,tube,0,3,8,\n").find("no kind of vessel") != std::string::npos);
+  CHECK(refusalOf(kColumns + "a,oak,,,,0,three,8,\n") ==
         "r.csv:2: thickest_mm is 'three' but must be a number from 0 to 100");
-  CHECK(messageOf(kColumns + "a,oak,,,,0,nan,8,\n").find("must be a number") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,0,\n") ==
+  CHECK(refusalOf(kColumns + "a,oak,,,,0,nan,8,\n").find("must be a number") != std::string::npos);
+  CHECK(refusalOf(kColumns + "a,oak,,,,0,3,0,\n") ==
         "r.csv:2: bed_mm is '0' but must be a number from 2 to 1000");
-  CHECK(messageOf(kColumns + "a,oak,,,,4,3,8,\n").find("exchange them") != std::string::npos);
-  CHECK(messageOf(kColumns + "a,oak,,,,0,3,8,Head\n") ==
+  CHECK(refusalOf(kColumns + "a,oak,,,,4,3,8,\n").find("exchange them") != std::string::npos);
+  CHECK(refusalOf(kColumns + "a,oak,,,,0,3,8,Head\n") ==
         "r.csv:2: surface is 'Head' but must be skin, bone or empty");
 }

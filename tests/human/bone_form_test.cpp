@@ -6,14 +6,13 @@
 #include <fstream>
 #include <string>
 
+#include "human/made_human.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
 using namespace vasa::human;
 
 namespace {
-
-const std::filesystem::path kTables = VASA_HUMAN_TABLES;
 
 /// A bone of one tube upwards with this cell for `up`.
 Result<std::vector<BoneForm>> tubeWith(const std::string& up) {

@@ -15,15 +15,7 @@ using namespace vasa::human;
 
 namespace {
 
-constexpr std::size_t kFrameStep = 6;
-constexpr std::size_t kVertexStep = 3;  // vertices looked at for leaving the skin
-
-const std::filesystem::path kTables = VASA_HUMAN_TABLES;
-
-const Body& body() {
-  static const Body made = bodyOf(madeHuman().rig, madeHuman().meshes, madeHuman().clips);
-  return made;
-}
+constexpr std::size_t kBoneVertexStep = 3;  // vertices looked at for leaving the skin
 
 const std::vector<BoneForm>& forms() {
   static const Result<std::vector<BoneForm>> read =
@@ -52,13 +44,13 @@ Bone boneNamed(std::string_view name) {
 
 /// A joint and how far its bones' surfaces may be apart [m]: two layers of cartilage. Hip, knee and ankle:
 /// the thickest means of Shepherd and Seedhom 1999, Ann Rheum Dis 58:27; the others: textbook figures.
-struct Contact {
+struct Meeting {
   std::string a, b;
   float most;
 };
 
-std::vector<Contact> contacts() {
-  std::vector<Contact> all = {{"thigh bone", "hip bone", 0.0040f},
+std::vector<Meeting> contacts() {
+  std::vector<Meeting> all = {{"thigh bone", "hip bone", 0.0040f},
                               {"thigh bone", "shin bone", 0.0051f},
                               {"knee cap", "thigh bone", 0.0051f},
                               {"ankle bone", "shin bone", 0.0033f},
@@ -103,18 +95,18 @@ std::vector<Contact> contacts() {
 /// How far a joint's bones may come out of the skin [m]: blended joints draw it in at a fully bent elbow;
 /// the collar bone's inner end comes nearer under arms that are raised high; elsewhere half of a polygon's
 /// sagitta.
-float allowedOut(std::string_view joint) {
+float boneAllowedOut(std::string_view joint) {
   return joint.ends_with("ForeArm") ? 0.006f : joint.ends_with("Shoulder") ? 0.0023f : 0.002f;
 }
 
 /// Visits every few frames of each clip.
 template <class Visit>
 void forPoses(Visit visit) {
-  for (const Clip& clip : body().clips)
+  for (const Clip& clip : madeBody().clips)
     for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep)
       visit(clip, frame,
-            skinMatrices(body().skeleton,
-                         samplePose(body().skeleton, clip, float(frame) / clip.framesPerSecond)));
+            skinMatrices(madeBody().skeleton,
+                         samplePose(madeBody().skeleton, clip, float(frame) / clip.framesPerSecond)));
 }
 
 }  // namespace
@@ -123,20 +115,20 @@ TEST_CASE("no motion brings a bone out of the skin") {
   std::map<std::string, std::array<float, 2>> worst;  // of a clip and joint: [m] out, frame
   std::vector<vec3> skin, bones;
   forPoses([&](const Clip& clip, std::size_t frame, const std::vector<mat4>& matrices) {
-    skinPositions(body().meshes[0], matrices, skin);
-    const TriangleMesh surface{skin, body().meshes[0].mesh.triangles};
+    skinPositions(madeBody().meshes[0], matrices, skin);
+    const TriangleMesh surface{skin, madeBody().meshes[0].mesh.triangles};
     const Solid solid(surface);
-    skinPositions(body().meshes[1], matrices, bones);
-    std::vector<float> out(bones.size() / kVertexStep, 0);
+    skinPositions(madeBody().meshes[1], matrices, bones);
+    std::vector<float> out(bones.size() / kBoneVertexStep, 0);
     parallelFor(out.size(), 256, [&](std::size_t i) {
-      const vec3 p = bones[i * kVertexStep];
+      const vec3 p = bones[i * kBoneVertexStep];
       if (solid.winding(p) > 0) return;
       if (const auto place = solid.at(p, 0.1f)) out[i] = place->distance;
     });
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (out[i] <= 0) continue;
-      const std::uint16_t joint = body().meshes[1].influences[i * kVertexStep].joints[0];
-      auto& entry = worst[clip.name + ": " + body().skeleton.joints[joint].name];
+      const std::uint16_t joint = madeBody().meshes[1].influences[i * kBoneVertexStep].joints[0];
+      auto& entry = worst[clip.name + ": " + madeBody().skeleton.joints[joint].name];
       if (out[i] > entry[0]) entry = {out[i], float(frame)};
     }
   });
@@ -144,12 +136,12 @@ TEST_CASE("no motion brings a bone out of the skin") {
     if (entry[0] > 0.001f) MESSAGE(place << " " << 1e3f * entry[0] << " mm out in frame " << entry[1]);
   for (const auto& found : worst) {
     CAPTURE(found.first);
-    CHECK(found.second[0] <= allowedOut(found.first));
+    CHECK(found.second[0] <= boneAllowedOut(found.first));
   }
 }
 
 TEST_CASE("the surfaces of a joint are never farther apart than cartilage") {
-  for (const Contact& contact : contacts()) {
+  for (const Meeting& contact : contacts()) {
     CAPTURE(contact.a);
     CAPTURE(contact.b);
     Bone a = boneNamed(contact.a), b = boneNamed(contact.b);

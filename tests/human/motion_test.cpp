@@ -18,12 +18,11 @@ using namespace vasa::human;
 
 namespace {
 
-constexpr std::size_t kFrameStep = 6;
 constexpr float kAllowed = 0.002f;
 
 /// [m] A raised arm's skin is drawn in at the armpit, a bent knee's behind it, a bent elbow's at its inner
 /// side.
-float allowedOut(std::string_view vessel) {
+float vesselAllowedOut(std::string_view vessel) {
   constexpr std::string_view kNearFolds[] = {"axillary vein", "lateral sural artery",
                                              "posterior ulnar recurrent artery"};
   for (const std::string_view name : kNearFolds)
@@ -31,7 +30,7 @@ float allowedOut(std::string_view vessel) {
   return kAllowed;
 }
 
-const Body& madeBody() {
+const Body& savedBody() {
   static const Result<Body> body = [] {
     const auto path = std::filesystem::temp_directory_path() / "vasa_made_human_moving.glb";
     REQUIRE(writeFileAtomically(path, writeGlb(madeHuman().rig, madeHuman().meshes, madeHuman().clips)).ok());
@@ -64,7 +63,7 @@ struct Worst {
 }  // namespace
 
 TEST_CASE("no motion brings a vessel's middle out of the skin by more than 2 mm, beside folds 4.2") {
-  const Body& body = madeBody();
+  const Body& body = savedBody();
   const Network& network = madeHuman().vessels;
   const Result<Binding> binding = bind(body, network, "human.vasa");
   if (!binding.ok()) FAIL(binding.error().message);
@@ -96,7 +95,7 @@ TEST_CASE("no motion brings a vessel's middle out of the skin by more than 2 mm,
         MESSAGE(clip.name << ": " << network.vessels()[std::size_t(vessel)].name << " " << 1e3f * worst.depth
                           << " mm in frame " << worst.frame);
     CHECK(std::none_of(outside.begin(), outside.end(), [&](const auto& o) {
-      return o.second.depth > allowedOut(network.vessels()[std::size_t(o.first)].name);
+      return o.second.depth > vesselAllowedOut(network.vessels()[std::size_t(o.first)].name);
     }));
   }
 }

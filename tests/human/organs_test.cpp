@@ -13,10 +13,9 @@ using namespace vasa::human;
 
 namespace {
 
-constexpr std::size_t kFirst = 5;       // of the organs among the meshes
-constexpr std::size_t kFrameStep = 6;   // of a clip
-constexpr std::size_t kVertexStep = 2;  // looked at for leaving the skin
-constexpr float kOnWall = 4e-3f;        // [m] of the middle of a vessel that runs on a stomach or bowel
+constexpr std::size_t kFirst = 5;            // of the organs among the meshes
+constexpr std::size_t kOrganVertexStep = 2;  // looked at for leaving the skin
+constexpr float kOnWall = 4e-3f;             // [m] of the middle of a vessel that runs on a stomach or bowel
 
 const SkinnedMesh& organ(std::string_view name) {
   const std::vector<SkinnedMesh>& meshes = madeHuman().meshes;
@@ -53,11 +52,6 @@ const char* const kCoronary[] = {"left coronary artery",
                                  "middle cardiac vein",
                                  "small cardiac vein",
                                  "posterior vein of left ventricle"};
-
-const Body& body() {
-  static const Body made = bodyOf(madeHuman().rig, madeHuman().meshes, madeHuman().clips);
-  return made;
-}
 
 /// Longest and shortest edges beside their lengths at rest.
 vec2 stretch(const TriangleMesh& rest, const std::vector<vec3>& posed) {
@@ -162,29 +156,29 @@ TEST_CASE("small vessels grow within the organs they feed") {
 
 TEST_CASE("organs follow the trunk in every motion, untorn and inside the skin") {
   std::vector<vec3> skin, posed;
-  for (const Clip& clip : body().clips) {
+  for (const Clip& clip : madeBody().clips) {
     CAPTURE(clip.name);
     float farthest = 0;
     vec2 range(1, 1);
     std::string which;
     for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
       const std::vector<mat4> matrices = skinMatrices(
-          body().skeleton, samplePose(body().skeleton, clip, float(frame) / clip.framesPerSecond));
-      skinPositions(body().meshes[0], matrices, skin);
-      const TriangleMesh surface{skin, body().meshes[0].mesh.triangles};
+          madeBody().skeleton, samplePose(madeBody().skeleton, clip, float(frame) / clip.framesPerSecond));
+      skinPositions(madeBody().meshes[0], matrices, skin);
+      const TriangleMesh surface{skin, madeBody().meshes[0].mesh.triangles};
       const Solid solid(surface);
-      for (std::size_t m = kFirst; m < body().meshes.size(); ++m) {
-        skinPositions(body().meshes[m], matrices, posed);
-        const vec2 edges = stretch(body().meshes[m].mesh, posed);
+      for (std::size_t m = kFirst; m < madeBody().meshes.size(); ++m) {
+        skinPositions(madeBody().meshes[m], matrices, posed);
+        const vec2 edges = stretch(madeBody().meshes[m].mesh, posed);
         range = {std::min(range.x, edges.x), std::max(range.y, edges.y)};
-        std::vector<float> out(posed.size() / kVertexStep, 0);
+        std::vector<float> out(posed.size() / kOrganVertexStep, 0);
         parallelFor(out.size(), 256, [&](std::size_t i) {
-          const vec3 p = posed[i * kVertexStep];
+          const vec3 p = posed[i * kOrganVertexStep];
           if (solid.winding(p) > 0) return;
           if (const auto place = solid.at(p, 0.1f)) out[i] = place->distance;
         });
         const float most = *std::max_element(out.begin(), out.end());
-        if (most > farthest) farthest = most, which = body().meshes[m].name;
+        if (most > farthest) farthest = most, which = madeBody().meshes[m].name;
       }
     }
     MESSAGE(clip.name << ": edges " << range.x << " to " << range.y << " of rest, " << 1e3f * farthest

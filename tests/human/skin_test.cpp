@@ -15,8 +15,6 @@ using namespace vasa::human;
 
 namespace {
 
-const std::filesystem::path kTables = VASA_HUMAN_TABLES;
-
 /// A closed box of 4 x 4 x 4 patches a side, [-1, 1] each way.
 TriangleMesh box() {
   constexpr int kSteps = 4;

@@ -4,6 +4,7 @@
 #include "core/log.h"
 #include "io/gltf.h"
 #include "io/gltf_builder.h"
+#include "io/reading.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -11,13 +12,6 @@ using namespace vasa::test;
 using nlohmann::json;
 
 namespace {
-
-Body bodyOf(GltfBuilder file) {
-  const TemporaryFolder folder;
-  auto result = readBody(writeBytes(folder.path() / "a.glb", file.glb()));
-  REQUIRE_MESSAGE(result.ok(), (result ? "" : result.error().message));
-  return std::move(result).value();
-}
 
 std::vector<vec3> posed(const Body& body, const SkinnedMesh& mesh, const Pose& pose) {
   std::vector<vec3> positions;

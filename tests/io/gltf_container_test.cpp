@@ -173,8 +173,8 @@ TEST_CASE("data URIs and buffer lengths must agree with the document") {
   CHECK(has(message("short.bin"), "byteLength: is 36, but there are only 3 bytes"));
   GltfBuilder file = triangleFile();
   file.document["buffers"] = {{{"byteLength", 36}}};
-  std::string json = file.document.dump();
+  const std::string text = file.document.dump();
   file.binary.clear();
-  file.document = nlohmann::json::parse(json);
+  file.document = nlohmann::json::parse(text);
   CHECK(has(refusal(writeBytes(folder.path() / "b.glb", file.glb())), "the GLB has no BIN chunk"));
 }

@@ -3,6 +3,7 @@
 #include "core/log.h"
 #include "io/gltf.h"
 #include "io/gltf_builder.h"
+#include "io/reading.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -14,13 +15,6 @@ namespace {
 std::vector<MeshElement> elementsOf(GltfBuilder file) {
   const TemporaryFolder folder;
   auto result = readGltfElements(writeBytes(folder.path() / "a.glb", file.glb()));
-  REQUIRE_MESSAGE(result.ok(), (result ? "" : result.error().message));
-  return std::move(result).value();
-}
-
-Body bodyOf(GltfBuilder file) {
-  const TemporaryFolder folder;
-  auto result = readBody(writeBytes(folder.path() / "a.glb", file.glb()));
   REQUIRE_MESSAGE(result.ok(), (result ? "" : result.error().message));
   return std::move(result).value();
 }

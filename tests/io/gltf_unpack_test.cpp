@@ -9,6 +9,7 @@
 #include "core/log.h"
 #include "io/gltf.h"
 #include "io/gltf_builder.h"
+#include "io/reading.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -60,13 +61,6 @@ GltfBuilder sheetFile() {
       {"POSITION", positions}, {"NORMAL", normals}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}};
   primitive["indices"] = corners;
   return file;
-}
-
-Body bodyOf(GltfBuilder file) {
-  const TemporaryFolder folder;
-  auto result = readBody(writeBytes(folder.path() / "a.glb", file.glb()));
-  REQUIRE_MESSAGE(result.ok(), (result ? "" : result.error().message));
-  return std::move(result).value();
 }
 
 std::string refusal(GltfBuilder file) {

@@ -3,11 +3,14 @@
 #include <doctest/doctest.h>
 
 #include "core/atomic_file.h"
+#include "io/reading.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
 
 namespace {
+
+using test::contains;
 
 struct ObjFile {
   test::TemporaryFolder folder;
@@ -22,8 +25,6 @@ struct ObjFile {
     return read.error().message;
   }
 };
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\n";
 

@@ -8,11 +8,14 @@
 #include <limits>
 
 #include "core/atomic_file.h"
+#include "io/reading.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
 
 namespace {
+
+using test::contains;
 
 struct StlFile {
   test::TemporaryFolder folder;
@@ -27,8 +30,6 @@ struct StlFile {
     return read.error().message;
   }
 };
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 std::string facet(const std::string& a, const std::string& b, const std::string& c) {
   return "facet normal 0 0 1\n outer loop\n  vertex " + a + "\n  vertex " + b + "\n  vertex " + c +

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "io/reading.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -9,15 +10,9 @@ using namespace vasa::test;
 
 namespace {
 
-const ImportFrame kMillimetres{0.001, ImportFrame::Up::y};
-
-void expectFault(const char* text, const char* message) {
-  const auto read = parseSwc(text, "a.swc");
+void expectSwcFault(const char* text, const char* message) {
   INFO(text);
-  REQUIRE(!read.ok());
-  CHECK(read.error().fault == Fault::badInput);
-  INFO(read.error().message);
-  CHECK(read.error().message.find(message) != std::string::npos);
+  expectFault(parseSwc(text, "a.swc"), message);
 }
 
 }  // namespace
@@ -34,7 +29,7 @@ TEST_CASE("SWC of others: a byte order mark, and roots whose parent is 0") {
   const auto oldLines = parseSwc("# made\r1 3 0 0 0 2 -1\r2 3 0 10 0 2 1\r", "a.swc");
   REQUIRE(oldLines.ok());
   CHECK(oldLines->size() == 2);
-  expectFault("1,3,0,0,0,2,-1\n", "with blanks between and decimal points");
+  expectSwcFault("1,3,0,0,0,2,-1\n", "with blanks between and decimal points");
 }
 
 TEST_CASE("an SWC tree: units, comments, a parent further down, a fork") {
@@ -64,19 +59,19 @@ TEST_CASE("a sample without a radius takes its parent's, a root its child's") {
 }
 
 TEST_CASE("what is wrong with an SWC file is told with its line") {
-  expectFault("", "no samples");
-  expectFault("# only this\n", "no samples");
-  expectFault("1 1 0 0 0 1 -1\n2 1 0 0 x 1 1\n", "a.swc:2: the z must be a finite number, found 'x'");
-  expectFault("1 1 0 0 0\n", "a.swc:1: the radius is missing");
-  expectFault("1 1 0 0 0 inf -1\n", "the radius must be a finite number");
-  expectFault("1 1 0 0 0 -0.2 -1\n", "a.swc:1: radius -0.2 must be positive");
-  expectFault("1 1 0 0 0 1 -1\n1 1 0 0 1 1 -1\n", "a.swc:2: id 1 is that of line 1 already");
-  expectFault("1 1 0 0 0 1 7\n", "a.swc:1: parent 7 does not exist");
-  expectFault("1 1 0 0 0 1 2\n2 1 0 0 1 1 1\n", "lead back to itself");
-  expectFault("1 1 0 0 0 1 1\n", "lead back to itself");
-  expectFault("1.5 1 0 0 0 1 -1\n", "the id must be a whole number");
-  expectFault("1 1 1e12 0 0 1 -1\n", "vasa convert --unit");
-  expectFault("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n", "a.swc:1: no sample of the file has a radius above 0");
+  expectSwcFault("", "no samples");
+  expectSwcFault("# only this\n", "no samples");
+  expectSwcFault("1 1 0 0 0 1 -1\n2 1 0 0 x 1 1\n", "a.swc:2: the z must be a finite number, found 'x'");
+  expectSwcFault("1 1 0 0 0\n", "a.swc:1: the radius is missing");
+  expectSwcFault("1 1 0 0 0 inf -1\n", "the radius must be a finite number");
+  expectSwcFault("1 1 0 0 0 -0.2 -1\n", "a.swc:1: radius -0.2 must be positive");
+  expectSwcFault("1 1 0 0 0 1 -1\n1 1 0 0 1 1 -1\n", "a.swc:2: id 1 is that of line 1 already");
+  expectSwcFault("1 1 0 0 0 1 7\n", "a.swc:1: parent 7 does not exist");
+  expectSwcFault("1 1 0 0 0 1 2\n2 1 0 0 1 1 1\n", "lead back to itself");
+  expectSwcFault("1 1 0 0 0 1 1\n", "lead back to itself");
+  expectSwcFault("1.5 1 0 0 0 1 -1\n", "the id must be a whole number");
+  expectSwcFault("1 1 1e12 0 0 1 -1\n", "vasa convert --unit");
+  expectSwcFault("1 1 0 0 0 0 -1\n2 3 0 1 0 0 1\n", "a.swc:1: no sample of the file has a radius above 0");
   CHECK(readSwc("/nowhere/a.swc").error().fault == Fault::io);
 }
 

@@ -21,7 +21,7 @@ Network sample() {
   return std::move(network).value();
 }
 
-std::string messageOf(std::span<const std::byte> bytes) {
+std::string refusalOf(std::span<const std::byte> bytes) {
   const auto network = decodeNetwork(bytes, "x.vasa");
   REQUIRE(!network.ok());
   CHECK(network.error().fault == Fault::badInput);
@@ -86,26 +86,26 @@ TEST_CASE("an empty network survives") {
 TEST_CASE("damage is told from foreign files and other versions") {
   auto bytes = encodeNetwork(sample());
   SUBCASE("foreign") {
-    CHECK(messageOf(std::as_bytes(std::span("hello there"))).find("not a .vasa file") != std::string::npos);
+    CHECK(refusalOf(std::as_bytes(std::span("hello there"))).find("not a .vasa file") != std::string::npos);
   }
-  SUBCASE("nothing") { CHECK(messageOf({}).find("not a .vasa file") != std::string::npos); }
+  SUBCASE("nothing") { CHECK(refusalOf({}).find("not a .vasa file") != std::string::npos); }
   SUBCASE("version") {
     bytes[4] = std::byte(9);
-    CHECK(messageOf(bytes).find("version 9") != std::string::npos);
+    CHECK(refusalOf(bytes).find("version 9") != std::string::npos);
   }
   SUBCASE("cut short") {
     bytes.resize(bytes.size() - 5);
-    CHECK(messageOf(bytes).find("not as many as its header says") != std::string::npos);
+    CHECK(refusalOf(bytes).find("not as many as its header says") != std::string::npos);
   }
   SUBCASE("a flipped bit") {
     bytes[100] ^= std::byte(4);
-    CHECK(messageOf(bytes).find("checksum") != std::string::npos);
+    CHECK(refusalOf(bytes).find("checksum") != std::string::npos);
   }
   SUBCASE("a chunk that runs over the end") {
     bytes[28] = std::byte(0xff);
     bytes[29] = std::byte(0xff);
     sign(bytes);
-    CHECK(messageOf(bytes).find("chunk 'META' at byte 24 is malformed") != std::string::npos);
+    CHECK(refusalOf(bytes).find("chunk 'META' at byte 24 is malformed") != std::string::npos);
   }
 }
 

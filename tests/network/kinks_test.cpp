@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "network/builder.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
@@ -15,9 +15,7 @@ Network lineOf(std::uint32_t count, float radius) {
   for (std::uint32_t k = 0; k < count; ++k) points.emplace_back(0.01f * float(k), 0, 0, radius);
   NetworkBuilder builder;
   builder.addVessel({"line", "", VesselKind::artery}, points);
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
+  return test::built(builder);
 }
 
 // Bent at its middle by more than a right angle, too sharply for its radius.

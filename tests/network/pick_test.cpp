@@ -2,25 +2,19 @@
 
 #include <doctest/doctest.h>
 
-#include "network/builder.h"
+#include "support/networks.h"
 
 using namespace vasa;
 
 namespace {
 
-std::vector<vec4> straight(vec3 from, vec3 to, float radius) {
-  std::vector<vec4> points;
-  for (const float t : {0.0f, 1 / 6.0f, 0.5f, 5 / 6.0f, 1.0f})
-    points.push_back(vec4(glm::mix(from, to, t), radius));
-  return points;
-}
-
 // Two vessels along x, one 0.2 m behind the other as seen from +Z.
 Network twoLines() {
   NetworkBuilder builder;
-  builder.addVessel({"front", "", VesselKind::artery}, straight({0, 0, 0.2f}, {1, 0, 0.2f}, 0.01f));
-  builder.addVessel({"back", "", VesselKind::vein}, straight({0, 0, 0}, {1, 0, 0}, 0.05f));
-  return *builder.build(1);
+  builder.addVessel({"front", "", VesselKind::artery},
+                    test::straightVessel({0, 0, 0.2f}, {1, 0, 0.2f}, 0.01f, 2));
+  builder.addVessel({"back", "", VesselKind::vein}, test::straightVessel({0, 0, 0}, {1, 0, 0}, 0.05f, 2));
+  return test::built(builder);
 }
 
 }  // namespace

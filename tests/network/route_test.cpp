@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "network/builder.h"
 #include "network/measure_profile.h"
 #include "support/networks.h"
 
@@ -10,21 +9,14 @@ using namespace vasa;
 
 namespace {
 
-std::vector<vec4> straight(vec3 from, vec3 to) {
-  std::vector<vec4> points;
-  for (const float t : {0.0f, 1 / 6.0f, 0.5f, 5 / 6.0f, 1.0f})
-    points.push_back(vec4(glm::mix(from, to, t), 0.01f));
-  return points;
-}
-
 // A trunk along x with a branch from its middle, a twig on that one's end, and a vessel apart.
 struct Tree {
   Tree() {
     NetworkBuilder builder;
-    trunk = builder.addVessel({"trunk"}, straight({0, 0, 0}, {1, 0, 0}));
-    branch = builder.addVessel({"branch"}, straight({0.5f, 0, 0}, {0.5f, 0.4f, 0}));
-    twig = builder.addVessel({"twig"}, straight({0.5f, 0.4f, 0}, {0.7f, 0.4f, 0}));
-    apart = builder.addVessel({"apart"}, straight({0, 0, 1}, {1, 0, 1}));
+    trunk = builder.addVessel({"trunk"}, test::straightVessel({0, 0, 0}, {1, 0, 0}, 0.01f, 2));
+    branch = builder.addVessel({"branch"}, test::straightVessel({0.5f, 0, 0}, {0.5f, 0.4f, 0}, 0.01f, 2));
+    twig = builder.addVessel({"twig"}, test::straightVessel({0.5f, 0.4f, 0}, {0.7f, 0.4f, 0}, 0.01f, 2));
+    apart = builder.addVessel({"apart"}, test::straightVessel({0, 0, 1}, {1, 0, 1}, 0.01f, 2));
     builder.joinToSide({branch, false}, {trunk, 1});
     builder.joinEnds({{branch, true}, {twig, false}});
     network = *builder.build(1);

@@ -1,19 +1,6 @@
 #include "network/sample_network.h"
 
-#include <algorithm>
-
 namespace vasa::test {
-
-std::vector<vec4> straightVessel(vec3 from, vec3 to, float radius, std::uint32_t spans) {
-  std::vector<vec4> points;
-  // Greville abscissae make the curve run along the line at constant speed.
-  for (std::uint32_t i = 0; i < spans + 3; ++i) {
-    const auto knot = [&](int k) { return float(std::clamp(k, 0, int(spans))); };
-    const float u = (knot(int(i) - 2) + knot(int(i) - 1) + knot(int(i))) / 3;
-    points.push_back(vec4(glm::mix(from, to, u / float(spans)), radius));
-  }
-  return points;
-}
 
 NetworkBuilder sampleBuilder() {
   NetworkBuilder builder;

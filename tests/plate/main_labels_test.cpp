@@ -110,7 +110,8 @@ TEST_CASE("pages label what textbooks name first") {
        {"Dorsal artery of foot", "Dorsal metatarsal arteries", "Arcuate artery", "Plantar arch",
         "Plantar digital arteries", "Dorsal venous arch of foot", "Medial plantar artery",
         "Lateral plantar artery"}}};
-  for (const auto& [page, wanted] : textbook) {
+  for (const auto& [name, wanted] : textbook) {
+    const std::string page = name;
     const auto labels = labelsOn(page);
     for (const char* vessel : wanted)
       CHECK_MESSAGE(std::ranges::count(labels, vessel) == 1, page << ": " << vessel);

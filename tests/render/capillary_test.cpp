@@ -3,10 +3,10 @@
 #include <bit>
 #include <set>
 
-#include "core/hash.h"
 #include "gpu/gpu_rig.h"
 #include "growth/ribbon.h"
 #include "render/capillary_pass.h"
+#include "render/picture.h"
 #include "render/renderer.h"
 #include "support/growth.h"
 #include "support/meshes.h"
@@ -17,6 +17,9 @@
 using namespace vasa;
 
 namespace {
+
+using test::covered;
+using test::hashOfPicture;
 
 Camera lookingAt(const test::GrownNetwork& grown, float distance, bool perspective) {
   Camera camera;
@@ -29,7 +32,7 @@ Camera lookingAt(const test::GrownNetwork& grown, float distance, bool perspecti
 
 constexpr gpu::TargetSpec kTarget{.size = {333, 222}, .samples = VK_SAMPLE_COUNT_1_BIT};
 
-struct Difference {
+struct RibbonDifference {
   float place = 0;   // in the picture's half widths
   int colour = 0;    // of 255
   float across = 0;  // [rad], times the sine between curve and sight
@@ -52,8 +55,8 @@ float sineToSight(const Capillary& capillary, const shared::GrowthView& view, fl
   return glm::length(glm::cross(glm::normalize(along), glm::normalize(toEye)));
 }
 
-void compare(Difference& worst, const shared::CapillaryVertex& found, const shared::CapillaryVertex& wanted,
-             float sine) {
+void compare(RibbonDifference& worst, const shared::CapillaryVertex& found,
+             const shared::CapillaryVertex& wanted, float sine) {
   const float place = glm::distance(found.clip, wanted.clip) / std::max(std::abs(wanted.clip.w), 0.05f);
   worst.place = std::max(worst.place, std::isfinite(place) ? place : 1e9f);
   worst.colour = std::max(worst.colour, byteDifference(found.colour, wanted.colour));
@@ -65,8 +68,9 @@ void compare(Difference& worst, const shared::CapillaryVertex& found, const shar
 }
 
 // Every curve of every batch of a plan, as the device grows it and as the specification does.
-Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::GrownNetwork& grown,
-                                      const Camera& camera, const CapillaryWish& wish, std::uint32_t seed) {
+RibbonDifference deviceAgainstSpecification(const test::GpuRig& rig, const test::GrownNetwork& grown,
+                                            const Camera& camera, const CapillaryWish& wish,
+                                            std::uint32_t seed) {
   const TubeSet tubes(rig.device(), grown.network, {.shape = {3, 2}}, 100);
   CapillaryPass pass(rig.device(), kTarget, tubes, grown.rules, grown.beds, wish);
   const gpu::Buffer points = rig.upload(grown.points), knots = rig.upload(grown.frames);
@@ -75,7 +79,7 @@ Difference deviceAgainstSpecification(const test::GpuRig& rig, const test::Grown
   pass.setSpanColours(rig.device(), kindColours(grown.network));
   const PosedNetwork posed = grown.posed();
   const GrowthScene scene = grown.scene(posed, seed);
-  Difference worst;
+  RibbonDifference worst;
   for (std::size_t b = 0; b < pass.batches(); ++b) {
     rig.run([&](VkCommandBuffer commands) {
       pass.recordUpload(commands);
@@ -138,14 +142,6 @@ Picture pictureOf(const test::GpuRig& rig, const test::GrownNetwork& grown, cons
   return {renderer.readBack(), renderer.capillaryCounts()};
 }
 
-std::uint64_t hashOfPicture(const Image& image) { return hashOf(std::span<const std::uint8_t>(image.rgba)); }
-
-std::size_t covered(const Image& image) {
-  std::size_t count = 0;
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) count += image.rgba[i] > 0;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("the device grows what the specification says: generations, edges, seeds, both projections") {
@@ -163,7 +159,7 @@ TEST_CASE("the device grows what the specification says: generations, edges, see
     CAPTURE(c.edges);
     const CapillaryWish wish{
         .levels = c.levels, .edges = c.edges, .budget = 4'000'000, .smallest = c.smallest};
-    const Difference worst =
+    const RibbonDifference worst =
         deviceAgainstSpecification(rig, grown, lookingAt(grown, c.distance, c.perspective), wish, c.seed);
     CHECK(worst.threads == (c.edges ? 0 : worst.curves));
     CHECK((worst.sparse > 0) == (c.smallest > 0.01f));

@@ -2,6 +2,7 @@
 
 #include "drawn_surface.h"
 #include "real_poses.h"
+#include "support/frames.h"
 #include "support/networks.h"
 #include "support/shared_data.h"
 #include "surface/fork_check.h"
@@ -15,8 +16,7 @@ TEST_CASE("the drawn surface of branching networks is closed, at fixed and at au
   VASA_REQUIRE_GPU(rig);
   const Network network = test::branchingNetwork(71, 12);
   const std::vector<vec4> points(network.points().begin(), network.points().end());
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, points, restReferences(network), frames);
+  const std::vector<quat> frames = test::framesOf(network, points);
   for (const TubeDetail& detail :
        {TubeDetail{{3, 2}, 0}, TubeDetail{{8, 5}, 0}, TubeDetail{{16, 20}, 0}, TubeDetail{{}, 0.02f}}) {
     CAPTURE(detail.shape.around);

@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "core/hash.h"
 #include "gpu/gpu_rig.h"
+#include "render/picture.h"
 
 using namespace vasa;
 
@@ -16,8 +16,6 @@ unsigned frames(unsigned usual) {
   const char* times = std::getenv("VASA_FRAMES_TIMES");
   return usual * (times ? unsigned(std::max(1, std::atoi(times))) : 1);
 }
-
-std::uint64_t hashOfPicture(const Image& image) { return hashOf(std::span<const std::uint8_t>(image.rgba)); }
 
 }  // namespace
 
@@ -30,8 +28,8 @@ TEST_CASE("a hundred frames with everything switched on, without a word from the
   for (unsigned i = 0; i < count; ++i) {
     const unsigned pose = i % (count - 1);  // the last one is the first one again
     renderer.draw(scene.turned(0.02f * float(pose), pose));
-    if (i == 0) first = hashOfPicture(renderer.readBack());
-    if (i + 1 == count) last = hashOfPicture(renderer.readBack());
+    if (i == 0) first = test::hashOfPicture(renderer.readBack());
+    if (i + 1 == count) last = test::hashOfPicture(renderer.readBack());
   }
   CHECK(first == last);
 }

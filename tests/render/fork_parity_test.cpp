@@ -5,6 +5,7 @@
 #include <map>
 
 #include "drawn_surface.h"
+#include "support/frames.h"
 #include "support/networks.h"
 #include "surface/detail.h"
 #include "surface/fork_check.h"
@@ -20,16 +21,6 @@ using namespace vasa;
 namespace {
 
 using test::Forks;
-
-std::vector<vec4> restPoints(const Network& network) {
-  return {network.points().begin(), network.points().end()};
-}
-
-std::vector<quat> framesOf(const Network& network, std::span<const vec4> points) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, points, restReferences(network), frames);
-  return frames;
-}
 
 void checkAgainstReference(const Forks& passes) {
   float position = 0, normal = 0;
@@ -104,7 +95,7 @@ TEST_CASE("forks on the device are those of the reference, and meet the tubes bi
   for (const TubeDetail& detail : {TubeDetail{{3, 2}, 0}, TubeDetail{{4, 5}, 0}, TubeDetail{{7, 3}, 0},
                                    TubeDetail{{8, 20}, 0}, TubeDetail{{16, 2}, 0}, TubeDetail{{}, 0.02f}}) {
     CAPTURE(detail.shape.around);
-    const Forks passes(rig, network, restPoints(network), framesOf(network, restPoints(network)), detail);
+    const Forks passes(rig, network, test::restPoints(network), test::framesOf(network), detail);
     REQUIRE(!passes.tubes.table().forks.empty());
     checkAgainstReference(passes);
     checkSeams(passes);
@@ -114,14 +105,14 @@ TEST_CASE("forks on the device are those of the reference, and meet the tubes bi
 TEST_CASE("forks of bent networks keep to the reference and to their seams") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::branchingNetwork(64, 8);
-  std::vector<vec4> points = restPoints(network);
+  std::vector<vec4> points = test::restPoints(network);
   for (vec4& p : points) {
     const float angle = 6 * p.y;  // twisted about the upright axis
     const vec2 c(std::cos(angle), std::sin(angle));
     p = vec4(c.x * p.x - c.y * p.z, p.y, c.y * p.x + c.x * p.z, p.w);
   }
   pinEnds(network, points);
-  const Forks passes(rig, network, points, framesOf(network, points), {{8, 5}, 0});
+  const Forks passes(rig, network, points, test::framesOf(network, points), {{8, 5}, 0});
   checkAgainstReference(passes);
   checkSeams(passes);
 }
@@ -129,10 +120,10 @@ TEST_CASE("forks of bent networks keep to the reference and to their seams") {
 TEST_CASE("forks that waves fold are smoothed, and some turned into stumps, as in the reference") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::branchingNetwork(61, 4);
-  std::vector<vec4> points = restPoints(network);
+  std::vector<vec4> points = test::restPoints(network);
   for (vec4& p : points) p += 0.010f * vec4(std::sin(200 * p.y), std::sin(200 * p.z), std::sin(200 * p.x), 0);
   pinEnds(network, points);
-  const Forks passes(rig, network, points, framesOf(network, points), {{8, 5}, 0});
+  const Forks passes(rig, network, points, test::framesOf(network, points), {{8, 5}, 0});
   std::uint32_t folded = 0, stumps = 0;
   for (const shared::ForkRecord& fork : passes.tubes.table().forks) {
     folded += foldedTriangles(passes.posed(), fork, 8, ForkForm::bare) > 0;

@@ -7,6 +7,7 @@
 #include "network/measure.h"
 #include "render/occlusion_pass.h"
 #include "render/surface_pass.h"
+#include "support/frames.h"
 #include "support/networks.h"
 
 using namespace vasa;
@@ -78,8 +79,7 @@ TEST_CASE(
     "the passes find what the CPU reference does, for one and four samples, perspective and orthographic") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::windingNetwork(40, 9);
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
+  const std::vector<quat> frames = test::framesOf(network);
   for (const float orthographic : {0.0f, 1.3f})
     for (const VkSampleCountFlagBits samples : {VK_SAMPLE_COUNT_1_BIT, VK_SAMPLE_COUNT_4_BIT}) {
       const gpu::Target target(

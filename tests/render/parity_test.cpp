@@ -13,6 +13,7 @@
 #include "render/skin_pass.h"
 #include "render/tube_pass.h"
 #include "shared/sweep.h"
+#include "support/frames.h"
 #include "support/networks.h"
 #include "surface/detail.h"
 #include "surface/octahedral.h"
@@ -44,16 +45,6 @@ void compare(Difference& worst, std::span<const shared::TubeVertex> found,
   worst.vertices += found.size();
 }
 
-std::vector<quat> framesOf(const Network& network, std::span<const vec4> points) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, points, restReferences(network), frames);
-  return frames;
-}
-
-std::vector<vec4> restPoints(const Network& network) {
-  return {network.points().begin(), network.points().end()};
-}
-
 Camera cameraAt(vec3 position, float orthographic = 0) {
   Camera camera;
   camera.position = position;
@@ -71,7 +62,7 @@ struct Tubes {
       : rig(used),
         samples(samplesOfPixel),
         points(std::move(posed)),
-        frames(framesOf(network, points)),
+        frames(test::framesOf(network, points)),
         set(rig.device(), network, detail, 1u << 20),
         forks(rig.device(), set.table(), detail, 1u << 20),
         detailPass(rig.device(), set),
@@ -244,7 +235,7 @@ TEST_CASE("tubes are what the CPU reference says, at all extremes of m and n") {
                                  SweepShape{8, 10}, SweepShape{16, 2}, SweepShape{16, 20}}) {
     CAPTURE(shape.around);
     CAPTURE(shape.along);
-    const Tubes tubes(rig, network, restPoints(network), {shape, 0});
+    const Tubes tubes(rig, network, test::restPoints(network), {shape, 0});
     const Outcome outcome = passAgainstReference(tubes, tubes.view(cameraAt({0, 0.5f, 9})), false);
     CHECK(outcome.triangles == tubes.set.triangleCount());
     CHECK(outcome.drawn == outcome.triangles);
@@ -258,7 +249,7 @@ TEST_CASE("one sweep, and one more than a workgroup takes") {
   VASA_REQUIRE_GPU(rig);
   for (const std::uint32_t spans : {1u, 2u, 21u, 64u, 65u}) {
     const Network network = test::straightVessel(0.5f, 0.02f, 0.004f, spans);
-    const Tubes tubes(rig, network, restPoints(network), {{5, 2}, 0});
+    const Tubes tubes(rig, network, test::restPoints(network), {{5, 2}, 0});
     const Outcome outcome = passAgainstReference(tubes, tubes.view(cameraAt({2, 0.5f, 1})), false);
     CHECK(outcome.triangles == 10 * (2 * spans + 6));
     CHECK(outcome.wrong == 0);
@@ -273,7 +264,7 @@ TEST_CASE("m, n and what is left out are what the CPU reference says, from near 
   std::size_t drawn = 0, wrong = 0;
   for (const float tolerance : {0.2f, 0.8f})
     for (const std::uint32_t samples : {1u, 4u}) {
-      const Tubes tubes(rig, network, restPoints(network), {{}, tolerance}, samples);
+      const Tubes tubes(rig, network, test::restPoints(network), {{}, tolerance}, samples);
       for (const Camera& camera :
            {cameraAt({0, 0.5f, 3}), cameraAt({0.3f, 0.5f, 0.4f}), cameraAt({0.05f, 0.45f, 0.1f}),
             cameraAt({1, 2, -1}, 1.5f), cameraAt({0, 9, 0.1f}, 0.2f)}) {
@@ -336,7 +327,7 @@ TEST_CASE("skinning on the device is that of the body's") {
 TEST_CASE("degenerate curves: points that coincide, hairpins, a radius that falls steeply") {
   VASA_REQUIRE_GPU(rig);
   const Network network = test::windingNetwork(23, 4);
-  std::vector<vec4> points = restPoints(network);
+  std::vector<vec4> points = test::restPoints(network);
   std::mt19937 engine(5);
   for (const Vessel& vessel : network.vessels()) {
     const std::span<vec4> own = Network::pointsOf(vessel, std::span(points));

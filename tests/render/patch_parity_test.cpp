@@ -7,6 +7,7 @@
 
 #include "convert/forked_source.h"
 #include "drawn_surface.h"
+#include "support/frames.h"
 #include "surface/octahedral.h"
 #include "surface/patch_smooth.h"
 #include "surface/visible.h"
@@ -23,7 +24,7 @@ namespace {
 using test::Forks;
 
 // @param apart, turned  [m], of a unit normal; an octahedral normal alone is off by 1e-4
-void checkAgainstReference(const Forks& passes, float apart = 1e-6f, float turned = 2e-4f) {
+void checkPatchesAgainstReference(const Forks& passes, float apart = 1e-6f, float turned = 2e-4f) {
   const PatchTable& table = passes.tubes.table().patches;
   float position = 0, normal = 0;
   const auto compare = [&](std::uint32_t vertex, const SurfacePoint& wanted) {
@@ -55,20 +56,20 @@ void checkAgainstReference(const Forks& passes, float apart = 1e-6f, float turne
   CHECK(normal <= turned);
 }
 
-using Corners = std::array<std::uint32_t, 3>;
+using CornerIndices = std::array<std::uint32_t, 3>;
 
 // Triangles that the rule of surface/visible.h lets be seen, of all that are drawn otherwise.
-std::vector<Corners> seenOf(const test::Drawn& whole, const shared::DetailView& view) {
+std::vector<CornerIndices> seenOf(const test::Drawn& whole, const shared::DetailView& view) {
   const auto placeOf = [&](std::uint32_t vertex) {
     const shared::TubeVertex& v = whole.vertices[vertex];
     const vec4 q(v.x, v.y, v.z, 1);
     if (glm::dot(view.planes[4], q) < 0) return vec2(shared::kBehind);
     return vec2(glm::dot(view.picture[0], q), glm::dot(view.picture[1], q)) / glm::dot(view.picture[2], q);
   };
-  std::vector<Corners> seen;
+  std::vector<CornerIndices> seen;
   for (const shared::DrawCommand& draw : whole.draws)
     for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
-      const Corners t{whole.indices[i], whole.indices[i + 1], whole.indices[i + 2]};
+      const CornerIndices t{whole.indices[i], whole.indices[i + 1], whole.indices[i + 2]};
       const vec2 a = placeOf(t[0]), b = placeOf(t[1]), c = placeOf(t[2]);
       if (t[0] != t[1] && (seenOfQuad(a, b, c, c, {{view.columns, view.rows}, view.snap}) & 1))
         seen.push_back(t);
@@ -76,8 +77,8 @@ std::vector<Corners> seenOf(const test::Drawn& whole, const shared::DetailView& 
   return seen;
 }
 
-std::vector<Corners> drawnOf(const test::Drawn& drawn) {
-  std::vector<Corners> triangles;
+std::vector<CornerIndices> drawnOf(const test::Drawn& drawn) {
+  std::vector<CornerIndices> triangles;
   for (const shared::DrawCommand& draw : drawn.draws)
     for (std::uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3)
       triangles.push_back({drawn.indices[i], drawn.indices[i + 1], drawn.indices[i + 2]});
@@ -91,8 +92,7 @@ TEST_CASE(
   VASA_REQUIRE_GPU(rig);
   const test::Forked made = test::forked();
   const std::vector<vec4> points(made.network.points().begin(), made.network.points().end());
-  std::vector<quat> frames(made.network.sectionCount());
-  networkFrames(made.network, points, restReferences(made.network), frames);
+  const std::vector<quat> frames = test::framesOf(made.network, points);
   const TubeDetail detail{{7, 3}, 0};
   const Forks passes(rig, made.network, points, frames, detail);
   const std::size_t all = drawnOf(passes.patchesDrawn).size();
@@ -109,12 +109,12 @@ TEST_CASE(
       passes.patchPass.record(commands, {passes.tubes, passes.patches, passes.detailPass,
                                          pointBuffer.address(), knotBuffer.address(), true});
     });
-    const std::vector<Corners> found = drawnOf(passes.download(passes.patches.draws()));
-    const std::vector<Corners> wanted = seenOf(passes.patchesDrawn, view);
+    const std::vector<CornerIndices> found = drawnOf(passes.download(passes.patches.draws()));
+    const std::vector<CornerIndices> wanted = seenOf(passes.patchesDrawn, view);
     CAPTURE(from.z);
     CHECK(found.size() < all / 2);
     drawn += found.size();
-    std::vector<Corners> different;
+    std::vector<CornerIndices> different;
     std::ranges::set_symmetric_difference(std::set(found.begin(), found.end()),
                                           std::set(wanted.begin(), wanted.end()),
                                           std::back_inserter(different));
@@ -144,7 +144,7 @@ TEST_CASE("patches on the device are those of the reference and close the surfac
       CAPTURE(bend);
       CAPTURE(detail.shape.around);
       const Forks passes(rig, made.network, points, frames, detail);
-      checkAgainstReference(passes);
+      checkPatchesAgainstReference(passes);
       CHECK(test::openEdgesDrawn(passes) == 0);
     }
   }
@@ -156,8 +156,7 @@ TEST_CASE(
   const test::Forked made = test::forked();
   for (const float bend : {20.0f, 45.0f, 80.0f}) {
     const std::vector<vec4> points = test::deepBend(made.network, bend);
-    std::vector<quat> frames(made.network.sectionCount());
-    networkFrames(made.network, points, restReferences(made.network), frames);
+    const std::vector<quat> frames = test::framesOf(made.network, points);
     for (const TubeDetail& detail : {TubeDetail{{8, 5}, 0}, TubeDetail{{16, 4}, 0}}) {
       CAPTURE(bend);
       CAPTURE(detail.shape.around);
@@ -169,7 +168,7 @@ TEST_CASE(
       CHECK(std::ranges::any_of(table.patches,
                                 [&](const auto& patch) { return patchSmoothing(table, patch, joints) > 0; }));
       // Smoothing carries rounding on, and places this far apart turn a triangle of some millimetres by more.
-      checkAgainstReference(passes, rig.device().isCpu() ? 2e-5f : 4e-5f, 1e-3f);
+      checkPatchesAgainstReference(passes, rig.device().isCpu() ? 2e-5f : 4e-5f, 1e-3f);
       CHECK(test::openEdgesDrawn(passes) == 0);
     }
   }

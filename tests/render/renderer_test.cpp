@@ -7,15 +7,19 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/hash.h"
 #include "gpu/gpu_rig.h"
 #include "network/measure.h"
+#include "render/picture.h"
+#include "support/frames.h"
 #include "support/meshes.h"
 #include "support/networks.h"
 
 using namespace vasa;
 
 namespace {
+
+using test::covered;
+using test::hashOfPicture;
 
 using Pixel = std::array<int, 4>;
 
@@ -24,14 +28,10 @@ Pixel at(const Image& image, std::uint32_t x, std::uint32_t y) {
   return {p[0], p[1], p[2], p[3]};
 }
 
-std::uint64_t hashOfPicture(const Image& image) { return hashOf(std::span<const std::uint8_t>(image.rgba)); }
-
 // Everything that a RenderInput points at.
-struct Subject {
-  explicit Subject(Network chosen) : network(std::move(chosen)), frames(network.sectionCount()) {
-    points.assign(network.points().begin(), network.points().end());
-    networkFrames(network, points, restReferences(network), frames);
-  }
+struct RenderSubject {
+  explicit RenderSubject(Network chosen)
+      : network(std::move(chosen)), points(test::restPoints(network)), frames(test::framesOf(network)) {}
   RenderInput input(const Camera& camera) const { return {points, frames, joints, camera, {}}; }
 
   Network network;
@@ -59,7 +59,7 @@ struct LoneBone {
     return input;
   }
 
-  Subject subject{test::straightVessel(1, 0.001f, 0.001f, 1)};
+  RenderSubject subject{test::straightVessel(1, 0.001f, 0.001f, 1)};
   std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
 };
 
@@ -73,17 +73,11 @@ RenderOptions small(std::uint32_t samples = 1) {
   return options;
 }
 
-std::size_t covered(const Image& image) {
-  std::size_t count = 0;
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) count += image.rgba[i] > 0;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("a tube is where it should be, red, and closed at its ends") {
   VASA_REQUIRE_GPU(rig);
-  const Subject subject(test::straightVessel(1, 0.1f, 0.1f, 5));
+  const RenderSubject subject(test::straightVessel(1, 0.1f, 0.1f, 5));
   Renderer renderer(rig.device(), subject.network, {}, small());
   RenderInput input = subject.input(sideView());
   input.look.transparent = true;
@@ -107,7 +101,7 @@ TEST_CASE("a tube is where it should be, red, and closed at its ends") {
 
 TEST_CASE("the background is the look's colour, sRGB as given") {
   VASA_REQUIRE_GPU(rig);
-  const Subject subject(test::straightVessel(1, 0.1f, 0.1f, 1));
+  const RenderSubject subject(test::straightVessel(1, 0.1f, 0.1f, 1));
   Renderer renderer(rig.device(), subject.network, {}, small(4));
   RenderInput input = subject.input(sideView());
   input.look.background = {0.2f, 0.4f, 0.8f, 0.5f};
@@ -121,7 +115,7 @@ TEST_CASE("the background is the look's colour, sRGB as given") {
 
 TEST_CASE("kinds and single sweeps can be hidden and coloured, caps with them") {
   VASA_REQUIRE_GPU(rig);
-  const Subject subject(test::straightVessel(1, 0.1f, 0.1f, 2));
+  const RenderSubject subject(test::straightVessel(1, 0.1f, 0.1f, 2));
   Renderer renderer(rig.device(), subject.network, {}, small());
   RenderInput input = subject.input(sideView());
   input.look.transparent = true;
@@ -143,7 +137,7 @@ TEST_CASE("kinds and single sweeps can be hidden and coloured, caps with them") 
 
 TEST_CASE("skin lets what lies behind it show through") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::straightVessel(1, 0.1f, 0.1f, 2));
+  RenderSubject subject(test::straightVessel(1, 0.1f, 0.1f, 2));
   const std::vector<SkinnedMesh> meshes{test::boxMesh("skin", {-0.3f, -0.3f, 0}, {0.3f, 0.3f, 1})};
   subject.joints = {mat4(1)};
   Renderer renderer(rig.device(), subject.network, meshes, small());
@@ -169,7 +163,7 @@ TEST_CASE("skin lets what lies behind it show through") {
 
 TEST_CASE("joints move meshes") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  RenderSubject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
   const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.1f, -0.1f, 0.4f}, {0.1f, 0.1f, 0.6f})};
   Renderer renderer(rig.device(), subject.network, meshes, small());
   subject.joints = {glm::translate(mat4(1), vec3(0, 0.5f, 0))};
@@ -183,7 +177,7 @@ TEST_CASE("joints move meshes") {
 
 TEST_CASE("a supersampled picture is the mean of its pixels, in linear light") {
   VASA_REQUIRE_GPU(rig);
-  const Subject subject(test::windingNetwork(20, 2));
+  const RenderSubject subject(test::windingNetwork(20, 2));
   const Camera camera = cameraFrom(View::front, measure(subject.network, subject.points).bounds, 1);
   RenderOptions options = small();
   options.width = options.height = 40;
@@ -207,7 +201,7 @@ TEST_CASE("a supersampled picture is the mean of its pixels, in linear light") {
 
 TEST_CASE("a beating heart is smaller, and nothing else is") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  RenderSubject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
   const std::vector<SkinnedMesh> meshes{test::boxMesh("bones", {-0.3f, -0.3f, 0.8f}, {0.3f, 0.3f, 1}),
                                         test::boxMesh("heart", {-0.1f, -0.2f, 0.2f}, {0.1f, 0.2f, 0.6f})};
   subject.joints = {mat4(1)};
@@ -230,7 +224,7 @@ TEST_CASE("a beating heart is smaller, and nothing else is") {
 TEST_CASE(
     "an organ is seen through another, whichever comes first in the file; what is keep-out is never drawn") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
+  RenderSubject subject(test::straightVessel(1, 0.001f, 0.001f, 1));
   subject.joints = {mat4(1)};
   const auto picture = [&](const std::vector<SkinnedMesh>& meshes) {
     Renderer renderer(rig.device(), subject.network, meshes, small());
@@ -300,7 +294,7 @@ TEST_CASE("a translucent bone covers its share of the samples, the same ones eve
 
 TEST_CASE("a picture depends on its input alone: not on its templates, nor on frames before it") {
   VASA_REQUIRE_GPU(rig);
-  Subject subject(test::windingNetwork(40, 9));
+  RenderSubject subject(test::windingNetwork(40, 9));
   const std::vector<SkinnedMesh> meshes{test::boxMesh("skin", {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f})};
   subject.joints = {mat4(1)};
   const Camera front = cameraFrom(View::front, measure(subject.network, subject.points).bounds, 1);
@@ -323,7 +317,7 @@ TEST_CASE("a picture depends on its input alone: not on its templates, nor on fr
 TEST_CASE(
     "a picture after others of other sizes is that of a renderer made for its size, ambient occlusion and all") {
   VASA_REQUIRE_GPU(rig);
-  const Subject subject(test::branchingNetwork(6, 3));
+  const RenderSubject subject(test::branchingNetwork(6, 3));
   for (const std::uint32_t samples : {1u, 4u}) {
     RenderOptions options = small(samples);
     options.occlusion = true;
@@ -343,7 +337,7 @@ TEST_CASE(
 
 TEST_CASE("leaving out what cannot be seen changes no pixel") {
   VASA_REQUIRE_GPU(rig);
-  const Subject subject(test::windingNetwork(60, 5));
+  const RenderSubject subject(test::windingNetwork(60, 5));
   Camera far, near, inside, flat;
   far.position = {0.3f, 0.6f, 4};
   near.position = {0.5f, 0.6f, 0.6f};
@@ -370,7 +364,7 @@ TEST_CASE("leaving out what cannot be seen changes no pixel") {
 TEST_CASE("a timed frame tells each stage's time and shows the same picture") {
   VASA_REQUIRE_GPU(rig);
   if (rig.device().timestampBits() == 0) return;
-  const Subject subject(test::windingNetwork(40, 9));
+  const RenderSubject subject(test::windingNetwork(40, 9));
   RenderOptions options = small(4);
   options.templateBytes = 1;
   const Camera camera = cameraFrom(View::front, measure(subject.network, subject.points).bounds, 1);

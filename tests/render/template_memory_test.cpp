@@ -1,10 +1,11 @@
 #include <doctest/doctest.h>
 
-#include "core/hash.h"
 #include "gpu/gpu_rig.h"
 #include "network/measure.h"
 #include "render/drawn_memory.h"
+#include "render/picture.h"
 #include "render/renderer.h"
+#include "support/frames.h"
 #include "support/networks.h"
 
 // A template is used again and again: what tubes, caps and forks take of the device does not depend on how
@@ -24,8 +25,7 @@ struct DrawnFrame {
 // Two frames of a network that is all in view, from far and from near: the device's memory that their draws
 // read.
 DrawnFrame drawn(const test::GpuRig& rig, const Network& network, const RenderOptions& options) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
+  const std::vector<quat> frames = test::framesOf(network);
   const RenderInput far{.points = network.points(),
                         .knotFrames = frames,
                         .jointMatrices = {},
@@ -39,7 +39,7 @@ DrawnFrame drawn(const test::GpuRig& rig, const Network& network, const RenderOp
   renderer.draw(near);
   renderer.draw(far);
   frame.triangles = renderer.drawnTriangleCount();
-  frame.picture = hashOf(std::span<const std::uint8_t>(renderer.readBack().rgba));
+  frame.picture = test::hashOfPicture(renderer.readBack());
   const test::DrawnMemory memory = test::drawnMemory();
   frame.bytes = memory.bytes;
   CHECK(memory.buffers > 0);

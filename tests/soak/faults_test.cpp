@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -42,11 +41,6 @@ struct Called {
   unsigned calls = 0;
   std::vector<VkResult> results;
 };
-
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;

@@ -1,18 +1,11 @@
 #include "support/networks.h"
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 
-#include "network/builder.h"
-
 namespace vasa::test {
 namespace {
-
-Network built(const NetworkBuilder& builder) {
-  Result<Network> network = builder.build(1.0f);
-  if (!network) throw std::logic_error(network.error().message);
-  return std::move(*network);
-}
 
 // Of calls among the arguments of another the order is a compiler's own: braces, and names of their own, keep
 // it, so that every compiler makes the same networks.
@@ -119,6 +112,23 @@ Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed) {
     builder.joinEnds(ends);
   }
   return built(builder);
+}
+
+Network built(const NetworkBuilder& builder) {
+  Result<Network> network = builder.build(1.0f);
+  if (!network) throw std::logic_error(network.error().message);
+  return std::move(*network);
+}
+
+std::vector<vec4> straightVessel(vec3 from, vec3 to, float radius, std::uint32_t spans) {
+  std::vector<vec4> points;
+  // Greville abscissae make the curve run along the line at constant speed.
+  for (std::uint32_t i = 0; i < spans + 3; ++i) {
+    const auto knot = [&](int k) { return float(std::clamp(k, 0, int(spans))); };
+    const float u = (knot(int(i) - 2) + knot(int(i) - 1) + knot(int(i))) / 3;
+    points.push_back(vec4(glm::mix(from, to, u / float(spans)), radius));
+  }
+  return points;
 }
 
 Network straightVessel(float length, float r0, float r1, std::uint32_t spans) {

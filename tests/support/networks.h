@@ -1,5 +1,5 @@
 #pragma once
-#include "network/network.h"
+#include "network/builder.h"
 
 namespace vasa::test {
 
@@ -11,6 +11,17 @@ Network windingNetwork(std::uint32_t vessels, std::uint32_t seed);
 /// Seeded trees of vessels that branch as bodies' do: side branches at all angles and sizes, forks in two and
 /// three, vessels joined end to end, several branches at one place. Every third vessel is a trunk.
 Network branchingNetwork(std::uint32_t vessels, std::uint32_t seed);
+
+/// What a builder was told, as a network of a body of 1 m.
+Network built(const NetworkBuilder& builder);
+
+/// A copy of its points, to be moved.
+inline std::vector<vec4> restPoints(const Network& network) {
+  return {network.points().begin(), network.points().end()};
+}
+
+/// de Boor points of a straight vessel with equal spacing.
+std::vector<vec4> straightVessel(vec3 from, vec3 to, float radius, std::uint32_t spans);
 
 /// One straight vessel from (0, 0, 0) to (0, 0, length) whose radius runs from r0 to r1.
 Network straightVessel(float length, float r0, float r1, std::uint32_t spans);

@@ -1,8 +1,8 @@
 #include "support/shared_data.h"
 
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
-#include <string>
 
 namespace vasa::test {
 
@@ -16,6 +16,17 @@ std::optional<std::filesystem::path> sharedData() {
 }
 
 std::filesystem::path sourceDirectory() { return VASA_SOURCE_DIR; }
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) files.push_back(file.path());
+  return files;
+}
 
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "vasa-test-XXXXXX").string();

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace vasa::test {
 
@@ -9,6 +11,12 @@ std::optional<std::filesystem::path> sharedData();
 
 /// The project's own root.
 std::filesystem::path sourceDirectory();
+
+/// All bytes of a file, none where it cannot be read.
+std::string contentOf(const std::filesystem::path& file);
+
+/// What a folder holds, in no order.
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder);
 
 /// A fresh, empty folder for one test's files, removed when the object goes.
 class TemporaryFolder {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "support/frames.h"
 #include "support/networks.h"
 
 using namespace vasa;
@@ -85,8 +86,7 @@ TEST_CASE("the bend's height bounds how far an arc is from its chords") {
 TEST_CASE("m is the same for all sweeps of a vessel, fixed quads stay as they are") {
   const Network network = test::windingNetwork(20, 3);
   const SweepTable table = makeSweepTable(network);
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
+  const std::vector<quat> frames = test::framesOf(network);
   const PosedNetwork posed{table, network.points(), frames};
   shared::DetailView view = frontView(0.02f);
   const NetworkDetail detail = networkDetail(posed, view);

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "core/hash.h"
-#include "network/builder.h"
 #include "network/reshape.h"
+#include "support/frames.h"
 #include "support/manifold.h"
 #include "support/networks.h"
 #include "surface/fork_check.h"
@@ -15,15 +15,6 @@ using namespace vasa;
 
 namespace {
 
-std::vector<vec4> straight(vec3 from, vec3 to, float radius) {
-  std::vector<vec4> points;
-  for (int i = 0; i < 7; ++i) {  // Greville abscissae of four spans
-    const auto knot = [](int k) { return float(std::clamp(k, 0, 4)); };
-    points.emplace_back(glm::mix(from, to, (knot(i - 2) + knot(i - 1) + knot(i)) / 12), radius);
-  }
-  return points;
-}
-
 vec3 direction(float degrees, float turn = 0) {
   const float a = glm::radians(degrees), t = glm::radians(turn);
   return {std::sin(a) * std::cos(t), std::sin(a) * std::sin(t), std::cos(a)};
@@ -32,13 +23,13 @@ vec3 direction(float degrees, float turn = 0) {
 // A trunk along z, radius 1 cm, and branches from its middle.
 Network trunkWith(const std::vector<std::pair<vec3, float>>& branches) {
   NetworkBuilder builder;
-  const VesselId trunk = builder.addVessel({"trunk"}, straight({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f));
+  const VesselId trunk =
+      builder.addVessel({"trunk"}, test::straightVessel({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f, 4));
   for (const auto& [along, radius] : branches)
-    builder.joinToSide({builder.addVessel({"branch"}, straight({0, 0, 0}, 0.2f * along, radius)), false},
-                       {trunk, 2});
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
+    builder.joinToSide(
+        {builder.addVessel({"branch"}, test::straightVessel({0, 0, 0}, 0.2f * along, radius, 4)), false},
+        {trunk, 2});
+  return test::built(builder);
 }
 
 // Ends of several vessels that meet in the origin.
@@ -46,11 +37,10 @@ Network star(const std::vector<std::pair<vec3, float>>& arms) {
   NetworkBuilder builder;
   std::vector<VesselEnd> ends;
   for (const auto& [along, radius] : arms)
-    ends.push_back({builder.addVessel({"arm"}, straight({0, 0, 0}, 0.2f * along, radius)), false});
+    ends.push_back(
+        {builder.addVessel({"arm"}, test::straightVessel({0, 0, 0}, 0.2f * along, radius, 4)), false});
   builder.joinEnds(ends);
-  auto network = builder.build(1);
-  REQUIRE(network.ok());
-  return std::move(*network);
+  return test::built(builder);
 }
 
 struct Outcome {
@@ -61,8 +51,7 @@ struct Outcome {
 // The surface is closed at all extremes of m and n.
 Outcome checkedSurface(const Network& network) {
   Outcome outcome{planForks(network).report, 0};
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
+  const std::vector<quat> frames = test::framesOf(network);
   const SweepTable table = makeSweepTable(network);
   const PosedNetwork posed{table, network.points(), frames};
   for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{4, 20}, SweepShape{7, 5}, SweepShape{8, 5},
@@ -124,9 +113,11 @@ TEST_CASE("vessels that end in one point: in two, three, four and five") {
 
 TEST_CASE("what cannot be forked stays a closed tube of its own, and is counted") {
   NetworkBuilder builder;
-  const VesselId trunk = builder.addVessel({"trunk"}, straight({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f));
-  builder.joinToSide({builder.addVessel({"inside"}, straight({0, 0, 0}, {0.003f, 0, 0.1f}, 0.002f)), false},
-                     {trunk, 2});
+  const VesselId trunk =
+      builder.addVessel({"trunk"}, test::straightVessel({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f, 4));
+  builder.joinToSide(
+      {builder.addVessel({"inside"}, test::straightVessel({0, 0, 0}, {0.003f, 0, 0.1f}, 0.002f, 4)), false},
+      {trunk, 2});
   const auto network = builder.build(1);
   REQUIRE(network.ok());
   const Outcome outcome = checkedSurface(*network);
@@ -140,8 +131,7 @@ TEST_CASE("random trees: every branch is accounted for, no fork folds at rest") 
     const ForkPlan::Report report = planForks(network).report;
     CHECK(report.branches ==
           report.forked + report.hidden + report.tooShort + report.crowded + report.folded);
-    std::vector<quat> frames(network.sectionCount());
-    networkFrames(network, network.points(), restReferences(network), frames);
+    const std::vector<quat> frames = test::framesOf(network);
     const SweepTable table = makeSweepTable(network);
     for (const shared::ForkRecord& fork : table.forks)
       CHECK(foldedTriangles({table, network.points(), frames}, fork, 8, ForkForm::bare) == 0);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "support/frames.h"
 #include "support/manifold.h"
 #include "support/networks.h"
 #include "surface/surface_mesh.h"
@@ -11,8 +12,7 @@ using namespace vasa;
 namespace {
 
 std::size_t openEdgesOf(const Network& network, ForkPlan plan) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
+  const std::vector<quat> frames = test::framesOf(network);
   const SweepTable table = makeSweepTable(network, std::move(plan));
   return test::openEdges(surfaceMesh(PosedNetwork{table, network.points(), frames}, {7, 3}).triangles);
 }

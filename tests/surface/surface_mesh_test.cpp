@@ -4,24 +4,15 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "support/frames.h"
 #include "support/manifold.h"
 #include "support/networks.h"
 
 using namespace vasa;
 
-namespace {
-
-std::vector<quat> framesOf(const Network& network) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
-  return frames;
-}
-
-}  // namespace
-
 TEST_CASE("the one mesh of a network names the vessel of every vertex") {
   const Network network = test::windingNetwork(9, 3);
-  const SurfaceMesh mesh = surfaceMesh(network, network.points(), framesOf(network), {6, 3});
+  const SurfaceMesh mesh = surfaceMesh(network, network.points(), test::framesOf(network), {6, 3});
   REQUIRE(mesh.positions.size() == mesh.vesselOfVertex.size());
   REQUIRE(mesh.positions.size() == mesh.normals.size());
   std::vector<int> seen(9);
@@ -34,7 +25,7 @@ TEST_CASE("the one mesh of a network names the vessel of every vertex") {
 TEST_CASE("the surface of branching networks is closed at all extremes of m and n, whatever the threads") {
   for (const std::uint32_t seed : {1u, 2u, 3u}) {
     const Network network = test::branchingNetwork(41, seed);
-    const std::vector<quat> frames = framesOf(network);
+    const std::vector<quat> frames = test::framesOf(network);
     for (const SweepShape shape :
          {SweepShape{3, 2}, SweepShape{4, 5}, SweepShape{5, 3}, SweepShape{16, 2}, SweepShape{8, 20}}) {
       setThreadCount(1);

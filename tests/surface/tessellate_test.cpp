@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "mesh/triangle_mesh.h"
+#include "support/frames.h"
 #include "support/manifold.h"
 #include "support/networks.h"
 
@@ -10,14 +11,8 @@ using namespace vasa;
 
 namespace {
 
-std::vector<quat> framesOf(const Network& network) {
-  std::vector<quat> frames(network.sectionCount());
-  networkFrames(network, network.points(), restReferences(network), frames);
-  return frames;
-}
-
 SurfaceMesh surfaceOf(const Network& network, const SweepShape& shape) {
-  return surfaceMesh(network, network.points(), framesOf(network), shape);
+  return surfaceMesh(network, network.points(), test::framesOf(network), shape);
 }
 
 }  // namespace
@@ -38,7 +33,7 @@ TEST_CASE("a straight tube is closed, turned outwards and holds its volume") {
 TEST_CASE("neighbouring spans share their ring, bit for bit") {
   const Network network = test::windingNetwork(20, 11);
   const SweepTable table = makeSweepTable(network);
-  const std::vector<quat> frames = framesOf(network);
+  const std::vector<quat> frames = test::framesOf(network);
   const PosedNetwork posed{table, network.points(), frames};
   for (const SweepShape shape : {SweepShape{3, 2}, SweepShape{7, 5}, SweepShape{16, 20}}) {
     std::vector<SurfacePoint> one(shape.sweepVertices()), next(one);
@@ -59,7 +54,7 @@ TEST_CASE("neighbouring spans share their ring, bit for bit") {
 TEST_CASE("every ring lies on its circle") {
   const Network network = test::windingNetwork(12, 2);
   const SweepTable table = makeSweepTable(network);
-  const std::vector<quat> frames = framesOf(network);
+  const std::vector<quat> frames = test::framesOf(network);
   const PosedNetwork posed{table, network.points(), frames};
   const SweepShape shape{5, 4};
   std::vector<SurfacePoint> points(shape.sweepVertices());

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "cli/program.h"
 #include "golden/compare.h"
@@ -20,13 +19,6 @@ using namespace vasa;
 using namespace vasa::test;
 
 namespace {
-
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // The script with OUT/ standing for a folder, in a file there.
 std::filesystem::path scriptIn(const std::filesystem::path& folder, std::string text) {

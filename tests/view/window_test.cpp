@@ -17,7 +17,7 @@ TEST_CASE("what a window system reports of a window becomes our events, in its o
   const std::string name = display.variable().substr(std::string("DISPLAY=").size());
   REQUIRE(setenv("DISPLAY", name.c_str(), 1) == 0);
   {
-    auto window = Window::open("test", 0, 0);
+    auto window = viewer::Window::open("test", 0, 0);
     REQUIRE(window);
     CHECK(window->scale() == doctest::Approx(2));
     CHECK(window->width() == 2560);

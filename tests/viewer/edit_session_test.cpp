@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "edit/replay.h"
 #include "network/file.h"
@@ -12,6 +11,7 @@
 #include "support/shared_data.h"
 #include "view/virtual_display.h"
 #include "viewer/app.h"
+#include "viewer/human_data.h"
 
 // Editing, undoing and saving as a person does it: sessions on a display without a screen.
 
@@ -20,15 +20,6 @@ using namespace vasa::viewer;
 using namespace vasa::test;
 
 namespace {
-
-const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
-
-std::string contentOf(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // A scene of the human's bare vessels with one of them before the eye.
 std::filesystem::path sceneIn(const std::filesystem::path& folder, const std::string& vessel) {

@@ -9,21 +9,13 @@
 #include <thread>
 
 #include "support/shared_data.h"
+#include "viewer/human_data.h"
 
 using namespace vasa;
 using namespace vasa::viewer;
 using namespace vasa::test;
 
 namespace {
-
-const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
-
-SceneFile human() {
-  SceneFile file;
-  file.body = kData / "human.glb";
-  file.networks = {kData / "human.vasa"};
-  return file;
-}
 
 // A helix of a tube as a binary STL: one element, far more triangles than any vessel has.
 std::filesystem::path largeMesh(const std::filesystem::path& folder, std::uint32_t rings) {
@@ -65,7 +57,7 @@ double slowestStop(const SceneFile& file, double lastMs) {
     double stopped = 0;
     {
       Loader loader;
-      loader.start({"scene", [file] { return file; }, kData / "growth"}, [] {});
+      loader.start({"scene", [file] { return file; }, {kData / "growth"}}, [] {});
       std::this_thread::sleep_for(
           std::chrono::microseconds(std::int64_t(1000 * lastMs * (i + 0.5) / kMoments)));
       stopped = workedMs();
@@ -84,7 +76,7 @@ Taken timeLoading(const SceneFile& file) {
   const auto start = std::chrono::steady_clock::now();
   const double before = workedMs();
   Loader loader;
-  loader.start({"scene", [file] { return file; }, kData / "growth"}, [] {});
+  loader.start({"scene", [file] { return file; }, {kData / "growth"}}, [] {});
   loader.wait();
   return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
           workedMs() - before};
@@ -93,8 +85,8 @@ Taken timeLoading(const SceneFile& file) {
 }  // namespace
 
 TEST_CASE("a scene that is being loaded can be given up at any moment, and is soon left") {
-  const Taken whole = timeLoading(human());
-  const double slowest = slowestStop(human(), whole.ms);
+  const Taken whole = timeLoading(humanFile());
+  const double slowest = slowestStop(humanFile(), whole.ms);
   MESSAGE("loading takes " << whole.workedMs << " ms of a processor, stopping at most " << slowest);
   CHECK(slowest < 0.5 * whole.workedMs);
 }
@@ -102,7 +94,7 @@ TEST_CASE("a scene that is being loaded can be given up at any moment, and is so
 TEST_CASE("so can what capillaries grow from, which is settled behind a loaded scene") {
   const auto settle = [](double ms) {
     Loader loader;
-    loader.start({"scene", [] { return human(); }, kData / "growth"}, [] {});
+    loader.start({"scene", [] { return humanFile(); }, {kData / "growth"}}, [] {});
     loader.wait();
     auto answer = loader.take();
     const double began = workedMs();
@@ -124,7 +116,7 @@ TEST_CASE("so can what capillaries grow from, which is settled behind a loaded s
 
 TEST_CASE("so can the conversion of one very large mesh") {
   const TemporaryFolder folder;
-  SceneFile file = human();
+  SceneFile file = humanFile();
   file.networks = {largeMesh(folder.path(), 2000)};
   const Taken whole = timeLoading(file);
   const double slowest = slowestStop(file, whole.ms);
@@ -135,8 +127,8 @@ TEST_CASE("so can the conversion of one very large mesh") {
 TEST_CASE("what is loaded next is not held up by what was given up, and tells what it does") {
   Loader loader;
   std::atomic<int> told{0};
-  loader.start({"first", [] { return human(); }, {}}, [] {});
-  loader.start({"second", [] { return human(); }, {}}, [&] { ++told; });
+  loader.start({"first", [] { return humanFile(); }, {}}, [] {});
+  loader.start({"second", [] { return humanFile(); }, {}}, [&] { ++told; });
   CHECK(loader.title() == "second");
   CHECK(loader.busy());
   loader.wait();

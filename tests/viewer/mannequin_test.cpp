@@ -6,6 +6,7 @@
 
 #include "io/gltf.h"
 #include "math/direction.h"
+#include "viewer/human_data.h"
 #include "viewer/joint_names.h"
 
 using namespace vasa;
@@ -13,11 +14,9 @@ using namespace vasa::viewer;
 
 namespace {
 
-const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
-
 const Skeleton& human() {
   static const Skeleton skeleton = [] {
-    auto body = readBody(kData / "human.glb");
+    auto body = readBody(test::kData / "human.glb");
     REQUIRE_MESSAGE(body, (body ? "" : body.error().message));
     return body->skeleton;
   }();
@@ -26,7 +25,7 @@ const Skeleton& human() {
 
 const Mannequin& mannequin() {
   static const Mannequin made = [] {
-    const auto ranges = readJointRanges(kData / "realism" / "ranges.csv");
+    const auto ranges = readJointRanges(test::kData / "realism" / "ranges.csv");
     REQUIRE_MESSAGE(ranges, (ranges ? "" : ranges.error().message));
     return Mannequin(human(), *ranges);
   }();
@@ -92,7 +91,7 @@ TEST_CASE("ranges count from hanging arms, also where a body rests with its arms
     raised.joints[j].restWorld = pose.world[j];
     raised.joints[j].rest.rotation = glm::inverse(rotationOf(before)) * rotationOf(pose.world[j]);
   }
-  const auto ranges = readJointRanges(kData / "realism" / "ranges.csv");
+  const auto ranges = readJointRanges(test::kData / "realism" / "ranges.csv");
   REQUIRE(ranges);
   const Mannequin other(raised, *ranges);
   CHECK(std::abs(glm::degrees(other.motion(arm).most.y) - 85) < 2);   // 10 beyond where it hangs

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "viewer/document.h"
+#include "viewer/human_data.h"
 #include "viewer/paint.h"
 #include "viewer/undo_history.h"
 #include "viewer/view_state.h"
@@ -14,14 +15,10 @@ using namespace vasa::viewer;
 
 namespace {
 
-const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
-
-const Document& human() {
+const Document& document() {
   static const std::shared_ptr<const Document> loaded = [] {
-    SceneFile file;
-    file.body = kData / "human.glb";
-    file.networks = {kData / "human.vasa"};
-    file.holds = kData / "human.holds.csv";
+    SceneFile file = test::humanFile();
+    file.holds = test::kData / "human.holds.csv";
     const auto document = loadDocument(file, {}, [](const char*, std::size_t, std::size_t) {});
     REQUIRE_MESSAGE(document, (document ? "" : document.error().message));
     return *document;
@@ -29,7 +26,7 @@ const Document& human() {
   return *loaded;
 }
 
-const Network& network() { return human().scene.network; }
+const Network& network() { return document().scene.network; }
 
 VesselId named(std::string_view name) {
   const auto found = std::ranges::find(network().vessels(), name, &Vessel::name);
@@ -38,7 +35,7 @@ VesselId named(std::string_view name) {
 }
 
 std::vector<OutlinerRow> rowsOf(const ViewState& state) {
-  return outlinerRows(network(), *human().groups, state.outliner, state.search);
+  return outlinerRows(network(), *document().groups, state.outliner, state.search);
 }
 
 std::size_t rowNamed(std::span<const OutlinerRow> rows, std::string_view name) {
@@ -50,10 +47,10 @@ std::size_t rowNamed(std::span<const OutlinerRow> rows, std::string_view name) {
 }  // namespace
 
 TEST_CASE("an edited document's vessels are held where they were") {
-  const auto edited = editedDocument(human(), {R"(stenosis "left femoral artery" 0.5 10 70)"}, false);
+  const auto edited = editedDocument(document(), {R"(stenosis "left femoral artery" 0.5 10 70)"}, false);
   REQUIRE_MESSAGE(edited, (edited ? "" : edited.error().message));
-  CHECK(!human().scene.holds.empty());
-  CHECK((*edited)->scene.holds.size() == human().scene.holds.size());
+  CHECK(!document().scene.holds.empty());
+  CHECK((*edited)->scene.holds.size() == document().scene.holds.size());
 }
 
 TEST_CASE("the list is folded by system and region, and a search lists what answers, best first") {
@@ -64,7 +61,7 @@ TEST_CASE("the list is folded by system and region, and a search lists what answ
   for (const OutlinerRow& row : rows) sum += row.vessels.size();
   CHECK(sum == network().vessels().size());
   state.selected = VesselPlace{named("left femoral artery"), 0};
-  revealChoice(state, *human().groups);
+  revealChoice(state, *document().groups);
   rows = rowsOf(state);
   const std::size_t at = rowNamed(rows, "left femoral artery");
   CHECK(rows[at].depth == 2);
@@ -107,7 +104,7 @@ TEST_CASE("what is hidden is not drawn nor clicked, a group is hidden as one, an
   history.watch(state, false);
   CHECK(sightOf(veins, network(), state.hidden) == RowSight::hidden);
   CHECK(sightOf(rows[0], network(), state.hidden) == RowSight::shown);
-  auto shown = shownVessels(human(), state);
+  auto shown = shownVessels(document(), state);
   CHECK(std::size_t(std::ranges::count(shown, 1)) == network().vessels().size() - veins.vessels.size());
   CHECK_FALSE(shown[veins.vessels.front().value]);
   state.hidden.set(network(), {veins.vessels.data(), 1}, false);
@@ -115,7 +112,7 @@ TEST_CASE("what is hidden is not drawn nor clicked, a group is hidden as one, an
   CHECK(sightOf(veins, network(), state.hidden) == RowSight::partly);
   state.hidden.setAllBut(network(), {veins.vessels.data(), 1});
   history.watch(state, false);
-  shown = shownVessels(human(), state);
+  shown = shownVessels(document(), state);
   CHECK(std::ranges::count(shown, 1) == 1);
   CHECK(history.unsaved(state));  // scenes have it
   for (int i = 0; i < 3; ++i) REQUIRE(history.undo(state));
@@ -127,13 +124,13 @@ TEST_CASE("colours follow the pose and the wish, and hidden vessels have none") 
   KeptColours plain;
   auto body = std::make_shared<PosedBody>();
   body->points.assign(network().points().begin(), network().points().end());
-  CHECK(coloursOf(human(), body, state, plain).empty());  // as their kinds are
+  CHECK(coloursOf(document(), body, state, plain).empty());  // as their kinds are
   state.colouring = atlas::Colouring::strain;
-  const auto rest = coloursOf(human(), body, state, plain);
+  const auto rest = coloursOf(document(), body, state, plain);
   auto longer = std::make_shared<PosedBody>(*body);
   for (vec4& point : longer->points) point = vec4(1.2f * vec3(point), point.w);
-  CHECK(coloursOf(human(), longer, state, plain) != rest);
+  CHECK(coloursOf(document(), longer, state, plain) != rest);
   state.colouring = atlas::Colouring::region;
   state.hidden.set(network(), std::vector{VesselId{0}}, true);
-  CHECK(coloursOf(human(), body, state, plain).front() == 0);
+  CHECK(coloursOf(document(), body, state, plain).front() == 0);
 }

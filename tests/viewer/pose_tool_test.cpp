@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "io/gltf.h"
+#include "viewer/human_data.h"
 #include "viewer/pose_text.h"
 #include "viewer/scene_keeper.h"
 
@@ -14,9 +15,8 @@ using namespace vasa::viewer;
 
 namespace {
 
-const std::filesystem::path kData = VASA_BUILD_DATA_DIR;
 const Camera kCamera{.position = {0, 1, 4}, .target = {0, 1, 0}};
-constexpr Rect kPicture{0, 0, 800, 800};
+constexpr Rect kSquare{0, 0, 800, 800};
 
 // The human at rest, with nothing but what posing asks for.
 struct Posing {
@@ -26,8 +26,8 @@ struct Posing {
   PoseTool tool;
 
   Posing() {
-    auto read = readBody(kData / "human.glb");
-    auto ranges = readJointRanges(kData / "realism" / "ranges.csv");
+    auto read = readBody(test::kData / "human.glb");
+    auto ranges = readJointRanges(test::kData / "realism" / "ranges.csv");
     REQUIRE(read);
     REQUIRE(ranges);
     document.scene.body = std::move(*read);
@@ -36,13 +36,13 @@ struct Posing {
   }
   const Skeleton& skeleton() const { return document.scene.body.skeleton; }
   vec2 handle(std::string_view name) const {
-    for (const JointHandle& each : jointHandles(*document.mannequin, body.pose, kCamera, kPicture, 1))
+    for (const JointHandle& each : jointHandles(*document.mannequin, body.pose, kCamera, kSquare, 1))
       if (document.mannequin->grips()[each.grip].name == name) return each.place;
     FAIL("no such handle");
     return {};
   }
   void feed(const InputEvent& event, bool single = false) {
-    tool.feed(event, single, document, body, kCamera, kPicture, state);
+    tool.feed(event, single, document, body, kCamera, kSquare, state);
   }
   void move(vec2 to) {
     feed(PointerMoved{to});
@@ -66,7 +66,7 @@ struct Posing {
 
 TEST_CASE("handles are at least 14 pixels wide and lie apart, and a press near one takes hold of it") {
   const Posing posing;
-  const auto handles = jointHandles(*posing.document.mannequin, posing.body.pose, kCamera, kPicture, 1);
+  const auto handles = jointHandles(*posing.document.mannequin, posing.body.pose, kCamera, kSquare, 1);
   CHECK(2 * kHandleRadius >= 14);
   CHECK(handles.size() > 15);
   for (const JointHandle& a : handles)
@@ -77,7 +77,7 @@ TEST_CASE("handles are at least 14 pixels wide and lie apart, and a press near o
     const Camera beside{.position = {side * 4, 1, 0}, .target = {0, 1, 0}};
     bool near = false, far = false;
     for (const JointHandle& handle :
-         jointHandles(*posing.document.mannequin, posing.body.pose, beside, kPicture, 1)) {
+         jointHandles(*posing.document.mannequin, posing.body.pose, beside, kSquare, 1)) {
       const std::string& name = posing.document.mannequin->grips()[handle.grip].name;
       near = near || name == (side > 0 ? "left wrist" : "right wrist");
       far = far || name == (side > 0 ? "right wrist" : "left wrist");
