@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kLetters = 15;  // [pixels]
 constexpr int kWidth = 900, kHeight = 656, kLeft = 84, kRight = 28, kTop = 82, kBetween = 46, kBelow = 66;
-constexpr vec3 kLine{0.70f, 0.13f, 0.13f}, kFilled{0.97f, 0.87f, 0.86f}, kGrid{0.88f, 0.89f, 0.91f};
+constexpr vec3 kCurveLine{0.70f, 0.13f, 0.13f}, kFilled{0.97f, 0.87f, 0.86f}, kGrid{0.88f, 0.89f, 0.91f};
 
 // 1, 2 or 5 times a power of ten, so that a range has four to ten of them.
 float tickOf(float range) {
@@ -56,7 +56,7 @@ void drawCurve(Image& picture, const Lettering& letters, std::span<const Profile
     const int here = y(valueAt(stations, curve.values, along));
     fill(picture, x, here, x + 1, bottom, kFilled);
     const int from = before < 0 ? here : before;
-    fill(picture, x, std::min(from, here) - 1, x + 1, std::max(from, here) + 1, kLine);
+    fill(picture, x, std::min(from, here) - 1, x + 1, std::max(from, here) + 1, kCurveLine);
     before = here;
   }
   letters.write(picture, kLeft, top - 12, curve.name);

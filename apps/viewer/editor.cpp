@@ -14,7 +14,7 @@
 namespace vasa::viewer {
 namespace {
 
-constexpr float kHandleReach = 9;          // [pixels of an ordinary screen] of the handle, as a joint's
+constexpr float kHandleReach = 9;    // [pixels of an ordinary screen] of the handle, as a joint's
 constexpr double kSamePlace = 2e-3;  // of a vessel
 // [radii] to either side that a drag takes along, where the default of `move` (three times the way) is less:
 // a wall that is moved within less of its own width folds. An abdominal aorta of 6.6 mm is moved by 1 mm and

@@ -77,7 +77,8 @@ std::vector<JointHandle> jointHandles(const Mannequin& mannequin, const Pose& po
 std::optional<JointHandle> handleAt(std::span<const JointHandle> handles, vec2 place, float scale) {
   const auto nearest = std::ranges::min_element(
       handles, {}, [&](const JointHandle& h) { return glm::distance(h.place, place); });
-  if (nearest == handles.end() || glm::distance(nearest->place, place) > kJointReach * scale) return std::nullopt;
+  if (nearest == handles.end() || glm::distance(nearest->place, place) > kJointReach * scale)
+    return std::nullopt;
   return *nearest;
 }
 

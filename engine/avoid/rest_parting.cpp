@@ -26,7 +26,7 @@ constexpr float kWatched = 0.0003f;
 constexpr float kLeastLeverage = 1e-4f;
 constexpr float kThinningStep = 0.2f;  // of what is lacking, so that motion can do the rest
 // Most that the share of a radius changes from one point to the next.
-constexpr float kTaper = 0.3f;
+constexpr float kPartTaper = 0.3f;
 
 }  // namespace
 
@@ -124,8 +124,8 @@ void RestParting::taper(std::span<float> shares) const {
   }
   for (const Vessel& vessel : network_->vessels()) {
     const std::span<float> own = Network::pointsOf(vessel, shares);
-    for (std::size_t l = 1; l < own.size(); ++l) own[l] = std::min(own[l], own[l - 1] + kTaper);
-    for (std::size_t l = own.size() - 1; l-- > 0;) own[l] = std::min(own[l], own[l + 1] + kTaper);
+    for (std::size_t l = 1; l < own.size(); ++l) own[l] = std::min(own[l], own[l - 1] + kPartTaper);
+    for (std::size_t l = own.size() - 1; l-- > 0;) own[l] = std::min(own[l], own[l + 1] + kPartTaper);
   }
 }
 
