@@ -7,7 +7,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
-# Sources of one target are compiled eight at a time, which takes a third of the time from nothing: most of what one takes are headers.
+# Sources of one target are compiled eight at a time, which takes half to a quarter of the time: most of what one takes are headers.
 # So no two of a target may give a name without a header to different things. Sources that will not be in company say so (vasa_alone).
 option(VASA_UNITY "Compile a target's sources eight at a time" ON)
 set(CMAKE_UNITY_BUILD ${VASA_UNITY})

@@ -20,7 +20,7 @@ function(vasa_library name)
   vasa_install_library(${name} ${ARG_HEADERS})
 endfunction()
 
-# vasa_alone(SOURCES ...): not compiled in one with others, as their macros or another's would act on both.
+# vasa_alone(SOURCES ...): not compiled in one with others, as macros would act on both, or as they are compiled anew oftener.
 function(vasa_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

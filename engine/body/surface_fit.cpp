@@ -17,9 +17,8 @@ constexpr int kFacings = 4, kHeights = 9;
 constexpr float kSizes[] = {0.8f, 1, 1.25f};
 constexpr float kSmallest = 0.6f, kLargest = 1.6f;
 constexpr float kFacingSurface = 0.3f;  // least cosine between normals that belong together
-constexpr float kFarAtFirst = 0.15f,
-                kNearAtLast = 0.03f;   // of the body's height: pairs, at first and at last
-constexpr float kOddSize = 0.25f;      // of the logarithm: a size as odd as this ...
+constexpr float kFarAtFirst = 0.15f, kNearAtLast = 0.03f;  // of the body's height, between pairs
+constexpr float kOddSize = 0.25f;                          // of the logarithm: a size as odd as this ...
 constexpr float kOddSizeCost = 0.05f;  // ... is as bad as this share of the surface elsewhere
 constexpr float kTurnedCost = 0.02f;   // and so is another facing than the file's
 

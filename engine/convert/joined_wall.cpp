@@ -17,7 +17,7 @@ constexpr float kSure = 0.3f;   // of the winding number from 1/2, there
 constexpr float kClear = 1.2f;  // cells: a node this far from any wall has the next one on its side
 // Of an edge: crossings stay this far from its ends, so that no triangle has no area.
 constexpr float kAside = 0.06f;
-constexpr int kSmoothings = 2;  // of smoothing
+constexpr int kSmoothings = 2;
 using ivec3 = glm::ivec3;
 
 // The six tetrahedra around a cell's diagonal: one for each order of the axes.

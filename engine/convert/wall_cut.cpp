@@ -13,8 +13,8 @@ namespace {
 
 // Around the openings: what is cut out does not go beyond.
 constexpr float kReachRadii = 4;
-constexpr float kNearestContour = 0.45f,
-                kFarthestContour = 2.0f;  // of a contour from the axis, in radii of the opening
+// Of a contour from the axis, in radii of the opening.
+constexpr float kNearestContour = 0.45f, kFarthestContour = 2.0f;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 Edge edgeOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
