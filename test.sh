@@ -47,7 +47,7 @@ if [ "$preset" = compilers ]; then
     read -r c cxx <<< "$compiler"
     for each in release debug asan tsan; do
       folder=build/$c-$each
-      cmake --preset "$each" -B "$folder" -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" > /dev/null
+      cmake --preset "$each" -B "$folder" -DVASA_UNITY=ON -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" > /dev/null
       cmake --build "$folder"
       echo "compilers: $c $each builds without a warning"
     done
@@ -121,7 +121,7 @@ if [ "$preset" = same ]; then
   programs=()
   for each in gcc-release clang-release gcc-debug; do
     preset=${each#*-}
-    cmake --preset "$preset" -B "build/$each" -DCMAKE_C_COMPILER="${each%-*}" -DCMAKE_CXX_COMPILER="$([ "${each%-*}" = gcc ] && echo g++ || echo clang++)" > /dev/null
+    cmake --preset "$preset" -B "build/$each" -DVASA_UNITY=ON -DCMAKE_C_COMPILER="${each%-*}" -DCMAKE_CXX_COMPILER="$([ "${each%-*}" = gcc ] && echo g++ || echo clang++)" > /dev/null
     targets=(vasa)
     [ "$each" = gcc-release ] && targets+=(human)
     cmake --build "build/$each" --target "${targets[@]}"
