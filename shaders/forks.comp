@@ -40,7 +40,7 @@ vec3 piercingOf(ForkBranch branch) {
   return pointAt(spanAt(push.points, push.tables, branch.crossPoint, branch.crossClass), branch.crossT).xyz;
 }
 
-uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d) { return push.keepAll != 0 ? 3 : seenOfQuad(a, b, c, d, vec2(view.columns, view.rows), view.snap); }
+uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d) { return push.keepAll != 0 ? 3 : seenOfQuad(a, b, c, d, gridOf(view)); }
 
 // Of the trunk's two ends, then of branches.
 ForkRing ringOfPart(ForkRecord fork, uint part) {

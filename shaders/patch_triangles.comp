@@ -25,7 +25,7 @@ uvec3 triangleAt(uint triangle) {
 bool isSeen(uvec3 t) {
   if (push.keepAll != 0) return true;
   if (t.x == t.y) return false;  // a strip's room that is not used
-  return seenOfTriangle(placeAt(t.x), placeAt(t.y), placeAt(t.z), vec2(view.columns, view.rows), view.snap);
+  return seenOfTriangle(placeAt(t.x), placeAt(t.y), placeAt(t.z), gridOf(view));
 }
 
 void main() {

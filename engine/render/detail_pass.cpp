@@ -24,10 +24,10 @@ void setPlanes(shared::DetailView& view, const mat4& rows) {
 
 }  // namespace
 
-shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size,
-                              const TubeDetail& detail, float snap) {
+shared::DetailView detailView(const Camera& camera, const Look& look, const PictureGrid& grid,
+                              const TubeDetail& detail) {
   shared::DetailView view{};
-  const float width = float(size.width), height = float(size.height);
+  const float width = grid.size.x, height = grid.size.y;
   const mat4 rows = glm::transpose(viewProjection(camera, width / height));
   setPlanes(view, rows);
   if (camera.orthographicHeight > 0) {
@@ -50,18 +50,20 @@ shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D
   view.picture[0] = 0.5f * view.columns * (rows[0] + rows[3]) - 0.5f * rows[3];
   view.picture[1] = 0.5f * view.rows * (rows[1] + rows[3]) - 0.5f * rows[3];
   view.picture[2] = rows[3];
-  view.snap = snap;
+  view.snap = grid.snap;
+  view.samples = grid.samples;
   return view;
 }
 
-float detailSnap(const gpu::Device& device, VkExtent2D size) {
+PictureGrid pictureGrid(const gpu::Device& device, VkExtent2D size, std::uint32_t samples) {
   // llvmpipe moves a corner to the nearest step, but with four samples it has been seen to cover one that
   // lies 0.6 of a step beyond an edge; SwiftShader moves them, seen, by 0.8 to 1 of one, and of others it is
   // not known.
   const float steps = device.adapter().driverId == VK_DRIVER_ID_MESA_LLVMPIPE ? 0.75f : 1;
   // Of the pass's places, and of the rasteriser's.
   const float rounding = float(std::max(size.width, size.height)) * 0x1p-19f;
-  return steps * std::exp2(-float(device.limits().subPixelPrecisionBits)) + rounding;
+  const float snap = steps * std::exp2(-float(device.limits().subPixelPrecisionBits)) + rounding;
+  return {{size.width, size.height}, snap, samples};
 }
 
 DetailPass::DetailPass(gpu::Device& device, const TubeSet& tubes)

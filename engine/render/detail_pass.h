@@ -3,14 +3,15 @@
 #include "render/camera.h"
 #include "render/look.h"
 #include "render/tube_set.h"
+#include "surface/visible.h"
 
 namespace vasa {
 
 /// What a frame's picture asks of the network's tessellation.
-/// @param snap  [pixels] how far the device's rasteriser moves corners (detailSnap)
-shared::DetailView detailView(const Camera& camera, const Look& look, VkExtent2D size,
-                              const TubeDetail& detail, float snap);
-float detailSnap(const gpu::Device& device, VkExtent2D size);
+shared::DetailView detailView(const Camera& camera, const Look& look, const PictureGrid& grid,
+                              const TubeDetail& detail);
+/// @param samples  a pixel: 1 or 4
+PictureGrid pictureGrid(const gpu::Device& device, VkExtent2D size, std::uint32_t samples = 1);
 
 /// Chooses m of each vessel and n of each sweep by the rule of surface/detail.h, its CPU reference. Owns what
 /// it writes, for every pass that has to match the tubes' rings.

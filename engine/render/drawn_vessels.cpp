@@ -20,8 +20,7 @@ DrawnVessels::DrawnVessels(gpu::Device& device, const Network& network, const Re
       ownColours_(kindColours(network)),
       tubes_(device, network, detailOf(options), templateBytes_),
       forks_(device, tubes_.table(), tubes_.detail(), templateBytes_),
-      comingForkPass_(
-          std::async(std::launch::async, [this] { return ForkPass(*device_, samples_, forks_); })),
+      comingForkPass_(std::async(std::launch::async, [this] { return ForkPass(*device_, forks_); })),
       patches_(device, tubes_.table().patches),
       detailPass_(device, tubes_),
       tubePass_(device, samples_, tubes_),
@@ -29,7 +28,7 @@ DrawnVessels::DrawnVessels(gpu::Device& device, const Network& network, const Re
       filling_(device, tubes_, forks_, fillRoom(tubes_, forks_, range_, templateBytes_)),
       planPass_(device),
       first_(device, filling_.room()) {
-  if (!patches_.empty()) patchPass_.emplace(device, samples_);
+  if (!patches_.empty()) patchPass_.emplace(device);
 }
 
 void DrawnVessels::settle() {
@@ -48,8 +47,8 @@ void DrawnVessels::take(const Network& network, const RenderOptions& options) {
   forks_ = ForkSet(device, tubes_.table(), tubes_.detail(), templateBytes_);
   patches_ = PatchSet(device, tubes_.table().patches);
   if (filling_.groupSweeps() != tubes_.groupSweeps()) tubePass_ = TubePass(device, samples_, tubes_);
-  if (filling_.groupForks() != forks_.groupForks()) forkPass_ = ForkPass(device, samples_, forks_);
-  if (!patches_.empty() && !patchPass_) patchPass_.emplace(device, samples_);
+  if (filling_.groupForks() != forks_.groupForks()) forkPass_ = ForkPass(device, forks_);
+  if (!patches_.empty() && !patchPass_) patchPass_.emplace(device);
   if (patches_.empty()) patchPass_.reset();
   detailPass_.fit(device, tubes_);
   range_ = everything(tubes_);

@@ -4,9 +4,9 @@
 
 namespace vasa {
 
-ForkPass::ForkPass(gpu::Device& device, std::uint32_t samples, const ForkSet& forks)
+ForkPass::ForkPass(gpu::Device& device, const ForkSet& forks)
     : pipeline_(device, {spirv::forks_comp, sizeof(shared::ForksPush),
-                         gpu::Specialization().set(0, samples).set(1, forks.groupForks())}) {}
+                         gpu::Specialization().set(1, forks.groupForks())}) {}
 
 void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
   const ForkSet& forks = input.forks;

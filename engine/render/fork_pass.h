@@ -9,9 +9,8 @@ namespace vasa {
 class ForkPass {
  public:
   ForkPass() = default;
-  /// @param samples  of the picture: 1 or 4 a pixel
   /// @param forks    read, not kept: of a network that it will write
-  ForkPass(gpu::Device& device, std::uint32_t samples, const ForkSet& forks);
+  ForkPass(gpu::Device& device, const ForkSet& forks);
 
   struct Input {
     const TubeSet& tubes;  ///< of the same network

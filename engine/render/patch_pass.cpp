@@ -89,13 +89,12 @@ void PatchSet::setSpanColours(gpu::Device& device, std::span<const std::uint32_t
   gpu::uploadBytes(device, draws_.colours, std::as_bytes(std::span(colours)));
 }
 
-PatchPass::PatchPass(gpu::Device& device, std::uint32_t samples)
+PatchPass::PatchPass(gpu::Device& device)
     : seams_(device, {spirv::patches_comp, sizeof(shared::PatchesPush)}),
       skin_(device, {spirv::skin_comp, sizeof(shared::SkinPush)}),
       strain_(device, {spirv::patch_strain_comp, sizeof(shared::PatchStrainPush)}),
       smooth_(device, {spirv::patch_smooth_comp, sizeof(shared::PatchSmoothPush)}),
-      triangles_(device, {spirv::patch_triangles_comp, sizeof(shared::PatchTrianglesPush),
-                          gpu::Specialization().set(0, samples)}) {}
+      triangles_(device, {spirv::patch_triangles_comp, sizeof(shared::PatchTrianglesPush)}) {}
 
 void PatchPass::record(VkCommandBuffer commands, const Input& input) const {
   const PatchSet& patches = input.patches;

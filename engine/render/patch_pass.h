@@ -46,8 +46,7 @@ class PatchSet {
 /// surface/patch_smooth.h, surface/visible.h.
 class PatchPass {
  public:
-  /// @param samples  of the picture: 1 or 4 a pixel
-  PatchPass(gpu::Device& device, std::uint32_t samples);
+  explicit PatchPass(gpu::Device& device);
 
   struct Input {
     const TubeSet& tubes;     ///< of the same network

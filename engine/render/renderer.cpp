@@ -267,8 +267,8 @@ void Renderer::State::recordCapillaries(VkCommandBuffer commands, const Frame& f
 }
 
 shared::DetailView Renderer::State::viewOf(const Camera& camera, const Look& look) const {
-  return detailView(camera, look, target.spec().size, vessels.tubes().detail(),
-                    detailSnap(device, target.spec().size));
+  return detailView(camera, look, pictureGrid(device, target.spec().size, options.samples),
+                    vessels.tubes().detail());
 }
 
 // For as many rounds as come next.

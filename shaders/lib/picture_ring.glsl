@@ -8,8 +8,7 @@
 struct PictureView {
   vec4 x, y, w;   // DetailView::picture
   vec4 near;      // plane
-  vec2 size;      // [pixels]
-  float snap;
+  PictureGrid grid;
 };
 
 struct PictureRing {
@@ -43,7 +42,7 @@ uint seenOfStrip(PictureRing first, PictureRing second, uint around, vec2 step, 
   do {  // not a for: a CPU device would go round once more
     direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
     vec2 b = placeOn(first, direction), c = placeOn(second, direction);
-    mask |= seenOfQuad(a, b, c, d, view.size, view.snap) << (2 * k);
+    mask |= seenOfQuad(a, b, c, d, view.grid) << (2 * k);
     a = b;
     d = c;
   } while (++k < around);

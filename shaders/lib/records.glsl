@@ -42,8 +42,8 @@ DetailView viewAt(View view) {
   v.nearest = scale.x, v.reach = scale.y, v.focal = scale.z, v.tolerance = scale.w;
   uvec2 quads = halvesOf(view.word[20]), kinds = halvesOf(view.word[21]);
   v.around = quads.x, v.along = quads.y, v.hiddenKinds = kinds.x, v.columns = uintBitsToFloat(kinds.y);
-  vec2 last = vec2Of(view.word[22]);
-  v.rows = last.x, v.snap = last.y;
+  vec2 rows = vec2Of(view.word[22]);
+  v.rows = rows.x, v.snap = rows.y, v.samples = halvesOf(view.word[23]).x;
   return v;
 }
 

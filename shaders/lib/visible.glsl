@@ -1,9 +1,17 @@
 // Mirrors engine/surface/visible.cpp: may a quad's triangles cover a sample of the picture with their fronts?
 #ifndef VASA_VISIBLE
 #define VASA_VISIBLE
+#include "shared/detail.h"
 #include "shared/tubes.h"
 
-layout(constant_id = 0) const uint kSamples = 1;  // a pixel: 1 or 4
+// Where a picture is sampled, as engine/surface/visible.h has it.
+struct PictureGrid {
+  vec2 size;
+  float snap;
+  uint samples;
+};
+
+PictureGrid gridOf(DetailView view) { return PictureGrid(vec2(view.columns, view.rows), view.snap, view.samples); }
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -31,24 +39,26 @@ bool mayCover(Edge ab, Edge bc, Edge ca, vec2 low, vec2 high, vec2 size, vec2 pl
   return span.x >= 0 && span.y >= 0 && (!small || min(min(outside.x, outside.y), min(outside.z, outside.w)) <= 0);
 }
 
-// Of the s-th sample in its pixel, from the middle: Vulkan's standard places.
-vec2 placeOfSample(uint s) {
-  return kSamples == 1 ? vec2(0) : vec2(0.5 * float(s & 1u) - (s < 2 ? 0.125 : 0.375), 0.25 * float(s) - 0.375);
+// Of the s-th of so many samples in its pixel, from the middle: Vulkan's standard places.
+vec2 placeOfSample(uint s, uint samples) {
+  return samples == 1 ? vec2(0) : vec2(0.5 * float(s & 1u) - (s < 2 ? 0.125 : 0.375), 0.25 * float(s) - 0.375);
 }
 
-bool seenOfTriangle(vec2 a, vec2 b, vec2 c, vec2 size, float snap) {
+bool seenOfTriangle(vec2 a, vec2 b, vec2 c, PictureGrid grid) {
+  float snap = grid.snap;
   vec2 low = min(min(a, b), c) - snap, high = max(max(a, b), c) + snap, reach = high - low;
   Edge ab = edgeOf(a, b, snap), bc = edgeOf(b, c, snap), ca = edgeOf(c, a, snap);
   bool front = cross2(ab.along, bc.along) <= 4 * snap * (reach.x + reach.y), seen = high.x >= 0.5 * kBehind;
-  for (uint s = 0; s < kSamples && front && !seen; ++s) seen = mayCover(ab, bc, ca, low, high, size, placeOfSample(s));
+  for (uint s = 0; s < grid.samples && front && !seen; ++s)
+    seen = mayCover(ab, bc, ca, low, high, grid.size, placeOfSample(s, grid.samples));
   return seen;
 }
 
 // One loop for both triangles: a device compiles what is called once for each place that calls it.
-uint seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, vec2 size, float snap) {
+uint seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, PictureGrid grid) {
   uint seen = 0;
   for (uint i = 0; i < 2; ++i)
-    seen |= seenOfTriangle(a, i == 0 ? b : c, i == 0 ? c : d, size, snap) ? 1u << i : 0u;
+    seen |= seenOfTriangle(a, i == 0 ? b : c, i == 0 ? c : d, grid) ? 1u << i : 0u;
   return seen;
 }
 

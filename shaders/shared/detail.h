@@ -27,15 +27,16 @@ struct DetailView {
   float nearest;  // [m] least depth that counts; 1 orthographic
   float reach;    // share of a ball's radius that comes nearer: 1, or 0 orthographic
   float focal;    // pixels a metre at depth 1
-  float tolerance;      // [pixels] between a sweep and its quads; used where around or along is 0
-  uint around, along;   // m and n of all sweeps; 0: by tolerance
-  uint hiddenKinds;     // bit k: sweeps of kind k (highest 8 bits of their colour) are not drawn
-  float columns, rows;  // pixels of the picture, whose middles lie at whole numbers
-  float snap;           // [pixels] how far a rasteriser may move a corner
+  float tolerance;       // [pixels] between a sweep and its quads; used where around or along is 0
+  uint around, along;    // m and n of all sweeps; 0: by tolerance
+  uint hiddenKinds;      // bit k: sweeps of kind k (highest 8 bits of their colour) are not drawn
+  float columns, rows;   // pixels of the picture, whose middles lie at whole numbers
+  float snap;            // [pixels] how far a rasteriser may move a corner
+  uint samples, unused;  // a pixel: 1 or 4
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(DetailView) == 48 + 80 + 16 + 40 && offsetof(DetailView, rows) == 22 * 8);
+static_assert(sizeof(DetailView) == 48 + 80 + 16 + 48 && offsetof(DetailView, rows) == 22 * 8);
 }  // namespace vasa::shared
 #endif
 #undef VASA_CONSTANT

@@ -50,14 +50,14 @@ struct Forks {
         patches(rig.device(), tubes.table().patches),
         detailPass(rig.device(), tubes),
         tubePass(rig.device(), 1, tubes),
-        forkPass(rig.device(), 1, forks),
+        forkPass(rig.device(), forks),
         planPass(rig.device()),
-        patchPass(rig.device(), 1) {
+        patchPass(rig.device()) {
     const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);
     Camera camera;
     camera.position = {0, 0.5f, 9};  // everything is in view, so that nothing is left out
     camera.target = {0, 0.5f, 0};
-    view = detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
+    view = detailView(camera, {}, pictureGrid(rig.device(), {640, 480}), detail);
     forks.setSpanColours(rig.device(), kindColours(network));
     const FillRange all = everything(tubes);
     const Filling filling(rig.device(), tubes, forks, roomForAll(tubes, forks, all));

@@ -103,7 +103,8 @@ TEST_CASE(
       Camera camera =
           cameraFrom(View::front, measure(network, network.points()).bounds, float(kWidth) / kHeight);
       camera.orthographicHeight = orthographic;
-      const shared::DetailView view = detailView(camera, {}, target.spec().size, tubes.detail(), 0.01f);
+      const shared::DetailView view =
+          detailView(camera, {}, pictureGrid(rig.device(), target.spec().size, samples), tubes.detail());
       rig.run([&](VkCommandBuffer commands) {
         detail.record(commands, tubes, points.address(), view);
         filling.recordStart(commands, all);

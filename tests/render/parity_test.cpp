@@ -72,7 +72,7 @@ struct Tubes {
         knotBuffer(rig.upload(frames)) {}
 
   shared::DetailView view(const Camera& camera) const {
-    return detailView(camera, {}, {333, 222}, set.detail(), detailSnap(rig.device(), {333, 222}));
+    return detailView(camera, {}, pictureGrid(rig.device(), {333, 222}, samples), set.detail());
   }
   NetworkDetail chosen(const shared::DetailView& wanted) const { return networkDetail(posed(), wanted); }
   PosedNetwork posed() const { return {set.table(), points, frames}; }

@@ -102,8 +102,7 @@ TEST_CASE(
     Camera camera;
     camera.position = from;
     camera.target = {0, 0.1f, 0};
-    const shared::DetailView view =
-        detailView(camera, {}, {640, 480}, detail, detailSnap(rig.device(), {640, 480}));
+    const shared::DetailView view = detailView(camera, {}, pictureGrid(rig.device(), {640, 480}), detail);
     rig.run([&](VkCommandBuffer commands) {
       passes.detailPass.record(commands, passes.tubes, pointBuffer.address(), view);
       passes.patchPass.record(commands, {passes.tubes, passes.patches, passes.detailPass,
