@@ -4,6 +4,7 @@
 // CPU references: engine/surface/fork.h, fork_smooth.h, fork_stump.h, fork_template.h, visible.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/picture_place.glsl"
 #include "lib/ring.glsl"
@@ -27,10 +28,7 @@ layout(constant_id = 1) const uint kGroupThreads = kGroupForks;
 layout(local_size_x_id = 1) in;
 layout(push_constant, std430) uniform Push { ForksPush push; };
 
-void put(uint vertex, SurfacePoint point) {
-  corners[vertex] = point;
-  places[vertex] = placeOf(point.position);
-}
+void put(uint vertex, SurfacePoint point) { corners[vertex] = point; }
 
 vec2 stepOf(uint around) { return stepAt(push.tables, around); }
 vec2 halfStepOf(uint around) { return halfStepAt(push.tables, around); }
@@ -69,7 +67,7 @@ bool outOfView(ForkRecord fork) {
 // One loop for all of them: a device compiles what is called once for each place that calls it.
 void evaluateRings(ForkRecord fork) {
   for (uint part = 0; part < 2 + fork.branchCount; ++part)
-    rings[part] = ringOf(push.points, push.knots, push.tables, ringOfPart(fork, part));
+    setRing(part, ringOf(push.points, push.knots, push.tables, ringOfPart(fork, part)));
 }
 
 ForkShape shapeOf(ForkRecord fork) {
@@ -88,16 +86,14 @@ uint needed[kVertexWords], firsts[kVertexWords];
 
 // @return how many
 uint chooseVertices(uint all) {
-  for (uint w = 0; w < kVertexWords; ++w) needed[w] = 0;
-  for (uint i = 0; i < triangles && push.keepAll == 0; ++i) {
-    uvec3 t = triangleAt(i);
-    needed[t.x >> 5] |= 1u << (t.x & 31u);
-    needed[t.y >> 5] |= 1u << (t.y & 31u);
-    needed[t.z >> 5] |= 1u << (t.z & 31u);
-  }
-  for (uint k = 0; k < all && push.keepAll != 0; ++k) needed[k >> 5] |= 1u << (k & 31u);
+  for (uint i = 0; i < triangles && push.keepAll == 0; ++i)
+    [[dont_unroll]] for (uint rest = list[i], c = 0; c < 3; ++c, rest >>= 8) {
+      uint vertex = rest & 255u;
+      needed[vertex >> 5] |= 1u << (vertex & 31u);
+    }
   uint count = 0;
   for (uint w = 0; w < kVertexWords; ++w) {
+    if (push.keepAll != 0) needed[w] = all >= 32 * (w + 1) ? 0xffffffffu : all > 32 * w ? (1u << (all & 31u)) - 1u : 0u;
     firsts[w] = count;
     count += uint(bitCount(needed[w]));
   }
@@ -118,13 +114,13 @@ void writeVertices(uint block, uint blocks, uint colour) {
 
 void writeTriangles(uint vertex, uint target) {
   UintsOut indices = push.indices;
-  for (uint i = 0; i < triangles; ++i) {
-    uvec3 t = triangleAt(i);
-    indices.value[target++] = vertex + placeOfVertex(t.x);
-    indices.value[target++] = vertex + placeOfVertex(t.y);
-    indices.value[target++] = vertex + placeOfVertex(t.z);
-  }
+  for (uint i = 0; i < triangles; ++i)
+    [[dont_unroll]] for (uint rest = list[i], c = 0; c < 3; ++c, rest >>= 8)
+      indices.value[target++] = vertex + placeOfVertex(rest & 255u);
 }
+
+// Of a group's sums, one word for both: triangles below, blocks of vertices above.
+const uint kTriangleBits = 17, kTriangleMask = (1u << kTriangleBits) - 1u;
 
 shared uint groupBlock, groupVertexBlocks;
 
@@ -162,7 +158,8 @@ void main() {
     }
   }
   uint blocks = (vertices + kBlockVertices - 1) >> kBlockShift, last = kGroupThreads - 1;
-  uint blocksBefore = sumBefore(local, blocks), before = sumBefore(local, triangles);
+  uint sums = sumBefore(local, blocks << kTriangleBits | triangles);
+  uint blocksBefore = sums >> kTriangleBits, before = sums & kTriangleMask;
   if (local == last) {
     groupVertexBlocks = blocksBefore + blocks;
     groupBlock = blockFor(begin, first, blocksBefore + blocks, before + triangles);

@@ -35,8 +35,8 @@ class Writer {
 
   void branch(std::uint32_t index) {
     if (layout_.stump[index]) {
-      tipOfLast(branchRow(index) - 2);
       quads(branchRow(index) - 1);
+      tipOfLast(branchRow(index) - 2);
     } else {
       wall(index);
       for (std::uint32_t row = holeRow(index); row < branchRow(index); ++row) quads(row);

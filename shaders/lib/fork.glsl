@@ -137,8 +137,8 @@ uint seamAt(Ring ring, vec3 wanted, uint around) {
   return nearestOf(vec2(dotOf(wanted, ring.section.u), dotOf(wanted, ring.section.v)), around);
 }
 
-vec2 seamDirection(Ring ring, uint first, uint k, uint around) {
-  uint at = ring.turn < 0 ? first + around - k : first + k;  // below 2 around; a CPU device divides whole numbers lane by lane
+vec2 seamDirection(float turn, uint first, uint k, uint around) {
+  uint at = turn < 0 ? first + around - k : first + k;  // below 2 around; a CPU device divides whole numbers lane by lane
   return directions[at < around ? at : at - around];
 }
 

@@ -32,8 +32,21 @@ void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Tr
   windows[i] = window;
 }
 
-// The trunk's two ends, then branches.
+// The trunk's two ends, then branches. Chosen one by one: a CPU device takes an array apart lane by lane where it does not know
+// the place.
 Ring rings[2 + kMostBranches];
+
+void setRing(uint part, Ring ring) {
+  for (uint i = 0; i < 2 + kMostBranches; ++i)
+    if (i == part) rings[i] = ring;
+}
+
+Ring ringAt(uint part) {
+  Ring ring = rings[0];
+  for (uint i = 1; i < 2 + kMostBranches; ++i)
+    if (i == part) ring = rings[i];
+  return ring;
+}
 
 void build(ForkRecord fork, ForkShape shape) {
   Ring a = rings[0], b = rings[1];
@@ -45,33 +58,36 @@ void build(ForkRecord fork, ForkShape shape) {
   Section bare = trunkAt(trunk, fork.row2);
   Section middle = framed(bare, carried(a.section.u, a.section.centre, tangentA, bare.centre, bare.tangent));
 
-  setDirections(stepOf(shape.b), shape.b);
-  uint first = seamAt(b, carried(middle.u, middle.centre, middle.tangent, b.section.centre, tangentB), shape.b);
-  for (uint k = 0; k < shape.b; ++k)
-    put(rowStart(shape, kTrunkRows - 1) + k, surfacePoint(b.section, seamDirection(b, first, k, shape.b)));
-  setDirections(stepOf(shape.a), shape.a);
-  for (uint k = 0; k < shape.a; ++k) {
-    columns[k] = directions[k];
-    put(k, surfacePoint(a.section, seamDirection(a, 0, k, shape.a)));
-  }
-  for (uint row = 1; row + 1 < kTrunkRows; ++row) {
+  uint first = 0;
+  // The last row first, so that the directions of all others stay. One loop for all rows: a device compiles what is called
+  // once for each place that calls it, and as often again as it unrolls a loop.
+  [[dont_unroll]] for (uint row = kTrunkRows; row-- > 0;) {
+    uint around = rowSize(shape, row), start = rowStart(shape, row);
+    bool atB = row + 1 == kTrunkRows;
+    if (row + 2 >= kTrunkRows) setDirections(stepOf(around), around);
+    if (atB) first = seamAt(b, carried(middle.u, middle.centre, middle.tangent, b.section.centre, tangentB), around);
     Section section = wallAt(trunk, middle, row == 1 ? fork.row1 : row == 2 ? fork.row2 : fork.row3);
-    uint start = rowStart(shape, row);
-    for (uint k = 0; k < shape.a; ++k) put(start + k, surfacePoint(section, directions[k]));
+    if (atB) section = b.section;
+    if (row == 0) section = a.section;
+    float turn = atB ? b.turn : row == 0 ? a.turn : 1;
+    for (uint k = 0; k < around; ++k) {
+      columns[k] = directions[k];
+      put(start + k, surfacePoint(section, seamDirection(turn, atB ? first : 0, k, around)));
+    }
   }
   for (uint i = 0; i < fork.branchCount; ++i)
     placeWindow(i, fork, branchAt(fork.firstBranch + i), shape, trunk, middle);
   uint seams[kMostBranches];
   for (uint i = 0; i < fork.branchCount; ++i) {
     ForkBranch branch = branchAt(fork.firstBranch + i);
-    seams[i] = collar(branch, rings[2 + i], rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
+    seams[i] = collar(branch, ringAt(2 + i), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
   }
   addForkTriangles(shape);
   for (uint part = 0; part < fork.branchCount + 2; ++part) {
     bool atA = part == 0, ofTrunk = part < 2;
     uint i = ofTrunk ? 0 : part - 2;
     if (!cut && (ofTrunk || !stumps[i])) continue;
-    Ring ring = rings[part];
+    Ring ring = ringAt(part);
     precise vec3 outward = ring.turn * ring.section.tangent, inward = -outward;
     vec3 towards = atA ? b.section.centre : ofTrunk ? a.section.centre : pointAt(trunk.bezier, branchAt(fork.firstBranch + i).centre).xyz;
     uint ringRow = atA ? 0 : ofTrunk ? kTrunkRows - 1 : branchRow(i);

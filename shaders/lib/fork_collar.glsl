@@ -19,12 +19,11 @@ uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 toward
     vec2 polar = directions[k];
     precise float x = record.holeAround * polar.x;
     precise float depth = sqrt(1.0 - x * x);
-    // The corner's section, then the hole's. One loop for both: a device compiles what is called once for each place
-    // that calls it.
+    // The corner's section, then the hole's.
     Section section;
     SurfacePoint hole, corner;
     float s;
-    for (uint place = 0; place < 2; ++place) {
+    [[dont_unroll]] for (uint place = 0; place < 2; ++place) {
       precise float way = place == 1 ? record.holeAlong : record.cornerAlong * record.holeAlong;
       precise float aside = place == 1 ? x : record.cornerAround * x;
       precise float there = record.centre + way * polar.y, deep = sqrt(1.0 - aside * aside);
@@ -37,7 +36,7 @@ uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 toward
     precise vec3 chord = corner.position - hole.position;
     precise vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
 
-    vec2 direction = seamDirection(branch, first, k, around);
+    vec2 direction = seamDirection(branch.turn, first, k, around);
     SurfacePoint end = surfacePoint(branch.section, direction);
     vec3 d = ringDirection(branch.section, direction);
     precise float bend = max(1.0 - branch.section.radius * dotOf(branch.section.curvature, d), 0.1);
@@ -55,9 +54,12 @@ uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 toward
     precise vec3 aroundP = (branch.turn * branch.section.radius) *
                            (direction.x * branch.section.v - direction.y * branch.section.u);
     CollarCurve curve = CollarCurve(hole.position, h1, p1, end.position, aroundH, aroundP);
-    put(start + k, hole);
-    for (uint row = 1; row < kCollarRows; ++row) put(start + row * around + k, collarAt(curve, collarParameter(row)));
-    put(start + kCollarRows * around + k, end);
+    [[dont_unroll]] for (uint row = 0; row <= kCollarRows; ++row) {
+      SurfacePoint point = collarAt(curve, collarParameter(row));
+      if (row == 0) point = hole;
+      if (row == kCollarRows) point = end;
+      put(start + row * around + k, point);
+    }
   }
   return first;
 }

@@ -1,5 +1,6 @@
 // A fork's rows of vertices and the list of its triangles. Mirrors parts of engine/surface/fork_template.cpp and
 // fork_check.cpp: the same operations in the same order. The shader that includes it has
+//   vec2 placeOf(vec3 position)                   on the picture [pixels] (lib/picture_place.glsl)
 //   uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d)   which triangles of a quad are drawn (lib/visible.glsl)
 #ifndef VASA_FORK_ROWS
 #define VASA_FORK_ROWS
@@ -30,7 +31,6 @@ uint rowStart(ForkShape shape, uint row) {
 const float kFlat2 = 1e-10;  // square of the share of its edges that a triangle looks the right way
 
 SurfacePoint corners[kMostForkVertices];
-vec2 places[kMostForkVertices];  // on the picture [samples]
 uint list[kMostForkTriangles];   // of the triangles that are drawn, 8 bits a corner
 uint triangles;                  // how many
 bool folded;                     // some triangle that was added folds, drawn or not
@@ -42,7 +42,10 @@ struct Corner {
   vec2 place;
 };
 
-Corner cornerAt(uint vertex) { return Corner(vertex, corners[vertex], places[vertex]); }
+Corner cornerAt(uint vertex) {
+  SurfacePoint point = corners[vertex];
+  return Corner(vertex, point, placeOf(point.position));
+}
 
 bool folds(SurfacePoint a, SurfacePoint b, SurfacePoint c) {
   precise vec3 first = b.position - a.position, second = c.position - a.position;
@@ -66,7 +69,5 @@ void addQuad(Corner a, Corner b, Corner c, Corner d) {
   if ((seen & 1u) != 0u) add(a.vertex, b.vertex, c.vertex);
   if ((seen & 2u) != 0u) add(a.vertex, c.vertex, d.vertex);
 }
-
-uvec3 triangleAt(uint i) { return uvec3(list[i], list[i] >> 8, list[i] >> 16) & 255u; }
 
 #endif

@@ -15,18 +15,17 @@ void addStump(ForkShape shape, Ring ring, uint first, vec3 inward, vec3 towards,
   float depth = dotOf(way, inward);
   precise vec3 tip = towards + max(kStumpLeast * section.radius - depth, 0.0) * inward;
   precise vec3 wide = section.centre + kStumpWide * (tip - section.centre);
-  uint around = rowSize(shape, ringRow), count = rowSize(shape, tipRow);
+  uint around = rowSize(shape, ringRow);
   setDirections(stepOf(around), around);
-  for (uint k = 0; k < around; ++k) {
-    vec3 d = ringDirection(section, seamDirection(ring, first, k, around));
-    uint vertex = rowStart(shape, ringRow) + k;
-    put(vertex, SurfacePoint(corners[vertex].position, d));
-    precise vec3 position = wide + section.radius * d;
-    if (wideRow != tipRow) put(rowStart(shape, wideRow) + k, SurfacePoint(position, d));
+  // The ring, whose vertices stay where they are, the wide row and the tip, which may take its place.
+  [[dont_unroll]] for (uint step = 0; step < 3; ++step) {
+    uint row = step == 0 ? ringRow : step == 1 ? wideRow : tipRow, m = rowSize(shape, row), start = rowStart(shape, row);
+    for (uint k = 0; k < m; ++k) {
+      vec3 d = ringDirection(section, seamDirection(ring.turn, first, (k * around + m / 2) / m, around));
+      precise vec3 onWide = wide + section.radius * d;
+      put(start + k, SurfacePoint(step == 0 ? corners[start + k].position : step == 1 ? onWide : tip, d));
+    }
   }
-  for (uint k = 0; k < count; ++k)
-    put(rowStart(shape, tipRow) + k,
-        SurfacePoint(tip, ringDirection(section, seamDirection(ring, first, (k * around + count / 2) / count, around))));
 }
 
 #endif

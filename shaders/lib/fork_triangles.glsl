@@ -68,17 +68,12 @@ void addStumpQuads(ForkShape shape, uint row) {
   }
 }
 
-// A stump's vertices are not there yet: all of its triangles are drawn.
-void addTrunkStumps(ForkShape shape) {
-  addStumpQuads(shape, 0);
-  addTipOfFirst(shape, 1);
-  addTipOfLast(shape, kTrunkRows - 2);
-}
-
-void addBranchStump(ForkShape shape, uint branch) {
+// A stump's vertices are not there yet: all of its triangles are drawn. The trunk has one at either end.
+void addStumpTriangles(ForkShape shape, bool trunk, uint branch) {
   uint ring = branchRow(branch);
-  addTipOfLast(shape, ring - 2);
-  addStumpQuads(shape, ring - 1);
+  addStumpQuads(shape, trunk ? 0 : ring - 1);
+  if (trunk) addTipOfFirst(shape, 1);
+  addTipOfLast(shape, trunk ? kTrunkRows - 2 : ring - 2);
 }
 
 // All triangles, and which parts fold: a bit a branch, then one for the trunk, whose wall has holes for branches that are
@@ -89,8 +84,8 @@ uint addParts(ForkShape shape) {
   for (uint part = 0; part <= shape.branchCount; ++part) {
     bool trunk = part == shape.branchCount;
     folded = false;
-    if (!trunk && stumps[min(part, kMostBranches - 1)]) {
-      addBranchStump(shape, part);
+    if (cut || (!trunk && stumps[min(part, kMostBranches - 1)])) {
+      addStumpTriangles(shape, trunk, part);
     } else {
       uint first = trunk ? 0 : holeRow(part), last = trunk ? kTrunkRows - 1 : branchRow(part);
       if (!trunk) {
@@ -120,20 +115,13 @@ void addForkTriangles(ForkShape shape) {
   cut = false;
   for (uint i = 0; i < kMostBranches; ++i) stumps[i] = false;
   uint wrong = 0;
-  for (uint step = 0; step <= kMostSmoothings + 1; ++step) {
+  for (uint step = 0; step <= kMostSmoothings + 2; ++step) {
+    cut = step > kMostSmoothings + 1;
     if (step <= kMostSmoothings) smoothParts(shape, wrong);
-    else for (uint i = 0; i < shape.branchCount; ++i) stumps[i] = (wrong >> i & 1u) != 0u;
+    else for (uint i = 0; i < shape.branchCount; ++i) stumps[i] = cut || (wrong >> i & 1u) != 0u;
     wrong = addParts(shape);
     if (wrong == 0) break;
   }
-  cut = wrong != 0;
-  if (!cut) return;
-  triangles = 0;
-  for (uint i = 0; i < shape.branchCount; ++i) {
-    stumps[i] = true;
-    addBranchStump(shape, i);
-  }
-  addTrunkStumps(shape);
 }
 
 #endif
