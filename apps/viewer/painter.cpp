@@ -7,6 +7,7 @@ namespace {
 
 // Of vessels in a picture that the next one follows at once: less than what a sample a pixel gets wrong.
 constexpr float kMovingPixelError = 1;
+constexpr std::chrono::milliseconds kPatience{10};  // of a step, with what the driver is compiling
 // Capillaries of such a picture: they take a CPU about as long as all else that moves.
 constexpr std::uint32_t kMovingCapillaries = 8'000;
 
@@ -16,7 +17,8 @@ RenderInput inputOf(const Shot& shot) {
           .jointMatrices = shot.body->jointMatrices,
           .camera = shot.camera,
           .look = shot.look,
-          .heartScale = shot.body->heartScale};
+          .heartScale = shot.body->heartScale,
+          .waits = shot.waits};
 }
 
 }  // namespace
@@ -54,6 +56,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                               .bgra = true,
                               .occlusion = shot.fine,
                               .seed = seed_,
+                              .compileBehind = !shot.fine && !shot.waits,
                               .timed = timed_};
   const bool anyGrowth = detail_.capillaries > 0,
              made = brush.renderer && brush.timed == timed_ && brush.levels == document_->levels,
@@ -100,6 +103,7 @@ Renderer& Painter::prepared(const Shot& shot) {
 
 void Painter::draw(const Shot& shot) {
   Renderer& renderer = prepared(shot);
+  bare_ = !shot.waits && !renderer.isSettled({});
   renderer.draw(inputOf(shot));
   last_ = &renderer;
 }
@@ -111,8 +115,11 @@ void Painter::begin(const Shot& shot) {
 }
 
 bool Painter::step() {
+  // Both would have the driver compile the same.
+  if (live_.renderer && !live_.renderer->isSettled(kPatience)) return true;
   if (still_.renderer->step()) return true;
   last_ = still_.renderer.get();
+  bare_ = false;
   return false;
 }
 

@@ -17,6 +17,7 @@ struct Shot {
   std::uint32_t width = 0, height = 0;  ///< [pixels]
   std::vector<std::uint32_t> colours;   ///< Renderer::setSweepColours()
   bool fine = false;                    ///< a still: 4 samples a pixel and ambient occlusion
+  bool waits = false;                   ///< RenderInput::waits
 };
 
 /// [ms] that slices of a picture may take before a person's wishes are looked for again.
@@ -38,6 +39,8 @@ class Painter {
   /// before.
   void begin(const Shot& shot);
   bool step();
+  /// The latest picture is without forks, and would have them by now.
+  bool isStale() const { return bare_ && live_.renderer->isSettled({}); }
   /// The latest picture, null before the first.
   const gpu::Image* picture() const { return last_ ? &last_->picture() : nullptr; }
   Image readBack() { return last_->readBack(); }
@@ -67,6 +70,7 @@ class Painter {
   bool timed_ = false;
   Brush live_, still_;
   Renderer* last_ = nullptr;
+  bool bare_ = false;  // live_'s, without forks
 };
 
 }  // namespace vasa::viewer

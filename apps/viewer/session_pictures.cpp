@@ -92,7 +92,8 @@ Shot Session::shotNow() {
             .look = state_.look,
             .width = std::uint32_t(rect.width),
             .height = std::uint32_t(rect.height),
-            .colours = coloursOf(*document_, body_, state_, spanColours_)};
+            .colours = coloursOf(*document_, body_, state_, spanColours_),
+            .waits = steady()};
   shot.look.occlusion = 0;
   return shot;
 }
@@ -140,7 +141,7 @@ bool Session::drawScene() {
   moveCamera();
   const Detail before = detail_;
   painter_.choose(document_, detail_ = detailNow(), state_.timing);
-  if (!painter_.picture() || before != detail_) {
+  if (!painter_.picture() || before != detail_ || painter_.isStale()) {
     shown_.reset();
     leaveStill();
   }

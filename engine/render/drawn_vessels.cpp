@@ -1,7 +1,10 @@
 #include "render/drawn_vessels.h"
 
+#include <functional>
+
 #include "gpu/barrier.h"
 #include "gpu/device.h"
+#include "gpu/error.h"
 #include "render/frame_stages.h"
 
 namespace vasa {
@@ -9,6 +12,12 @@ namespace {
 
 TubeDetail detailOf(const RenderOptions& options) {
   return {options.shape, options.pixelError, options.forks, options.table};
+}
+
+ForkPass makeForkPass(gpu::Device& device, std::uint32_t groupForks, bool compileBehind) {
+  // What fails here fails again, and is told, where the pass is used.
+  if (compileBehind) (void)gpu::attempt([&] { ForkPass::compile(device.adapter(), groupForks); });
+  return {device, groupForks};
 }
 
 }  // namespace
@@ -20,19 +29,21 @@ DrawnVessels::DrawnVessels(gpu::Device& device, const Network& network, const Re
       ownColours_(kindColours(network)),
       tubes_(device, network, detailOf(options), templateBytes_),
       forks_(device, tubes_.table(), tubes_.detail(), templateBytes_),
-      comingForkPass_(std::async(std::launch::async, [this] { return ForkPass(*device_, forks_); })),
+      comingForkPass_(std::async(std::launch::async, makeForkPass, std::ref(device), forks_.groupForks(),
+                                 options.compileBehind)),
       patches_(device, tubes_.table().patches),
       detailPass_(device, tubes_),
       tubePass_(device, samples_, tubes_),
-      range_(everything(tubes_)),
-      filling_(device, tubes_, forks_, fillRoom(tubes_, forks_, range_, templateBytes_)),
+      filling_(device, tubes_, forks_, fillRoom(tubes_, forks_, everything(tubes_), templateBytes_)),
       planPass_(device),
       first_(device, filling_.room()) {
   if (!patches_.empty()) patchPass_.emplace(device);
 }
 
-void DrawnVessels::settle() {
-  if (comingForkPass_.valid()) forkPass_ = comingForkPass_.get();
+void DrawnVessels::settle(bool waits) {
+  if (comingForkPass_.valid() && (waits || isSettled({}))) forkPass_ = comingForkPass_.get();
+  range_ = everything(tubes_);
+  if (comingForkPass_.valid()) range_.forkEnd = range_.firstFork;
 }
 
 bool DrawnVessels::isSettled(std::chrono::milliseconds within) const {
@@ -40,19 +51,20 @@ bool DrawnVessels::isSettled(std::chrono::milliseconds within) const {
 }
 
 void DrawnVessels::take(const Network& network, const RenderOptions& options) {
-  settle();
   gpu::Device& device = *device_;
   ownColours_ = kindColours(network);
   tubes_ = TubeSet(device, network, detailOf(options), templateBytes_);
   forks_ = ForkSet(device, tubes_.table(), tubes_.detail(), templateBytes_);
   patches_ = PatchSet(device, tubes_.table().patches);
   if (filling_.groupSweeps() != tubes_.groupSweeps()) tubePass_ = TubePass(device, samples_, tubes_);
-  if (filling_.groupForks() != forks_.groupForks()) forkPass_ = ForkPass(device, forks_);
+  if (filling_.groupForks() != forks_.groupForks()) {
+    settle();
+    forkPass_ = ForkPass(device, forks_.groupForks());
+  }
   if (!patches_.empty() && !patchPass_) patchPass_.emplace(device);
   if (patches_.empty()) patchPass_.reset();
   detailPass_.fit(device, tubes_);
-  range_ = everything(tubes_);
-  filling_ = Filling(device, tubes_, forks_, fillRoom(tubes_, forks_, range_, templateBytes_));
+  filling_ = Filling(device, tubes_, forks_, fillRoom(tubes_, forks_, everything(tubes_), templateBytes_));
   first_ = Template(device, filling_.room());
   second_.reset();
   setColours({});

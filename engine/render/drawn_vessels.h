@@ -19,13 +19,13 @@ namespace vasa {
 /// them into triangles, and the two templates that these go to by turns, round by round.
 class DrawnVessels {
  public:
-  /// Pipelines of forks are still being made: settle().
+  /// The forks' pass is still being made: settle().
   DrawnVessels(gpu::Device& device, const Network& network, const RenderOptions& options);
   DrawnVessels(const DrawnVessels&) = delete;
   DrawnVessels& operator=(const DrawnVessels&) = delete;
-  /// Waits until all is made; nothing may be recorded before. A driver takes as long for the forks' shader as
-  /// for all others: it is made beside them.
-  void settle();
+  /// Before a frame: waits until all is made. A driver takes as long for the forks' shader as for all others,
+  /// and is given it beside them. A frame that does not wait is without forks until then.
+  void settle(bool waits = true);
   /// Whether it is made, or will be within so long.
   bool isSettled(std::chrono::milliseconds within) const;
 
@@ -57,7 +57,7 @@ class DrawnVessels {
 
   const TubeSet& tubes() const { return tubes_; }
   const Filling& filling() const { return filling_; }
-  const FillRange& range() const { return range_; }
+  const FillRange& range() const { return range_; }  ///< of a frame
   std::uint64_t triangleCount() const;
   VkDeviceSize bytes() const;  ///< of all that rounds and patches write
 

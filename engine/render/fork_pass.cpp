@@ -1,12 +1,28 @@
 #include "render/fork_pass.h"
 
+#include <span>
+#include <string>
+
+#include "gpu/device.h"
+#include "gpu/transfer.h"
 #include "spirv/forks_comp.h"
 
 namespace vasa {
 
-ForkPass::ForkPass(gpu::Device& device, const ForkSet& forks)
-    : pipeline_(device, {spirv::forks_comp, sizeof(shared::ForksPush),
-                         gpu::Specialization().set(1, forks.groupForks())}) {}
+ForkPass::ForkPass(gpu::Device& device, std::uint32_t groupForks)
+    : pipeline_(device,
+                {spirv::forks_comp, sizeof(shared::ForksPush), gpu::Specialization().set(1, groupForks)}) {}
+
+void ForkPass::compile(const gpu::Adapter& adapter, std::uint32_t groupForks) {
+  if (adapter.driverId != VK_DRIVER_ID_MESA_LLVMPIPE) return;
+  gpu::Device device({.choice = std::to_string(adapter.index)});
+  const ForkPass pass(device, groupForks);
+  const shared::Filling none{};
+  const gpu::Buffer nothing = gpu::makeBuffer(device, "no forks", std::span<const shared::Filling>(&none, 1));
+  gpu::Commands commands = device.queue().begin("compile forks");
+  pass.pipeline_.dispatch(commands, shared::ForksPush{.filling = nothing.address()}, 1);
+  device.queue().wait(device.queue().submit(std::move(commands)));
+}
 
 void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
   const ForkSet& forks = input.forks;

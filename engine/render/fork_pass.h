@@ -9,8 +9,14 @@ namespace vasa {
 class ForkPass {
  public:
   ForkPass() = default;
-  /// @param forks    read, not kept: of a network that it will write
-  ForkPass(gpu::Device& device, const ForkSet& forks);
+  /// @param groupForks  ForkSet::groupForks() of a network that it will write
+  ForkPass(gpu::Device& device, std::uint32_t groupForks);
+
+  /// Has the driver compile the pass and keep it for every device of the machine. lavapipe compiles a shader
+  /// when it first runs, this one for seconds, in its queue's only thread, where all pictures would wait: so
+  /// it runs once, with nothing to do, on a device of its own. Others compile when the pass is made; nothing
+  /// is done for them. May be called in a thread of its own. Throws gpu::Error.
+  static void compile(const gpu::Adapter& adapter, std::uint32_t groupForks);
 
   struct Input {
     const TubeSet& tubes;  ///< of the same network

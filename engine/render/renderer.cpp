@@ -121,6 +121,7 @@ struct Renderer::State {
     Look look;
     std::span<const MeshSet::Level> levels;
     float heartScale;
+    bool waits;
     std::uint32_t rounds;  // of tubes and forks
     bool patched, occludes, grows;
     bool sliced;    // a slice at a time is recorded
@@ -299,6 +300,7 @@ Renderer::State::Frame Renderer::State::start(const RenderInput& input, bool sli
               .look = input.look,
               .levels = levels,
               .heartScale = input.heartScale,
+              .waits = input.waits,
               .rounds = any ? rounds.next() : 0,
               .patched = any && vessels.anyPatches(),
               // Depth of what is translucent is grain.
@@ -416,7 +418,7 @@ void Renderer::setSweepColours(std::span<const std::uint32_t> colours) {
 }
 
 void Renderer::State::drawUntil(Part part, Frame& frame) {
-  vessels.settle();
+  if (frame.next == Part::start) vessels.settle(frame.waits);
   const bool vesselsCame = frame.next < Part::patches;
   gpu::Commands commands = device.queue().begin("frame");
   timer->begin(commands);
@@ -511,6 +513,8 @@ Image Renderer::readBack() {
   return toImage(averaged(pixels, s.options.width, s.options.height, n), s.options.width, s.options.height,
                  s.transparent);
 }
+
+bool Renderer::isSettled(std::chrono::milliseconds within) const { return state_->vessels.isSettled(within); }
 
 FrameTimes Renderer::times() const { return state_->times; }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <span>
 
@@ -56,6 +57,9 @@ struct RenderOptions {
   const Growth* growth = nullptr;  ///< of the capillaries, must outlive the renderer; nullptr: none are drawn
   CapillaryWish capillaries;       ///< which of them
   std::uint32_t seed = 1;          ///< of their shapes
+  /// Have the driver compile the forks' shader in the background where else it would hold up all pictures (a
+  /// CPU driver, several seconds, once on a machine): see RenderInput::waits.
+  bool compileBehind = false;
   /// Take times() on the device's clock. That puts barriers around every stage, which costs a little and
   /// keeps a device from writing one template while it draws the other; the pictures are the same.
   bool timed = true;
@@ -69,6 +73,8 @@ struct RenderInput {
   Camera camera;
   Look look;
   float heartScale = 1;  ///< of the heart's mesh (FrameMaker::heartScale)
+  /// Until the driver has compiled the forks' shader; false: the picture is without forks until then.
+  bool waits = true;
 };
 
 /// [ms] of the latest frame: upload and total by the host's clock, the others by the device's, which are 0
@@ -141,6 +147,9 @@ class Renderer {
 
   /// The picture of the latest draw().
   Image readBack();
+
+  /// Whether pictures have their forks from now on, or will within so long: RenderInput::waits.
+  bool isSettled(std::chrono::milliseconds within) const;
 
   FrameTimes times() const;
   CapillaryCounts capillaryCounts() const;

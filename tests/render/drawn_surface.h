@@ -50,7 +50,7 @@ struct Forks {
         patches(rig.device(), tubes.table().patches),
         detailPass(rig.device(), tubes),
         tubePass(rig.device(), 1, tubes),
-        forkPass(rig.device(), forks),
+        forkPass(rig.device(), forks.groupForks()),
         planPass(rig.device()),
         patchPass(rig.device()) {
     const gpu::Buffer pointBuffer = rig.upload(points), knotBuffer = rig.upload(frames);

@@ -382,3 +382,27 @@ TEST_CASE("a timed frame tells each stage's time and shows the same picture") {
   CHECK(times.meshes > 0);
   CHECK(times.total >= times.tessellate + times.draw);
 }
+
+TEST_CASE("a picture that does not wait for the forks' shader comes without them, until they are there") {
+  VASA_REQUIRE_GPU(rig);
+  const RenderSubject subject(test::branchingNetwork(12, 5));
+  RenderOptions options = small(4);
+  options.pixelError = kAutoPixelError;
+  RenderInput input =
+      subject.input(cameraFrom(View::front, measure(subject.network, subject.network.points()).bounds, 1));
+  input.look.transparent = true;
+  Renderer waits(rig.device(), subject.network, {}, options);
+  waits.draw(input);
+  const std::uint64_t whole = hashOfPicture(waits.readBack());
+
+  options.compileBehind = true;
+  input.waits = false;
+  Renderer hurries(rig.device(), subject.network, {}, options);
+  hurries.draw(input);
+  CHECK(covered(hurries.readBack()) > 100);
+  const std::uint64_t drawn = hurries.drawnTriangleCount();
+  if (!hurries.isSettled({})) CHECK(drawn < waits.drawnTriangleCount());
+  while (!hurries.isSettled(std::chrono::seconds(1))) hurries.draw(input);
+  hurries.draw(input);
+  CHECK(hashOfPicture(hurries.readBack()) == whole);
+}
