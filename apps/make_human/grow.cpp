@@ -387,7 +387,7 @@ struct Grower::State {
       grid.add({a.points[k], a.points[k + 1], a.reserve, 0, 0});
     const float need = a.reserve + b.reserve + tree_.clearance();
     for (vec3 p : b.points)
-      if (grid.nearest(p, need).segment != 0xffffffffu) return false;
+      if (grid.nearest(p, need).segment != kNone) return false;
     return true;
   }
 

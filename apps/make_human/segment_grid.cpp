@@ -78,7 +78,7 @@ SegmentGrid::Nearest SegmentGrid::nearest(vec3 p, float within) const {
       const float t = closestOnSegment(p, s.a, s.b), distance = glm::distance(p, glm::mix(s.a, s.b, t));
       if (distance < best.distance) best = {number, t, distance};
     }
-    if (best.segment != 0xffffffffu || reach >= within) return best;
+    if (best.segment != kNone || reach >= within) return best;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "core/ids.h"
 #include "math/types.h"
 
 namespace vasa::human {
@@ -30,7 +31,7 @@ class SegmentGrid {
   const std::vector<std::uint32_t>& near(vec3 a, vec3 b, float reach) const;
 
   struct Nearest {
-    std::uint32_t segment = 0xffffffffu;  ///< none within the distance asked for
+    std::uint32_t segment = kNone;  ///< none within the distance asked for
     float t = 0;                          ///< on the segment
     float distance = 0;                   ///< [m] to its centre line
   };

@@ -92,7 +92,7 @@ bool Solid::isFar(vec3 p, float within) const {
   float clear = known.load(std::memory_order_relaxed);
   if (clear == kUnknown) {
     const TriangleTree::Nearest nearest = tree().nearest(middle, kFarthestTold);
-    const float distance = nearest.triangle == 0xffffffffu ? kFarthestTold : nearest.distance;
+    const float distance = nearest.triangle == kNone ? kFarthestTold : nearest.distance;
     clear = winding(middle) > 0 ? 0 : distance;
     known.store(clear, std::memory_order_relaxed);
   }
@@ -103,7 +103,7 @@ std::optional<Solid::Place> Solid::at(vec3 p, float within) const {
   if (isFar(p, within)) return std::nullopt;
   const TriangleTree::Nearest nearest = tree().nearest(p, within);
   const bool inside = winding(p) > 0;
-  if (nearest.triangle == 0xffffffffu) {
+  if (nearest.triangle == kNone) {
     if (!inside) return std::nullopt;
     return Place{-within, vec3(0)};
   }

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/letters.h"
 #include "curve/bspline.h"
 #include "plate/label_names.h"
 
@@ -139,10 +140,10 @@ std::vector<VesselLabel> rowsAsOne(std::vector<VesselLabel> labels) {
 // Leaves out "anterior branch of X" and "lateral X" beside X, or beside the row that X is one of.
 void leaveOutKin(std::vector<VesselLabel>& labels) {
   std::set<std::string> named;
-  for (const VesselLabel& label : labels) named.insert(lower(label.text));
+  for (const VesselLabel& label : labels) named.insert(lowerCase(label.text));
   std::erase_if(labels, [&](const VesselLabel& label) {
     const std::string parent = namedAfter(label.text);
-    return named.contains(parent) || named.contains(lower(plural(rowOf(parent))));
+    return named.contains(parent) || named.contains(lowerCase(plural(rowOf(parent))));
   });
 }
 
@@ -153,13 +154,13 @@ bool contains(std::span<const VesselId> vessels, VesselId id) {
 // The vessels of a name: those that are called so, with or without their side; else all whose names it is a
 // part of.
 Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::string& name) {
-  const std::string wanted = lower(name);
+  const std::string wanted = lowerCase(name);
   const LabelNames names(network);
   std::vector<VesselId> exact, bare, partly;
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
-    const std::string own = lower(network.vessels()[v].name);
+    const std::string own = lowerCase(network.vessels()[v].name);
     if (own == wanted) exact.push_back({v});
-    if (lower(names.of({v})) == wanted) bare.push_back({v});
+    if (lowerCase(names.of({v})) == wanted) bare.push_back({v});
     if (own.find(wanted) != own.npos) partly.push_back({v});
   }
   if (!exact.empty()) return exact;

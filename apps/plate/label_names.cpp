@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/mirror.h"
+#include "core/letters.h"
 
 namespace vasa::plate {
 namespace {
@@ -43,7 +44,7 @@ std::string withoutSide(std::string_view name) {
 std::string hostName(const Network& network, const Vessel& vessel, bool last) {
   const NodeId id = last ? vessel.end : vessel.start;
   if (!id.valid() || !network.node(id).host) return {};
-  return lower(network.vessel(network.node(id).host->vessel).name);
+  return lowerCase(network.vessel(network.node(id).host->vessel).name);
 }
 
 // Whether two vessels hang on the same one or on a pair, as far as they hang on any.
@@ -117,7 +118,7 @@ float middleOf(const Network& network, std::uint32_t vessel) {
 
 LabelNames::LabelNames(const Network& network) : network_(network) {
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v)
-    byName_.try_emplace(lower(network.vessels()[v].name), v);
+    byName_.try_emplace(lowerCase(network.vessels()[v].name), v);
   // The body's middle is that of most pairs.
   std::vector<float> middles;
   for (const auto& [name, v] : byName_)
@@ -131,7 +132,7 @@ LabelNames::LabelNames(const Network& network) : network_(network) {
 
 std::string LabelNames::of(VesselId id) const {
   const Vessel& vessel = network_.vessel(id);
-  const std::string name = lower(vessel.name);
+  const std::string name = lowerCase(vessel.name);
   std::string shown = withoutPiece(vessel.name);
   if (const auto other = otherSideOf(name))
     if (mirrorOneAnother(network_, middle_, vessel, network_.vessels()[*other])) shown = withoutSide(shown);
@@ -144,15 +145,9 @@ std::optional<std::uint32_t> LabelNames::otherSideOf(const std::string& name) co
   return other == byName_.end() ? std::nullopt : std::optional(other->second);
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 std::string rowOf(std::string_view name) {
   std::string row;
-  const std::string small = lower(name);
+  const std::string small = lowerCase(name);
   // A digit's artery or vein; "of hand" and "of aorta" tell more than a place in a row.
   if (const auto of = small.rfind(" of "); of != small.npos)
     for (const std::string_view digit : {"finger", "thumb", "toe"})
@@ -169,7 +164,7 @@ std::string rowOf(std::string_view name) {
 }
 
 std::string namedAfter(std::string_view name) {
-  const std::string small = lower(name);
+  const std::string small = lowerCase(name);
   const std::size_t side = small.starts_with("left ") ? 5 : small.starts_with("right ") ? 6 : 0;
   for (const std::string_view beside : {"lateral ", "medial "})
     if (small.substr(side).starts_with(beside))

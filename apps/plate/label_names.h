@@ -26,8 +26,6 @@ class LabelNames {
   float middle_ = 0;  // the body's, x
 };
 
-std::string lower(std::string_view text);
-
 /// What the name of one of a row shares with the others': "Sixth posterior intercostal artery" and
 /// "Ulnar palmar digital artery of little finger" without the sixth and the finger.
 std::string rowOf(std::string_view name);

@@ -1,19 +1,15 @@
 #include "viewer/file_chooser.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
+
+#include "core/letters.h"
 
 namespace vasa::viewer {
 namespace {
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
-
 bool beginsWith(const std::string& name, const std::string& start) {
-  return lower(name).starts_with(lower(start));
+  return lowerCase(name).starts_with(lowerCase(start));
 }
 
 // "~/x" as shells have it; relative ones from a folder.
@@ -40,14 +36,14 @@ Result<std::vector<FileRow>> rowsOfFolder(const std::filesystem::path& folder,
     if (row.name.starts_with('.')) continue;
     if (!row.folder) {
       if (!entries->is_regular_file(unknown)) continue;
-      const std::string extension = lower(entries->path().extension().string());
+      const std::string extension = lowerCase(entries->path().extension().string());
       if (!extensions.empty() && std::ranges::find(extensions, extension) == extensions.end()) continue;
       row.bytes = entries->file_size(unknown);
     }
     rows.push_back(std::move(row));
   }
   std::ranges::sort(rows, {}, [](const FileRow& row) {
-    return std::tuple(row.name != "..", !row.folder, lower(row.name), row.name);
+    return std::tuple(row.name != "..", !row.folder, lowerCase(row.name), row.name);
   });
   return rows;
 }
@@ -199,7 +195,8 @@ std::optional<std::filesystem::path> FileChooser::take(std::filesystem::path fil
     }
   } else {
     // Another kind of scene cannot be opened again; what is exported says by its name what it is.
-    const bool known = std::ranges::find(extensions_, lower(file.extension().string())) != extensions_.end();
+    const bool known =
+        std::ranges::find(extensions_, lowerCase(file.extension().string())) != extensions_.end();
     if (!known && (purpose_ == FilePurpose::saveScene || !file.has_extension())) file += extensions_.front();
     if (!std::filesystem::is_directory(file.parent_path(), ignored)) {
       message_ = file.parent_path().string() + ": there is no such folder";

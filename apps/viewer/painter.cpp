@@ -17,8 +17,7 @@ RenderInput inputOf(const Shot& shot) {
           .jointMatrices = shot.body->jointMatrices,
           .camera = shot.camera,
           .look = shot.look,
-          .heartScale = shot.body->heartScale,
-          .waits = shot.waits};
+          .heartScale = shot.body->heartScale};
 }
 
 }  // namespace
@@ -56,7 +55,7 @@ Painter::Brush& Painter::brush(const Shot& shot) {
                               .bgra = true,
                               .occlusion = shot.fine,
                               .seed = seed_,
-                              .compileBehind = !shot.fine && !shot.waits,
+                              .compileBehind = !shot.fine && !shot.waits && !compiled_,
                               .timed = timed_};
   const bool anyGrowth = detail_.capillaries > 0,
              made = brush.renderer && brush.timed == timed_ && brush.levels == document_->levels,
@@ -103,8 +102,11 @@ Renderer& Painter::prepared(const Shot& shot) {
 
 void Painter::draw(const Shot& shot) {
   Renderer& renderer = prepared(shot);
-  bare_ = !shot.waits && !renderer.isSettled({});
-  renderer.draw(inputOf(shot));
+  RenderInput input = inputOf(shot);
+  input.waits = shot.waits || compiled_;
+  bare_ = !input.waits && !renderer.isSettled({});
+  renderer.draw(input);
+  compiled_ = !bare_;
   last_ = &renderer;
 }
 
@@ -117,6 +119,7 @@ void Painter::begin(const Shot& shot) {
 bool Painter::step() {
   // Both would have the driver compile the same.
   if (live_.renderer && !live_.renderer->isSettled(kPatience)) return true;
+  compiled_ = true;
   if (still_.renderer->step()) return true;
   last_ = still_.renderer.get();
   bare_ = false;

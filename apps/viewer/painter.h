@@ -17,7 +17,7 @@ struct Shot {
   std::uint32_t width = 0, height = 0;  ///< [pixels]
   std::vector<std::uint32_t> colours;   ///< Renderer::setSweepColours()
   bool fine = false;                    ///< a still: 4 samples a pixel and ambient occlusion
-  bool waits = false;                   ///< RenderInput::waits
+  bool waits = false;                   ///< until it can have its forks (RenderInput::waits)
 };
 
 /// [ms] that slices of a picture may take before a person's wishes are looked for again.
@@ -40,7 +40,7 @@ class Painter {
   void begin(const Shot& shot);
   bool step();
   /// The latest picture is without forks, and would have them by now.
-  bool isStale() const { return bare_ && live_.renderer->isSettled({}); }
+  bool isStale() const { return bare_ && last_ && last_->isSettled({}); }
   /// The latest picture, null before the first.
   const gpu::Image* picture() const { return last_ ? &last_->picture() : nullptr; }
   Image readBack() { return last_->readBack(); }
@@ -70,7 +70,8 @@ class Painter {
   bool timed_ = false;
   Brush live_, still_;
   Renderer* last_ = nullptr;
-  bool bare_ = false;  // live_'s, without forks
+  bool compiled_ = false;  // the forks' shader
+  bool bare_ = false;      // what is shown is without forks
 };
 
 }  // namespace vasa::viewer

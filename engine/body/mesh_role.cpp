@@ -1,24 +1,13 @@
 #include "body/mesh_role.h"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <string>
 
 #include "body/bone_field.h"
+#include "core/letters.h"
 
 namespace vasa {
-namespace {
-
-std::string lowerCase(std::string_view name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return lower;
-}
-
-}  // namespace
-
 MeshRole roleNamed(std::string_view name) {
   const std::string lower = lowerCase(name);
   const auto hasAny = [&](std::initializer_list<std::string_view> parts) {

@@ -19,7 +19,7 @@ struct Strand {
   Sections sections;  ///< at least 2; empty once the strand was dropped or merged into others
   std::uint32_t element = 0;
   VesselKind kind = VesselKind::other;
-  std::uint32_t startJoint = 0xffffffffu, endJoint = 0xffffffffu;
+  std::uint32_t startJoint = kNone, endJoint = kNone;
 
   bool dropped() const { return sections.empty(); }
 };

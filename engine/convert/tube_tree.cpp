@@ -66,7 +66,7 @@ void TubeTree::build(std::uint32_t first, std::uint32_t count) {
 }
 
 TubeTree::Hit TubeTree::nearestWall(vec3 p, float limit) const {
-  Hit best{limit, 0, 0xffffffffu};
+  Hit best{limit, 0, kNone};
   if (pieces_.empty()) return best;
   std::array<std::uint32_t, 64> stack;
   std::size_t depth = 0;

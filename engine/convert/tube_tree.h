@@ -27,7 +27,7 @@ class TubeTree {
     float radius;    ///< there
     std::uint32_t vessel;
   };
-  /// The wall nearest to p, inside or outside; `limit` and no vessel (0xffffffff) if none is nearer than
+  /// The wall nearest to p, inside or outside; `limit` and no vessel (kNone) if none is nearer than
   /// that.
   Hit nearestWall(vec3 p, float limit) const;
   /// Whether p lies deeper than `margin` inside a tube of another vessel than `own`.

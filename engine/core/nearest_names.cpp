@@ -1,20 +1,15 @@
 #include "core/nearest_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 #include <utility>
+
+#include "core/letters.h"
 
 namespace vasa {
 namespace {
 
 constexpr std::size_t kLongest = 80;  // letters that are compared
-
-std::string comparable(const std::string& text) {
-  std::string result = text.substr(0, kLongest);
-  std::ranges::transform(result, result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
-}
 
 std::size_t changesBetween(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -50,10 +45,10 @@ std::vector<std::string> nearestNames(const std::string& written, std::span<cons
     std::size_t changes;
     const std::string* name;
   };
-  const std::string wanted = comparable(written);
+  const std::string wanted = lowerCase(written.substr(0, kLongest));
   std::vector<Candidate> candidates;
   for (const std::string& name : names) {
-    const std::string each = comparable(name);
+    const std::string each = lowerCase(name.substr(0, kLongest));
     const std::size_t changes = changesBetween(wanted, each);
     if (changes * 3 <= std::max(wanted.size(), each.size()) || holdsWords(each, wanted))
       candidates.push_back({changes, &name});

@@ -1,8 +1,8 @@
 #include "edit/draft.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "core/letters.h"
 #include "core/nearest_names.h"
 #include "curve/arc_length.h"
 #include "curve/fit.h"
@@ -13,11 +13,6 @@ namespace {
 
 constexpr float kLeastMove = 1e-7f;  // [m] below which an end counts as where it was
 constexpr int kMostFollowers = 100;  // generations of branches on branches that move along
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 // Moves an end by `way`, and the course behind it ever less. The other end stays.
 void bendEnd(std::vector<vec4>& points, bool last, vec3 way) {
@@ -92,7 +87,8 @@ Result<VesselId> Draft::find(const std::string& name) const {
   };
   auto found = matching([&](const std::string& each) { return each == name; });
   if (found.empty())
-    found = matching([wanted = lower(name)](const std::string& each) { return lower(each) == wanted; });
+    found =
+        matching([wanted = lowerCase(name)](const std::string& each) { return lowerCase(each) == wanted; });
   if (found.size() == 1) return found.front();
   if (found.size() > 1)
     return badInput(std::to_string(found.size()) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/letters.h"
 #include "gpu/error.h"
 #include "gpu/features.h"
 #include "gpu/instance.h"
@@ -13,12 +14,6 @@ namespace {
 std::string versionText(std::uint32_t version) {
   return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) +
          "." + std::to_string(VK_API_VERSION_PATCH(version));
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
 }
 
 int preference(VkPhysicalDeviceType type) {

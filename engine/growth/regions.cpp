@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/atomic_file.h"
+#include "core/letters.h"
 #include "growth/rule_text.h"
 
 namespace vasa {
@@ -24,13 +25,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -44,7 +38,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 std::vector<std::string> list(std::string_view cell) {
   std::vector<std::string> items;
   for (const std::string_view part : split(cell, '|'))
-    if (!part.empty()) items.push_back(lower(part));
+    if (!part.empty()) items.push_back(lowerCase(part));
   return items;
 }
 
@@ -145,8 +139,8 @@ std::string headerText(std::size_t columns = kColumns.size()) {
 }  // namespace
 
 const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question) {
-  const std::string vessel = lower(question.vessel), joint = lower(question.joint),
-                    id = lower(question.ontologyId);
+  const std::string vessel = lowerCase(question.vessel), joint = lowerCase(question.joint),
+                    id = lowerCase(question.ontologyId);
   for (const GrowthRegion& region : regions) {
     if (!region.organs.empty()) continue;
     const bool named = region.vessels.empty() || holdsAny(region.vessels, vessel) ||
@@ -160,7 +154,7 @@ const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const Reg
 }
 
 const GrowthRegion* regionOfOrgan(const std::vector<GrowthRegion>& regions, std::string_view mesh) {
-  const std::string name = lower(mesh);
+  const std::string name = lowerCase(mesh);
   const auto found = std::find_if(regions.begin(), regions.end(),
                                   [&](const GrowthRegion& region) { return holdsAny(region.organs, name); });
   return found == regions.end() ? nullptr : &*found;

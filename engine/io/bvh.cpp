@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
+#include "core/letters.h"
 #include "core/log.h"
 #include "io/read_limits.h"
 #include "io/text_file.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/letters.h"
 #include "io/words.h"
 
 namespace vasa {

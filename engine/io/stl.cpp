@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "core/letters.h"
 #include "io/text_file.h"
 #include "io/words.h"
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/cancellation.h"
+#include "core/letters.h"
 #include "io/vtp_data.h"
 #include "io/words.h"
 

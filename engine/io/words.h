@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -26,19 +25,6 @@ inline std::string_view nextLine(std::string_view& text) {
   const std::string_view line = text.substr(0, stop);
   text.remove_prefix(stop == text.npos ? text.size() : stop + 1);
   return line;
-}
-
-/// The same without capitals.
-inline std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return lower;
-}
-
-/// Whether two words are the same but for capitals.
-inline bool sameLetters(std::string_view a, std::string_view b) {
-  return std::ranges::equal(
-      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 /// A whole word as a finite number.

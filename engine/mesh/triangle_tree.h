@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 
+#include "core/ids.h"
 #include "mesh/triangle_mesh.h"
 
 namespace vasa {
@@ -14,7 +15,7 @@ class TriangleTree {
 
   struct Nearest {
     vec3 point{0};
-    std::uint32_t triangle = 0xffffffffu;  ///< none where nothing lies within the distance
+    std::uint32_t triangle = kNone;  ///< none where nothing lies within the distance
     float distance = std::numeric_limits<float>::infinity();
   };
   /// The surface point nearest to p, if one is nearer than `within`.

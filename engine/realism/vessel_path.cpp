@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/letters.h"
 #include "curve/arc_length.h"
 #include "io/csv.h"
 #include "io/words.h"

@@ -8,6 +8,7 @@
 #include "body/belonging.h"
 #include "body/retarget.h"
 #include "core/cancellation.h"
+#include "core/letters.h"
 #include "core/log.h"
 #include "core/nearest_names.h"
 #include "core/stage_log.h"
@@ -24,18 +25,12 @@
 namespace vasa {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
-}
-
 // Items whose name is `wanted`, or else those that contain it, in their order.
 template <class Items>
 std::vector<std::uint32_t> numbersNamed(const Items& items, const std::string& wanted) {
   std::vector<std::uint32_t> partial;
   for (std::uint32_t i = 0; i < items.size(); ++i) {
-    const std::string name = lower(items[i].name);
+    const std::string name = lowerCase(items[i].name);
     if (name == wanted) return {i};
     if (name.find(wanted) != std::string::npos) partial.push_back(i);
   }
@@ -217,7 +212,7 @@ Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file) {
 }
 
 Result<Subject> findSubject(const Scene& scene, std::string_view name) {
-  const std::string wanted = lower(name);
+  const std::string wanted = lowerCase(name);
   const auto& vessels = scene.network.vessels();
   const auto& joints = scene.body.skeleton.joints;
   const auto subject = [](const auto& items, const std::vector<std::uint32_t>& found, Subject first) {

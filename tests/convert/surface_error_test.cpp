@@ -73,7 +73,7 @@ TEST_CASE("walls of tubes: inside, outside, and the vessel asked about left out"
   const TubeTree tree(pieces);
   CHECK(tree.nearestWall({0.5f, 5, 0}, 9).distance == doctest::Approx(-0.5f));
   CHECK(tree.nearestWall({3.5f, 5, 0}, 9).vessel == 1);
-  CHECK(tree.nearestWall({40, 5, 0}, 9).vessel == 0xffffffffu);
+  CHECK(tree.nearestWall({40, 5, 0}, 9).vessel == kNone);
   CHECK(tree.insideAnother({5, 5, 0}, 0, 0.1f));
   CHECK(!tree.insideAnother({5, 5, 0}, 1, 0.1f));
 }

@@ -25,7 +25,7 @@ TEST_CASE("nearest agrees with looking at every triangle") {
     const auto found = tree.nearest(p);
     CHECK(found.distance == least);
     CHECK(glm::distance(found.point, p) == doctest::Approx(least));
-    CHECK(tree.nearest(p, least * 0.5f).triangle == 0xffffffffu);
+    CHECK(tree.nearest(p, least * 0.5f).triangle == kNone);
   }
 }
 
@@ -47,5 +47,5 @@ TEST_CASE("triangles near a plane: every one that crosses it is among them") {
   }
   CHECK(crossing > 20);
   const TriangleMesh none;
-  CHECK(TriangleTree(none).nearest({0, 0, 0}).triangle == 0xffffffffu);
+  CHECK(TriangleTree(none).nearest({0, 0, 0}).triangle == kNone);
 }
