@@ -32,8 +32,8 @@ class SegmentGrid {
 
   struct Nearest {
     std::uint32_t segment = kNone;  ///< none within the distance asked for
-    float t = 0;                          ///< on the segment
-    float distance = 0;                   ///< [m] to its centre line
+    float t = 0;                    ///< on the segment
+    float distance = 0;             ///< [m] to its centre line
   };
   Nearest nearest(vec3 p, float within) const;
 
