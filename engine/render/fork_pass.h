@@ -1,4 +1,5 @@
 #pragma once
+#include "gpu/adapter.h"
 #include "render/fork_set.h"
 #include "render/tube_pass.h"
 
