@@ -119,9 +119,6 @@ void writeTriangles(uint vertex, uint target) {
       indices.value[target++] = vertex + placeOfVertex(rest & 255u);
 }
 
-// Of a group's sums, one word for both: triangles below, blocks of vertices above.
-const uint kTriangleBits = 17, kTriangleMask = (1u << kTriangleBits) - 1u;
-
 shared uint groupBlock, groupVertexBlocks;
 
 // Tubes come first: without room for all of them there is none for forks.

@@ -21,9 +21,6 @@ layout(constant_id = 1) const uint kGroupThreads = kGroupSweeps;
 layout(local_size_x_id = 1) in;
 layout(push_constant, std430) uniform Push { TubesPush push; };
 
-// Of a group's sums, one word for both: triangles below, blocks of vertices above.
-const uint kTriangleBits = 17, kTriangleMask = (1u << kTriangleBits) - 1u;
-
 // What may be seen of a sweep. Bits as in lib/strip.glsl.
 uint masks[kMaxStrips];       // triangles of each strip
 uint needed[kMaxStrips + 1];  // vertices of each ring

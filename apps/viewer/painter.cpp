@@ -7,7 +7,6 @@ namespace {
 
 // Of vessels in a picture that the next one follows at once: less than what a sample a pixel gets wrong.
 constexpr float kMovingPixelError = 1;
-constexpr std::chrono::milliseconds kPatience{10};  // of a step, with what the driver is compiling
 // Capillaries of such a picture: they take a CPU about as long as all else that moves.
 constexpr std::uint32_t kMovingCapillaries = 8'000;
 
@@ -118,7 +117,7 @@ void Painter::begin(const Shot& shot) {
 
 bool Painter::step() {
   // Both would have the driver compile the same.
-  if (live_.renderer && !live_.renderer->isSettled(kPatience)) return true;
+  if (live_.renderer && !live_.renderer->isSettled(std::chrono::milliseconds(long(kSliceTime)))) return true;
   compiled_ = true;
   if (still_.renderer->step()) return true;
   last_ = still_.renderer.get();

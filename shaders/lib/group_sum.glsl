@@ -2,6 +2,9 @@
 #ifndef VASA_GROUP_SUM
 #define VASA_GROUP_SUM
 
+// Where a group sums triangles and blocks of their vertices, one word holds both: triangles below, blocks above.
+const uint kTriangleBits = 17, kTriangleMask = (1u << kTriangleBits) - 1u;
+
 const uint kSumBlock = 16;
 shared uint groupValues[kGroupThreads], groupSums[kGroupThreads / kSumBlock];
 
