@@ -6,6 +6,7 @@
 #include "atlas/body_region.h"
 #include "body/mesh_role.h"
 #include "body/skinning.h"
+#include "plate/braincase.h"
 
 namespace vasa::plate {
 namespace {
@@ -18,8 +19,9 @@ struct Region {
   const char *title, *view;
   std::vector<BodyPart> framed;  ///< what the picture holds; none: everything
   std::vector<BodyPart> beside;  ///< drawn, too, as far as the picture reaches
-  vec3 towards;
-  bool byBones = false;  ///< the picture holds the part's bones, not all of its skin
+  vec3 towards, up{0, 1, 0};
+  bool byBones = false;    ///< the picture holds the part's bones, not all of its skin
+  bool braincase = false;  ///< only what the part's bones enclose, without them
   /// Of one of a pair of limbs: the joints whose line stands upright; the same one twice: the world's up.
   std::optional<std::pair<BodyPart, BodyPart>> axis;
 };
@@ -31,6 +33,8 @@ const std::vector<Region>& regions() {
       {.name = "back", .title = "Vessels of the body", .view = "Posterior view", .towards = {0, 0, -1}},
       {.name = "head", .title = "Vessels of the head and neck", .view = "Right anterolateral view",
        .framed = {head, neck}, .beside = {shoulder, chest, upperArm}, .towards = {-1, 0, 0.45f}},
+      {.name = "brain", .title = "Vessels of the brain", .view = "Inferior view", .framed = {head},
+       .towards = {0, -1, 0}, .up = {0, 0, 1}, .braincase = true},
       {.name = "thorax", .title = "Vessels of the thorax", .view = "Anterior view", .framed = {chest, shoulder},
        .beside = {neck, head, abdomen, pelvis, upperArm}, .towards = {0, 0, 1}, .byBones = true},
       {.name = "abdomen", .title = "Vessels of the abdomen and pelvis", .view = "Anterior view",
@@ -86,6 +90,53 @@ class Choice {
   atlas::RegionFinder finder_;
   std::vector<BodyRegion> parts_;
 };
+
+// What the bones of a part enclose: of its other meshes those that lie there by half, and the vessels that
+// come there, cut off below it all. The picture holds what lies within.
+Result<void> takeEnclosed(PlateSubject& subject, const Scene& scene, const FrameMaker& frame,
+                          const Choice& choice) {
+  std::vector<vec3> bones;
+  std::vector<uvec3> triangles;
+  const auto take = [&](const SkinnedMesh& mesh) {
+    const auto joints = mainJoints(mesh);
+    const std::uint32_t first = std::uint32_t(bones.size());
+    bones.insert(bones.end(), mesh.mesh.positions.begin(), mesh.mesh.positions.end());
+    for (const uvec3& t : mesh.mesh.triangles)
+      if (choice.framed(joints[t.x])) triangles.push_back(t + first);
+  };
+  for (const SkinnedMesh& mesh : scene.body.meshes)
+    if (roleNamed(mesh.name) == MeshRole::bones) take(mesh);
+  if (triangles.empty())
+    return badInput(scene.body.name +
+                    ": it has no bones of the head, so what lies in its skull is not known; "
+                    "choose head");
+
+  const std::vector<mat4> matrices(frame.jointMatrices().begin(), frame.jointMatrices().end());
+  const Braincase braincase(bones, triangles);
+  const auto holds = [&](vec3 place) { return braincase.holds(place); };
+  for (const SkinnedMesh& mesh : scene.body.meshes) {
+    const MeshRole role = roleNamed(mesh.name);
+    if (role == MeshRole::bones || role == MeshRole::skin) continue;
+    if (2 * std::size_t(std::ranges::count_if(mesh.mesh.positions, holds)) < mesh.mesh.positions.size())
+      continue;
+    std::vector<vec3> positions;
+    skinPositions(mesh, matrices, positions);
+    subject.framed.insert(subject.framed.end(), positions.begin(), positions.end());
+    subject.meshes.push_back(mesh);
+  }
+
+  for (const Vessel& vessel : scene.network.vessels()) {
+    std::uint32_t inside = 0;
+    for (std::uint32_t k = vessel.firstPoint; k < vessel.firstPoint + vessel.pointCount; ++k)
+      if (holds(vec3(scene.network.points()[k]))) ++inside, subject.framed.emplace_back(frame.points()[k]);
+    subject.vessels.push_back(inside > 0);
+  }
+  subject.own = subject.vessels;
+  Aabb box;
+  for (const vec3& place : subject.framed) box.add(place);
+  if (!subject.framed.empty()) subject.cut = vec4(0, 1, 0, -box.low.y);
+  return {};
+}
 
 // A mesh's triangles of which no corner belongs to what is not drawn.
 SkinnedMesh drawnPart(const SkinnedMesh& mesh, std::span<const std::uint16_t> joints, const Choice& choice) {
@@ -173,7 +224,8 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
                                   int side) {
   if (auto known = checkPlateName(name); !known) return known.error();
   const auto region = std::ranges::find(regions(), name, &Region::name);
-  PlateSubject subject{.title = region->title, .subtitle = region->view, .towards = region->towards};
+  PlateSubject subject{
+      .title = region->title, .subtitle = region->view, .towards = region->towards, .up = region->up};
   if (region->axis) subject.subtitle = std::string(side < 0 ? "Right, " : "Left, ") + region->view;
   std::optional<Choice> choice;
   if (!region->framed.empty()) {
@@ -183,14 +235,20 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
                       "choose front or back");
     choice.emplace(*region, side, scene.body.skeleton);
   }
-  takeMeshes(subject, scene, frame, choice ? &*choice : nullptr);
-  takeVessels(subject, scene, frame, choice ? &*choice : nullptr);
+  if (region->braincase) {
+    if (auto taken = takeEnclosed(subject, scene, frame, *choice); !taken) return taken.error();
+  } else {
+    takeMeshes(subject, scene, frame, choice ? &*choice : nullptr);
+    takeVessels(subject, scene, frame, choice ? &*choice : nullptr);
+  }
   if (subject.framed.empty())
     return badInput(scene.body.name + ": nothing of it belongs to the plate '" + std::string(name) + "'");
   if (region->axis && region->axis->first != region->axis->second)
     if (const auto from = choice->first(region->axis->first), to = choice->first(region->axis->second);
-        from && to)
+        from && to) {
+      subject.axial = true;
       subject.up = vec3(frame.pose().world[*from][3]) - vec3(frame.pose().world[*to][3]);
+    }
   return subject;
 }
 

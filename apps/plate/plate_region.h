@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -15,19 +16,21 @@ struct PlateSubject {
   std::vector<vec3> framed;         ///< places of the pose that the picture has to hold
   vec3 towards{0, 0, 1};            ///< to the viewer
   vec3 up{0, 1, 0};
+  bool axial = false;       ///< up is a limb's axis, from wherever one looks
+  std::optional<vec4> cut;  ///< Camera::cut
 };
 
 /// Of each of a mesh's vertices the joint that moves it most.
 std::vector<std::uint16_t> mainJoints(const SkinnedMesh& mesh);
 
-/// Fails with usage that lists the pages for a name that is none of theirs: front, back, head, thorax,
+/// Fails with usage that lists the pages for a name that is none of theirs: front, back, head, brain, thorax,
 /// abdomen, arm, hand, leg, foot.
 Result<void> checkPlateName(std::string_view name);
 
 /// A page's subject. Of a limb the one on `side` (-1 right, 1 left) is shown, its axis upright, without the
 /// rest of the body; a vessel is drawn whole where some of it lies in what is drawn.
 /// Fails as checkPlateName() does, with badInput where the body's parts are not known (atlas::RegionFinder)
-/// or there are none of those.
+/// or there are none of those; for the brain's where no bones go with the head.
 Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, std::string_view name,
                                   int side);
 

@@ -20,6 +20,14 @@ bool SeenMap::project(vec3 place, vec2& cell) const {
   return true;
 }
 
+bool SeenMap::hides(vec3 place) const {
+  const vec4 clip = matrix_ * vec4(place, 1);
+  if (clip.w <= 1e-6f) return false;
+  const vec2 cell = glm::floor((vec2(clip) / clip.w * 0.5f + 0.5f) * vec2(width_, height_));
+  if (cell.x < 0 || cell.y < 0 || cell.x >= float(width_) || cell.y >= float(height_)) return false;
+  return depth_[std::size_t(cell.y) * width_ + std::size_t(cell.x)] > clip.z / clip.w;
+}
+
 float SeenMap::cellsAMetre(vec3 place) const {
   if (camera_.orthographicHeight > 0) return float(height_) / camera_.orthographicHeight;
   const float away = glm::dot(camera_.position - place, cameraAxes(camera_)[2]);

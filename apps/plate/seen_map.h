@@ -27,6 +27,8 @@ class SeenMap {
 
   /// Where a place is in the picture, in cells (the middle of cell k lies at k + 0.5); false behind the eye.
   bool project(vec3 place, vec2& cell) const;
+  /// Whether something drawn lies between the eye and a place.
+  bool hides(vec3 place) const;
   /// Cells that a metre at a place takes.
   float cellsAMetre(vec3 place) const;
 

@@ -182,7 +182,7 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   if (const auto view = viewNamed(options.view)) {
     const Camera camera = cameraFrom(*view, Aabb{vec3(-1), vec3(1)}, 1);
     job->subject.towards = camera.position - camera.target;
-    if (*view == View::top) job->subject.up = camera.up;
+    if (*view == View::top || !job->subject.axial) job->subject.up = camera.up;
     std::string& subtitle = job->subject.subtitle;
     std::string seen = viewText(*view);
     // "Right, palmar view": a limb's side stays.
@@ -201,6 +201,7 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   std::vector<vec3> drawn;
   for (const vec4& point : job->frame->points()) drawn.emplace_back(point);
   job->fitted = plate::cameraOnto(job->subject.framed, job->subject.towards, job->subject.up, drawn);
+  job->fitted.camera.cut = job->subject.cut;
   if (page->mayTurn) job->style.page = turned(page->size, job->style, job->fitted.aspect);
   return job;
 }
@@ -310,7 +311,7 @@ void addPlate(CLI::App& app, Command& command) {
       "  vasa plate arm --side left --labels all-visible -o arm.svg\n"
       "  vasa plate leg --body b.glb --network b.vasa --labels 'femoral artery,great saphenous vein' -o leg.pdf\n"
       "Labels name what is seen, beside the figure, with lines that do not cross; vasa help plate says which.");
-  sub->add_option("PLATE", options->name, "front, back, head, thorax, abdomen, arm, hand, leg or foot")
+  sub->add_option("PLATE", options->name, "front, back, head, brain, thorax, abdomen, arm, hand, leg or foot")
       ->required();
   addSceneOptions(*sub, options->scene);
   sub->add_option("-o,--output", options->output, "The page: .png, .svg or .pdf")->required();

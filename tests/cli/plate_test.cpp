@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <tinyxml2.h>
 
+#include <set>
 #include <sstream>
 
 #include "cli/program.h"
@@ -121,6 +122,23 @@ TEST_CASE("names choose labels; one that is not seen is told, one that is unknow
   const auto unknown = runProgram(small("leg", file, {"--labels", "no such vessel"}));
   CHECK(unknown.exit == 3);
   CHECK(unknown.err.find("no vessel is named 'no such vessel'") != std::string::npos);
+}
+
+TEST_CASE("the plate of the brain holds the ring of arteries at its base, and nothing of the face") {
+  TemporaryFolder folder;
+  const std::string file = (folder.path() / "brain.svg").string();
+  const auto outcome = runProgram(
+      {"plate", "brain", "-o", file, "--dpi", "40", "--hide", "veins", "--labels", "all-visible", "--json"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  std::set<std::string> labels;
+  for (const auto& label : outcome.json()["labels"]) labels.insert(label["text"].get<std::string>());
+  for (const char* name :
+       {"Posterior communicating artery", "Anterior communicating artery", "Basilar artery",
+        "Posterior cerebral artery", "Internal carotid artery", "Lenticulostriate artery"})
+    CHECK_MESSAGE(labels.contains(name), name);
+  for (const char* name : {"Facial artery", "Inferior alveolar artery", "External carotid artery"})
+    CHECK_MESSAGE(!labels.contains(name), name);
+  CHECK(contentOf(file).find("Inferior view") != std::string::npos);
 }
 
 TEST_CASE("a plate's colours and what they mean") {

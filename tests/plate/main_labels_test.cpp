@@ -5,6 +5,7 @@
 #include <set>
 
 #include "atlas/human_scene.h"
+#include "body/mesh_role.h"
 #include "plate/label_names.h"
 #include "plate/plate.h"
 #include "plate/plate_region.h"
@@ -28,9 +29,10 @@ std::vector<std::string> planned(const std::string& name) {
   REQUIRE_MESSAGE(subject.ok(), subject.error().message);
   std::vector<vec3> drawn;
   for (const vec4& point : frame->points()) drawn.emplace_back(point);
-  const auto fitted = cameraOnto(subject->framed, subject->towards, subject->up, drawn);
+  auto fitted = cameraOnto(subject->framed, subject->towards, subject->up, drawn);
+  fitted.camera.cut = subject->cut;
   // As `vasa plate` turns them.
-  const bool wide = name == "thorax" || name == "abdomen" || name == "hand";
+  const bool wide = name == "brain" || name == "thorax" || name == "abdomen" || name == "hand";
   PlateStyle style{
       .page = wide ? vec2(297, 210) : vec2(210, 297), .title = subject->title, .subtitle = subject->subtitle};
   Look look;
@@ -86,6 +88,12 @@ TEST_CASE("pages label what textbooks name first") {
         "Superficial temporal artery", "Occipital artery", "Right vertebral artery",
         "Right subclavian artery", "Internal jugular vein", "External jugular vein", "Facial vein",
         "Retromandibular vein", "Subclavian vein"}},
+      {"brain",
+       {"Internal carotid artery", "Anterior cerebral artery", "Middle cerebral artery",
+        "Posterior cerebral artery", "Anterior communicating artery", "Basilar artery",
+        "Right vertebral artery", "Superior cerebellar artery", "Anterior inferior cerebellar artery",
+        "Posterior inferior cerebellar artery", "Ophthalmic artery", "Middle meningeal artery",
+        "Superior sagittal sinus", "Transverse sinus", "Sigmoid sinus", "Great cerebral vein"}},
       {"thorax",
        {"Arch of aorta", "Thoracic aorta", "Superior vena cava", "Left brachiocephalic vein",
         "Right brachiocephalic vein", "Pulmonary trunk", "Left pulmonary artery", "Superior pulmonary vein",
@@ -116,6 +124,18 @@ TEST_CASE("pages label what textbooks name first") {
     for (const char* vessel : wanted)
       CHECK_MESSAGE(std::ranges::count(labels, vessel) == 1, page << ": " << vessel);
   }
+}
+
+TEST_CASE("without bones there is no page of the brain") {
+  Scene scene = test::humanScene();
+  std::erase_if(scene.body.meshes,
+                [](const SkinnedMesh& mesh) { return roleNamed(mesh.name) == MeshRole::bones; });
+  FrameMaker frame(scene, {.avoid = false});
+  frame.make(nullptr, 0);
+  const auto none = plateSubject(scene, frame, "brain", -1);
+  REQUIRE_FALSE(none.ok());
+  CHECK(none.error().fault == Fault::badInput);
+  CHECK(none.error().message.find("no bones of the head") != std::string::npos);
 }
 
 TEST_CASE("pages name no branch beside its parent, and no row one by one") {
