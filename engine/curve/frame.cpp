@@ -3,11 +3,10 @@
 #include <cassert>
 
 #include "curve/bspline.h"
+#include "math/direction.h"
 
 namespace vasa {
 namespace {
-
-constexpr float kTiny2 = 1e-20f;  // squared lengths below this carry no direction
 
 Frame frameFrom(vec3 tangent, vec3 reference) {
   vec3 u = reference - glm::dot(reference, tangent) * tangent;

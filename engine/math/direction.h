@@ -1,12 +1,17 @@
 #pragma once
+#include <cmath>
+
 #include "math/types.h"
 
 namespace vasa {
 
+/// A vector whose square is no larger has no direction, as in the shaders (lib/section.glsl).
+constexpr float kTiny2 = 1e-20f;
+
 /// The unit vector along v; `otherwise` where v is too short to tell.
 inline vec3 unitOr(vec3 v, vec3 otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-9f ? v / length : otherwise;
+  const float length2 = glm::dot(v, v);
+  return length2 > kTiny2 ? v / std::sqrt(length2) : otherwise;
 }
 
 /// The unit vector along v, zero where there is none.

@@ -54,8 +54,8 @@ Grid gridOf(std::span<const vec4> points) {
   return grid;
 }
 
-void encodePoints(const Network& network, bool quantise, ByteWriter& out) {
-  ByteWriter payload;
+void encodePoints(const Network& network, bool quantise, PortableWriter& out) {
+  PortableWriter payload;
   if (!quantise) {
     for (const vec4& p : network.points()) payload.raw(p);
     out.chunk("PNTS", payload);
@@ -93,7 +93,7 @@ struct Contents {
 constexpr std::size_t kNameTimes = 4, kFreeNames = std::size_t(16) << 20;
 
 bool readVessels(std::span<const std::byte> payload, Contents& contents) {
-  ByteReader in(payload);
+  PortableReader in(payload);
   NetworkBuilder::Label before;
   const std::size_t mostText = kNameTimes * payload.size() + kFreeNames;
   std::size_t left = in.count(6), text = 0;
@@ -118,7 +118,7 @@ bool readVessels(std::span<const std::byte> payload, Contents& contents) {
   return in.ok() && in.empty();
 }
 
-bool readNodes(ByteReader in, Contents& contents) {
+bool readNodes(PortableReader in, Contents& contents) {
   std::size_t left = in.count(2);
   for (contents.nodes.reserve(left); left && in.ok(); --left) {
     std::optional<Host> host;
@@ -143,7 +143,7 @@ bool readExactPoints(std::span<const std::byte> payload, Contents& contents) {
   return true;
 }
 
-bool readQuantisedPoints(ByteReader in, Contents& contents) {
+bool readQuantisedPoints(PortableReader in, Contents& contents) {
   Grid grid;
   grid.origin = in.raw<vec3>();
   grid.exponent = in.raw<std::int8_t>();
@@ -159,14 +159,14 @@ bool readQuantisedPoints(ByteReader in, Contents& contents) {
 bool readChunk(const std::string& tag, std::span<const std::byte> payload, Contents& contents) {
   const auto first = [](bool& seen) { return !std::exchange(seen, true); };
   if (tag == "META") {
-    ByteReader in(payload);
+    PortableReader in(payload);
     contents.bodyHeight = in.raw<float>();
     return first(contents.meta) && in.ok();
   }
   if (tag == "VESL") return first(contents.vessel) && readVessels(payload, contents);
-  if (tag == "NODE") return first(contents.node) && readNodes(ByteReader(payload), contents);
+  if (tag == "NODE") return first(contents.node) && readNodes(PortableReader(payload), contents);
   if (tag == "PNTS") return first(contents.point) && readExactPoints(payload, contents);
-  if (tag == "PNTQ") return first(contents.point) && readQuantisedPoints(ByteReader(payload), contents);
+  if (tag == "PNTQ") return first(contents.point) && readQuantisedPoints(PortableReader(payload), contents);
   if (tag == "PTCH") return first(contents.patch) && readPatches(payload, contents.patches);
   return true;
 }
@@ -203,7 +203,7 @@ Result<Network> build(Contents contents, const std::string& name) {
 float quantisationError(const Network& network) { return 0.5f * gridOf(network.points()).step(); }
 
 std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions options) {
-  ByteWriter meta, vessels, nodes, body, file;
+  PortableWriter meta, vessels, nodes, body, file;
   meta.raw(network.bodyHeight());
   vessels.number(network.vessels().size());
   const Vessel none;
@@ -240,7 +240,7 @@ std::vector<std::byte> encodeNetwork(const Network& network, NetworkFileOptions 
 }
 
 Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::string& name) {
-  ByteReader header(bytes);
+  PortableReader header(bytes);
   const auto magic = header.take(sizeof(kMagic));
   if (!header.ok() || std::memcmp(magic.data(), kMagic, sizeof(kMagic)) != 0)
     return badInput(name + ": is not a .vasa file (it does not begin with VASA); make one with vasa convert");
@@ -257,7 +257,7 @@ Result<Network> decodeNetwork(std::span<const std::byte> bytes, const std::strin
   if (hashBytes(body) != checksum)
     return badInput(name + ": the checksum does not match, so the file is damaged; copy it again");
   Contents contents;
-  ByteReader in(body);
+  PortableReader in(body);
   while (in.ok() && !in.empty()) {
     const auto letters = in.take(4);
     const std::string tag(reinterpret_cast<const char*>(letters.data()), letters.size());

@@ -18,7 +18,7 @@ constexpr std::size_t kMaximumText = 4096;
 constexpr float kGridSteps = 65535;
 
 /// Little-endian; counts as LEB128, texts as their length and bytes.
-class ByteWriter {
+class PortableWriter {
  public:
   template <class T>
   void raw(T value) {
@@ -40,7 +40,7 @@ class ByteWriter {
     number(shared);
     text(value.substr(shared));
   }
-  void chunk(const char (&tag)[5], const ByteWriter& payload) {
+  void chunk(const char (&tag)[5], const PortableWriter& payload) {
     for (int i = 0; i < 4; ++i) raw(tag[i]);
     raw(std::uint32_t(payload.bytes.size()));
     append(payload.bytes);
@@ -55,9 +55,9 @@ class ByteWriter {
 };
 
 /// Every read is checked; after a fault everything reads as zero and ok() is false.
-class ByteReader {
+class PortableReader {
  public:
-  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit PortableReader(std::span<const std::byte> bytes) : rest_(bytes) {}
   template <class T>
   T raw() {
     T value{};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFinest = -22;  // steps of a coordinate below 4 m are exact in a float
 
-void write(const ForkPatch& patch, ByteWriter& out) {
+void write(const ForkPatch& patch, PortableWriter& out) {
   out.raw(std::uint8_t(patch.rings.size()));
   for (const PatchRing& ring : patch.rings) {
     out.number(ring.vessel.value);
@@ -41,11 +41,11 @@ void write(const ForkPatch& patch, ByteWriter& out) {
     for (int k = 0; k < 3; ++k) out.number(t[k]);
 }
 
-std::uint32_t index(ByteReader& in) {
+std::uint32_t index(PortableReader& in) {
   return std::uint32_t(std::min<std::uint64_t>(in.number(), 0xfffffffe));
 }
 
-ForkPatch read(ByteReader& in) {
+ForkPatch read(PortableReader& in) {
   ForkPatch patch;
   patch.rings.resize(
       std::min<std::size_t>(in.raw<std::uint8_t>(), ForkPatch::kMostRings + 1));  // too many is a fault
@@ -77,15 +77,15 @@ ForkPatch read(ByteReader& in) {
 
 }  // namespace
 
-ByteWriter patchPayload(std::span<const ForkPatch> patches) {
-  ByteWriter out;
+PortableWriter patchPayload(std::span<const ForkPatch> patches) {
+  PortableWriter out;
   out.number(patches.size());
   for (const ForkPatch& patch : patches) write(patch, out);
   return out;
 }
 
 bool readPatches(std::span<const std::byte> payload, std::vector<ForkPatch>& patches) {
-  ByteReader in(payload);
+  PortableReader in(payload);
   for (std::size_t left = in.count(30); left && in.ok(); --left) patches.push_back(read(in));
   return in.ok() && in.empty();
 }

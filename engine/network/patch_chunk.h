@@ -8,7 +8,7 @@ namespace vasa {
 
 /// What the chunk PTCH holds (network/file.h). Positions move by at most half a step of 2^-22 m, or of a
 /// 65,535th of the patch where that is more.
-ByteWriter patchPayload(std::span<const ForkPatch> patches);
+PortableWriter patchPayload(std::span<const ForkPatch> patches);
 
 /// @return false where the chunk is malformed. Whether the patches make sense is asked later (patchFault).
 bool readPatches(std::span<const std::byte> payload, std::vector<ForkPatch>& patches);

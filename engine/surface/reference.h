@@ -2,6 +2,7 @@
 #include <cmath>
 #include <span>
 
+#include "math/direction.h"
 #include "surface/sweep_table.h"
 #include "surface/tessellate.h"
 
@@ -9,14 +10,7 @@
 // their order, so that both come to the same bits.
 namespace vasa {
 
-constexpr float kTiny2 = 1e-20f;  ///< a vector whose square is no larger has no direction
-
 inline float dotOf(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-inline vec3 unitOr(vec3 a, vec3 otherwise) {
-  const float size2 = dotOf(a, a);
-  return size2 > kTiny2 ? a / std::sqrt(size2) : otherwise;
-}
 
 /// The span that begins at a de Boor point, from its class's matrix.
 inline Bezier bezierAt(const PosedNetwork& network, std::uint32_t point, std::uint32_t spanClass) {
