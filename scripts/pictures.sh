@@ -51,9 +51,16 @@ large walk 480x640 --clip walk --frames 9 --camera 1.8,1.1,2.8/0,0.87,0/33
 large squat 480x640 --clip squat --frames 45 --camera 1.7,0.9,2.6/0,0.62,0.05/27
 large fist 480x640 --clip fist --frames 30 --focus RightHand --distance 0.75
 
-"$vasa" --quiet plate thorax --dpi 90 -o "$parts/plate.png"
-ffmpeg -loglevel error -y -i "$parts/plate.png" -vf \
-  "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=sierra2_4a" "$folder/plate.png"
+# page NAME ARGUMENTS OF plate..
+page() {
+  local name=$1
+  shift
+  "$vasa" --quiet plate "$@" --dpi 90 -o "$parts/$name.png"
+  ffmpeg -loglevel error -y -i "$parts/$name.png" -vf \
+    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=sierra2_4a" "$folder/$name.png"
+}
+page plate thorax
+page brain brain --hide veins --labels all-visible
 
 # The walk once around, at every second frame.
 "$vasa" --quiet render --clip walk --size 300x400 --supersample 2 --camera 1.8,1.1,2.8/0,0.87,0/33 -o "$parts/film.{frame:03}.png"

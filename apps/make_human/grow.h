@@ -6,7 +6,7 @@
 namespace vasa::human {
 
 struct GrowOptions {
-  std::uint32_t sweeps = 7000;  ///< of the whole network, at least
+  std::uint32_t sweeps = 7150;  ///< of the whole network, at least
   std::uint64_t seed = 1;
 };
 
