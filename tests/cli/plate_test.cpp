@@ -130,8 +130,9 @@ TEST_CASE("the plate of the brain holds the ring of arteries at its base, and no
   const auto outcome = runProgram(
       {"plate", "brain", "-o", file, "--dpi", "40", "--hide", "veins", "--labels", "all-visible", "--json"});
   REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  const auto report = outcome.json();
   std::set<std::string> labels;
-  for (const auto& label : outcome.json()["labels"]) labels.insert(label["text"].get<std::string>());
+  for (const auto& label : report["labels"]) labels.insert(label["text"].get<std::string>());
   for (const char* name :
        {"Posterior communicating artery", "Anterior communicating artery", "Basilar artery",
         "Posterior cerebral artery", "Internal carotid artery", "Lenticulostriate artery"})
