@@ -10,9 +10,10 @@ namespace {
 constexpr int kSinkings = 2, kPrunings = 6, kRefinements = 10;
 constexpr float kAllowedOut = 0.2e-3f;   // [m] of a centre line, in the poses looked at
 constexpr float kAllowedInBone = 4e-3f;  // [m] of a grown one's; less is put right as the vessels move
-constexpr float kStraightest = 0.98f;    // chord over length of a grown one: straighter ones look like hairs
-constexpr float kDeeper = 2.5e-3f;       // [m] than would just do
-constexpr float kDeepestSink = 6e-3f;    // at a time
+// Chord over length of a grown one: straighter ones look like hairs. 0.98 once coordinates are rounded.
+constexpr float kStraightest = 0.979f;
+constexpr float kDeeper = 2.5e-3f;     // [m] than would just do
+constexpr float kDeepestSink = 6e-3f;  // at a time
 
 Result<void> sinkEscapes(VesselLayout& layout, const MotionProbe& probe, float bodyHeight) {
   layout.settle();
@@ -46,8 +47,9 @@ Result<std::vector<LaidVessel>> fittedApart(VesselLayout& layout, float bodyHeig
   }
 }
 
-/// As fitted: a short branch's curve can be lost within the fit's tolerance. What grew on it goes with it.
-bool isStraight(const std::vector<vec4>& points) {
+/// As fitted and joined: a short branch's curve can be lost within the fit's tolerance, or as its end moves
+/// onto its host. What grew on it goes with it.
+bool isStraight(std::span<const vec4> points) {
   return glm::distance(vec3(points.front()), vec3(points.back())) > kStraightest * lengthOf(points);
 }
 
@@ -67,7 +69,7 @@ Result<void> prune(Grower& grower, const std::vector<LaidVessel>& vessels, const
     for (const VesselId vessel : *throughBones) any |= grower.remove(int(vessel.value));
     for (const VesselId vessel : restFaults(*network)) any |= grower.remove(int(vessel.value));
     for (std::size_t i = 0; i < vessels.size(); ++i)
-      any |= isStraight(vessels[i].points) && grower.remove(int(i));
+      any |= isStraight(network->pointsOf(network->vessels()[i])) && grower.remove(int(i));
     if (!any) break;
   }
   return {};

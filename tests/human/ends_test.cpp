@@ -59,7 +59,10 @@ TEST_CASE("no grown vessel is straight") {
     if (!isGrown(vessel)) continue;
     const auto points = network.pointsOf(vessel);
     ++grown;
-    straight += glm::distance(vec3(points.front()), vec3(points.back())) > kStraightest * lengthOf(points);
+    const bool is =
+        glm::distance(vec3(points.front()), vec3(points.back())) > kStraightest * lengthOf(points);
+    straight += is;
+    if (is) MESSAGE(vessel.name << " is straight");
   }
   CHECK(grown > 20);
   CHECK(straight == 0);
