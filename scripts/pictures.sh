@@ -51,9 +51,9 @@ large walk 480x640 --clip walk --frames 9 --camera 1.8,1.1,2.8/0,0.87,0/33
 large squat 480x640 --clip squat --frames 45 --camera 1.7,0.9,2.6/0,0.62,0.05/27
 large fist 480x640 --clip fist --frames 30 --focus RightHand --distance 0.75
 
-# page NAME ARGUMENTS OF plate..
+# page NAME PLATE OPTIONS...
 page() {
-  local name=$1
+  name=$1
   shift
   "$vasa" --quiet plate "$@" --dpi 90 -o "$parts/$name.png"
   ffmpeg -loglevel error -y -i "$parts/$name.png" -vf \
