@@ -23,8 +23,6 @@ vec3 direction(int k) {
   return vec3(r * std::cos(goldenAngle * float(k)), y, r * std::sin(goldenAngle * float(k)));
 }
 
-vec3 upBeside(vec3 towards) { return std::abs(towards.y) < 0.7f ? vec3(0, 1, 0) : vec3(0, 0, 1); }
-
 std::uint32_t bone(std::uint32_t) { return 0; }
 
 }  // namespace
@@ -40,7 +38,6 @@ Braincase::Braincase(std::span<const vec3> positions, std::span<const uvec3> tri
     const vec3 towards = direction(k);
     fromOutside_.emplace_back(Camera{.position = centre + across * towards,
                                      .target = centre,
-                                     .up = upBeside(towards),
                                      .orthographicHeight = across,
                                      .farDistance = 2 * across},
                               kCells, kCells);
@@ -60,10 +57,7 @@ Braincase::Braincase(std::span<const vec3> positions, std::span<const uvec3> tri
   for (int k = 0; k < 6; ++k) {
     vec3 towards(0);
     towards[k / 2] = k % 2 ? 1.0f : -1.0f;
-    fromMiddle_.emplace_back(Camera{.position = middle,
-                                    .target = middle + towards,
-                                    .up = upBeside(towards),
-                                    .verticalAngle = kPi / 2},
+    fromMiddle_.emplace_back(Camera{.position = middle, .target = middle + towards, .verticalAngle = kPi / 2},
                              kCells, kCells);
     fromMiddle_.back().draw(positions, triangles, bone);
   }
