@@ -43,12 +43,14 @@ if [ "$preset" = tidy ]; then
 fi
 if [[ "$preset" = fuzz || "$preset" = compilers ]] && ! command -v clang++ > /dev/null; then scripts/install-dependencies.sh clang; fi
 if [ "$preset" = compilers ]; then
+  human=()  # the first build's make_human serves them all
   for compiler in "gcc g++" "clang clang++"; do
     read -r c cxx <<< "$compiler"
     for each in release debug asan tsan; do
       folder=build/$c-$each
-      cmake --preset "$each" -B "$folder" -DVASA_UNITY=ON -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" > /dev/null
+      cmake --preset "$each" -B "$folder" -DVASA_UNITY=ON -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" "${human[@]}" > /dev/null
       cmake --build "$folder"
+      human=(-DVASA_MAKE_HUMAN="$PWD/build/gcc-release/bin/make_human")
       echo "compilers: $c $each builds without a warning"
     done
   done
