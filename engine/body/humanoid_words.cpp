@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "body/humanoid.h"
+#include "core/name_words.h"
 
 namespace vasa {
 namespace {
@@ -16,33 +17,6 @@ struct Words {
   Side side = Side::none;
   bool passedOver = false;
 };
-
-// Words between marks, between small letter and capital, between letter and digit; two capitals before a
-// small letter are divided, too ("LHip").
-std::vector<std::string> divided(std::string_view name) {
-  std::vector<std::string> words;
-  std::string word;
-  const auto finish = [&] {
-    if (!word.empty()) words.push_back(word);
-    word.clear();
-  };
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const auto c = static_cast<unsigned char>(name[i]);
-    const auto kind = [](unsigned char x) {
-      return std::isdigit(x) ? 'd' : std::isupper(x) ? 'U' : std::islower(x) ? 'l' : ' ';
-    };
-    const char own = kind(c), before = i > 0 ? kind(static_cast<unsigned char>(name[i - 1])) : ' ';
-    const char after = i + 1 < name.size() ? kind(static_cast<unsigned char>(name[i + 1])) : ' ';
-    const bool starts = own != before && !(before == 'U' && own == 'l');
-    if (starts || (own == 'U' && before == 'U' && after == 'l')) finish();
-    if (own == ' ')
-      finish();
-    else
-      word += char(std::tolower(c));
-  }
-  finish();
-  return words;
-}
 
 template <std::size_t N>
 bool isAny(std::string_view word, const std::array<std::string_view, N>& of) {
@@ -61,7 +35,7 @@ Words wordsOf(std::string_view name) {
   if (const std::size_t mark = name.find_last_of(":|"); mark != name.npos && mark + 1 < name.size())
     name.remove_prefix(mark + 1);
   Words words;
-  for (std::string word : divided(name)) {
+  for (std::string word : nameWords(name)) {
     if (std::isdigit(static_cast<unsigned char>(word[0])) || isAny(word, kSilent)) continue;
     if (isAny(word, kPassedOver)) words.passedOver = true;
     for (const auto& [begin, side] :

@@ -1,44 +1,17 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "convert/source.h"
+#include "core/name_words.h"
 
 // The one place that says what names, numbers and colours mean for a vessel's kind.
 namespace vasa {
 namespace {
 
-// Of a letter of Latin-1 with an accent, what remains without it; 0 of anything else. In UTF-8 these are 0xc3
-// and then, from 0x80 on:
-char bare(unsigned char second) {
-  static constexpr std::string_view kLetters =
-      "aaaaaaaceeeeiiiidnooooo*ouuuuytsaaaaaaaceeeeiiiidnooooo*ouuuuyty";
-  const char letter = second >= 0x80 && second < 0xc0 ? kLetters[second - 0x80] : '*';
-  return letter == '*' ? '\0' : letter;
-}
-
-// Small letters without accents, a space between words and around the whole: "Superior_VenaCava2" -> "
-// superior vena cava 2 ", "Artère" -> " artere ".
+// Its words with spaces around each, so that they are found whole.
 std::string spaced(std::string_view text) {
   std::string words = " ";
-  char before = ' ';
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    const auto u = static_cast<unsigned char>(c);
-    const bool starts = (std::isupper(u) && std::islower(static_cast<unsigned char>(before))) ||
-                        (std::isdigit(u) != 0) != (std::isdigit(static_cast<unsigned char>(before)) != 0);
-    if (starts && words.back() != ' ') words += ' ';
-    before = c;
-    const char letter =
-        u == 0xc3 && i + 1 < text.size() ? bare(static_cast<unsigned char>(text[i + 1])) : '\0';
-    if (letter != '\0')
-      words += letter, before = static_cast<unsigned char>(text[++i]) < 0xa0 ? 'A' : 'a';
-    else if (std::isalnum(u))
-      words += char(std::tolower(u));
-    else if (words.back() != ' ')
-      words += ' ';
-  }
-  if (words.back() != ' ') words += ' ';
+  for (const std::string& word : nameWords(text)) words += word + ' ';
   return words;
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 #include <string>
+#include <utility>
+
+#include "core/name_words.h"
 
 namespace vasa {
 namespace {
@@ -24,22 +26,15 @@ struct NameWords {
 
 NameWords wordsOf(std::string_view name) {
   NameWords words;
-  std::string word;
-  const auto finish = [&] {
+  for (std::string& word : nameWords(name)) {
+    const bool number = word[0] >= '0' && word[0] <= '9';
     if (word == "left")
       words.left = true;
     else if (word == "right")
       words.right = true;
-    else if (word.size() > 2 && std::ranges::find(kCommonWords, word) == kCommonWords.end())
-      words.telling.insert(word);
-    word.clear();
-  };
-  for (const unsigned char c : name)
-    if (std::isalpha(c))
-      word += char(std::tolower(c));
-    else
-      finish();
-  finish();
+    else if (word.size() > 2 && !number && std::ranges::find(kCommonWords, word) == kCommonWords.end())
+      words.telling.insert(std::move(word));
+  }
   return words;
 }
 

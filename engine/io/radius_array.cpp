@@ -1,8 +1,9 @@
 #include "io/radius_array.h"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 
+#include "core/name_words.h"
 #include "io/import_frame.h"
 #include "io/words.h"
 
@@ -12,58 +13,47 @@ namespace {
 constexpr std::size_t kMostListed = 8;  // arrays in a message
 constexpr const char* kVmtk = "MaximumInscribedSphereRadius";
 
-// Small letters, words and numbers apart: "max diameter mm" of "MaxDiameter (mm)".
-std::string wordsOf(std::string_view name) {
-  std::string words;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const auto c = static_cast<unsigned char>(name[i]);
-    const bool part = std::isalnum(c) || c >= 0x80;
-    const bool hump = i > 0 && std::isupper(c) && std::islower(static_cast<unsigned char>(name[i - 1]));
-    if ((!part || hump) && !words.empty() && words.back() != ' ') words += ' ';
-    if (part) words += char(std::tolower(c));
-  }
-  if (words.ends_with(' ')) words.pop_back();
-  return words;
-}
-
-// The last word where it is a unit, and others stand before it; m and in only in brackets, as they mean other
-// things (mean, inner).
-std::string_view takeUnit(std::string_view& words, bool bracketed) {
-  const std::size_t blank = words.rfind(' ');
-  if (blank == words.npos || metresOfUnit(words.substr(blank + 1)) == 0) return {};
-  const std::string_view unit = words.substr(blank + 1);
-  if (!bracketed && (unit == "m" || unit == "in")) return {};
-  words = words.substr(0, blank);
-  return unit;
-}
-
 // How likely an array tells radii, 0 the likeliest.
 constexpr int kNotAtAll = 100;
 struct Meaning {
   int rank = kNotAtAll;
   RadiusChoice choice;
 };
+// Halves of what is measured across, in the languages that write Latin letters.
+constexpr std::array<std::string_view, 7> kRadius{"radius", "radii",  "rayon",     "rayons",
+                                                  "radio",  "raggio", "halbmesser"};
+constexpr std::array<std::string_view, 5> kDiameter{"diameter", "diameters", "diametre", "diametro",
+                                                    "durchmesser"};
+// What has a radius too, or bends.
+constexpr std::array<std::string_view, 3> kOther{"curv", "bend", "torsion"};
+
 Meaning meaningOf(std::string_view name) {
   if (name == kVmtk) return {0, {}};
-  const std::string all = wordsOf(name);
-  std::string_view words = all;
-  RadiusChoice choice{.unit = metresOfUnit(takeUnit(words, name.find_first_of("([") != name.npos))};
-  bool diameter = false;
-  const auto ends = [&](std::string_view word) {
-    if (!words.ends_with(word)) return false;
-    words.remove_suffix(word.size());
-    return true;
-  };
-  if (words == "r")
-    words = {};
-  else if (ends("diameter") || ends("diameters"))
-    diameter = true, choice.factor = 0.5;
-  else if (!ends("radius") && !ends("radii"))
-    return {};
-  for (const char* other : {"curv", "bend", "torsion"})
-    if (words.find(other) != words.npos) return {};
-  const bool least = words.starts_with("min") || words.find(" min") != words.npos;
-  return {1 + 2 * (words.empty() ? 0 : least ? 2 : 1) + diameter, choice};
+  std::vector<std::string> words = nameWords(name);
+  RadiusChoice choice;
+  // The last word may be a unit where others stand before it; m and in only in brackets, as they mean other
+  // things (mean, inner).
+  if (words.size() > 1 && metresOfUnit(words.back()) > 0) {
+    const bool bracketed = name.find_first_of("([") != name.npos;
+    if (bracketed || (words.back() != "m" && words.back() != "in"))
+      choice.unit = metresOfUnit(words.back()), words.pop_back();
+  }
+  if (words.empty()) return {};
+  const std::string& last = words.back();
+  const auto ends = [&](std::string_view word) { return last.ends_with(word); };
+  const bool diameter = std::ranges::any_of(kDiameter, ends);
+  if (!diameter && !std::ranges::any_of(kRadius, ends) && (words.size() > 1 || last != "r")) return {};
+  if (diameter) choice.factor = 0.5;
+  bool least = false;
+  for (const std::string& word : words) {
+    const auto has = [&](std::string_view part) { return word.find(part) != word.npos; };
+    if (std::ranges::any_of(kOther, has)) return {};
+    least |= word.starts_with("min");
+  }
+  const auto same = [&](std::string_view word) { return last == word; };
+  const bool alone = words.size() == 1 && (last == "r" || std::ranges::any_of(kRadius, same) ||
+                                           std::ranges::any_of(kDiameter, same));
+  return {1 + 2 * (alone ? 0 : least ? 2 : 1) + diameter, choice};
 }
 
 std::string listed(std::span<const std::string> names) {

@@ -18,8 +18,9 @@ struct RadiusChoice {
 
 /// Which array tells radii: MaximumInscribedSphereRadius (VMTK), else "radius", "radii", "r", else
 /// "diameter", else a name that ends in one of these words, radii before diameters and least ones
-/// ("MinRadius") last; capitals do not count, and a unit behind it may be told ("Max Diameter (mm)"). Radii
-/// of curvature are none of a vessel. Of several the first of the best kind.
+/// ("MinRadius") last; capitals and accents do not count, other languages do ("rayon", "Durchmesser"), and a
+/// unit behind it may be told ("Max Diameter (mm)"). Radii of curvature are none of a vessel. Of several the
+/// first of the best kind.
 std::optional<RadiusChoice> chooseRadius(std::span<const std::string> names);
 
 /// What a reader says of radii that are not under VMTK's or its own name; empty where nothing is to be said.

@@ -58,7 +58,8 @@ TEST_CASE(
 TEST_CASE("anatomists' short forms and other languages tell the kind, too") {
   for (const char* artery :
        {"A. femoralis", "Aa. digitales", "a_femoralis", "A. femoral izquierda", "Truncus coeliacus",
-        "artère fémorale", "ARTÈRE FÉMORALE", "Artéria renal", "Oberschenkelschlagader", "slagader links"})
+        "artère fémorale", "ARTÈRE FÉMORALE", "Artéria renal", "arte\xcc\x80re fe\xcc\x81morale", "LADBranch",
+        "Oberschenkelschlagader", "slagader links"})
     CHECK_MESSAGE(kindOf(named(artery), "x") == VesselKind::artery, std::string(artery));
   for (const char* vein : {"V. femoralis", "Vv. hepaticae", "v_saphena", "Vene links", "Oberschenkelvene",
                            "veine cave", "Veia renal", "Sinus sagittalis superior", "Vena cava inferior"})

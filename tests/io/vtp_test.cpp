@@ -64,9 +64,11 @@ TEST_CASE("VTP radii under other names, of lines, and diameters") {
   const auto named = [](const std::string& name, const std::string& content) {
     return "<DataArray type=\"Float64\" Name=\"" + name + "\" format=\"ascii\">" + content + "</DataArray>";
   };
-  for (const char* name : {"Radius", "RADIUS", "radii", "r", "vessel_radius", "EdgeRadius"})
+  for (const char* name : {"Radius", "RADIUS", "radii", "r", "vessel_radius", "EdgeRadius", "lumenradius",
+                           "Rayon", "raggio", "Radio"})
     expectRead(file(kPoints, named(name, "1 2 3"), kLine));
-  for (const char* name : {"Diameter", "diameters", "MeanDiameter"})
+  for (const char* name :
+       {"Diameter", "diameters", "MeanDiameter", "Diam\xc3\xa8tre", "moyen_diame\xcc\x80tre", "Durchmesser"})
     expectRead(file(kPoints, named(name, "2 4 6"), kLine));
   // The best of several, whatever their order.
   expectRead(
@@ -77,8 +79,10 @@ TEST_CASE("VTP radii under other names, of lines, and diameters") {
   expectRead(file(kPoints, named("min_radius", "9 9 9") + named("Equivalent diameter", "2 4 6"), kLine));
   expectRead(file(kPoints, named("MinRadius", "1 2 3"), kLine));
   expectVtpFault(file(kPoints, named("CurvatureRadius", "9 9 9"), kLine), "it has CurvatureRadius");
+  expectVtpFault(file(kPoints, named("radiusofcurvature", "9 9 9"), kLine), "it has radiusofcurvature");
   // A unit of their own.
   expectRead(file(kPoints, named("radius_mm", "1000 2000 3000"), kLine));
+  expectRead(file(kPoints, named("rayon \xc2\xb5m", "1e6 2e6 3e6"), kLine));
   expectRead(file(kPoints, named("Max Diameter (cm)", "200 400 600"), kLine));
   const auto inMillimetres =
       parseVtp(bytesOf(file(kPoints, named("radius [mm]", "1 2 3"), kLine)), "a.vtp", kMillimetres);
