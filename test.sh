@@ -50,7 +50,7 @@ if [ "$preset" = compilers ]; then
       folder=build/$c-$each
       cmake --preset "$each" -B "$folder" -DVASA_UNITY=ON -DVASA_BUILD_TESTS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" "${human[@]}" > /dev/null
       cmake --build "$folder"
-      human=(-DVASA_MAKE_HUMAN="$PWD/build/gcc-release/bin/make_human")
+      human=(-DVASA_MAKE_HUMAN="$PWD/build/gcc-release/apps/make_human/make_human")
       echo "compilers: $c $each builds without a warning"
     done
   done
