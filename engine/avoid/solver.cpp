@@ -15,12 +15,6 @@
 namespace vasa {
 namespace {
 
-// [s] in which a correction that nothing asks for falls to a third ...
-constexpr float kFading = 0.1f;
-constexpr float kFastestFading = 0.02f;  // [m/s] ... but no faster than this
-// [s] in which a lumen that gave way doubles where there is room again. At 0.2 what two bones hold between
-// them had widened by a tenth before each step, and was dented a little more by each: 0.7 to 0.3 in a second.
-constexpr float kWidening = 0.7f;
 // [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
 // again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
 constexpr float kStill = 3e-6f;
@@ -37,6 +31,8 @@ constexpr float kDeepestInBone = 1.5f, kDeepestUnsure = 1, kLeastRadius = 1e-3f;
 constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
 // [m/s] at which a vessel may be moved aside among others that stand still
 constexpr float kPace = 0.04f;
+// ... and of what moves near by: it is looked at point by point, and may be as much slower between them
+constexpr float kPaceShare = 0.98f;
 // [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
 constexpr float kNear = 0.045f;
 // [m] ... to what has got caught: it starts anew first, at its pace. With 0 the scanned body's punch stays
@@ -44,7 +40,7 @@ constexpr float kNear = 0.045f;
 constexpr float kHere = 0.005f;
 // [m] that anything is held aside: what is caught on another limb is let go there
 constexpr float kFarthestAside = 0.04f;
-constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+constexpr float kNoLimit = Correction::kNoLimit;
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
   std::uint32_t count = 0, last = ~0u;
@@ -75,6 +71,7 @@ struct Avoider::State {
         options(chosen),
         interference(own),
         space(own, chosen.bending),
+        flow(own),
         sides(own, interference),
         pool(space, interference, sides),
         lastTubes(interference.restTubes().begin(), interference.restTubes().end()),
@@ -90,9 +87,7 @@ struct Avoider::State {
       isEnd[vessel.firstPoint] = isEnd[vessel.firstPoint + vessel.pointCount - 1] = true;
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
-    accepted.motions.assign(space.variableCount(), vec3(0));
-    accepted.widest.assign(own.points().size(), kNoLimit);
-    correction = accepted;
+    correction = accepted = noCorrection();
   }
 
   // What a step is given, and where what it finds goes.
@@ -104,13 +99,12 @@ struct Avoider::State {
     float seconds = 0;
   };
   void pose(const PosedVessels& posed);
-  void fade(float seconds);
-  void carry(std::span<const quat> rotations);
+  Correction noCorrection() const;
+  void comeAlong(const Input& in);
   void keepPace(const Input& in);
   vec3 onCurve(std::span<const vec4> points, std::size_t point) const;
   LastShape lastShape(const Input& in) const { return {lastTubes, turns, in.posed.rotations, anewTubes}; }
   bool isTooLong(const Input& in) const;
-  quat turnOf(std::size_t variable, std::span<const quat> rotations) const;
   void place(const Input& in);
   // Places where vessels interfere; and where they entered bones. What lay in one at rest and comes deeper is
   // held back as well as it goes, and is no reason to begin anew: data that have a vessel in a bone are wrong
@@ -135,6 +129,7 @@ struct Avoider::State {
   AvoidOptions options;
   Interference interference;
   MotionSpace space;
+  CorrectionFlow flow;
   std::unique_ptr<Bones> bones;
   std::unique_ptr<SkinWall> wall;
   RestSides sides;
@@ -171,13 +166,6 @@ struct Avoider::State {
   VolumeKeeper::Memory volumes;  // of the last round's shape: most vessels are not moved again
 };
 
-quat Avoider::State::turnOf(std::size_t variable, std::span<const quat> rotations) const {
-  if (variable < rotations.size()) return rotations[variable];
-  const Node& node = network.nodes()[variable - rotations.size()];
-  if (node.host || node.endCount == 0) return quat(1, 0, 0, 0);
-  return rotations[network.pointOf(network.ends(node)[0])];
-}
-
 void Avoider::State::pose(const PosedVessels& posed) {
   if (bones) bones->pose(posed.jointMatrices);
   if (wall) wall->pose(posed.jointMatrices);
@@ -189,28 +177,15 @@ void Avoider::State::pose(const PosedVessels& posed) {
   }
 }
 
-// What nothing asks for any more goes back, and lumina widen again.
-void Avoider::State::fade(float seconds) {
-  correction = accepted;
-  for (vec3& motion : correction.motions) {
-    const float size = glm::length(motion);
-    if (size > 0) motion *= std::max(1 - std::min(seconds / kFading, kFastestFading * seconds / size), 0.0f);
-  }
-  const std::span<const vec4> rest = network.points();
-  for (std::size_t p = 0; p < rest.size(); ++p) {
-    float& widest = correction.widest[p];
-    widest *= std::exp2(seconds / kWidening);
-    if (widest > VolumeKeeper::kHighestFactor * rest[p].w) widest = kNoLimit;
-  }
+Correction Avoider::State::noCorrection() const {
+  return {std::vector(space.variableCount(), vec3(0)), std::vector(network.points().size(), kNoLimit)};
 }
 
-// A limb that turns takes its vessels' corrections along.
-void Avoider::State::carry(std::span<const quat> rotations) {
-  for (std::size_t v = 0; v < correction.motions.size(); ++v) {
-    vec3& motion = correction.motions[v];
-    if (motion != vec3(0))
-      motion = turnOf(v, rotations) * (glm::conjugate(turnOf(v, lastRotations)) * motion);
-  }
+// What the last step's correction has become.
+void Avoider::State::comeAlong(const Input& in) {
+  correction = accepted;
+  flow.fade(in.seconds, correction);
+  flow.carry(lastRotations, in.posed.rotations, correction.motions);
 }
 
 // The curve's own place next to a de Boor point, which swings about more than that.
@@ -228,8 +203,8 @@ void Avoider::State::keepPace(const Input& in) {
       return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
     });
   space.keepNear(accepted.motions, correction.motions, slow, [&](std::uint32_t point, float distance) {
-    return mayJump && anewPoints[point] ? distance
-                                        : posedSteps.longest(vec3(in.posed.points[point]), distance);
+    if (mayJump && anewPoints[point]) return distance;
+    return kPaceShare * posedSteps.longest(vec3(in.posed.points[point]), distance / kPaceShare);
   });
   space.keepNear(none, correction.motions, kFarthestAside,
                  [](std::uint32_t, float) { return kFarthestAside; });
@@ -371,8 +346,7 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Trouble before = trouble();
   chooseAnew(in.points, reach);
   mayJump = !remaining.empty() && reach > kHere;
-  fade(in.seconds);
-  carry(in.posed.rotations);
+  comeAlong(in);
   for (std::size_t p = 0; p < anewPoints.size(); ++p) {
     if (!anewPoints[p]) continue;
     correction.motions[p] = vec3(0);
@@ -465,12 +439,7 @@ Avoider::Avoider(Avoider&&) noexcept = default;
 AvoidReport Avoider::start(const Correction& correction, const PosedVessels& posed,
                            const VolumeKeeper* volume, std::span<vec4> points) {
   State& state = *state_;
-  if (correction.motions.empty()) {
-    std::ranges::fill(state.correction.motions, vec3(0));
-    std::ranges::fill(state.correction.widest, kNoLimit);
-  } else {
-    state.correction = correction;
-  }
+  state.correction = correction.motions.empty() ? state.noCorrection() : correction;
   AvoidReport report;
   const State::Input in{posed, volume, state.shape, report};
   state.refused = {};
@@ -496,8 +465,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   state.pose(posed);
   {
     StageClock clock(report.solveMs);
-    state.fade(stride.seconds);
-    state.carry(posed.rotations);
+    state.comeAlong(in);
     state.place(in);
   }
   const auto refuse = [&] {

@@ -5,6 +5,7 @@
 
 #include "avoid/bones.h"
 #include "avoid/certificate.h"
+#include "avoid/correction.h"
 #include "avoid/lumen.h"
 #include "avoid/posed_vessels.h"
 #include "body/body.h"
@@ -59,12 +60,6 @@ struct Stride {
   /// left in something's way, it is not made.
   bool atAnyLength = false;
   bool isLast = false;  ///< the result is shown: it is certified by a query of its own
-};
-
-/// How far vessels are from where the pose alone would have them: all that one step hands to the next.
-struct Correction {
-  std::vector<vec3> motions;  ///< [m] one a variable (avoid/motion_space.h); empty: none
-  std::vector<float> widest;  ///< [m] one a point: what a lumen that gave way may be; infinity elsewhere
 };
 
 /// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each
