@@ -66,7 +66,7 @@ TEST_CASE(
       maker.make(&clip, clip.timeOfFrame(frame));
       loads.look(frame, maker.points(), *maker.avoider());
     }
-    const auto none = [&](const char* word, const std::vector<VesselBeyond>& vessels) {
+    const auto none = [&](const std::string& word, const std::vector<VesselBeyond>& vessels) {
       for (const VesselBeyond& beyond : vessels)
         FAIL_CHECK(clip.name << " frame " << beyond.frame << ": " << scene->network.vessel(beyond.vessel).name
                              << " " << word << " " << beyond.value);
