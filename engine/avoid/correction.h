@@ -31,8 +31,7 @@ class CorrectionFlow {
 
  private:
   const Network* network_;
-  std::vector<std::uint32_t>
-      pointOf_;  // of each variable: the point it goes with, or kNone where none may move
+  std::vector<std::uint32_t> pointOf_;  // that a variable goes with; kNone where none may move
 };
 
 }  // namespace vasa
