@@ -63,7 +63,7 @@ struct Stride {
 };
 
 /// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each
-/// step starts from the last one's correction, which fades where nothing asks for it, and finds the nearest
+/// step starts from the last one's correction, which fades to a third in a second, and finds the nearest
 /// admissible shape,
 ///   least ½ (z - z0)ᵀ W (z - z0)  subject to  n_c · (C_i(s_c) - C_j(t_c)) >= d_c  for every contact c,
 /// with z0 the faded correction and W as in avoid/motion_space.h, so that branches stay joined. Contacts lie

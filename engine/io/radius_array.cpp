@@ -33,10 +33,9 @@ Meaning meaningOf(std::string_view name) {
   RadiusChoice choice;
   // The last word may be a unit where others stand before it; m and in only in brackets, as they mean other
   // things (mean, inner).
-  if (words.size() > 1 && metresOfUnit(words.back()) > 0) {
+  if (const double unit = words.size() > 1 ? metresOfUnit(words.back()) : 0; unit > 0) {
     const bool bracketed = name.find_first_of("([") != name.npos;
-    if (bracketed || (words.back() != "m" && words.back() != "in"))
-      choice.unit = metresOfUnit(words.back()), words.pop_back();
+    if (bracketed || (words.back() != "m" && words.back() != "in")) choice.unit = unit, words.pop_back();
   }
   if (words.empty()) return {};
   const std::string& last = words.back();
