@@ -26,7 +26,6 @@ constexpr float kStride = 0.8f;        // ... and of the distance
 constexpr float kSteepest = 1.7321f;   // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;     // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
-constexpr float kWorthKeeping = 1.02f;  // that many times what was kept is kept instead
 constexpr float kMovedFar = 0.002f;     // [m] less brings no tube from beyond a field's band into a part
 
 vec3 placed(const mat4& matrix, vec3 p) { return vec3(matrix * vec4(p, 1)); }
@@ -331,12 +330,13 @@ void Bones::State::lookAtNear(std::size_t task, const Tubes& tubes, std::vector<
       look(at, inPart(at.part, tubes.now[at.tube]), tubes, out);
 }
 
-// What was looked at, if that is more than what is kept.
+// What was looked at, if that is more than what is kept: for the first tube that comes to a place that was
+// never looked at waits for the part's search tree.
 void Bones::State::keepFields() {
   std::uint32_t filled = 0;
   std::vector<const DistanceField*> fields;
   for (const Solid& solid : solids) fields.push_back(&solid.field), filled += solid.field.filledBricks();
-  if (float(filled) <= kWorthKeeping * float(keptBricks)) return;
+  if (filled <= keptBricks) return;
   SolidParts::keepFields(key, fields);
   keptBricks = filled;
 }
@@ -367,8 +367,6 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
   state_->keepFields();
 }
 
-// The first tube that comes to a place that was never looked at, in a field that was restored, waits for the
-// part's search trees: a tenth of a second at a skull.
 Bones::~Bones() {
   if (!state_) return;
   try {

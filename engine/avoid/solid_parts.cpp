@@ -1,11 +1,13 @@
 #include "avoid/solid_parts.h"
 
-#include <map>
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "body/mesh_role.h"
 #include "core/bytes.h"
 #include "core/hash.h"
+#include "core/ids.h"
 #include "core/kept.h"
 #include "core/parallel.h"
 
@@ -29,21 +31,29 @@ SolidParts::SolidParts(const Body& body) {
 }
 
 void SolidParts::add(const SkinnedMesh& mesh) {
-  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>>
-      vertices;  // of a joint: mesh's number -> part's
-  std::map<std::uint32_t, Part> parts;
-  for (const uvec3& triangle : mesh.mesh.triangles) {
-    const std::uint32_t joint = carrierOf(mesh.influences[triangle.x]);
-    Part& part = parts[joint];
-    uvec3 own;
+  const auto jointOf = [&](const uvec3& triangle) { return carrierOf(mesh.influences[triangle.x]); };
+  std::vector<uvec3> triangles = mesh.mesh.triangles;
+  std::ranges::stable_sort(triangles, {}, jointOf);
+  struct Number {
+    std::size_t part;
+    std::uint32_t vertex;
+  };
+  std::vector<Number> numbers(mesh.mesh.positions.size());  // the vertex in the last part that has it
+  std::uint32_t last = kNone;
+  for (uvec3 triangle : triangles) {
+    if (const std::uint32_t joint = jointOf(triangle); std::exchange(last, joint) != joint)
+      parts_.push_back({joint, {}, {}});
+    Part& part = parts_.back();
     for (int k = 0; k < 3; ++k) {
-      const auto [at, fresh] = vertices[joint].try_emplace(triangle[k], std::uint32_t(part.positions.size()));
-      if (fresh) part.positions.push_back(mesh.mesh.positions[triangle[k]]);
-      own[k] = at->second;
+      Number& number = numbers[triangle[k]];
+      if (number.part != parts_.size()) {
+        number = {parts_.size(), std::uint32_t(part.positions.size())};
+        part.positions.push_back(mesh.mesh.positions[triangle[k]]);
+      }
+      triangle[k] = number.vertex;
     }
-    part.triangles.push_back(own);
+    part.triangles.push_back(triangle);
   }
-  for (auto& [joint, part] : parts) part.joint = joint, parts_.push_back(std::move(part));
 }
 
 std::uint64_t SolidParts::key() const {

@@ -149,6 +149,7 @@ struct Avoider::State {
   // What single functions work in, kept so that a step allocates nothing.
   std::vector<BoneContact> entered;
   std::vector<vec4> wide;
+  std::vector<float> widestBefore;
   std::vector<vec3> centres;
   std::vector<char> isIn;
   std::vector<Interference::Place> found, remaining,
@@ -280,6 +281,7 @@ void Avoider::State::giveWay(const Input& in, bool isLast) {
   for (unsigned round = 0; round < options.lumenRounds; ++round) {
     const bool lastResort = 2 * round >= options.lumenRounds;
     if (!isInTrouble()) return;
+    widestBefore.assign(correction.widest.begin(), correction.widest.end());
     {
       StageClock clock(in.report.solveMs);
       entered.clear();
@@ -295,6 +297,7 @@ void Avoider::State::giveWay(const Input& in, bool isLast) {
              correction.widest);
       narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort,
              correction.widest);
+      if (correction.widest == widestBefore) continue;  // nothing gives way, and all lies as it lay
       place(in);
     }
     look(in, in.points, isLast ? Look::certain : Look::again);

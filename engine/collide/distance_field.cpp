@@ -8,10 +8,10 @@
 #include <mutex>
 #include <thread>
 
-#include "collide/obstacle.h"
 #include "core/bytes.h"
 #include "core/cancellation.h"
 #include "core/isolated.h"
+#include "math/closest_point.h"
 #include "mesh/weld.h"
 #include "mesh/winding_number.h"
 
@@ -27,7 +27,6 @@ constexpr float kStepMargin = 1.001f;  // of the way from corner to corner
 struct DistanceField::Exact {
   TriangleMesh mesh;
   mutable std::once_flag once;
-  mutable std::unique_ptr<Obstacle> surface;
   mutable std::unique_ptr<WindingNumber> winding;
 };
 
@@ -35,7 +34,6 @@ const DistanceField::Exact& DistanceField::exact() const {
   std::call_once(exact_->once, [&] {
     isolated([&] {
       exact_->mesh = weld(exact_->mesh, 0);
-      exact_->surface = std::make_unique<Obstacle>(exact_->mesh.positions, exact_->mesh.triangles);
       exact_->winding = std::make_unique<WindingNumber>(exact_->mesh.positions, exact_->mesh.triangles);
     });
   });
@@ -146,17 +144,53 @@ std::uint32_t DistanceField::fill(ivec3 at) const {
     return place;
   }
   place = filled_->fetch_add(1, std::memory_order_relaxed);
-  thread_local std::vector<std::uint32_t> near;
   std::array<vec3, kValues> corners;
   const vec3 low = origin_ + options_.cell * kBrick * vec3(at);
   for (int k = 0; k < kValues; ++k)
     corners[std::size_t(k)] = low + options_.cell * vec3(float(k % kCorners), float(k / kCorners % kCorners),
                                                          float(k / (kCorners * kCorners)));
   const std::span<float, kValues> values(values_.get() + std::size_t(place) * kValues, kValues);
-  exact().surface->distances(corners, options_.band, near, values);
+  measure(corners, values);
   giveSigns(corners, values);
   own.store(place, std::memory_order_release);
   return place;
+}
+
+// From the surface, on either side of it; the band beyond that.
+void DistanceField::measure(std::span<const vec3, kValues> corners,
+                            std::span<float, kValues> distances) const {
+  thread_local std::vector<Triangle> near;
+  // Balls around the triangles, as arrays of plain numbers: most of them are told too far in vector
+  // registers.
+  thread_local std::vector<float> x, y, z, radius, squared;
+  const vec3 middle = 0.5f * (corners.front() + corners.back());
+  near.clear();
+  exact().winding->addNear(middle, glm::distance(middle, corners.front()) + options_.band, near);
+  const std::size_t count = near.size();
+  for (auto* each : {&x, &y, &z, &radius, &squared}) each->resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [a, b, c] = near[k];
+    const vec3 centre = (a + b + c) / 3.0f;
+    x[k] = centre.x, y[k] = centre.y, z[k] = centre.z;
+    radius[k] = std::max({glm::distance(a, centre), glm::distance(b, centre), glm::distance(c, centre)});
+  }
+  for (std::size_t p = 0; p < corners.size(); ++p) {
+    const vec3 point = corners[p];
+    float least = std::numeric_limits<float>::max();
+    for (std::size_t k = 0; k < count; ++k) {
+      const float dx = x[k] - point.x, dy = y[k] - point.y, dz = z[k] - point.z;
+      squared[k] = dx * dx + dy * dy + dz * dz;
+      least = squared[k] < least ? squared[k] : least;
+    }
+    const float most = std::sqrt(least) * 1.0001f;  // the nearest triangle is no further than this
+    float distance = options_.band;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (squared[k] > (most + radius[k]) * (most + radius[k])) continue;
+      const auto& [a, b, c] = near[k];
+      distance = std::min(distance, glm::distance(point, closestOnTriangle(point, a, b, c).point));
+    }
+    distances[p] = distance;
+  }
 }
 
 // No surface passes between two corners of a brick if one is farther from it than the other corner is from

@@ -16,8 +16,8 @@ class ByteWriter;
 /// The signed distance from a rigid closed surface, sampled near it: bricks of 4x4x4 cells that share their
 /// corners, values in between trilinear. Error: h²/8R over a surface that bends with radius R, up to half a
 /// cell at sharp edges. A look-up costs some nanoseconds, however many triangles there are; that is what it
-/// is for (collide/obstacle.h is exact, and a thousand times slower). A brick is filled when it is first
-/// looked at, by whichever thread comes first; what is in it does not depend on that.
+/// is for. A brick is filled when it is first looked at, by whichever thread comes first; what is in it does
+/// not depend on that.
 class DistanceField {
  public:
   struct Options {
@@ -83,6 +83,7 @@ class DistanceField {
   void makeRoom();
   void markBand();
   std::uint32_t fill(ivec3 brick) const;
+  void measure(std::span<const vec3, kValues> corners, std::span<float, kValues> distances) const;
   void giveSigns(std::span<const vec3, kValues> corners, std::span<float, kValues> distances) const;
   void sortOutInside();
   void measureRings();

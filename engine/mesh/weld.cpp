@@ -34,12 +34,15 @@ class Welder {
         for (int dz = -reach; dz <= reach; ++dz) {
           const auto found = cells_.find({cell[0] + dx, cell[1] + dy, cell[2] + dz});
           if (found == cells_.end()) continue;
-          for (const std::uint32_t i : found->second)
+          for (std::uint32_t i = found->second.first; i != kNone; i = next_[i])
             if (glm::distance(positions_[i], position) <= tolerance_) return i;
         }
+    const std::uint32_t own = std::uint32_t(positions_.size());
     positions_.push_back(position);
-    cells_[cell].push_back(std::uint32_t(positions_.size() - 1));
-    return std::uint32_t(positions_.size() - 1);
+    next_.push_back(kNone);
+    const auto [at, fresh] = cells_.try_emplace(cell, own, own);
+    if (!fresh) at->second.second = next_[at->second.second] = own;
+    return own;
   }
   std::vector<vec3> take() { return std::move(positions_); }
 
@@ -59,7 +62,8 @@ class Welder {
   }
   float tolerance_;
   std::vector<vec3> positions_;
-  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
+  std::vector<std::uint32_t> next_;  // the cell's next position
+  std::unordered_map<Cell, std::pair<std::uint32_t, std::uint32_t>, CellHash> cells_;  // first and last
 };
 
 bool finite(vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 8;
 constexpr float kFar = 2.3f;  // radii from a group's centre, beyond which its dipole stands for it
+constexpr float kBallMargin = 1.0001f;  // of the distances by which a group is left out
 
 }  // namespace
 
@@ -83,6 +84,23 @@ float WindingNumber::at(vec3 point) const {
     }
   }
   return sum / (4 * kPi);
+}
+
+void WindingNumber::addNear(vec3 point, float reach, std::vector<Triangle>& near) const {
+  if (nodes_.empty()) return;
+  std::array<std::uint32_t, 64> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (glm::distance(node.centre, point) > (node.radius + reach) * kBallMargin) continue;
+    if (node.second > 0) {
+      stack[size++] = node.second;
+      stack[size++] = std::uint32_t(&node - nodes_.data()) + 1;
+    } else {
+      near.insert(near.end(), triangles_.begin() + node.first, triangles_.begin() + node.last);
+    }
+  }
 }
 
 }  // namespace vasa

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "math/triangle_pair.h"
 #include "math/types.h"
 
 namespace vasa {
@@ -19,10 +20,10 @@ class WindingNumber {
   /// O(log n)
   float at(vec3 point) const;
 
+  /// Adds all triangles that come within reach of a point, and some that do not.
+  void addNear(vec3 point, float reach, std::vector<Triangle>& near) const;
+
  private:
-  struct Triangle {
-    vec3 a, b, c;
-  };
   struct Node {
     std::uint32_t first, last;  // triangles, half open
     std::uint32_t second;       // the first child is the next node; 0: a leaf

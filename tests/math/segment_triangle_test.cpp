@@ -1,4 +1,4 @@
-#include "math/segment_triangle.h"
+#include "segment_triangle.h"
 
 #include <doctest/doctest.h>
 
@@ -10,17 +10,17 @@ using namespace vasa;
 
 TEST_CASE("a segment that pierces, hovers, passes an edge, lies in the plane") {
   const vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
-  const auto through = closestOnSegmentTriangle({0.25f, 0.25f, -1}, {0.25f, 0.25f, 3}, a, b, c);
+  const auto through = test::closestOnSegmentTriangle({0.25f, 0.25f, -1}, {0.25f, 0.25f, 3}, a, b, c);
   CHECK(through.distance == 0);
   CHECK(through.s == doctest::Approx(0.25));
   CHECK(through.point == vec3(0.25f, 0.25f, 0));
-  CHECK(closestOnSegmentTriangle({0.1f, 0.1f, 1}, {0.2f, 0.2f, 0.5f}, a, b, c).distance ==
+  CHECK(test::closestOnSegmentTriangle({0.1f, 0.1f, 1}, {0.2f, 0.2f, 0.5f}, a, b, c).distance ==
         doctest::Approx(0.5));
-  const auto edge = closestOnSegmentTriangle({0.5f, -1, -1}, {0.5f, -1, 1}, a, b, c);
+  const auto edge = test::closestOnSegmentTriangle({0.5f, -1, -1}, {0.5f, -1, 1}, a, b, c);
   CHECK(edge.distance == doctest::Approx(1));
   CHECK(edge.s == doctest::Approx(0.5));
-  CHECK(closestOnSegmentTriangle({-1, 0.25f, 0}, {2, 0.25f, 0}, a, b, c).distance == doctest::Approx(0));
-  CHECK(closestOnSegmentTriangle({0, 0, 2}, {0, 0, 2}, a, a, a).distance == doctest::Approx(2));
+  CHECK(test::closestOnSegmentTriangle({-1, 0.25f, 0}, {2, 0.25f, 0}, a, b, c).distance == doctest::Approx(0));
+  CHECK(test::closestOnSegmentTriangle({0, 0, 2}, {0, 0, 2}, a, a, a).distance == doctest::Approx(2));
 }
 
 TEST_CASE("no sampled pair of points is nearer") {
@@ -29,7 +29,7 @@ TEST_CASE("no sampled pair of points is nearer") {
   const auto point = [&] { return vec3(value(random), value(random), value(random)); };
   for (int trial = 0; trial < 2000; ++trial) {
     const vec3 p = point(), q = point(), a = point(), b = point(), c = point();
-    const auto near = closestOnSegmentTriangle(p, q, a, b, c);
+    const auto near = test::closestOnSegmentTriangle(p, q, a, b, c);
     const vec3 onTriangle = near.barycentric.x * a + near.barycentric.y * b + near.barycentric.z * c;
     CHECK(glm::distance(onTriangle, near.point) < 1e-5f);
     CHECK(glm::distance(glm::mix(p, q, near.s), near.point) ==

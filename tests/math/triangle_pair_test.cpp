@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "math/segment_triangle.h"
+#include "segment_triangle.h"
 
 using namespace vasa;
 
@@ -19,7 +19,7 @@ float gap(const Triangle& p, const Triangle& q) {
   float least = 1e9f;
   const auto look = [&](const Triangle& s, const Triangle& t) {
     for (const auto& [from, to] : {std::pair{s.a, s.b}, {s.b, s.c}, {s.c, s.a}})
-      least = std::min(least, closestOnSegmentTriangle(from, to, t.a, t.b, t.c).distance);
+      least = std::min(least, test::closestOnSegmentTriangle(from, to, t.a, t.b, t.c).distance);
   };
   look(p, q);
   look(q, p);

@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
+
+#include "math/closest_point.h"
 
 using namespace vasa;
 
@@ -42,7 +45,37 @@ TEST_CASE("the winding number is 1 inside a closed surface, 0 outside and 2 wher
   }
 }
 
+TEST_CASE("what comes within reach of a point is found, and little else") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> any(-1, 1), little(-0.05f, 0.05f);
+  std::vector<vec3> positions;
+  std::vector<uvec3> triangles;
+  for (std::uint32_t k = 0; k < 3000; ++k) {
+    const vec3 place{any(random), any(random), any(random)};
+    for (int corner = 0; corner < 3; ++corner)
+      positions.push_back(place + vec3{little(random), little(random), little(random)});
+    triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  const WindingNumber winding(positions, triangles);
+  for (int k = 0; k < 50; ++k) {
+    const vec3 point{any(random), any(random), any(random)};
+    std::vector<Triangle> near;
+    winding.addNear(point, 0.2f, near);
+    std::size_t within = 0;
+    for (const uvec3& t : triangles) {
+      const Triangle own{positions[t.x], positions[t.y], positions[t.z]};
+      if (glm::distance(closestOnTriangle(point, own.a, own.b, own.c).point, point) > 0.2f) continue;
+      ++within;
+      CHECK(std::ranges::count_if(near, [&](const Triangle& found) { return found.a == own.a; }) == 1);
+    }
+    CHECK(near.size() < 300 + 2 * within);
+  }
+}
+
 TEST_CASE("no triangles wind around nothing") {
   const WindingNumber winding({}, {});
   CHECK(winding.at(vec3(1)) == 0);
+  std::vector<Triangle> near;
+  winding.addNear(vec3(1), 10, near);
+  CHECK(near.empty());
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include "math/types.h"
 
-namespace vasa {
+namespace vasa::test {
 
 /// Where a segment and a triangle come nearest.
 struct SegmentTrianglePoint {
@@ -15,4 +15,4 @@ struct SegmentTrianglePoint {
 /// segment pierces the triangle, else the least of ends against triangle and segment against edges.
 SegmentTrianglePoint closestOnSegmentTriangle(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c);
 
-}  // namespace vasa
+}  // namespace vasa::test

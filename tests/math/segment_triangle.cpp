@@ -1,9 +1,9 @@
-#include "math/segment_triangle.h"
+#include "segment_triangle.h"
 
 #include "math/closest_point.h"
 #include "math/segment_distance.h"
 
-namespace vasa {
+namespace vasa::test {
 namespace {
 
 // Set where the segment passes through the triangle's inside: signed volumes of the segment with the three
@@ -44,4 +44,4 @@ SegmentTrianglePoint closestOnSegmentTriangle(vec3 p, vec3 q, vec3 a, vec3 b, ve
   return best;
 }
 
-}  // namespace vasa
+}  // namespace vasa::test
