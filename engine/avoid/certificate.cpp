@@ -4,11 +4,6 @@
 
 namespace vasa {
 
-Certificate certify(Interference& interference, std::span<const vec4> points,
-                    std::vector<Interference::Place>* interfering) {
-  return certificateOf(interference.find(points), interfering);
-}
-
 Certificate certificateOf(std::span<const Interference::Place> places,
                           std::vector<Interference::Place>* interfering) {
   Certificate certificate;

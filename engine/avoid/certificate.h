@@ -12,11 +12,8 @@ struct Certificate {
 };
 
 /// Exact to the detector's tolerance (5e-8 m); says nothing of neighbours along the network.
+/// @param places       that Interference::find() returned for the shape
 /// @param interfering  if given, receives the places that count, sorted by pair
-Certificate certify(Interference& interference, std::span<const vec4> points,
-                    std::vector<Interference::Place>* interfering = nullptr);
-
-/// The same from what Interference::find(points) returned.
 Certificate certificateOf(std::span<const Interference::Place> places,
                           std::vector<Interference::Place>* interfering = nullptr);
 

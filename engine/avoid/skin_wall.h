@@ -24,7 +24,6 @@ class SkinWall {
   void addContacts(std::span<const Bezier> tubes, std::uint32_t part,
                    std::vector<BoneContact>& contacts) const;
 
-  std::size_t placeCount() const { return places_.size(); }
 
  private:
   struct Place {

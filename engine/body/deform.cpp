@@ -84,23 +84,4 @@ void Deformer::rotations(std::span<quat> out) const {
   });
 }
 
-void linearBlendPoints(const Binding& binding, std::span<const vec4> rest, const Pose& pose,
-                       std::span<vec4> out) {
-  SpinePose spines(binding.spines);
-  spines.run(binding.spines, pose);
-  forEachPoint(binding, [&](std::size_t i, std::span<const BindingRecord> records) {
-    const vec3 p(rest[i]);
-    vec3 mean(0), limb(0);
-    bool starts = true;
-    for (const BindingRecord& record : records) {
-      const auto [joint, along] = record.station();
-      const float share = along <= 1 ? along : along - 1;
-      limb = glm::mix(spines.placeBefore(joint, p), starts ? spines.placeAfter(joint, p) : limb, share);
-      mean += float(record.share) / float(kWholeShare) * limb;
-      starts = record.share != 0;
-    }
-    out[i] = vec4(mean, rest[i].w);
-  });
-}
-
 }  // namespace vasa

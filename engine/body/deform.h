@@ -33,8 +33,4 @@ class Deformer {
   SpinePose pose_;
 };
 
-/// Linear blend skinning of the same points with the same shares: what the spines are measured against.
-void linearBlendPoints(const Binding& binding, std::span<const vec4> rest, const Pose& pose,
-                       std::span<vec4> out);
-
 }  // namespace vasa

@@ -220,11 +220,6 @@ vec3 SpinePose::place(Station station, vec3 p) const {
   return centre + scale * (rotation(station) * (p - m.centre));
 }
 
-vec3 SpinePose::placeBefore(JointId joint, vec3 p) const {
-  const Motion& m = motions_[joint.value];
-  return m.centreBefore + m.scaleBefore * (m.before * (p - m.centre));
-}
-
 vec3 SpinePose::placeAfter(JointId joint, vec3 p) const {
   const Motion& m = motions_[joint.value];
   return m.centreAfter + m.scaleAfter * (m.after * (p - m.centre));

@@ -68,8 +68,7 @@ class SpinePose {
   quat rotation(Station station) const;
   quat turning(Station station) const;
 
-  /// Where the bone before a joint, and the joint's own bone, take a rest point.
-  vec3 placeBefore(JointId joint, vec3 p) const;
+  /// Where the joint's own bone takes a rest point.
   vec3 placeAfter(JointId joint, vec3 p) const;
 
  private:

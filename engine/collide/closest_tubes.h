@@ -1,9 +1,5 @@
 #pragma once
-#include <span>
-#include <vector>
-
 #include "collide/contact.h"
-#include "collide/exclusions.h"
 #include "curve/bezier.h"
 
 namespace vasa {
@@ -19,9 +15,5 @@ bool tubesIntersect(const Bezier& a, const Bezier& b, double tolerance, double m
 /// The nearest place of a and b: a global minimum of f, no more than tolerance above the least value.
 /// `i` and `j` of the result are 0 and 1.
 Contact closestOfTubes(const Bezier& a, const Bezier& b, double tolerance);
-
-/// Every intersecting pair by comparing all with all: the specification, O(n²), for tests and tiny inputs.
-std::vector<TubePair> intersectingPairsByBruteForce(std::span<const Bezier> tubes,
-                                                    const Exclusions& exclusions, double tolerance);
 
 }  // namespace vasa

@@ -52,11 +52,6 @@ Sphere boundingSphere(const Bezier& segment) {
   return {centre, reach + radiusBound(segment) + rounding(segment)};
 }
 
-Capsule chordCapsule(const Bezier& segment) {
-  return {vec3(segment.b[0]), vec3(segment.b[3]),
-          radiusBound(segment) + chordDeviation(segment) + rounding(segment)};
-}
-
 Capsule pieceCapsule(const Bezier& segment, int level, int index) {
   assert(level >= 0 && level <= kBernsteinLevels && index >= 0 && index < (1 << level));
   const auto sample = [&segment, level](int j) {

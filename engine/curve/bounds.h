@@ -25,9 +25,6 @@ float radiusBound(const Bezier& segment);
 /// Sphere around the whole tube: centre (b0 + b3) / 2, radius max |b_l - centre| + max r_l (paper §5).
 Sphere boundingSphere(const Bezier& segment);
 
-/// Line-swept sphere around the whole tube: chord b0 b3, radius radiusBound + chordDeviation.
-Capsule chordCapsule(const Bezier& segment);
-
 /// Line-swept sphere around the piece between the samples `index` and `index + 1` of 2^level:
 /// two entries of the Bernstein table, Filip's bound for centre line and radius. level <= kBernsteinLevels.
 Capsule pieceCapsule(const Bezier& segment, int level, int index);

@@ -30,7 +30,6 @@ class GlbWriter {
   /// One 16-bit number a vertex, on four bytes as glTF asks of vertices.
   std::size_t addNumbers(std::span<const std::uint16_t> values);
 
-  std::size_t byteCount() const { return bytes_.size(); }
   /// The whole file. Everything is taken out.
   std::vector<std::byte> finish();
 

@@ -68,7 +68,6 @@ void JsonView::mustBeObject() const {
 
 bool JsonView::isObject() const { return value_->is_object(); }
 
-bool JsonView::isText() const { return value_->is_string(); }
 
 std::optional<JsonView> JsonView::find(std::string_view key) const {
   mustBeObject();

@@ -33,7 +33,6 @@ class JsonView {
 
   void mustBeObject() const;
   bool isObject() const;
-  bool isText() const;
   const std::string& text() const;
   bool boolean() const;
   double number() const;                                            ///< finite

@@ -451,7 +451,7 @@ TEST_CASE("the certificate sees a planted contact") {
   const Network network = bundle();
   Interference interference(network);
   std::vector<vec4> points(network.points().begin(), network.points().end());
-  CHECK(certify(interference, points).holds());
+  CHECK(certificateOf(interference.find(points)).holds());
   // One vessel is pulled onto its neighbour until they overlap by a hundredth of a millimetre.
   const Vessel &a = network.vessels()[9], &b = network.vessels()[10];
   const vec4 at = points[a.firstPoint + 8], other = points[b.firstPoint + 8];
@@ -459,7 +459,7 @@ TEST_CASE("the certificate sees a planted contact") {
   const vec3 shift = between * (1 - (at.w + other.w - 1e-5f) / glm::length(between));
   for (std::uint32_t l = 0; l < a.pointCount; ++l) points[a.firstPoint + l] += vec4(shift, 0);
   std::vector<Interference::Place> found;
-  const Certificate certificate = certify(interference, points, &found);
+  const Certificate certificate = certificateOf(interference.find(points), &found);
   CHECK_FALSE(certificate.holds());
   CHECK(certificate.depth > 0.9e-5f);
   REQUIRE_FALSE(found.empty());

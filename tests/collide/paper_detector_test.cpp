@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "brute_force.h"
 #include "collide/closest_tubes.h"
 #include "support/tube_network.h"
 
@@ -16,7 +17,7 @@ TEST_CASE("the paper's method misses nothing, and reports less the smaller its t
   for (const float tolerance : {1e-3f, 1e-4f, 1e-6f}) {
     PaperDetector detector(list.poses[0], exclusions, tolerance);
     for (const auto& pose : list.poses) {
-      const auto truth = intersectingPairsByBruteForce(pose, exclusions, 1e-9);
+      const auto truth = test::intersectingPairsByBruteForce(pose, exclusions, 1e-9);
       detector.update(pose);
       const auto found = detector.detect();
       CHECK(std::is_sorted(found.begin(), found.end()));

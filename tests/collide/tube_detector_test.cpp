@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "brute_force.h"
 #include "collide/closest_tubes.h"
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -71,7 +72,7 @@ TEST_CASE("made-up networks of every size agree with all against all") {
       for (std::size_t k = 0; k < partly.size(); k += 3) partly[k] = list.poses[1][k];
       for (const auto& pose : {list.poses[0], list.poses[1], partly, partly}) {
         const Pairs found = detect(fast, pose);
-        checkEqualButForTies(found, intersectingPairsByBruteForce(pose, exclusions, 1e-9), pose);
+        checkEqualButForTies(found, test::intersectingPairsByBruteForce(pose, exclusions, 1e-9), pose);
         CHECK(found == detect(plain, pose));
       }
     }
@@ -155,7 +156,7 @@ TEST_CASE("degenerate tubes: points, copies, needles, giants") {
   const Exclusions none(100);
   TubeDetector fast(tubes, none), plain(tubes, none, {.scalar = true});
   const Pairs found = detect(fast, tubes);
-  checkEqualButForTies(found, intersectingPairsByBruteForce(tubes, none, 1e-9), tubes);
+  checkEqualButForTies(found, test::intersectingPairsByBruteForce(tubes, none, 1e-9), tubes);
   CHECK(found == detect(plain, tubes));
   CHECK(std::count_if(found.begin(), found.end(), [](TubePair p) { return p.i == 70 || p.j == 70; }) == 99);
 }
@@ -174,7 +175,7 @@ TEST_CASE("tubes far outside the grid, all in one plane, or far away from where 
   for (const auto& tubes : {scattered, flat, moved}) {
     const Pairs found = detect(fast, tubes);
     CHECK(found.size() > 100);
-    checkEqualButForTies(found, intersectingPairsByBruteForce(tubes, none, 1e-9), tubes);
+    checkEqualButForTies(found, test::intersectingPairsByBruteForce(tubes, none, 1e-9), tubes);
     CHECK(found == detect(plain, tubes));
   }
 }
@@ -186,7 +187,7 @@ TEST_CASE("a tube that is excluded with most others") {
     if (j % 7) pairs.push_back({0, j});
   const Exclusions hub(300, pairs);
   TubeDetector detector(tubes, hub);
-  checkEqualButForTies(detect(detector, tubes), intersectingPairsByBruteForce(tubes, hub, 1e-9), tubes);
+  checkEqualButForTies(detect(detector, tubes), test::intersectingPairsByBruteForce(tubes, hub, 1e-9), tubes);
 }
 
 TEST_CASE("none and one") {
