@@ -31,8 +31,6 @@ constexpr float kTouchRadii = 0.15f;
 constexpr std::size_t kNoSection = std::size_t(-1);
 // A tip's radii: the rim that it ends at is no farther away and no wider, and no narrower than the second.
 constexpr float kRimRadii = 2.0f, kLeastRimRadii = 0.5f;
-constexpr float kRimCost =
-    0.01f;  // of a rim at that distance: what hangs together comes first, the nearest of it
 constexpr float kClosingCost = 0.6f;  // limit for joins that close a ring
 
 struct Candidate {
@@ -43,7 +41,7 @@ struct Candidate {
   float gap;
   bool bridge = false;
   std::size_t cutTo = 0;   // sections to take off the end first
-  bool sharesRim = false;  // their surfaces hang together: no gap, whatever lies between the axes
+  const SharedRim* rim = nullptr;  // their surfaces hang together: no gap, whatever lies between the axes
 };
 
 struct OpenTip {
@@ -60,6 +58,7 @@ class Attacher {
       : graph_(graph),
         elements_(elements),
         rims_(sharedRims(elements)),
+        rimTaken_(rims_.size(), false),
         rimsOf_(elements.size()),
         bodyHeight_(bodyHeight),
         options_(options) {
@@ -132,11 +131,17 @@ class Attacher {
     return found;
   }
 
+  static bool endsAt(const OpenTip& tip, const SharedRim& rim) {
+    const float reach = kRimRadii * tip.radius;
+    return glm::distance(tip.place, rim.centre) <= reach && rim.radius <= reach &&
+           rim.radius >= kLeastRimRadii * tip.radius;
+  }
+
   // Where a tip's surface goes on in another element's, no mesh is missing, however wide the collar between
   // them: the first ring of a branch lies on the rim of a collar that is its host's.
   std::optional<Candidate> rimCandidate(const OpenTip& tip, const SharedRim& rim) const {
+    if (!endsAt(tip, rim)) return std::nullopt;
     const float reach = kRimRadii * tip.radius, away = glm::distance(tip.place, rim.centre);
-    if (away > reach || rim.radius > reach || rim.radius < kLeastRimRadii * tip.radius) return std::nullopt;
     const std::uint32_t own = graph_.strands[tip.end.strand].element;
     std::optional<Candidate> best;
     for (const std::uint32_t s : strandsOf_[own == rim.first ? rim.second : rim.first]) {
@@ -145,8 +150,10 @@ class Attacher {
       const float gap = std::max(0.0f, at.distance - at.section.w);
       if (tip.radius > kLargestRatio * at.section.w || gap > reach + at.section.w) continue;
       if (best && gap >= best->gap) continue;
-      best = Candidate{tip.end, s, std::nullopt, kRimCost * away / reach, gap};
-      best->sharesRim = true;
+      // What hangs together comes before all that merely touches, the nearest of it first: a twig that crosses
+      // a branch's foot would take the foot from the trunk.
+      best = Candidate{tip.end, s, std::nullopt, away / reach - 1, gap};
+      best->rim = &rim;
     }
     return best;
   }
@@ -243,11 +250,14 @@ class Attacher {
     collectParts();
     std::ranges::stable_sort(all, {}, &Candidate::cost);
     for (const Candidate& candidate : all) {
+      char* const rimTaken = candidate.rim ? &rimTaken_[std::size_t(candidate.rim - rims_.data())] : nullptr;
+      if (rimTaken && *rimTaken) continue;
       if (!graph_.isFree(candidate.end) || !mayClose(candidate) || isGuess(candidate)) continue;
       const bool joined = candidate.otherLast ? joinToEnd(candidate, {candidate.strand, *candidate.otherLast})
                                               : joinToSide(candidate);
       if (joined) unite(candidate.end.strand, candidate.strand);
-      if (joined && candidate.gap > kToldGap && !candidate.sharesRim)
+      if (joined && rimTaken) *rimTaken = true;
+      if (joined && candidate.gap > kToldGap && !candidate.rim)
         report_.gaps.push_back({graph_.strands[candidate.end.strand].element,
                                 graph_.strands[candidate.strand].element, candidate.gap, candidate.bridge});
     }
@@ -257,7 +267,7 @@ class Attacher {
   // are joined only where their names go on in one another.
   bool isGuess(const Candidate& candidate) const {
     const Strand &a = graph_.strands[candidate.end.strand], &b = graph_.strands[candidate.strand];
-    if (candidate.sharesRim || candidate.gap <= kToldGap || a.element == b.element ||
+    if (candidate.rim || candidate.gap <= kToldGap || a.element == b.element ||
         a.kind != VesselKind::other)
       return false;
     return !namesContinue(elements_[a.element].label, elements_[b.element].label);
@@ -303,7 +313,9 @@ class Attacher {
     const float length = lengthOf(host), snap = kSnapRadii * std::max(at.section.w, tip.radius);
     if (std::min(at.arc, length - at.arc) < snap) {
       const StrandEnd other{candidate.strand, at.arc > length - at.arc};
-      const bool facing = glm::dot(tip.outward, tipOf(other).outward) < -kFacing;
+      const OpenTip there = tipOf(other);
+      const bool facing = glm::dot(tip.outward, there.outward) < -kFacing &&
+                          (!candidate.rim || endsAt(there, *candidate.rim));
       const bool hostedThere = !graph_.isFree(other) && graph_.joints[graph_.jointAt(other)].host;
       if (facing || (!graph_.isFree(other) && !hostedThere)) return joinToEnd(candidate, other);
     }
@@ -403,6 +415,7 @@ class Attacher {
   StrandGraph& graph_;
   std::span<const SourceElement> elements_;
   const std::vector<SharedRim> rims_;
+  std::vector<char> rimTaken_;  // by a join
   std::vector<std::vector<std::uint32_t>> rimsOf_, strandsOf_;  // by element
   float bodyHeight_;
   AttachOptions options_;

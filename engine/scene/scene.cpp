@@ -180,9 +180,9 @@ std::string describeArm(const ClearedArm& arm) {
   const std::string what = fmt::format("{} lies up to {:.0f} mm in the body in {} frames", arm.joint,
                                        1000 * arm.before, arm.frames);
   if (arm.left == 0)
-    return fmt::format("{}, and is turned out of it by up to {:.0f} degrees", what, glm::degrees(arm.turn));
+    return fmt::format("{}, and is turned out of it by up to {:.1f} degrees", what, glm::degrees(arm.turn));
   return fmt::format(
-      "{}, and still in {} of them after a turn by {:.0f} degrees: vessels there are held aside", what,
+      "{}, and still in {} of them after a turn by {:.1f} degrees: vessels there are held aside", what,
       arm.left, glm::degrees(arm.turn));
 }
 

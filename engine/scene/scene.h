@@ -38,7 +38,7 @@ Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file);
 /// The same for all clips of a body. @return  the arms that were, or that could not be
 std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips);
 
-/// "LeftArm lies up to 46 mm in the body in 80 frames, and is turned out of it by up to 6 degrees"
+/// "LeftArm lies up to 46 mm in the body in 80 frames, and is turned out of it by up to 6.4 degrees"
 std::string describeArm(const ClearedArm& arm);
 
 /// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name

@@ -59,6 +59,40 @@ TEST_CASE("an end beside its host joins it where their surfaces share a rim, not
   CHECK_FALSE(joins(-0.1f, true));
 }
 
+TEST_CASE("a twig that crosses a branch's foot does not take it from the trunk whose rim it shares") {
+  Scene scene;
+  const auto trunk = scene.add("trunk", {0, 0, 0}, {0, 0.2f, 0}, 0.005f);
+  const auto branch = scene.add("branch", {0.008f, 0.1f, 0}, {0.05f, 0.1f, 0}, 0.002f);
+  scene.add("twig", {0.008f, 0.1f, -0.02f}, {0.008f, 0.1f, 0.02f}, 0.0015f);
+  const auto ring = [](float from, float to) {
+    return tubeBetween({from, 0.1f, 0}, {to, 0.1f, 0}, 0.002f, TubeEnds::open, 10);
+  };
+  scene.elements[trunk].element.mesh = ring(0.006f, 0.007f);
+  scene.elements[branch].element.mesh = ring(0.007f, 0.05f);
+  scene.attach();
+  const auto joint = scene.jointOf(branch, false);
+  REQUIRE(joint != kNone);
+  CHECK(scene.graph.joints[joint].host == trunk);
+}
+
+TEST_CASE("a rim joins two elements once: the host's own end goes on to what it ends at") {
+  Scene scene;
+  const auto host = scene.add("host", {0, 0, 0}, {0, 0.05f, 0}, 0.002f);
+  const auto branch = scene.add("branch", {0.0018f, 0.0467f, 0}, {0.04f, 0.0467f, 0}, 0.0015f);
+  const auto parent = scene.add("parent", {-0.05f, 0.0545f, 0}, {0.05f, 0.0545f, 0}, 0.004f);
+  const auto ring = [](float from, float to) {
+    return tubeBetween({from, 0.0467f, 0}, {to, 0.0467f, 0}, 0.0015f, TubeEnds::open, 10);
+  };
+  scene.elements[host].element.mesh = ring(0.001f, 0.002f);
+  scene.elements[branch].element.mesh = ring(0.002f, 0.04f);
+  scene.attach();
+  const auto own = scene.jointOf(branch, false), top = scene.jointOf(host, true);
+  REQUIRE(own != kNone);
+  REQUIRE(top != kNone);
+  CHECK(scene.graph.joints[own].host == host);
+  CHECK(scene.graph.joints[top].host == parent);
+}
+
 TEST_CASE("an end that runs through its host is cut back; a slanted one keeps its slant") {
   Scene scene;
   scene.add("trunk", {0, 0, 0}, {0, 0.2f, 0}, 0.005f);
