@@ -79,6 +79,7 @@ class Attacher {
     std::vector<std::vector<Candidate>> touching(tips_.size());
     parallelFor(tips_.size(), 16, [&](std::size_t i) { touching[i] = touchingCandidates(tips_[i]); });
     take(touching);
+    joinAcrossRims();
     if (options_.bridges) {
       collectTips();
       std::vector<std::vector<Candidate>> found(1);
@@ -261,6 +262,48 @@ class Attacher {
         report_.gaps.push_back({graph_.strands[candidate.end.strand].element,
                                 graph_.strands[candidate.strand].element, candidate.gap, candidate.bridge});
     }
+  }
+
+  // Surfaces that hang together where neither vessel ends, as where branches leave from one another's feet: a
+  // short vessel of the thinner one leads from axis to axis.
+  void joinAcrossRims() {
+    collectTips();
+    collectParts();
+    for (std::size_t k = 0; k < rims_.size(); ++k) {
+      const SharedRim& rim = rims_[k];
+      const auto a = sideAt(rim, rim.first), b = sideAt(rim, rim.second);
+      if (rimTaken_[k] || !a || !b || !mayJoin(a->strand, b->strand) || root(a->strand) == root(b->strand))
+        continue;
+      const Circuit own = circuit_[root(a->strand)], other = circuit_[root(b->strand)];
+      if (own != other && own != Circuit::unknown && other != Circuit::unknown) continue;
+      const auto [branch, host] = a->axis.w < b->axis.w ? std::pair(*a, *b) : std::pair(*b, *a);
+      Strand strand = graph_.strands[branch.strand];
+      strand.sections = {vec4(vec3(branch.axis), rim.radius), vec4(rim.centre, rim.radius),
+                         vec4(vec3(host.axis), rim.radius)};
+      const std::uint32_t added = graph_.add(std::move(strand));
+      parts_.push_back(added);
+      circuit_.push_back(Circuit::unknown);
+      for (const auto& [side, last] : {std::pair(branch, false), std::pair(host, true)}) {
+        const StrandEnd end{added, last};
+        graph_.join(side.strand, vec3(side.axis), std::span(&end, 1));
+        unite(added, side.strand);
+        ++report_.endToSide;
+      }
+      rimTaken_[k] = true;
+    }
+  }
+  struct Side {
+    std::uint32_t strand;
+    vec4 axis;  // where it is nearest to the rim
+  };
+  std::optional<Side> sideAt(const SharedRim& rim, std::uint32_t element) const {
+    std::optional<Side> best;
+    float least = kRimRadii * rim.radius;
+    for (const std::uint32_t s : strandsOf_[element]) {
+      const Along at = nearestAlong(graph_.strands[s].sections, rim.centre);
+      if (const float gap = at.distance - at.section.w; gap < least) least = gap, best = {s, at.section};
+    }
+    return best;
   }
 
   // Of elements that nothing says the kind of, one may be an artery and the other a vein: across a gap they

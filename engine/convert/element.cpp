@@ -1,6 +1,7 @@
 #include "convert/element.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "convert/bridge.h"
@@ -9,7 +10,9 @@
 #include "convert/reeb.h"
 #include "convert/reslice.h"
 #include "convert/rings.h"
+#include "convert/strand.h"
 #include "convert/untold.h"
+#include "core/cancellation.h"
 #include "math/closest_point.h"
 #include "mesh/boundary.h"
 #include "mesh/components.h"
@@ -18,6 +21,12 @@
 
 namespace vasa {
 namespace {
+
+constexpr std::size_t kCoverageSamples = 2000;
+constexpr float kCoverLeast = 0.001f, kCoverRadii = 0.2f;  // [m], of the radius: as SurfaceErrorOptions has it
+constexpr double kWellCovered = 0.97;
+// What the other end must cover more, and stubs, which may be bumps.
+constexpr double kWorthTurning = 0.01, kWorthStubs = 0.05;
 
 // One connected piece, its holes filled, ready to be cut.
 struct Piece {
@@ -80,18 +89,13 @@ bool strays(const std::vector<vec4>& rough, const std::vector<vec4>& sections) {
   return false;
 }
 
-PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
+PieceAxes axesByLevelSets(const Piece& piece, std::span<const float> distance, float reach, bool keepStubs,
+                          const ElementOptions& options) {
   PieceAxes result;
-  const VertexTriangles around = buildVertexTriangles(piece.mesh);
-  const std::uint32_t first = 0;
-  const std::uint32_t source = farthest(surfaceDistance(piece.mesh, around, {&first, 1}));
-  std::vector<float> distance = surfaceDistance(piece.mesh, around, {&source, 1});
-  const float reach = distance[farthest(distance)];
-  if (!(reach > 0)) return result;
   const float radius = typicalRadius(piece.mesh, reach);
   const float step = std::max({0.5f * radius, std::min(0.25f * options.detail, 0.1f * reach), reach / 5000});
   result.graph = reebGraph(piece.mesh, piece.edges, distance, step);
-  result.pruned = prune(result.graph, options.detail);
+  result.pruned = prune(result.graph, options.detail, keepStubs);
 
   const TriangleTree tree(piece.mesh);
   Slicer slicer(piece.mesh, piece.edges, tree);
@@ -132,6 +136,48 @@ PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
   connectForks(result.graph, result.sections, tree);
   for (std::vector<vec4>& sections : result.sections) dropUntold(sections, piece.mesh, tree);
   return result;
+}
+
+// Share of the surface that lies near the tubes' walls: of some triangles, by their middles.
+double coverageOf(const TriangleMesh& mesh, const PieceAxes& axes) {
+  const std::size_t stride = std::max<std::size_t>(1, mesh.triangles.size() / kCoverageSamples);
+  double area = 0, covered = 0;
+  for (std::size_t k = 0; k < mesh.triangles.size(); k += stride) {
+    checkpoint();
+    const uvec3& t = mesh.triangles[k];
+    const vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const double own = glm::length(glm::cross(b - a, c - a));
+    const auto isNear = [middle = (a + b + c) / 3.0f](const std::vector<vec4>& sections) {
+      if (sections.size() < 2) return false;
+      const Along at = nearestAlong(sections, middle);
+      return std::abs(at.distance - at.section.w) <= std::max(kCoverLeast, kCoverRadii * at.section.w);
+    };
+    area += own;
+    if (std::ranges::any_of(axes.sections, isNear)) covered += own;
+  }
+  return area > 0 ? covered / area : 0;
+}
+
+// A front finds what it meets as rings, and misses what is shorter than half its girth: where the axes leave
+// surface uncovered, fronts from the other end and stubs are tried, too.
+PieceAxes axesByLevelSets(const Piece& piece, const ElementOptions& options) {
+  const VertexTriangles around = buildVertexTriangles(piece.mesh);
+  const auto from = [&](std::uint32_t source) { return surfaceDistance(piece.mesh, around, {&source, 1}); };
+  std::array<std::vector<float>, 2> distances{from(farthest(from(0)))};
+  const std::uint32_t other = farthest(distances[0]);
+  const float reach = distances[0][other];
+  PieceAxes best;
+  if (!(reach > 0)) return best;
+  double covered = -1;
+  for (const bool keepStubs : {false, true})
+    for (std::vector<float>& distance : distances) {
+      if (distance.empty()) distance = from(other);
+      PieceAxes axes = axesByLevelSets(piece, distance, reach, keepStubs, options);
+      const double own = coverageOf(piece.mesh, axes);
+      if (own > covered + (keepStubs ? kWorthStubs : kWorthTurning)) covered = own, best = std::move(axes);
+      if (covered > kWellCovered) return best;
+    }
+  return best;
 }
 
 PieceAxes axesOfRings(const std::vector<vec4>& sections) {

@@ -6,6 +6,8 @@
 namespace vasa {
 namespace {
 
+constexpr float kStub = 1.5f;  // radii of its parent that a stub reaches from the fork; a bump reaches one
+
 // The radius of a chain where it leaves a node: the median of its first few contours.
 float radiusAt(const AxisChain& chain, bool last) {
   std::vector<float> radii;
@@ -39,8 +41,16 @@ bool shadowed(const AxisChain& chain, const AxisChain& other, float detail) {
 
 void erase(AxisGraph& graph, std::uint32_t chain) { graph.chains.erase(graph.chains.begin() + chain); }
 
+// How far a leaf reaches from its fork. A stub that is shorter than half its girth is nowhere a ring of its own
+// when the front comes by way of a side branch: its chain is short, and its tip is far from the fork even so.
+float reachOf(const AxisChain& chain, vec3 fork) {
+  float farthest = 0;
+  for (const vec4& p : chain.points) farthest = std::max(farthest, glm::distance(vec3(p), fork));
+  return farthest;
+}
+
 // The shortest leaf chain below the radius of its parent, counted in those radii.
-bool pruneOne(AxisGraph& graph, float detail) {
+bool pruneOne(AxisGraph& graph, float detail, bool keepStubs) {
   const auto ends = chainEnds(graph);
   float worst = 1;
   std::int64_t chosen = -1;
@@ -53,7 +63,10 @@ bool pruneOne(AxisGraph& graph, float detail) {
     float parent = 0;
     for (const ChainEnd& end : fork)
       if (end.chain != i) parent = std::max(parent, radiusAt(graph.chains[end.chain], end.last));
-    float ratio = chain.length / std::max({parent, detail, 1e-9f});
+    const float thick = std::max({parent, detail, 1e-9f});
+    float ratio = chain.length / thick;
+    if (keepStubs)
+      ratio = std::max(ratio, reachOf(chain, graph.nodes[startFree ? chain.end : chain.start]) / (kStub * thick));
     for (const ChainEnd& end : fork)
       if (end.chain != i && medianRadius(chain) <= medianRadius(graph.chains[end.chain]) && ratio >= 1 &&
           shadowed(chain, graph.chains[end.chain], detail))
@@ -94,13 +107,15 @@ bool closeLoop(AxisGraph& graph, float detail) {
   return false;
 }
 
-// Forks nearer than the radius of what joins them.
+// Forks nearer than the radius of what joins them. In a bend a front runs ahead along the inner side, so that
+// its way from fork to fork on the outer side is shorter than they are apart.
 bool mergeOne(AxisGraph& graph, float detail) {
   const auto valence = graph.valences();
   for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
     const AxisChain chain = graph.chains[i];
     if (chain.start == chain.end || valence[chain.start] < 3 || valence[chain.end] < 3) continue;
-    if (chain.length >= std::max({radiusAt(chain, false), radiusAt(chain, true), detail})) continue;
+    const float apart = std::max(chain.length, glm::distance(graph.nodes[chain.start], graph.nodes[chain.end]));
+    if (apart >= std::max({radiusAt(chain, false), radiusAt(chain, true), detail})) continue;
     graph.nodes[chain.start] = 0.5f * (graph.nodes[chain.start] + graph.nodes[chain.end]);
     erase(graph, i);
     for (AxisChain& other : graph.chains) {
@@ -115,13 +130,13 @@ bool mergeOne(AxisGraph& graph, float detail) {
 
 }  // namespace
 
-PruneReport prune(AxisGraph& graph, float detail) {
+PruneReport prune(AxisGraph& graph, float detail, bool keepStubs) {
   PruneReport report;
   // Each step removes a chain, so this ends.
   for (bool changed = true; changed;) {
     changed = false;
     while (closeLoop(graph, detail)) ++report.loops, changed = true;
-    while (pruneOne(graph, detail)) ++report.pruned, changed = true;
+    while (pruneOne(graph, detail, keepStubs)) ++report.pruned, changed = true;
     while (mergeOne(graph, detail)) ++report.merged, changed = true;
   }
   return report;

@@ -93,6 +93,26 @@ TEST_CASE("a rim joins two elements once: the host's own end goes on to what it 
   CHECK(scene.graph.joints[top].host == parent);
 }
 
+TEST_CASE("surfaces that hang together where neither vessel ends are joined by a short one") {
+  for (const bool shared : {true, false}) {
+    Scene scene;
+    const auto thick = scene.add("thick", {0, 0, 0}, {0, 0.2f, 0}, 0.005f);
+    const auto thin = scene.add("thin", {0.009f, 0.01f, 0}, {0.009f, 0.19f, 0}, 0.003f);
+    const auto ring = [](float from, float to) {
+      return tubeBetween({from, 0.1f, 0}, {to, 0.1f, 0}, 0.002f, TubeEnds::open, 10);
+    };
+    scene.elements[thick].element.mesh = ring(0.005f, shared ? 0.0055f : 0.0051f);
+    scene.elements[thin].element.mesh = ring(0.0055f, 0.006f);
+    const auto report = scene.attach();
+    CHECK(report.endToSide == (shared ? 2 : 0));
+    REQUIRE(scene.graph.strands.size() == (shared ? 3u : 2u));
+    if (!shared) continue;
+    CHECK(scene.graph.strands[2].element == thin);
+    CHECK(scene.graph.joints[scene.jointOf(2, false)].host == thin);
+    CHECK(scene.graph.joints[scene.jointOf(2, true)].host == thick);
+  }
+}
+
 TEST_CASE("an end that runs through its host is cut back; a slanted one keeps its slant") {
   Scene scene;
   scene.add("trunk", {0, 0, 0}, {0, 0.2f, 0}, 0.005f);

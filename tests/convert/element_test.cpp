@@ -113,6 +113,48 @@ TEST_CASE("a Y from a scan: three branches that meet") {
   }
 }
 
+TEST_CASE("a trunk that is cut a little beyond its last branch keeps its end") {
+  for (const auto& [radius, stub] : {std::pair{0.006f, 0.02f}, {0.012f, 0.04f}}) {
+    CAPTURE(stub);
+    const vec3 fork(0, 0.1f, 0);
+    const auto trunk = test::isosurface(
+        [&](vec3 p) {
+          const float uncut = std::min(test::capsuleDistance(p, {0, -0.05f, 0}, {0, 0.2f, 0}, radius),
+                                       test::capsuleDistance(p, fork, {0.05f, 0.14f, 0}, 0.004f));
+          return std::max({uncut, p.y - (p.x < 0.015f ? fork.y + stub : 1), -p.y});
+        },
+        vec3(-0.02f, -0.01f, -0.02f), vec3(0.06f, 0.16f, 0.02f), 0.0013f);
+    const ElementSkeleton skeleton = skeletonise(trunk, kDefault);
+    checkPromises(skeleton);
+    REQUIRE(skeleton.branches.size() == 3);
+    const auto isEnd = [&](const ElementNode& node) {
+      return node.valence == 1 && glm::distance(node.position, fork + vec3(0, stub, 0)) < radius;
+    };
+    CHECK(std::ranges::any_of(skeleton.nodes, isEnd));
+  }
+}
+
+TEST_CASE("an arch of the aorta has three branches that leave it one after the other") {
+  constexpr float kBend = 0.03f, kRadius = 0.009f;
+  const auto arch = test::isosurface(
+      [&](vec3 p) {
+        const float ring = glm::length(vec2(glm::length(vec2(p)) - kBend, p.z)) - kRadius;
+        float distance = p.y > 0 ? ring : 1;
+        distance = std::min({distance, test::capsuleDistance(p, {-kBend, 0, 0}, {-kBend, -0.05f, 0}, kRadius),
+                             test::capsuleDistance(p, {kBend, 0, 0}, {kBend, -0.1f, 0}, kRadius)});
+        for (const float angle : {0.785f, 1.571f, 2.356f}) {
+          const vec3 root = kBend * vec3(std::cos(angle), std::sin(angle), 0);
+          distance = std::min(distance, test::capsuleDistance(p, root, root + vec3(0, 0.05f, 0), 0.004f));
+        }
+        return distance;
+      },
+      vec3(-0.05f, -0.12f, -0.015f), vec3(0.05f, 0.09f, 0.015f), 0.0013f);
+  const ElementSkeleton skeleton = skeletonise(arch, kDefault);
+  checkPromises(skeleton);
+  CHECK(std::ranges::count(skeleton.nodes, 3u, &ElementNode::valence) == 3);
+  CHECK(skeleton.branches.size() == 7);
+}
+
 TEST_CASE("a ring of vessels keeps its loop") {
   TriangleMesh torus =
       test::tube([](float t) { return 0.05f * vec3(std::cos(2 * kPi * t), std::sin(2 * kPi * t), 0); },
