@@ -90,6 +90,19 @@ Report convertJson(const ConvertReport& report, const ConvertOutput& output) {
             {"seconds", output.seconds}}}};
 }
 
+// ", the longest 45 mm from 'A' to 'B'"
+std::string longestGapText(const ConvertReport& report) {
+  const auto& gaps = report.summary.joins.gaps;
+  const auto longest = std::ranges::max_element(gaps, {}, &Gap::length);
+  if (longest == gaps.end()) return {};
+  const auto nameOf = [&](std::uint32_t element) { return visible(report.elements[element].name); };
+  const std::string where =
+      longest->fromElement == longest->toElement
+          ? "within '" + nameOf(longest->fromElement) + "'"
+          : "from '" + nameOf(longest->fromElement) + "' to '" + nameOf(longest->toElement) + "'";
+  return fmt::format(", the longest {:.0f} mm {}", 1e3 * longest->length, where);
+}
+
 std::string convertText(const ConvertReport& report, const ConvertOutput& output) {
   const ConvertSummary& s = report.summary;
   std::string text;
@@ -105,8 +118,8 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
                       s.elements, s.ok, s.partial, s.failed, s.doubtful, s.duplicates);
   text += fmt::format("{:<22} {} vessels, {} sweeps, {} junctions, {} connected parts\n", "network",
                       s.vessels, s.sweeps, s.junctions, s.components);
-  text += fmt::format("{:<22} {} end to side, {} end to end; {} across a gap\n", "joins", s.joins.endToSide,
-                      s.joins.endToEnd, s.joins.gaps.size());
+  text += fmt::format("{:<22} {} end to side, {} end to end; {} across a gap{}\n", "joins", s.joins.endToSide,
+                      s.joins.endToEnd, s.joins.gaps.size(), longestGapText(report));
   text += fmt::format("{:<22} {:.2f} m; largest arterial tree {:.0f} % of the arteries\n", "length", s.length,
                       100 * share(s.largestArterialTree, s.arteryLength));
   if (s.meshBytes > 0) text += fmt::format("{:<22} {:.1f} % of the surface\n", "coverage", 100 * s.coverage);

@@ -3,9 +3,9 @@
 #include "camera_choice.h"
 #include "capillary_options.h"
 #include "commands.h"
-#include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/log.h"
+#include "core/text_file.h"
 #include "endings.h"
 #include "frame_output.h"
 #include "gpu/error.h"
@@ -81,10 +81,9 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   // A look that nobody asked for is that of the last session.
   choice->look.preset = !options.look.empty() ? options.look : scene.scene.empty() ? "" : choice->look.preset;
   if (!options.script.empty()) {
-    const auto bytes = readFile(options.script, 1 << 24);
-    if (!bytes) return bytes.error();
-    auto script =
-        viewer::parseScript({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.script);
+    const auto text = readText(options.script, 1 << 24);
+    if (!text) return text.error();
+    auto script = viewer::parseScript(*text, options.script);
     if (!script) return script.error();
     for (viewer::ScriptStep& step : *script)
       if (auto* save = std::get_if<viewer::SavePicture>(&step)) {

@@ -26,7 +26,7 @@ constexpr float kStride = 0.8f;        // ... and of the distance
 constexpr float kSteepest = 1.7321f;   // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;     // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
-constexpr float kMovedFar = 0.002f;     // [m] less brings no tube from beyond a field's band into a part
+constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
 
 vec3 placed(const mat4& matrix, vec3 p) { return vec3(matrix * vec4(p, 1)); }
 

@@ -24,7 +24,6 @@ class SkinWall {
   void addContacts(std::span<const Bezier> tubes, std::uint32_t part,
                    std::vector<BoneContact>& contacts) const;
 
-
  private:
   struct Place {
     std::uint32_t tube;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/atomic_file.h"
+#include "core/text_file.h"
 
 namespace vasa {
 namespace {
@@ -139,9 +140,9 @@ void TubeList::blend(float share, LargeVector<Bezier>& tubes) const {
 }
 
 Result<TubeList> readTubeList(const std::filesystem::path& path) {
-  const auto bytes = readFile(path);
-  if (!bytes) return bytes.error();
-  return parse(Lines(path.string(), {reinterpret_cast<const char*>(bytes->data()), bytes->size()}));
+  const auto text = readText(path);
+  if (!text) return text.error();
+  return parse(Lines(path.string(), *text));
 }
 
 Result<void> writeTubeList(const std::filesystem::path& path, const TubeList& list) {

@@ -40,7 +40,7 @@ struct Candidate {
   float cost;
   float gap;
   bool bridge = false;
-  std::size_t cutTo = 0;   // sections to take off the end first
+  std::size_t cutTo = 0;           // sections to take off the end first
   const SharedRim* rim = nullptr;  // their surfaces hang together: no gap, whatever lies between the axes
 };
 
@@ -151,8 +151,8 @@ class Attacher {
       const float gap = std::max(0.0f, at.distance - at.section.w);
       if (tip.radius > kLargestRatio * at.section.w || gap > reach + at.section.w) continue;
       if (best && gap >= best->gap) continue;
-      // What hangs together comes before all that merely touches, the nearest of it first: a twig that crosses
-      // a branch's foot would take the foot from the trunk.
+      // What hangs together comes before all that merely touches, the nearest of it first: a twig that
+      // crosses a branch's foot would take the foot from the trunk.
       best = Candidate{tip.end, s, std::nullopt, away / reach - 1, gap};
       best->rim = &rim;
     }
@@ -306,13 +306,12 @@ class Attacher {
     return best;
   }
 
-  // Of elements that nothing says the kind of, one may be an artery and the other a vein: across a gap they
-  // are joined only where their names go on in one another.
+  // Of what nothing says the kind of, one may be an artery and the other a vein: across a gap elements are
+  // joined only where their names go on in one another, and pieces of one only where it is short.
   bool isGuess(const Candidate& candidate) const {
     const Strand &a = graph_.strands[candidate.end.strand], &b = graph_.strands[candidate.strand];
-    if (candidate.rim || candidate.gap <= kToldGap || a.element == b.element ||
-        a.kind != VesselKind::other)
-      return false;
+    if (candidate.rim || candidate.gap <= kToldGap || a.kind != VesselKind::other) return false;
+    if (a.element == b.element) return candidate.bridge;
     return !namesContinue(elements_[a.element].label, elements_[b.element].label);
   }
 
@@ -458,7 +457,7 @@ class Attacher {
   StrandGraph& graph_;
   std::span<const SourceElement> elements_;
   const std::vector<SharedRim> rims_;
-  std::vector<char> rimTaken_;  // by a join
+  std::vector<char> rimTaken_;                                  // by a join
   std::vector<std::vector<std::uint32_t>> rimsOf_, strandsOf_;  // by element
   float bodyHeight_;
   AttachOptions options_;

@@ -23,7 +23,8 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kCoverageSamples = 2000;
-constexpr float kCoverLeast = 0.001f, kCoverRadii = 0.2f;  // [m], of the radius: as SurfaceErrorOptions has it
+constexpr float kCoverLeast = 0.001f,
+                kCoverRadii = 0.2f;  // [m], of the radius: as SurfaceErrorOptions has it
 constexpr double kWellCovered = 0.97;
 // What the other end must cover more, and stubs, which may be bumps.
 constexpr double kWorthTurning = 0.01, kWorthStubs = 0.05;

@@ -41,8 +41,9 @@ bool shadowed(const AxisChain& chain, const AxisChain& other, float detail) {
 
 void erase(AxisGraph& graph, std::uint32_t chain) { graph.chains.erase(graph.chains.begin() + chain); }
 
-// How far a leaf reaches from its fork. A stub that is shorter than half its girth is nowhere a ring of its own
-// when the front comes by way of a side branch: its chain is short, and its tip is far from the fork even so.
+// How far a leaf reaches from its fork. A stub that is shorter than half its girth is nowhere a ring of its
+// own when the front comes by way of a side branch: its chain is short, and its tip is far from the fork even
+// so.
 float reachOf(const AxisChain& chain, vec3 fork) {
   float farthest = 0;
   for (const vec4& p : chain.points) farthest = std::max(farthest, glm::distance(vec3(p), fork));
@@ -66,7 +67,8 @@ bool pruneOne(AxisGraph& graph, float detail, bool keepStubs) {
     const float thick = std::max({parent, detail, 1e-9f});
     float ratio = chain.length / thick;
     if (keepStubs)
-      ratio = std::max(ratio, reachOf(chain, graph.nodes[startFree ? chain.end : chain.start]) / (kStub * thick));
+      ratio =
+          std::max(ratio, reachOf(chain, graph.nodes[startFree ? chain.end : chain.start]) / (kStub * thick));
     for (const ChainEnd& end : fork)
       if (end.chain != i && medianRadius(chain) <= medianRadius(graph.chains[end.chain]) && ratio >= 1 &&
           shadowed(chain, graph.chains[end.chain], detail))
@@ -114,7 +116,8 @@ bool mergeOne(AxisGraph& graph, float detail) {
   for (std::uint32_t i = 0; i < graph.chains.size(); ++i) {
     const AxisChain chain = graph.chains[i];
     if (chain.start == chain.end || valence[chain.start] < 3 || valence[chain.end] < 3) continue;
-    const float apart = std::max(chain.length, glm::distance(graph.nodes[chain.start], graph.nodes[chain.end]));
+    const float apart =
+        std::max(chain.length, glm::distance(graph.nodes[chain.start], graph.nodes[chain.end]));
     if (apart >= std::max({radiusAt(chain, false), radiusAt(chain, true), detail})) continue;
     graph.nodes[chain.start] = 0.5f * (graph.nodes[chain.start] + graph.nodes[chain.end]);
     erase(graph, i);

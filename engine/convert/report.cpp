@@ -33,12 +33,12 @@ void judge(ElementReport& report, float meanRadius) {
                               std::to_string(1000 * report.error.p95).substr(0, 4) + " mm off");
 }
 
-// The radius of a tube of the same area and the length of the element's vessels.
+// The radius of a tube of the same area, ends and all, and the length of the element's vessels.
 float meanRadius(const Assembly& assembly, std::uint32_t element, double area) {
   double length = 0;
   for (const std::uint32_t v : assembly.vesselsOf[element])
     length += lengthOf(assembly.network.pointsOf(assembly.network.vessels()[v]));
-  return length > 0 ? float(area / (2 * double(kPi) * length)) : 0.0f;
+  return length > 0 ? float(0.5 * (std::sqrt(length * length + 2 * area / double(kPi)) - length)) : 0.0f;
 }
 
 // Of what has no surface: as its points tell it.

@@ -15,8 +15,8 @@ enum class ElementStatus { ok, partial, failed, doubtful };
 /// [m] mean radius: a large aneurysm of the aorta, an arteriole
 constexpr float kWidestVessel = 0.03f, kThinnestVessel = 2e-5f;
 /// Of a mesh's surface, either side counting the same: the length of the mean normal. Around a tube it is 2 /
-/// π, in a plane 1; half way between.
-constexpr double kFlat = 0.82;
+/// π, in a plane 1, and around a flattened vein four times as wide as high this.
+constexpr double kFlat = 0.92;
 constexpr double kOkCoverage = 0.9, kPartialCoverage = 0.25;
 constexpr float kOkError = 0.002f;  ///< [m]
 std::string_view statusName(ElementStatus status);

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "core/nearest_names.h"
+#include "core/text_file.h"
 
 // Every operation lists its words once, in describe(); three kinds of `fields` go through such a list: one
 // reads a line, one writes it, one tells how it is written.
@@ -380,9 +380,9 @@ Result<std::vector<Edit>> parseJournal(std::string_view text, const std::string&
 }
 
 Result<std::vector<Edit>> readJournal(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMostBytes);
-  if (!bytes) return bytes.error();
-  return parseJournal({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+  const auto text = readText(path, kMostBytes);
+  if (!text) return text.error();
+  return parseJournal(*text, path.string());
 }
 
 std::string journalLine(const EditOperation& operation) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/atomic_file.h"
+#include "core/text_file.h"
 #include "growth/rule_text.h"
 
 // A parametric, bracketed L-system (Prusinkiewicz and Lindenmayer 1990) whose every production draws one
@@ -339,9 +339,9 @@ Result<GrowthRules> parseGrowthRules(std::string_view text, const std::string& n
 }
 
 Result<GrowthRules> readGrowthRules(const std::filesystem::path& path) {
-  const auto bytes = readFile(path, kMaximumRulesBytes);
-  if (!bytes) return bytes.error();
-  return parseGrowthRules({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+  const auto text = readText(path, kMaximumRulesBytes);
+  if (!text) return text.error();
+  return parseGrowthRules(*text, path.string());
 }
 
 }  // namespace vasa

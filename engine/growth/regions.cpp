@@ -5,8 +5,8 @@
 #include <cctype>
 #include <span>
 
-#include "core/atomic_file.h"
 #include "core/letters.h"
+#include "core/text_file.h"
 #include "growth/rule_text.h"
 
 namespace vasa {
@@ -197,9 +197,9 @@ Result<std::vector<GrowthRegion>> parseRegions(std::string_view text, const std:
 }
 
 Result<std::vector<GrowthRegion>> readRegions(const std::filesystem::path& path, const GrowthRules& rules) {
-  const auto bytes = readFile(path, kMaximumRegionsBytes);
-  if (!bytes) return bytes.error();
-  return parseRegions({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), rules);
+  const auto text = readText(path, kMaximumRegionsBytes);
+  if (!text) return text.error();
+  return parseRegions(*text, path.string(), rules);
 }
 
 }  // namespace vasa

@@ -5,8 +5,8 @@
 #include "core/atomic_file.h"
 #include "core/letters.h"
 #include "core/log.h"
+#include "core/text_file.h"
 #include "io/read_limits.h"
-#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
-#include "io/text_file.h"
+#include "core/text_file.h"
 
 namespace vasa::csv {
 

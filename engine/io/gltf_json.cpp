@@ -68,7 +68,6 @@ void JsonView::mustBeObject() const {
 
 bool JsonView::isObject() const { return value_->is_object(); }
 
-
 std::optional<JsonView> JsonView::find(std::string_view key) const {
   mustBeObject();
   const auto it = value_->find(key);

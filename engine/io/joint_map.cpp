@@ -1,7 +1,7 @@
 #include "core/atomic_file.h"
+#include "core/text_file.h"
 #include "io/bvh.h"
 #include "io/csv.h"
-#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa {

@@ -6,7 +6,7 @@
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/ids.h"
-#include "io/text_file.h"
+#include "core/text_file.h"
 #include "io/words.h"
 #include "mesh/polygon.h"
 

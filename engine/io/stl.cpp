@@ -12,7 +12,7 @@
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/letters.h"
-#include "io/text_file.h"
+#include "core/text_file.h"
 #include "io/words.h"
 
 namespace vasa {

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <utility>
 
+#include "core/text_file.h"
 #include "io/base64.h"
 #include "io/read_limits.h"
-#include "io/text_file.h"
 #include "io/words.h"
 
 namespace vasa::vtk {

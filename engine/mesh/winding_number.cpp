@@ -11,7 +11,7 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kLeaf = 8;
-constexpr float kFar = 2.3f;  // radii from a group's centre, beyond which its dipole stands for it
+constexpr float kFar = 2.3f;            // radii from a group's centre, beyond which its dipole stands for it
 constexpr float kBallMargin = 1.0001f;  // of the distances by which a group is left out
 
 }  // namespace

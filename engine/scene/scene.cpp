@@ -226,7 +226,7 @@ Result<Subject> findSubject(const Scene& scene, std::string_view name) {
   std::vector<std::string> names;
   addNames(vessels, names);
   addNames(joints, names);
-  return badInput("no vessel and no joint is numbersNamed '" + std::string(name) + "'; " +
+  return badInput("no vessel and no joint is named '" + std::string(name) + "'; " +
                   didYouMean(std::string(name), names, "vasa info NET.vasa --vessels lists the vessels"));
 }
 

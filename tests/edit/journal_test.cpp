@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "core/atomic_file.h"
+#include "support/shared_data.h"
+
 using namespace vasa;
 
 namespace {
@@ -104,6 +107,23 @@ TEST_CASE("what is wrong in a journal is told with its line and how it is writte
             .find("side must be one of left, right, front, back, up, down, not 'inside'") !=
         std::string::npos);
   CHECK(readJournal("/nowhere/x.vedit").error().fault == Fault::io);
+}
+
+TEST_CASE(
+    "a journal may begin with a byte order mark and end its lines as any system does; UTF-16 is named") {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.vedit";
+  for (const char* text :
+       {"\xEF\xBB\xBFkind a vein\noccclude", "kind a vein\rcut a 0 1\r", "kind a vein\r\ncut a 0 1\r\n"}) {
+    REQUIRE(writeFileAtomically(path, std::string(text)).ok());
+    const auto edits = readJournal(path);
+    if (std::string_view(text).ends_with("occclude"))
+      CHECK(edits.error().message.find("a.vedit:2: 'occclude' is no operation") != std::string::npos);
+    else
+      CHECK(edits->size() == 2);
+  }
+  REQUIRE(writeFileAtomically(path, std::string("k\0i\0n\0d\0", 8)).ok());
+  CHECK(readJournal(path).error().message.find("a.vedit: the text is UTF-16") != std::string::npos);
 }
 
 TEST_CASE("the grammar names every operation once") {

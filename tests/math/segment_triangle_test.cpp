@@ -19,7 +19,8 @@ TEST_CASE("a segment that pierces, hovers, passes an edge, lies in the plane") {
   const auto edge = test::closestOnSegmentTriangle({0.5f, -1, -1}, {0.5f, -1, 1}, a, b, c);
   CHECK(edge.distance == doctest::Approx(1));
   CHECK(edge.s == doctest::Approx(0.5));
-  CHECK(test::closestOnSegmentTriangle({-1, 0.25f, 0}, {2, 0.25f, 0}, a, b, c).distance == doctest::Approx(0));
+  CHECK(test::closestOnSegmentTriangle({-1, 0.25f, 0}, {2, 0.25f, 0}, a, b, c).distance ==
+        doctest::Approx(0));
   CHECK(test::closestOnSegmentTriangle({0, 0, 2}, {0, 0, 2}, a, a, a).distance == doctest::Approx(2));
 }
 

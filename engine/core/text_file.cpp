@@ -1,6 +1,8 @@
-#include "io/text_file.h"
+#include "core/text_file.h"
 
 #include <algorithm>
+
+#include "core/atomic_file.h"
 
 namespace vasa {
 
@@ -20,6 +22,16 @@ Result<std::string_view> plainText(std::string_view text, const std::string& nam
   kept = text;
   std::ranges::replace(kept, '\r', '\n');
   return std::string_view(kept);
+}
+
+Result<std::string> readText(const std::filesystem::path& path, std::size_t most) {
+  const auto bytes = readFile(path, most);
+  if (!bytes) return bytes.error();
+  std::string kept;
+  const auto text =
+      plainText({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), kept);
+  if (!text) return text.error();
+  return std::string(*text);
 }
 
 }  // namespace vasa

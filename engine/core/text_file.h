@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -17,6 +19,10 @@ bool isUtf16(std::string_view text);
 /// @param name  for messages
 /// @param kept  what is returned lies in it, or in `text`
 Result<std::string_view> plainText(std::string_view text, const std::string& name, std::string& kept);
+
+/// A file's text, as plainText() has it. Fails as readFile() (core/atomic_file.h) does and where the text is
+/// UTF-16. @param most  [bytes]
+Result<std::string> readText(const std::filesystem::path& path, std::size_t most = std::size_t(1) << 31);
 
 /// How plainText() fails, behind the file's name.
 inline constexpr const char* kNotUtf8 =
