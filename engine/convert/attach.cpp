@@ -276,6 +276,7 @@ class Attacher {
         continue;
       const Circuit own = circuit_[root(a->strand)], other = circuit_[root(b->strand)];
       if (own != other && own != Circuit::unknown && other != Circuit::unknown) continue;
+      if (glm::distance(vec3(a->axis), vec3(b->axis)) <= rim.radius) continue;  // too short for a vessel
       const auto [branch, host] = a->axis.w < b->axis.w ? std::pair(*a, *b) : std::pair(*b, *a);
       Strand strand = graph_.strands[branch.strand];
       strand.sections = {vec4(vec3(branch.axis), rim.radius), vec4(rim.centre, rim.radius),
