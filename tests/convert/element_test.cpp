@@ -114,7 +114,8 @@ TEST_CASE("a Y from a scan: three branches that meet") {
 }
 
 TEST_CASE("a trunk that is cut a little beyond its last branch keeps its end") {
-  for (const auto& [radius, stub] : {std::pair{0.006f, 0.02f}, {0.012f, 0.04f}}) {
+  for (const vec2 girth : {vec2(0.006f, 0.02f), vec2(0.012f, 0.04f)}) {
+    const float radius = girth.x, stub = girth.y;
     CAPTURE(stub);
     const vec3 fork(0, 0.1f, 0);
     const auto trunk = test::isosurface(
