@@ -274,8 +274,7 @@ class Attacher {
       const auto a = sideAt(rim, rim.first), b = sideAt(rim, rim.second);
       if (rimTaken_[k] || !a || !b || !mayJoin(a->strand, b->strand) || root(a->strand) == root(b->strand))
         continue;
-      const Circuit own = circuit_[root(a->strand)], other = circuit_[root(b->strand)];
-      if (own != other && own != Circuit::unknown && other != Circuit::unknown) continue;
+      if (!mayShareCircuit(a->strand, b->strand)) continue;
       if (glm::distance(vec3(a->axis), vec3(b->axis)) <= rim.radius) continue;  // too short for a vessel
       const auto [branch, host] = a->axis.w < b->axis.w ? std::pair(*a, *b) : std::pair(*b, *a);
       Strand strand = graph_.strands[branch.strand];
@@ -319,11 +318,14 @@ class Attacher {
   // The lungs' arteries touch the body's here and there without meeting them. Anastomoses are real, but an
   // element's own skeleton knows its rings, and between elements a ring wants ends that touch.
   bool mayClose(const Candidate& candidate) {
-    const Circuit a = circuit_[root(candidate.end.strand)], b = circuit_[root(candidate.strand)];
-    if (a != b && a != Circuit::unknown && b != Circuit::unknown) return false;
+    if (!mayShareCircuit(candidate.end.strand, candidate.strand)) return false;
     if (root(candidate.end.strand) != root(candidate.strand)) return true;
     const bool own = graph_.strands[candidate.end.strand].element == graph_.strands[candidate.strand].element;
     return !own && (candidate.bridge || candidate.cost <= kClosingCost);
+  }
+  bool mayShareCircuit(std::uint32_t strand, std::uint32_t other) {
+    const Circuit a = circuit_[root(strand)], b = circuit_[root(other)];
+    return a == b || a == Circuit::unknown || b == Circuit::unknown;
   }
   void collectParts() {
     parts_.resize(graph_.strands.size());

@@ -11,6 +11,7 @@
 #include "convert/reslice.h"
 #include "convert/rings.h"
 #include "convert/strand.h"
+#include "convert/surface_error.h"
 #include "convert/untold.h"
 #include "core/cancellation.h"
 #include "math/closest_point.h"
@@ -23,8 +24,7 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kCoverageSamples = 2000;
-constexpr float kCoverLeast = 0.001f,
-                kCoverRadii = 0.2f;  // [m], of the radius: as SurfaceErrorOptions has it
+constexpr SurfaceErrorOptions kMeasured;  // what counts as covered
 constexpr double kWellCovered = 0.97;
 // What the other end must cover more, and stubs, which may be bumps.
 constexpr double kWorthTurning = 0.01, kWorthStubs = 0.05;
@@ -151,7 +151,8 @@ double coverageOf(const TriangleMesh& mesh, const PieceAxes& axes) {
     const auto isNear = [middle = (a + b + c) / 3.0f](const std::vector<vec4>& sections) {
       if (sections.size() < 2) return false;
       const Along at = nearestAlong(sections, middle);
-      return std::abs(at.distance - at.section.w) <= std::max(kCoverLeast, kCoverRadii * at.section.w);
+      return std::abs(at.distance - at.section.w) <=
+             std::max(kMeasured.coverLeast, kMeasured.coverRadii * at.section.w);
     };
     area += own;
     if (std::ranges::any_of(axes.sections, isNear)) covered += own;
