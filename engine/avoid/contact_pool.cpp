@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/parallel.h"
@@ -33,28 +32,8 @@ constexpr float kNegligible = 2e-6f;           // [m] of violation
 constexpr float kLeastDiagonal = 1e-4f;        // below it nothing that may move can mend the place
 // How far a multiplier may push on its own: times what is lacking and the radii.
 constexpr float kReach = 10;
-constexpr std::array<float, 4> kSamples{0, 1 / 3.0f, 2 / 3.0f, 1};
 
 float widestOf(const Bezier& tube) { return std::max({tube.b[0].w, tube.b[1].w, tube.b[2].w, tube.b[3].w}); }
-
-// The parameter of the point on `tube` nearest to p: the best of some samples, then Newton on the squared
-// distance.
-float nearestParameter(const Bezier& tube, vec3 p) {
-  float best = 0, least = std::numeric_limits<float>::infinity();
-  for (int k = 0; k <= 8; ++k) {
-    const vec3 gap = vec3(tube.at(float(k) / 8)) - p;
-    if (glm::dot(gap, gap) < least) least = glm::dot(gap, gap), best = float(k) / 8;
-  }
-  for (int step = 0; step < 3; ++step) {
-    const vec3 gap = vec3(tube.at(best)) - p, first(tube.derivative(best)),
-               second(tube.secondDerivative(best));
-    const float speed = glm::dot(first, first),
-                curvature = std::max(speed + glm::dot(gap, second), 0.2f * speed);
-    if (!(curvature > 0)) break;
-    best = std::clamp(best - glm::dot(gap, first) / curvature, 0.0f, 1.0f);
-  }
-  return best;
-}
 
 // Which way to part two tubes: along their gap, unless they have come nearer than half of what is asked for
 // or passed through one another since they were last apart; then towards the side on which they were.
@@ -144,12 +123,9 @@ bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shap
 
 void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                           Proposals& found) {
-  const auto [i, j, contactS, contactT, f, contactNormal] = contact;
-  if (f > std::max(kClearanceShare * (widestOf(shape[i]) + widestOf(shape[j])), kLeastClearance)) return;
-  std::array<std::pair<float, float>, kSamples.size() + 1> where{{{contactS, contactT}}};
-  for (std::size_t k = 0; k < kSamples.size(); ++k)
-    where[k + 1] = {kSamples[k], nearestParameter(shape[j], vec3(shape[i].at(kSamples[k])))};
-  for (const auto& [s, t] : where) {
+  const std::uint32_t i = contact.i, j = contact.j;
+  if (contact.f > std::max(kClearanceShare * (widestOf(shape[i]) + widestOf(shape[j])), kLeastClearance)) return;
+  for (const auto& [s, t] : sidePlaces(contact, shape)) {
     const vec4 a = shape[i].at(s), b = shape[j].at(t);
     const vec3 gap = vec3(a) - vec3(b);
     Constraint constraint{.i = i, .other = j, .s = s, .t = t};
@@ -159,7 +135,7 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     const vec3 before = last.anew[i] || last.anew[j]
                             ? 0.5f * distance * sides_->carried({i, j, s, t}, shape, last.rotations)
                             : gapBefore({i, j, s, t}, shape, last);
-    constraint.normal = wayApart(gap, before, distance, contactNormal);
+    constraint.normal = wayApart(gap, before, distance, contact.normal);
     const float lack = distance - glm::dot(constraint.normal, gap);
     if (lack <= kNegligible) continue;
     constraint.limit = kReach * (lack + a.w + b.w);

@@ -6,6 +6,7 @@
 #include "avoid/bones.h"
 #include "avoid/interference.h"
 #include "avoid/motion_space.h"
+#include "avoid/side_places.h"
 #include "avoid/sides.h"
 
 namespace vasa {
@@ -48,8 +49,7 @@ class ContactPool {
   ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
   void clear();
-  /// Adds what the places violate and is not in the pool yet: at each pair's nearest place and, along tubes
-  /// that run side by side, at some more. @param shape  in which they were found @param z  its variables
+  /// Adds what the places violate and is not in the pool yet, at each pair's sidePlaces(). @param shape  in which they were found @param z  its variables
   /// @param moved  a tube each: places of pairs of 0 and 0 were given to an add() since the last clear(); or
   ///               none, and all are new
   void add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,
@@ -71,10 +71,9 @@ class ContactPool {
   std::size_t size() const { return constraints_.size(); }
 
  private:
-  static constexpr std::size_t kPlaces = 5;
   // Constraints that were found on a thread of their own, with their rows, until they are taken in.
   struct Proposals {
-    std::array<Constraint, kPlaces> constraints;
+    std::array<Constraint, kSidePlaces> constraints;
     std::size_t count = 0;
     MotionSpace::Rows rows;
   };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "avoid/side_places.h"
+#include "math/direction.h"
+
 // Each step solves the whole problem anew about the present shape, for all motion from rest and not for one
 // more bit of it:
 //   least ½ zᵀ W z   with   n · J z >= clearance - f + n · J z_now   at each place,
@@ -40,22 +43,32 @@ RestParting::RestParting(const Network& network, float clearance)
 
 float RestParting::watched() const { return clearance_ + kWatched; }
 
-float RestParting::forceOf(TubePair tubes) const {
-  const auto found = std::ranges::lower_bound(forces_, tubes, {}, &Force::tubes);
-  return found != forces_.end() && found->tubes == tubes ? found->size : 0;
+float RestParting::forceOf(const Key& key) const {
+  const auto found = std::ranges::lower_bound(forces_, key, {}, &Force::key);
+  return found != forces_.end() && found->key == key ? found->size : 0;
 }
 
-RestParting::Push RestParting::pushAt(const Contact& contact, const NetworkTubes& layout) {
+void RestParting::addPushes(const Contact& contact, const NetworkTubes& layout,
+                            std::span<const Bezier> tubes, std::vector<Push>& pushes) {
   const NetworkTubes::Address a = layout.address(contact.i), b = layout.address(contact.j);
-  terms_.clear();
-  space_.addPlace(a.vessel, a.span, contact.s, 1, terms_);
-  space_.addPlace(b.vessel, b.span, contact.t, -1, terms_);
-  const MotionSpace::Row row = space_.finish(terms_, rows_);
-  vec3 moved(0);
-  for (const MotionSpace::Term& term : rows_.termsOf(row)) moved += term.weight * z_[term.variable];
-  const TubePair tubes{contact.i, contact.j};
-  return {row, tubes, contact.normal, clearance_ - contact.f + glm::dot(moved, contact.normal),
-          forceOf(tubes)};
+  const auto places = sidePlaces(contact, tubes);
+  for (std::uint32_t k = 0; k < places.size(); ++k) {
+    const auto [s, t] = places[k];
+    const vec4 on = tubes[contact.i].at(s), other = tubes[contact.j].at(t);
+    const vec3 gap = vec3(on) - vec3(other);
+    const float f = glm::length(gap) - on.w - other.w;
+    if (f >= watched()) continue;
+    terms_.clear();
+    space_.addPlace(a.vessel, a.span, s, 1, terms_);
+    space_.addPlace(b.vessel, b.span, t, -1, terms_);
+    const MotionSpace::Row row = space_.finish(terms_, rows_);
+    if (row.diagonal <= kLeastLeverage) continue;
+    vec3 moved(0);
+    for (const MotionSpace::Term& term : rows_.termsOf(row)) moved += term.weight * z_[term.variable];
+    const vec3 normal = k == 0 ? contact.normal : unitOr(gap, contact.normal);
+    const Key key{{contact.i, contact.j}, k};
+    pushes.push_back({row, key, normal, clearance_ - f + glm::dot(moved, normal), forceOf(key)});
+  }
 }
 
 void RestParting::ascend(std::span<Push> pushes, std::span<vec3> z) const {
@@ -77,16 +90,15 @@ void RestParting::ascend(std::span<Push> pushes, std::span<vec3> z) const {
     }
 }
 
-void RestParting::move(std::span<const Interference::Place> places, const NetworkTubes& layout) {
+void RestParting::move(std::span<const Interference::Place> places, const NetworkTubes& layout,
+                       std::span<const Bezier> tubes) {
   rows_.clear();
   std::vector<Push> pushes;
-  for (const Interference::Place& place : places)
-    if (const Push push = pushAt(place.contact, layout); push.row.diagonal > kLeastLeverage)
-      pushes.push_back(push);
+  for (const Interference::Place& place : places) addPushes(place.contact, layout, tubes, pushes);
   std::vector<vec3> wanted(z_.size(), vec3(0));
   ascend(pushes, wanted);
   forces_.clear();
-  for (const Push& push : pushes) forces_.push_back({push.tubes, push.force});
+  for (const Push& push : pushes) forces_.push_back({push.key, push.force});
   for (std::size_t k = 0; k < z_.size(); ++k) {
     z_[k] += kPartingStep * (wanted[k] - z_[k]);
     if (const float far = glm::length(z_[k]); far > kFarthestMove) z_[k] *= kFarthestMove / far;

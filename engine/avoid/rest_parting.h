@@ -10,8 +10,8 @@ namespace vasa {
 /// The least change of a network at rest that parts its tubes, found step by step.
 ///
 /// Motion: the least zᵀ W z (avoid/motion_space.h: smooth along a vessel, ends on their nodes, wide vessels
-/// move least) for which every two tubes keep the clearance between them, that linearised where they come
-/// nearest. By dual ascent whose forces last from step to step: what was pushed aside and need not be swings
+/// move least) for which every two tubes keep the clearance between them, that linearised at their
+/// sidePlaces(). By dual ascent whose forces last from step to step: what was pushed aside and need not be swings
 /// back, so that the vessels end where the least motion leads and not where all the pushes add up to.
 /// Thinning: both radii give way by the same factor, tapered along the vessel; ends that share a ring get the
 /// same. The network must outlive it; one object serves one caller.
@@ -23,10 +23,11 @@ class RestParting {
   /// [m] Places where tubes come so near one another must be told to move(), or their forces are forgotten.
   float watched() const;
   /// One step. @param places in points(), sorted by pair  @param layout  of the network in points() or nearly
-  /// so
-  void move(std::span<const Interference::Place> places, const NetworkTubes& layout);
+  /// so  @param tubes  in which the places were found
+  void move(std::span<const Interference::Place> places, const NetworkTubes& layout,
+            std::span<const Bezier> tubes);
   /// Radii give way by a part of what is lacking at each place, down to kLeastRadiusShare of what they were
-  /// and by no more than kMostThinning. @param tubes  in which the places were found
+  /// and by no more than kMostThinning.
   void thin(std::span<const Interference::Place> places, const NetworkTubes& layout,
             std::span<const Bezier> tubes);
 
@@ -34,19 +35,25 @@ class RestParting {
   std::span<const vec4> points() const { return points_; }
 
  private:
+  struct Key {
+    TubePair tubes;
+    std::uint32_t place;  // of their sidePlaces()
+    auto operator<=>(const Key&) const = default;
+  };
   struct Push {
     MotionSpace::Row row;
-    TubePair tubes;
+    Key key;
     vec3 normal;
     float distance;  // [m] that the two must be apart along the normal, from where z is 0
     float force = 0;
   };
   struct Force {
-    TubePair tubes;
+    Key key;
     float size;
   };
-  Push pushAt(const Contact& contact, const NetworkTubes& layout);
-  float forceOf(TubePair tubes) const;
+  void addPushes(const Contact& contact, const NetworkTubes& layout, std::span<const Bezier> tubes,
+                 std::vector<Push>& pushes);
+  float forceOf(const Key& key) const;
   void ascend(std::span<Push> pushes, std::span<vec3> z) const;
   void taper(std::span<float> shares) const;
   void shape();

@@ -77,7 +77,7 @@ bool part(RestParting& parting, const Network& now, const std::set<VesselPair>& 
     if (std::ranges::none_of(places, [&](const auto& place) { return place.contact.f < 0.9f * clearance; }))
       return step == 0;
     if (thins || step >= kStepsOfMotion) parting.thin(places, interference.layout(), interference.tubes());
-    parting.move(places, interference.layout());
+    parting.move(places, interference.layout(), interference.tubes());
   }
   return false;
 }

@@ -38,6 +38,20 @@ TEST_CASE("vessels that overlap at rest are parted, the thin one more than the w
   CHECK(wide < 0.2f * thin);
 }
 
+TEST_CASE("vessels that run side by side are moved apart along all their length, not thinned") {
+  for (const std::uint32_t spans : {1u, 4u}) {
+    NetworkBuilder builder;
+    builder.addVessel({"artery", "", VesselKind::artery},
+                      test::straightVessel({0, 0, 0}, {0, 0.06f, 0}, 0.003f, spans));
+    builder.addVessel({"vein", "", VesselKind::vein},
+                      test::straightVessel({0.0055f, 0, 0}, {0.0055f, 0.06f, 0}, 0.004f, spans));
+    const RestRepair repair = separateAtRest(test::built(builder));
+    CHECK(repair.pairsAfter == 0);
+    CHECK(repair.thinnedMax < 0.01f);
+    CHECK(repair.movedMax < 0.0016f);
+  }
+}
+
 TEST_CASE("a network without overlaps stays as it is, to the byte") {
   const Network network = grazing(0.008f);
   const RestRepair repair = separateAtRest(network);
