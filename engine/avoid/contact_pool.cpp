@@ -124,7 +124,8 @@ bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shap
 void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                           Proposals& found) {
   const std::uint32_t i = contact.i, j = contact.j;
-  if (contact.f > std::max(kClearanceShare * (widestOf(shape[i]) + widestOf(shape[j])), kLeastClearance)) return;
+  if (contact.f > std::max(kClearanceShare * (widestOf(shape[i]) + widestOf(shape[j])), kLeastClearance))
+    return;
   for (const auto& [s, t] : sidePlaces(contact, shape)) {
     const vec4 a = shape[i].at(s), b = shape[j].at(t);
     const vec3 gap = vec3(a) - vec3(b);

@@ -49,7 +49,8 @@ class ContactPool {
   ContactPool(const MotionSpace& space, const Interference& interference, const RestSides& sides);
 
   void clear();
-  /// Adds what the places violate and is not in the pool yet, at each pair's sidePlaces(). @param shape  in which they were found @param z  its variables
+  /// Adds what the places violate and is not in the pool yet, at each pair's sidePlaces(). @param shape  in
+  /// which they were found @param z  its variables
   /// @param moved  a tube each: places of pairs of 0 and 0 were given to an add() since the last clear(); or
   ///               none, and all are new
   void add(std::span<const Interference::Place> places, std::span<const BoneContact> bones,

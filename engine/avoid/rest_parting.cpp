@@ -48,8 +48,8 @@ float RestParting::forceOf(const Key& key) const {
   return found != forces_.end() && found->key == key ? found->size : 0;
 }
 
-void RestParting::addPushes(const Contact& contact, const NetworkTubes& layout,
-                            std::span<const Bezier> tubes, std::vector<Push>& pushes) {
+void RestParting::addPushes(const Contact& contact, const NetworkTubes& layout, std::span<const Bezier> tubes,
+                            std::vector<Push>& pushes) {
   const NetworkTubes::Address a = layout.address(contact.i), b = layout.address(contact.j);
   const auto places = sidePlaces(contact, tubes);
   for (std::uint32_t k = 0; k < places.size(); ++k) {

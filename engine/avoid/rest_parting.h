@@ -11,8 +11,8 @@ namespace vasa {
 ///
 /// Motion: the least zᵀ W z (avoid/motion_space.h: smooth along a vessel, ends on their nodes, wide vessels
 /// move least) for which every two tubes keep the clearance between them, that linearised at their
-/// sidePlaces(). By dual ascent whose forces last from step to step: what was pushed aside and need not be swings
-/// back, so that the vessels end where the least motion leads and not where all the pushes add up to.
+/// sidePlaces(). By dual ascent whose forces last from step to step: what was pushed aside and need not be
+/// swings back, so that the vessels end where the least motion leads and not where all the pushes add up to.
 /// Thinning: both radii give way by the same factor, tapered along the vessel; ends that share a ring get the
 /// same. The network must outlive it; one object serves one caller.
 class RestParting {

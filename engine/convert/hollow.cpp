@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convert/duplicates.h"
+#include "convert/wall_faces.h"
 #include "core/cancellation.h"
 #include "mesh/components.h"
 #include "mesh/surface_samples.h"
@@ -50,9 +51,17 @@ bool couldLieIn(const Aabb& inner, const Aabb& outer) {
 
 }  // namespace
 
+// With the inside of its wall alone, where the piece goes on around its rims.
+std::optional<TriangleMesh> insideOf(const TriangleMesh& piece) {
+  std::optional<WallFaces> faces = splitAtRims(piece);
+  if (!faces || faces->inside.area() >= faces->outside.area()) return std::nullopt;
+  const WindingNumber winding(faces->outside.positions, faces->outside.triangles);
+  if (!liesInside(faces->inside, winding) || !liesAlong(faces->outside, faces->inside)) return std::nullopt;
+  return std::move(faces->inside);
+}
+
 std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float weldTolerance) {
   const std::vector<TriangleMesh> pieces = splitComponents(weld(mesh, weldTolerance));
-  if (pieces.size() < 2) return std::nullopt;
   std::vector<Aabb> boxes;
   std::vector<double> areas;
   for (const TriangleMesh& piece : pieces) boxes.push_back(piece.bounds()), areas.push_back(piece.area());
@@ -76,10 +85,10 @@ std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float we
   bool any = false;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     checkpoint();
-    if (isWall(i))
-      any = true;
-    else
-      appendMesh(left, pieces[i]);
+    const bool wall = isWall(i);
+    const auto inside = wall || areas[i] <= least ? std::nullopt : insideOf(pieces[i]);
+    any = any || wall || inside;
+    if (!wall) appendMesh(left, inside ? *inside : pieces[i]);
   }
   if (!any) return std::nullopt;
   return left;

@@ -12,6 +12,26 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
 
+// Whether the half line enters the box (slabs; a direction's zeros give infinities, which compare rightly).
+bool enters(const Aabb& box, vec3 from, vec3 inverse) {
+  const vec3 a = (box.low - from) * inverse, b = (box.high - from) * inverse;
+  const vec3 near = glm::min(a, b), far = glm::max(a, b);
+  const float in = std::max({near.x, near.y, near.z, 0.0f}), out = std::min({far.x, far.y, far.z});
+  return in <= out * 1.00001f;
+}
+
+// Möller and Trumbore 1997, both faces.
+bool crosses(vec3 from, vec3 direction, vec3 a, vec3 b, vec3 c) {
+  const vec3 ab = b - a, ac = c - a, across = glm::cross(direction, ac);
+  const float determinant = glm::dot(ab, across);
+  if (determinant == 0) return false;
+  const float u = glm::dot(from - a, across) / determinant;
+  if (!(u >= 0 && u <= 1)) return false;
+  const vec3 around = glm::cross(from - a, ab);
+  const float v = glm::dot(direction, around) / determinant;
+  return v >= 0 && u + v <= 1 && glm::dot(ac, around) / determinant > 0;
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
@@ -77,6 +97,30 @@ TriangleTree::Nearest TriangleTree::nearest(vec3 p, float within) const {
     }
   }
   return best;
+}
+
+bool TriangleTree::hits(vec3 from, vec3 direction, std::uint32_t except) const {
+  if (nodes_.empty()) return false;
+  const vec3 inverse = 1.0f / direction;
+  std::uint32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (!enters(node.box, from, inverse)) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const uvec3& t = mesh_.triangles[order_[i]];
+      if (order_[i] != except &&
+          crosses(from, direction, mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]))
+        return true;
+    }
+  }
+  return false;
 }
 
 void TriangleTree::nearPlane(vec3 onPlane, vec3 normal, float reach,

@@ -6,9 +6,9 @@
 
 namespace vasa {
 
-/// A binary tree of boxes over a mesh's triangles: nearest points and planes in O(log n) expected. Built once
-/// in O(n log n); queries are const and may run on many threads. The mesh must outlive the tree and not
-/// change.
+/// A binary tree of boxes over a mesh's triangles: nearest points, rays and planes in O(log n) expected.
+/// Built once in O(n log n); queries are const and may run on many threads. The mesh must outlive the tree
+/// and not change.
 class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh);
@@ -20,6 +20,9 @@ class TriangleTree {
   };
   /// The surface point nearest to p, if one is nearer than `within`.
   Nearest nearest(vec3 p, float within = std::numeric_limits<float>::infinity()) const;
+
+  /// Whether a triangle other than `except` lies on the ray. O(log n) expected.
+  bool hits(vec3 from, vec3 direction, std::uint32_t except) const;
 
   /// Appends the triangles that may cross the plane within `reach` of a point on it, in ascending order.
   /// Judged by their boxes: some of them do not.

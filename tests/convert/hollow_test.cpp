@@ -18,6 +18,34 @@ TriangleMesh hollow(TubeEnds ends, float lumen = 0.010f, float outside = 0.012f)
   return mesh;
 }
 
+// Outside, rim, inside and rim as one surface of revolution about y; `blind`: closed at the far end.
+TriangleMesh rimmed(bool blind) {
+  std::vector<vec2> profile;  // radius and height
+  const auto add = [&](float radius, float from, float to) {
+    for (int k = 0; k <= 40; ++k) profile.push_back({radius, glm::mix(from, to, float(k) / 40)});
+  };
+  add(0.012f, 0, 0.3f);
+  if (blind) profile.insert(profile.end(), {{0.006f, 0.3f}, {0, 0.3f}, {0, 0.297f}, {0.005f, 0.297f}});
+  add(0.010f, blind ? 0.297f : 0.3f, 0);
+  constexpr std::uint32_t kAround = 24;
+  TriangleMesh mesh;
+  for (const vec2 at : profile)
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const float angle = 6.2831853f * float(k) / kAround;
+      mesh.positions.push_back({at.x * std::cos(angle), 1 + at.y, -at.x * std::sin(angle)});
+    }
+  const auto rows = std::uint32_t(profile.size());
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const std::uint32_t a = row * kAround + k, b = row * kAround + (k + 1) % kAround,
+                          c = (row + 1) % rows * kAround + k,
+                          d = (row + 1) % rows * kAround + (k + 1) % kAround;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({b, d, c});
+    }
+  return mesh;
+}
+
 float radiusOf(const Network& network) { return network.points()[network.points().size() / 2].w; }
 
 }  // namespace
@@ -43,6 +71,32 @@ TEST_CASE("a lumen that is turned inside out is found, too, and a thick wall's")
   const auto left = withoutOuterWalls(mesh, 1e-5f);
   REQUIRE(left);
   CHECK(left->area() == doctest::Approx(lumen.area()).epsilon(1e-3));
+}
+
+TEST_CASE("a printed phantom, whose wall goes on around its rims, is as wide as its lumen") {
+  for (const bool blind : {false, true}) {
+    const TriangleMesh phantom = rimmed(blind);
+    const auto left = withoutOuterWalls(phantom, 1e-5f);
+    REQUIRE(left);
+    CHECK(left->area() ==
+          doctest::Approx(tubeBetween(kFrom, kTo, 0.010f, TubeEnds::open).area()).epsilon(0.1));
+    const auto conversion = convertElements(std::vector{source("aorta", phantom)});
+    REQUIRE(conversion);
+    REQUIRE(conversion->network.vessels().size() == 1);
+    CHECK(radiusOf(conversion->network) == doctest::Approx(0.010).epsilon(0.03));
+    CHECK(conversion->report.elements.front().coverage > 0.95f);
+  }
+}
+
+TEST_CASE("a vessel bent so that it looks at itself has no inside") {
+  const auto arch = [](float t) {
+    const float angle = 3.0f * t;
+    return 0.02f * vec3(std::cos(angle), std::sin(angle), 0);
+  };
+  for (const TubeEnds ends : {TubeEnds::open, TubeEnds::flat})
+    CHECK(!withoutOuterWalls(tube(
+                                 arch, [](float) { return 0.008f; }, 60, 24, ends),
+                             1e-5f));
 }
 
 TEST_CASE("what lies beside another, is inside but short, or lies thin in a wide one stays") {

@@ -29,6 +29,37 @@ TEST_CASE("nearest agrees with looking at every triangle") {
   }
 }
 
+TEST_CASE(
+    "a ray from within a tube hits it unless it leaves by an end; one from outside where it points at it") {
+  const TriangleMesh mesh = test::tube([](float t) { return vec3(0, 0, t); }, [](float) { return 0.1f; }, 10,
+                                       48, test::TubeEnds::open);
+  const TriangleTree tree(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> value(-1, 1);
+  int in = 0, out = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const vec3 direction = glm::normalize(vec3(value(random), value(random), value(random)));
+    const vec3 from(0.02f, -0.03f, 0.5f);
+    // Where it meets the cylinder, not near its ends.
+    const float a = direction.x * direction.x + direction.y * direction.y,
+                b = from.x * direction.x + from.y * direction.y,
+                c = from.x * from.x + from.y * from.y - 0.01f;
+    const float z = from.z + direction.z * (-b + std::sqrt(b * b - a * c)) / a;
+    if (std::abs(z) < 0.02f || std::abs(z - 1) < 0.02f) continue;
+    const bool hits = z > 0 && z < 1;
+    CHECK(tree.hits(from, direction, kNone) == hits);
+    (hits ? in : out) += 1;
+  }
+  CHECK(in > 100);
+  CHECK(out > 10);
+  const vec3 beside(0.3f, 0, 0.5f);
+  CHECK(tree.hits(beside, {-1, 0, 0}, kNone));
+  CHECK(!tree.hits(beside, {1, 0, 0}, kNone));
+  CHECK(!tree.hits(beside, {0, 0, 1}, kNone));
+  const auto nearest = tree.nearest({0.09f, 0, 0.52f});
+  CHECK(!tree.hits({0.09f, 0, 0.52f}, {1, 0, 0.01f}, nearest.triangle));
+}
+
 TEST_CASE("triangles near a plane: every one that crosses it is among them") {
   const TriangleMesh mesh = test::straightTube(0.1f, 0.01f);
   const TriangleTree tree(mesh);
