@@ -2,15 +2,34 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "mesh/shape_basis.h"
 #include "surface/surface_mesh.h"
 
 namespace vasa {
 namespace {
 
-// All frames share their triangles and move from key to key in straight lines, so forks stay as they are.
-SurfaceMesh surface(const SweepTable& table, const PosedFrame& frame, const SweepShape& shape) {
-  return surfaceMesh({table, frame.points, frame.knotFrames}, shape, ForkForm::bare);
+// All frames share their triangles and move from key to key in straight lines, so forks are smoothed in all
+// of them as in the one that asks for most.
+std::vector<ForkSteps> stepsOfFilm(const SweepTable& table, const Film& film, const SweepShape& shape) {
+  std::vector<ForkSteps> steps(table.forks.size());
+  parallelFor(steps.size(), 4, [&](std::size_t i) {
+    const ForkShape own = forkShape(table, table.forks[i], [&](std::uint32_t) { return shape.around; });
+    std::vector<SurfacePoint> vertices(own.vertices());
+    for (const PosedFrame& frame : film.frames) {
+      const ForkSteps wanted =
+          evaluateFork({table, frame.points, frame.knotFrames}, table.forks[i], own, vertices).steps;
+      steps[i].trunk = std::max(steps[i].trunk, wanted.trunk);
+      for (std::size_t k = 0; k < wanted.collar.size(); ++k)
+        steps[i].collar[k] = std::max(steps[i].collar[k], wanted.collar[k]);
+    }
+  });
+  return steps;
+}
+
+SurfaceMesh surface(const SweepTable& table, const PosedFrame& frame, const SweepShape& shape,
+                    std::span<const ForkSteps> steps) {
+  return surfaceMesh({table, frame.points, frame.knotFrames}, shape, steps);
 }
 
 // A part for each kind of vessel that there is.
@@ -42,17 +61,19 @@ void describe(const Network& network, const std::function<vec3(VesselKind)>& col
 }  // namespace
 
 FilmBaker::Size FilmBaker::sizeOf(const SweepShape& shape) const {
-  const SurfaceMesh mesh = surface(table_, film_.frames[0], shape);
+  const std::vector<ForkSteps> unsmoothed(table_.forks.size());
+  const SurfaceMesh mesh = surface(table_, film_.frames[0], shape, unsmoothed);
   return {mesh.positions.size(), mesh.triangles.size()};
 }
 
 Bake FilmBaker::run(const SweepShape& shape) const {
   Bake result;
   result.shape = shape;
-  SurfaceMesh first = surface(table_, film_.frames[0], shape);
+  const std::vector<ForkSteps> steps = stepsOfFilm(table_, film_, shape);
+  SurfaceMesh first = surface(table_, film_.frames[0], shape, steps);
   std::vector<std::vector<vec3>> positions, normals;
   for (const PosedFrame& frame : film_.frames) {
-    SurfaceMesh mesh = surface(table_, frame, shape);
+    SurfaceMesh mesh = surface(table_, frame, shape, steps);
     positions.push_back(std::move(mesh.positions));
     if (options_.normals) normals.push_back(std::move(mesh.normals));
   }
@@ -65,14 +86,15 @@ Bake FilmBaker::run(const SweepShape& shape) const {
   if (!mesh.shapes.empty()) mesh.times = film_.times;
   if (!options_.normals) first.normals.clear();
   describe(network_, options_.colourOf, first, mesh);
-  result.betweenError = betweenError(mesh, shape);
+  result.betweenError = betweenError(mesh, shape, steps);
   return result;
 }
 
-float FilmBaker::betweenError(const AnimatedMesh& mesh, const SweepShape& shape) const {
+float FilmBaker::betweenError(const AnimatedMesh& mesh, const SweepShape& shape,
+                              std::span<const ForkSteps> steps) const {
   float worst = 0;
   for (const Film::Between& place : film_.between) {
-    const SurfaceMesh wanted = surface(table_, place.frame, shape);
+    const SurfaceMesh wanted = surface(table_, place.frame, shape, steps);
     const std::uint32_t at = place.key;
     for (std::size_t v = 0; v < wanted.positions.size(); ++v) {
       vec3 p = mesh.positions[v];

@@ -3,6 +3,7 @@
 
 #include "io/animated_mesh.h"
 #include "network/network.h"
+#include "surface/fork.h"
 #include "surface/sweep_table.h"
 #include "surface/sweep_template.h"
 
@@ -53,7 +54,8 @@ class FilmBaker {
   Bake run(const SweepShape& shape) const;
 
  private:
-  float betweenError(const AnimatedMesh& mesh, const SweepShape& shape) const;
+  float betweenError(const AnimatedMesh& mesh, const SweepShape& shape,
+                     std::span<const ForkSteps> steps) const;
 
   const Network& network_;
   SweepTable table_;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "surface/fork_smooth.h"
 #include "surface/fork_stump.h"
 #include "surface/reference.h"
 
@@ -236,7 +237,7 @@ std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t bran
 }
 
 ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                        std::span<SurfacePoint> vertices, ForkForm form) {
+                        std::span<SurfacePoint> vertices, const ForkSteps* fixed) {
   assert(vertices.size() == shape.vertices());
   ForkStumps stumps;
   const std::vector<vec2> columns = ringDirections(shape.a), ringB = ringDirections(shape.b);
@@ -294,8 +295,11 @@ ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& f
     layout.branch[i] = Collar(wall, branch, direction, ring).write(shape, i, vertices);
     stumps.branch[i] = {ring.section, -ring.turn * ring.section.frame.tangent, at.centre};
   }
-  if (form == ForkForm::fitting) {
-    smoothFolds(shape, layout, vertices);
+  if (fixed) {
+    layout.steps = *fixed;
+    smoothParts(shape, layout, vertices);
+  } else {
+    layout.steps = smoothFolds(shape, layout, vertices);
     stumps.a = {a.section, tangentA, b.section.centre};
     stumps.b = {b.section, -tangentB, a.section.centre};
     stumps.replaceFolds(shape, layout, vertices);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 
 #include "surface/tessellate.h"
@@ -79,24 +80,29 @@ struct ForkSeam {
   }
 };
 
+/// How often a fork's trunk is smoothed, and each of its collars (surface/fork_smooth.h).
+struct ForkSteps {
+  std::uint8_t trunk = 0;
+  std::array<std::uint8_t, shared::kMostBranches> collar{};
+  std::uint8_t most() const { return std::max(trunk, *std::max_element(collar.begin(), collar.end())); }
+};
+
 /// What a pose settles of a fork besides its vertices.
 struct ForkLayout {
   ForkSeam a, b;
   std::array<ForkSeam, shared::kMostBranches> branch;
   std::array<ForkWindow, shared::kMostBranches> window;
+  ForkSteps steps;
   std::array<bool, shared::kMostBranches> stump{};  ///< the branch is one
   bool cut = false;                                 ///< the trunk's ends are, and all branches
 };
 
-/// What is done about parts of a fork that fold in a pose.
-enum class ForkForm {
-  fitting,  ///< they are smoothed; those that fold yet become stumps
-  bare  ///< nothing: triangles belong to the same parts in all poses, and move with the pose without a step
-};
-
 /// The CPU reference of shaders/forks.comp. Vertices at rings are the tubes' own, bit for bit.
 /// @param vertices  shape.vertices()
+/// @param fixed     none: parts that fold in this pose are smoothed, those that fold yet become stumps. Else
+///                  parts are smoothed so often whether they fold or not: triangles belong to the same parts
+///                  in all poses, and move with the pose without a step
 ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                        std::span<SurfacePoint> vertices, ForkForm form = ForkForm::fitting);
+                        std::span<SurfacePoint> vertices, const ForkSteps* fixed = nullptr);
 
 }  // namespace vasa

@@ -25,19 +25,22 @@ bool folds(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) 
 }
 
 std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRecord& fork,
-                              std::uint32_t around, ForkForm form) {
+                              std::uint32_t around, const ForkSteps* fixed) {
   const ForkShape shape = evenShape(network, fork, around);
   std::vector<SurfacePoint> points(shape.vertices());
-  const ForkLayout layout = evaluateFork(network, fork, shape, points, form);
+  const ForkLayout layout = evaluateFork(network, fork, shape, points, fixed);
   std::uint32_t count = 0;
   for (const uvec3& t : forkTriangles(shape, layout)) count += folds(points[t.x], points[t.y], points[t.z]);
   return count;
 }
 
-bool isStump(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around) {
+ForkLayout settledFork(const PosedNetwork& network, const shared::ForkRecord& fork, std::uint32_t around) {
   const ForkShape shape = evenShape(network, fork, around);
   std::vector<SurfacePoint> points(shape.vertices());
-  const ForkLayout layout = evaluateFork(network, fork, shape, points);
+  return evaluateFork(network, fork, shape, points);
+}
+
+bool isStump(const ForkLayout& layout) {
   return layout.cut || std::ranges::any_of(layout.stump, std::identity{});
 }
 

@@ -5,11 +5,15 @@
 
 namespace vasa {
 
-/// Where a fork folds, in triangles; the lesser of two is the better fork.
+/// Where a fork folds, in triangles, unless it is smoothed; the lesser of two is the better fork.
 struct ForkFolds {
-  std::uint32_t rest = 0;      ///< at rest, 8 quads around
-  std::uint32_t others = 0;    ///< at rest, other numbers of quads around
-  std::uint32_t strained = 0;  ///< in strained shapes of the network, 8 quads around
+  /// Not to be drawn: it folds at rest, and a part is a stump there or in a strained shape, 8 quads around.
+  bool stump = false;
+  std::uint32_t otherStumps = 0;  ///< other numbers of quads around for which it is one
+  std::uint32_t steps = 0;        ///< of smoothing, at rest, 8 quads around
+  std::uint32_t rest = 0;         ///< at rest, 8 quads around
+  std::uint32_t others = 0;       ///< at rest, other numbers of quads around
+  std::uint32_t strained = 0;     ///< in strained shapes of the network, 8 quads around
   bool none() const { return rest + others + strained == 0; }
   auto operator<=>(const ForkFolds&) const = default;
 };

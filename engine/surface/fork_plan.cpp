@@ -81,7 +81,7 @@ class Planner {
     std::vector<VesselPair> pairs;
     for (const Piece& piece : pieces_)
       for (std::size_t i = 0; i < piece.forks.size(); ++i)
-        if (!piece.items[i].branch() && piece.folds[i]->rest > 0)
+        if (!piece.items[i].branch() && piece.folds[i]->stump)
           pairs.push_back({VesselId{piece.forks[i].vesselA}, VesselId{piece.forks[i].vesselB}});
     return pairs;
   }
@@ -189,6 +189,7 @@ class Planner {
       for (std::size_t i = 0; i < piece.forks.size(); ++i) {
         addFork(piece, i, plan.forks, plan.branches);
         plan.vesselOfFork.push_back(piece.forks[i].vesselA);
+        plan.steps.push_back(piece.folds[i] ? piece.folds[i]->steps : 0);
         for (const ForkLeaving& leaving : piece.items[i].branches) plan.report.leaning += !leaving.exit.clear;
         plan.report.joins += piece.items[i].mustLow < 1e30f;
       }
@@ -207,7 +208,7 @@ class Planner {
   // How a branch is made, and what became of other ways to make it.
   struct Trial {
     std::uint32_t manner = 0, best = 0;
-    ForkFolds least{~0u, ~0u, ~0u};
+    ForkFolds least{true, ~0u, ~0u, ~0u, ~0u, ~0u};
     bool settled = false;
   };
 
@@ -226,14 +227,14 @@ class Planner {
   bool tryOtherwise(std::uint32_t end, const ForkFolds& folds) {
     Trial& trial = trials_[end];
     if (trial.settled) {
-      if (folds.rest > 0) drop(end, Fate::folded);
-      return folds.rest > 0;
+      if (folds.stump) drop(end, Fate::folded);
+      return folds.stump;
     }
     if (folds < trial.least) trial.least = folds, trial.best = trial.manner;
     trial.settled = ++trial.manner == std::size(kManners);
     if (trial.settled) trial.manner = trial.best;
     findExit(end);
-    if (trial.settled && trial.least.rest > 0) fates_[end] = Fate::folded;
+    if (trial.settled && trial.least.stump) fates_[end] = Fate::folded;
     return true;
   }
 

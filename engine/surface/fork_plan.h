@@ -35,6 +35,7 @@ struct ForkPlan {
   std::vector<shared::ForkRecord> forks;
   std::vector<shared::ForkBranch> branches;  ///< fork after fork
   std::vector<std::uint32_t> vesselOfFork;   ///< the host at ring a
+  std::vector<std::uint32_t> steps;          ///< of smoothing that forks ask for at rest, as far as tried
 
   /// What became of the junctions.
   struct Report {

@@ -8,7 +8,7 @@
 namespace vasa {
 namespace {
 
-constexpr float kStep = 0.5f, kHoleStep = 0.25f;  // of the way to the neighbours' mean
+constexpr float kStep = 0.5f;  // of the way to the neighbours' mean
 // Weight of the surface's own normal: within, and beside other parts.
 constexpr float kNormalStep = 1.0f, kSeamStep = 0.3f;
 
@@ -24,14 +24,12 @@ struct Rows {
   }
 };
 
-void moveTo(vec3& p, float step, vec3 a, vec3 b, vec3 c, vec3 d) {
-  p = p + step * (0.25f * (a + b + c + d) - p);
-}
+void moveTo(vec3& p, vec3 a, vec3 b, vec3 c, vec3 d) { p = p + kStep * (0.25f * (a + b + c + d) - p); }
 
 void smoothRow(const Rows& rows, std::uint32_t row, std::span<SurfacePoint> vertices) {
   const std::uint32_t m = rows.shape.rowSize(row), start = rows.shape.rowStart(row);
   for (std::uint32_t k = 0; k < m; ++k)
-    moveTo(vertices[start + k].position, kStep, vertices[start + (k + 1 == m ? 0 : k + 1)].position,
+    moveTo(vertices[start + k].position, vertices[start + (k + 1 == m ? 0 : k + 1)].position,
            vertices[start + (k == 0 ? m : k) - 1].position, vertices[rows.beside(row - 1, k, m)].position,
            vertices[rows.beside(row + 1, k, m)].position);
 }
@@ -68,13 +66,21 @@ void smoothCollar(const ForkShape& shape, const ForkLayout& layout, std::uint32_
                       outline = outlineSize(layout.window[branch]);
   for (std::uint32_t k = 0; k < m; ++k) {
     const std::uint32_t outer = (k * outline + m / 2) / m;
-    moveTo(vertices[hole + k].position, kHoleStep, vertices[hole + (k + 1 == m ? 0 : k + 1)].position,
+    moveTo(vertices[hole + k].position, vertices[hole + (k + 1 == m ? 0 : k + 1)].position,
            vertices[hole + (k == 0 ? m : k) - 1].position,
            vertices[outlineVertex(shape, layout.window[branch], outer == outline ? 0 : outer)].position,
            vertices[hole + m + k].position);
   }
   for (std::uint32_t row = rows.first + 1; row < rows.last; ++row) smoothRow(rows, row, vertices);
   turnNormals(rows, vertices);
+}
+
+void smoothParts(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices) {
+  for (std::uint32_t step = 0; step < shared::kMostSmoothings; ++step) {
+    if (step < layout.steps.trunk) smoothTrunk(shape, vertices);
+    for (std::uint32_t i = 0; i < shape.branchCount; ++i)
+      if (step < layout.steps.collar[i]) smoothCollar(shape, layout, i, vertices);
+  }
 }
 
 }  // namespace vasa

@@ -11,8 +11,11 @@ namespace vasa {
 /// Of the trunk's rows.
 void smoothTrunk(const ForkShape& shape, std::span<SurfacePoint> vertices);
 
-/// Of a branch's collar and, half as much, its hole.
+/// Of a branch's collar and its hole.
 void smoothCollar(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch,
                   std::span<SurfacePoint> vertices);
+
+/// All parts of a fork, as often as its layout says.
+void smoothParts(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices);
 
 }  // namespace vasa

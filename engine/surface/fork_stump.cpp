@@ -56,17 +56,19 @@ vec3 Stump::tip() const {
   return towards + std::max(kStumpLeast * ring.radius - depth, 0.0f) * inward;
 }
 
-void smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices) {
+ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices) {
+  ForkSteps steps;
   for (std::uint32_t step = 0; step < shared::kMostSmoothings; ++step) {
     std::array<bool, shared::kMostBranches> folded{};
     for (std::uint32_t i = 0; i < shape.branchCount; ++i)
       folded[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
     const bool trunk = anyFolds(vertices, trunkTriangles(shape, layout));
-    if (!trunk && std::ranges::none_of(folded, std::identity{})) return;
-    if (trunk) smoothTrunk(shape, vertices);
+    if (!trunk && std::ranges::none_of(folded, std::identity{})) break;
+    if (trunk) smoothTrunk(shape, vertices), ++steps.trunk;
     for (std::uint32_t i = 0; i < shape.branchCount; ++i)
-      if (folded[i]) smoothCollar(shape, layout, i, vertices);
+      if (folded[i]) smoothCollar(shape, layout, i, vertices), ++steps.collar[i];
   }
+  return steps;
 }
 
 void ForkStumps::replaceFolds(const ForkShape& shape, ForkLayout& layout,

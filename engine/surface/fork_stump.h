@@ -25,7 +25,7 @@ struct ForkStumps {
 };
 
 /// Smooths parts of a fork that fold until they do not, at most shared::kMostSmoothings times
-/// (surface/fork_smooth.h).
-void smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices);
+/// (surface/fork_smooth.h). @return how often
+ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices);
 
 }  // namespace vasa

@@ -88,13 +88,19 @@ void ForkTrials::strain(std::uint32_t index) {
 
 ForkFolds ForkTrials::tried(const SweepTable& table, const shared::ForkRecord& fork) const {
   ForkFolds folds;
-  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+  for (std::size_t i = 0; i < shapes_.size() && !folds.stump; ++i) {
     const PosedNetwork posed{table, shapes_[i].points, shapes_[i].frames};
-    const std::uint32_t found = foldedTriangles(posed, fork, kAround, ForkForm::bare);
+    const std::uint32_t found = foldedUnsmoothed(posed, fork, kAround);
     (i == 0 ? folds.rest : folds.strained) += found;
+    if (found > 0) {
+      const ForkLayout layout = settledFork(posed, fork, kAround);
+      folds.stump = isStump(layout);
+      if (i == 0) folds.steps = layout.steps.most();
+    }
+    if (i > 0) continue;
     for (const std::uint32_t around : kOtherAround)
-      if (i == 0) folds.others += foldedTriangles(posed, fork, around, ForkForm::bare);
-    if (folds.rest > 0) break;  // not to be drawn anyway
+      if (const std::uint32_t others = foldedUnsmoothed(posed, fork, around); others > 0)
+        folds.others += others, folds.otherStumps += isStump(posed, fork, around);
   }
   return folds;
 }

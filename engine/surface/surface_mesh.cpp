@@ -16,8 +16,9 @@ namespace {
 
 class MeshLayout {
  public:
-  MeshLayout(const PosedNetwork& network, const SweepShape& shape, ForkForm form, SurfaceMesh& mesh)
-      : network_(network), shape_(shape), form_(form), mesh_(mesh) {
+  MeshLayout(const PosedNetwork& network, const SweepShape& shape, std::span<const ForkSteps> fixed,
+             SurfaceMesh& mesh)
+      : network_(network), shape_(shape), fixed_(fixed), mesh_(mesh) {
     placeTubes();
     placeCaps();
     placeForks();
@@ -203,7 +204,8 @@ class MeshLayout {
     const shared::ForkRecord& fork = network_.table.forks[index];
     const ForkShape shape = shapeOf(fork);
     std::vector<SurfacePoint> points(shape.vertices());
-    const ForkLayout layout = evaluateFork(network_, fork, shape, points, form_);
+    const ForkLayout layout =
+        evaluateFork(network_, fork, shape, points, fixed_.empty() ? nullptr : &fixed_[index]);
     for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
       const auto [target, own] = targetOf(place, layout, vertex);
       if (own) put(target, points[vertex], network_.table.vesselOfFork[index]);
@@ -217,7 +219,7 @@ class MeshLayout {
 
   const PosedNetwork& network_;
   SweepShape shape_;
-  ForkForm form_;
+  std::span<const ForkSteps> fixed_;
   SurfaceMesh& mesh_;
   std::uint32_t vertices_ = 0, triangles_ = 0;
   std::vector<Place> tubes_, caps_;
@@ -229,10 +231,11 @@ class MeshLayout {
 
 }  // namespace
 
-SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape, ForkForm form) {
+SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape,
+                        std::span<const ForkSteps> fixed) {
   assert(shape.valid());
   SurfaceMesh mesh;
-  MeshLayout(network, shape, form, mesh).write();
+  MeshLayout(network, shape, fixed, mesh).write();
   return mesh;
 }
 

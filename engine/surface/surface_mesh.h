@@ -21,7 +21,8 @@ struct SurfaceMesh {
 SurfaceMesh surfaceMesh(const Network& network, std::span<const vec4> points,
                         std::span<const quat> knotFrames, const SweepShape& shape);
 /// With a table that is there already.
+/// @param fixed  see evaluateFork(); one a fork, or none
 SurfaceMesh surfaceMesh(const PosedNetwork& network, const SweepShape& shape,
-                        ForkForm form = ForkForm::fitting);
+                        std::span<const ForkSteps> fixed = {});
 
 }  // namespace vasa

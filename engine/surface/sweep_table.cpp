@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "curve/frame.h"
@@ -60,13 +61,16 @@ SweepTable makeSweepTable(const Network& network, ForkPlan plan) {
   for (const TubeStretch& tube : plan.tubes) addTube(network, tube, firstSpan[tube.vessel], table);
   table.branches = std::move(plan.branches);
   table.ways = std::move(plan.ways);
-  // By branches: devices run several forks in step, and those with fewer would wait for the others.
-  for (std::uint32_t branches = 0; branches <= shared::kMostBranches; ++branches)
-    for (std::size_t i = 0; i < plan.forks.size(); ++i) {
-      if (plan.forks[i].branchCount != branches) continue;
-      table.forks.push_back(plan.forks[i]);
-      table.vesselOfFork.push_back(plan.vesselOfFork[i]);
-    }
+  // By branches, and by how often they are smoothed: devices run several forks in step, and those with less
+  // to do would wait for the others.
+  std::vector<std::size_t> order(plan.forks.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t i) { return std::pair(plan.forks[i].branchCount, plan.steps[i]); });
+  for (const std::size_t i : order) {
+    table.forks.push_back(plan.forks[i]);
+    table.vesselOfFork.push_back(plan.vesselOfFork[i]);
+  }
   for (std::size_t i = 0; i < table.forks.size(); ++i) {
     const std::uint32_t vessel = table.vesselOfFork[i];
     table.spanOfFork.push_back(firstSpan[vessel] + table.forks[i].a.point -

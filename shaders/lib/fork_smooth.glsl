@@ -5,7 +5,7 @@
 #define VASA_FORK_SMOOTH
 #include "lib/fork_wall.glsl"
 
-const float kStep = 0.5, kHoleStep = 0.25;       // of the way to the neighbours' mean
+const float kStep = 0.5;                         // of the way to the neighbours' mean
 const float kNormalStep = 1.0, kSeamStep = 0.3;  // weight of the surface's own normal: within, and beside other parts
 
 // The vertex of a row beside place k of m.
@@ -14,9 +14,9 @@ uint besideIn(ForkShape shape, uint row, uint k, uint m) {
   return rowStart(shape, row) + (at == own ? 0 : at);
 }
 
-void moveTo(uint vertex, float share, uint a, uint b, uint c, uint d) {
+void moveTo(uint vertex, uint a, uint b, uint c, uint d) {
   precise vec3 p = corners[vertex].position;
-  precise vec3 moved = p + share * (0.25 * (corners[a].position + corners[b].position + corners[c].position + corners[d].position) - p);
+  precise vec3 moved = p + kStep * (0.25 * (corners[a].position + corners[b].position + corners[c].position + corners[d].position) - p);
   corners[vertex].position = moved;
 }
 
@@ -24,7 +24,7 @@ void smoothRows(ForkShape shape, uint first, uint last) {
   for (uint row = first + 1; row < last; ++row) {
     uint m = rowSize(shape, row), start = rowStart(shape, row);
     for (uint k = 0; k < m; ++k)
-      moveTo(start + k, kStep, start + (k + 1 == m ? 0 : k + 1), start + (k == 0 ? m : k) - 1, besideIn(shape, row - 1, k, m),
+      moveTo(start + k, start + (k + 1 == m ? 0 : k + 1), start + (k == 0 ? m : k) - 1, besideIn(shape, row - 1, k, m),
              besideIn(shape, row + 1, k, m));
   }
   for (uint row = first; row <= last; ++row) {
@@ -46,7 +46,7 @@ void smoothHole(ForkShape shape, uint branch) {
   uint m = shape.branch[branch], hole = rowStart(shape, holeRow(branch)), outline = 2 * window.count + 4;
   for (uint k = 0; k < m; ++k) {
     uint outer = (k * outline + m / 2) / m;
-    moveTo(hole + k, kHoleStep, hole + (k + 1 == m ? 0 : k + 1), hole + (k == 0 ? m : k) - 1,
+    moveTo(hole + k, hole + (k + 1 == m ? 0 : k + 1), hole + (k == 0 ? m : k) - 1,
            outlineVertex(shape, window, outer == outline ? 0 : outer), hole + m + k);
   }
 }

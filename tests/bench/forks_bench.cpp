@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
       Count& count = counts[k];
       std::vector<bool> stumps;
       for (const shared::ForkRecord& fork : table.forks) {
-        const bool folds = foldedTriangles(posed, fork, arounds[k], ForkForm::bare) > 0;
+        const bool folds = foldedUnsmoothed(posed, fork, arounds[k]) > 0;
         stumps.push_back(folds && isStump(posed, fork, arounds[k]));
         count.folds += folds;
         count.stumps += stumps.back();

@@ -33,8 +33,7 @@ TEST_CASE("a real body's drawn surface is closed in three poses, and its forks d
   std::size_t forks = 0, folded = 0, triangles = 0, stumps = 0;
   for (const test::RealPoses::Pose& pose : real->poses) {
     for (const shared::ForkRecord& fork : table.forks) {
-      const std::uint32_t folds =
-          foldedTriangles({table, pose.points, pose.knotFrames}, fork, 8, ForkForm::fitting);
+      const std::uint32_t folds = foldedTriangles({table, pose.points, pose.knotFrames}, fork, 8, nullptr);
       triangles += folds;
       folded += folds > 0;
       stumps += isStump({table, pose.points, pose.knotFrames}, fork, 8);

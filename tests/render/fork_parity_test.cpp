@@ -126,7 +126,7 @@ TEST_CASE("forks that waves fold are smoothed, and some turned into stumps, as i
   const Forks passes(rig, network, points, test::framesOf(network, points), {{8, 5}, 0});
   std::uint32_t folded = 0, stumps = 0;
   for (const shared::ForkRecord& fork : passes.tubes.table().forks) {
-    folded += foldedTriangles(passes.posed(), fork, 8, ForkForm::bare) > 0;
+    folded += foldedUnsmoothed(passes.posed(), fork, 8) > 0;
     stumps += isStump(passes.posed(), fork, 8);
   }
   CHECK(folded > stumps);

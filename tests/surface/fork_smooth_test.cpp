@@ -40,10 +40,12 @@ struct Shown {
   bool stump = false;
 };
 
-Shown show(const PosedNetwork& posed, const shared::ForkRecord& fork, ForkForm form) {
+constexpr ForkSteps kUnsmoothed;
+
+Shown show(const PosedNetwork& posed, const shared::ForkRecord& fork, const ForkSteps* fixed) {
   const ForkShape shape = forkShape(posed.table, fork, [](std::uint32_t) { return 8u; });
   Shown shown{std::vector<SurfacePoint>(shape.vertices())};
-  const ForkLayout layout = evaluateFork(posed, fork, shape, shown.points, form);
+  const ForkLayout layout = evaluateFork(posed, fork, shape, shown.points, fixed);
   shown.stump = layout.cut || layout.stump[0] || layout.stump[1];
   return shown;
 }
@@ -69,10 +71,10 @@ TEST_CASE("smoothing leaves forks that do not fold as they are, to the bit, and 
   for (const float height : {0.0f, 0.002f, 0.004f, 0.006f}) {
     const PosedNetwork posed = waves.at(height);
     for (const shared::ForkRecord& fork : waves.table.forks) {
-      const bool folds = foldedTriangles(posed, fork, 8, ForkForm::bare) > 0;
-      const Shown fitting = show(posed, fork, ForkForm::fitting);
-      if (!folds) CHECK(alike(fitting.points, show(posed, fork, ForkForm::bare).points));
-      CHECK(foldedTriangles(posed, fork, 8, ForkForm::fitting) == 0);
+      const bool folds = foldedUnsmoothed(posed, fork, 8) > 0;
+      const Shown fitting = show(posed, fork, nullptr);
+      if (!folds) CHECK(alike(fitting.points, show(posed, fork, &kUnsmoothed).points));
+      CHECK(foldedTriangles(posed, fork, 8, nullptr) == 0);
       folded += folds;
       stumps += fitting.stump;
     }
@@ -94,8 +96,8 @@ TEST_CASE("a fork that begins to fold hardly jumps") {
       const PosedNetwork posed = waves.at(0.006f * float(step) / kSteps);
       for (std::size_t i = 0; i < before.size(); ++i) {
         const shared::ForkRecord& fork = waves.table.forks[i];
-        const bool folds = foldedTriangles(posed, fork, 8, ForkForm::bare) > 0;
-        Shown now = show(posed, fork, ForkForm::fitting);
+        const bool folds = foldedUnsmoothed(posed, fork, 8) > 0;
+        Shown now = show(posed, fork, nullptr);
         if (step > 0 && folds && !folded[i] && !now.stump && !before[i].stump)
           jumps.push_back(farthest(before[i].points, now.points) / posed.points[fork.a.point].w);
         folded[i] = folds;

@@ -60,7 +60,7 @@ TEST_CASE(
   for (const float share : {0.005f, 0.02f, 0.1f}) {
     const Thrown thrown(network, share, 3);
     for (const shared::ForkRecord& fork : thrown.table.forks) {
-      open += foldedTriangles(thrown.posed(), fork, 8, ForkForm::bare);
+      open += foldedUnsmoothed(thrown.posed(), fork, 8);
       for (std::uint32_t a = 3; a <= 16; ++a)
         for (const std::uint32_t b : {3u, 5u, 8u, 16u}) {
           const ForkShape shape{a, b, fork.branchCount, {b, a}};
