@@ -11,8 +11,9 @@ namespace {
 
 constexpr float kLeastBend = 0.1f;  // sine of an elbow's bend
 constexpr float kMostHingeTurn = 1.0f;
-// Cosine of 30 degrees: trunks that differ by less stand alike, but for their bones' slant.
-constexpr float kFacingDoubt = 0.87f;
+// Cosine of 30 degrees: zero poses whose trunks differ by less once their sides point alike stand alike, as
+// bones' slant from hips to neck is each skeleton's own.
+constexpr float kSlant = 0.87f;
 
 std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<mat3>& to) {
   if (!from || !to) return std::nullopt;
@@ -50,13 +51,15 @@ class Alignment {
   Alignment(const Motion& motion, std::uint32_t standing, std::span<const quat> turns, const Rig& from,
             const Rig& to, std::span<const std::uint32_t> source)
       : motion_(motion), standing_(standing), standingTurns_(turns), from_(from), to_(to), source_(source) {
-    const auto hips =
-        turnOf(trunkOf(to_, {"UpperLeg", "UpperArm"}), trunkOf(from_, {"UpperLeg", "UpperArm"}));
+    const auto own = trunkOf(to_, {"UpperLeg", "UpperArm"}),
+               wanted = trunkOf(from_, {"UpperLeg", "UpperArm"});
+    const auto hips = turnOf(own, wanted);
     const auto chest = turnOf(trunkOf(to_, {"UpperArm"}), trunkOf(from_, {"UpperArm"}));
-    if (!hips || (standing_ == MotionPose::kZero && hips->w > 0 && 2 * hips->w * hips->w - 1 > kFacingDoubt))
-      return;
-    hipsTurn_ = *hips;
-    chestTurn_ = standing_ != MotionPose::kZero && chest ? *chest : *hips;
+    if (!hips) return;
+    const quat sideways = turnBetween((*own)[0], (*wanted)[0]);
+    const float slant = glm::dot(sideways, *hips);  // cosine of half of what is left
+    hipsTurn_ = standing_ == MotionPose::kZero && 2 * slant * slant - 1 > kSlant ? sideways : *hips;
+    chestTurn_ = standing_ != MotionPose::kZero && chest ? *chest : hipsTurn_;
   }
 
   std::vector<quat> run() const {

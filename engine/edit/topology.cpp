@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "edit/graft_course.h"
 #include "edit/redraw.h"
 #include "math/aabb.h"
+#include "mesh/components.h"
 #include "network/kinks.h"
 
 namespace vasa {
@@ -123,6 +125,38 @@ float reachOf(const Draft& draft) {
   for (const Draft::Line& line : draft.lines)
     for (const vec4& point : line.points) box.add(vec3(point));
   return glm::length(box.extent());
+}
+
+// Of each line the part of the network that it belongs to: the least number of a line there.
+std::vector<std::uint32_t> partsOf(const Draft& draft) {
+  DisjointSets parts(draft.lines.size());
+  for (const Draft::Joint& joint : draft.joints) {
+    if (joint.ends.empty()) continue;
+    const std::uint32_t first = joint.host ? joint.host->vessel.value : joint.ends[0].vessel.value;
+    for (const VesselEnd& end : joint.ends) parts.unite(first, end.vessel.value);
+  }
+  std::vector<std::uint32_t> part;
+  for (std::uint32_t i = 0; i < draft.lines.size(); ++i) part.push_back(parts.find(i));
+  return part;
+}
+
+// Of what was one part, and is several now, the one with most vessel stays. @return how many vessels went
+std::size_t removeCutOff(Draft& draft, std::span<const std::uint32_t> before, std::uint32_t whole) {
+  const std::vector<std::uint32_t> now = partsOf(draft);
+  std::map<std::uint32_t, float> lengths;
+  const auto isOf = [&](std::uint32_t i) { return before[i] == whole && !draft.lines[i].gone; };
+  for (std::uint32_t i = 0; i < now.size(); ++i) {
+    if (!isOf(i)) continue;
+    const std::vector<vec4>& points = draft.lines[i].points;
+    for (std::size_t k = 1; k < points.size(); ++k)
+      lengths[now[i]] += glm::distance(vec3(points[k - 1]), vec3(points[k]));
+  }
+  if (lengths.size() < 2) return 0;
+  const auto most = std::ranges::max_element(lengths, {}, [](const auto& part) { return part.second; });
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < now.size(); ++i)
+    if (isOf(i) && now[i] != most->first) draft.remove({i}), ++count;
+  return count;
 }
 
 }  // namespace
@@ -330,9 +364,12 @@ Result<std::string> apply(const DeleteEdit& edit, Draft& draft) {
                     " on it; write delete ... tree to take all " +
                     fmt::format("{} below it away, too", below.size() - 1));
   }
+  const std::vector<std::uint32_t> before = partsOf(draft);
+  const std::uint32_t whole = before[vessel->value];
   for (const VesselId each : below) draft.remove(each);
-  return below.size() > 1 ? fmt::format("taken away with {} that hung on it", below.size() - 1)
-                          : "taken away";
+  std::size_t taken = below.size();
+  if (edit.tree) taken += removeCutOff(draft, before, whole);
+  return taken > 1 ? fmt::format("taken away with {} that hung on it", taken - 1) : "taken away";
 }
 
 }  // namespace vasa

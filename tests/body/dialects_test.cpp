@@ -96,6 +96,20 @@ TEST_CASE("a zero pose that looks aside or back moves a body the same way") {
     }
 }
 
+TEST_CASE("a zero pose that looks a little aside moves the hips as one that looks ahead") {
+  const Body body = dollBody("cmu");
+  const auto sideOf = [&](const Retargeting& done) {
+    const Pose pose = samplePose(body.skeleton, done.clip, 0.2f);
+    const auto at = [&](const char* joint) { return vec3(pose.world[body.skeleton.find(joint).value][3]); };
+    return glm::normalize(at("LeftUpLeg") - at("RightUpLeg"));
+  };
+  const vec3 ahead = sideOf(carried({"mixamo", DollDialect::Zero::t, 100, false, false}, body));
+  for (const float facing : {10.0f, 20.0f, -29.0f, 31.0f, 90.0f}) {
+    const vec3 aside = sideOf(carried({"mixamo", DollDialect::Zero::t, 100, false, false, facing}, body));
+    CHECK(glm::dot(ahead, aside) > std::cos(glm::radians(1.0f)));
+  }
+}
+
 TEST_CASE("bodies in others' dialects are moved as well, those without names by their shape") {
   for (const char* family : {"vrm", "mixamo", "bip", "daz", "numbered"}) {
     const Body body = dollBody(family);

@@ -63,6 +63,22 @@ TEST_CASE("names and kinds change, and vessels go with what hangs on them") {
   CHECK(gone.nodes().empty());
 }
 
+TEST_CASE("what a deletion cuts off goes with it, beyond forks of equals, too") {
+  // Two legs of one trunk, the left with two shins and a twig; the right is longer than all of them.
+  const Network before =
+      edited(smallTree(),
+             "delete side tree\nbranch far 1 left 2 40 1 0 1\nbranch far 1 right 2 200 -1 0 1\n"
+             "branch left 1 shin 1 30 1 0 0\nbranch left 1 calf 1 30 0 1 1\n"
+             "branch shin 0.5 twig 0.5 10 0 0 1");
+  REQUIRE(before.vessels().size() == 7);
+  std::vector<std::string> left;
+  const Network after = edited(before, "delete left tree");
+  for (const Vessel& vessel : after.vessels()) left.push_back(vessel.name);
+  CHECK(left == std::vector<std::string>{"trunk", "far", "right"});
+  CHECK(edited(before, "delete shin tree").vessels().size() == 5);
+  CHECK(edited(before, "delete left").vessels().size() == 6);
+}
+
 TEST_CASE("operations on vessels that can not be are refused with the rule") {
   const Network tree = smallTree();
   const auto refuses = [&](const char* line, const char* rule) {
