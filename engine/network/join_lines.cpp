@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "math/closest_point.h"
 
 namespace vasa {
@@ -28,11 +29,14 @@ bool sameKind(VesselKind a, VesselKind b) {
 
 class Joiner {
  public:
-  explicit Joiner(Centrelines& lines) : lines_(lines), joined_(2 * lines.lines.size()) {
+  explicit Joiner(Centrelines& lines)
+      : lines_(lines), joined_(2 * lines.lines.size()), hosts_(joined_.size(), kNone) {
     for (const auto& joint : lines.joints) {
       const std::uint32_t at = joint.host ? joint.host->line : joint.ends.front().line;
-      for (const auto& end : joint.ends)
+      for (const auto& end : joint.ends) {
         joined_[2 * end.line + end.last] = true, pairs_.insert(pairOf(end.line, at));
+        if (joint.host) hosts_[2 * end.line + end.last] = joint.host->line;
+      }
     }
     for (const auto& line : lines.lines)
       for (std::size_t i = 0; i < line.samples.size(); ++i)
@@ -115,6 +119,20 @@ class Joiner {
     return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
   }
 
+  // Whether a line hangs on the side of one that hangs on one ... that is the other: an end that is led to
+  // such a line would be led by itself.
+  bool hangsOn(std::uint32_t line, std::uint32_t other) const {
+    std::vector<std::uint32_t> chain{line};
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (chain[i] == other) return true;
+      for (const bool last : {false, true})
+        if (const std::uint32_t host = hosts_[2 * chain[i] + last];
+            host != kNone && std::ranges::find(chain, host) == chain.end())
+          chain.push_back(host);
+    }
+    return false;
+  }
+
   bool take(const Centrelines::End& end, const Found& seen) {
     if (!pairs_.insert(pairOf(end.line, seen.line)).second) return false;
     const Found found = nearestOn(seen.line, vec3(sampleOf(end)));
@@ -125,13 +143,18 @@ class Joiner {
       if (glm::distance(vec3(tip), vec3(at)) <= (joined_[2 * found.line + last] ? kSameSample : 1.0f) * tip.w)
         return meet(end, {found.line, last});
     }
+    if (hangsOn(found.line, end.line)) return false;
     leadTo(end, at);
+    hosts_[2 * end.line + end.last] = found.line;
     lines_.joints.push_back({Centrelines::Place{found.line, sampleAt(found.line, found.segment, at)}, {end}});
     joined_[2 * end.line + end.last] = true;
     return true;
   }
 
   bool meet(const Centrelines::End& end, const Centrelines::End& other) {
+    const std::uint32_t host = hosts_[2 * other.line + other.last];
+    if (host != kNone && hangsOn(host, end.line)) return false;
+    hosts_[2 * end.line + end.last] = host;
     leadTo(end, sampleOf(other));
     joined_[2 * end.line + end.last] = true;
     for (auto& joint : lines_.joints)
@@ -174,6 +197,7 @@ class Joiner {
 
   Centrelines& lines_;
   std::vector<bool> joined_;
+  std::vector<std::uint32_t> hosts_;  // of each end the line on whose side it hangs
   float cell_ = 1e-6f;
   std::unordered_map<std::uint64_t, std::vector<Centrelines::Place>> cells_;
   std::size_t comparisons_ = 0, work_ = 0;

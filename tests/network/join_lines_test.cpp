@@ -42,3 +42,17 @@ TEST_CASE("traces that start in another's tube join it where they touch, at a sa
     }
   CHECK(joinTouchingLines(lines) == 0);
 }
+
+TEST_CASE("lines in a triangle, each beginning on the next one's side: the last beginning stays free") {
+  Centrelines lines;
+  const vec3 corners[] = {{0, 0, 0}, {10, 0, 0}, {5, 8, 0}};
+  for (int k = 0; k < 3; ++k) {
+    const vec3 from = corners[k], to = corners[(k + 1) % 3];
+    const vec3 beyond = to + 0.5f * (to - from);  // so that the next one begins on its side
+    lines.lines.push_back(trace("side", straight(from, beyond, 0.5f, 9)));
+  }
+  CHECK(joinTouchingLines(lines) == 2);
+  const auto made = networkOfCentrelines(lines);
+  if (!made.ok()) FAIL(made.error().message);
+  CHECK(made->network.componentCount() == 1);
+}
