@@ -106,6 +106,10 @@ Result<Report> exportAs(const Options& options, ExportKind kind) {
               {"vessels", job->scene.network.vessels().size()}};
   for (const ExportFact& fact : *facts)
     std::visit([&](const auto& value) { full[fact.name] = value; }, fact.value);
+  if (const double between = full.value("between_error_mm", 0.0); between > options.betweenMillimetres)
+    logWarning(fmt::format(
+        "{}: between two keys vertices stray up to {:.1f} mm, more than --between {:g}; a higher --fps makes that less",
+        options.output, between, options.betweenMillimetres));
   return full;
 }
 

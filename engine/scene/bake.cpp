@@ -48,7 +48,7 @@ class FilmMaker {
   }
 
  private:
-  static constexpr int kHalvings = 2;  // of the time between two keys
+  static constexpr int kHalvings = 4;  // of the time between two keys: of 10 a second to one in 6 ms
   // Halving the time between two keys quarters the sag of smooth motion and lessens that of most corners; a
   // jump stays.
   static constexpr float kStillCurved = 0.75f;

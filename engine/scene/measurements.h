@@ -12,7 +12,8 @@ struct VesselMeasures {
   float volume = 0;                                           ///< [m³]
   float leastRadius = 0, meanRadius = 0, greatestRadius = 0;  ///< [m], the mean along the length
   float greatestCurvature = 0;                                ///< [1/m] of the centre line
-  std::optional<float> clearance;  ///< [m] to the nearest vessel that it is not joined to; negative: into it
+  std::optional<float> clearance;  ///< [m] to the nearest tube of another vessel that is no neighbour
+                                   ///< along the network (collide/neighbours.h); negative: into it
 };
 
 /// Of one vessel's de Boor points; clearance is not looked for. O(spans).
