@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/components.h"
+#include "core/disjoint_sets.h"
 
 namespace vasa {
 namespace {

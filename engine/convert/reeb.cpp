@@ -5,8 +5,8 @@
 #include <map>
 
 #include "core/cancellation.h"
+#include "core/disjoint_sets.h"
 #include "core/ids.h"
-#include "mesh/components.h"
 
 namespace vasa {
 namespace {

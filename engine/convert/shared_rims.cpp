@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "core/cancellation.h"
+#include "core/disjoint_sets.h"
 #include "core/ids.h"
-#include "mesh/components.h"
 
 namespace vasa {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cancellation.h"
+#include "core/disjoint_sets.h"
 #include "math/direction.h"
 #include "mesh/components.h"
 #include "mesh/triangle_tree.h"

@@ -8,13 +8,13 @@
 #include <memory>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "curve/arc_length.h"
 #include "curve/fit.h"
 #include "curve/frame.h"
 #include "edit/graft_course.h"
 #include "edit/redraw.h"
 #include "math/aabb.h"
-#include "mesh/components.h"
 #include "network/kinks.h"
 
 namespace vasa {

@@ -21,7 +21,9 @@ Result<Motion> readBvh(const std::filesystem::path& path);
 Result<Motion> parseBvh(std::string_view text, const std::string& name);
 
 /// Pairs of joints, a line each: `motion's joint = body's joint`; nothing on the right leaves the joint out;
-/// what follows a # is a comment. At most 1 MiB. Fails with badInput, naming file and line.
+/// what follows a # at a line's beginning or after a blank is a comment. Names that hold a = want blanks
+/// around the line's own. No joint is on either side twice. At most 1 MiB. Fails with badInput, naming file
+/// and line.
 Result<JointMap> readJointMap(const std::filesystem::path& path);
 Result<JointMap> parseJointMap(std::string_view text, const std::string& name);
 

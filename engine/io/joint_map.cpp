@@ -1,3 +1,5 @@
+#include <map>
+
 #include "core/atomic_file.h"
 #include "core/text_file.h"
 #include "io/bvh.h"
@@ -8,6 +10,19 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kMaximumMapBytes = std::size_t(1) << 20;
+
+// Without its comment: names may hold a #, but none begins with one.
+std::string_view withoutComment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1))
+    if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') return line.substr(0, at);
+  return line;
+}
+
+// Where names end: at a sign between blanks, as names may hold one, else at the first.
+std::size_t signIn(std::string_view line) {
+  const std::size_t between = line.find(" = ");
+  return between == line.npos ? line.find('=') : between + 1;
+}
 
 }  // namespace
 
@@ -23,16 +38,23 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
   if (!plain) return plain.error();
   text = *plain;
   JointMap map;
+  std::map<std::string, std::string> moverOf;  // of the body's joints
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = nextLine(text);
-    line = csv::trimmed(line.substr(0, line.find('#')));
+    line = csv::trimmed(withoutComment(line));
     if (line.empty()) continue;
-    const std::size_t sign = line.find('=');
+    const std::size_t sign = signIn(line);
     const std::string_view from = csv::trimmed(line.substr(0, sign));
+    const std::string where = name + ":" + std::to_string(number) + ": ";
     if (sign == line.npos || from.empty())
-      return badInput(name + ":" + std::to_string(number) +
-                      ": a line must be `motion's joint = body's joint`");
-    map[std::string(from)] = std::string(csv::trimmed(line.substr(sign + 1)));
+      return badInput(where + "a line must be `motion's joint = body's joint`");
+    const std::string joint(from), moved(csv::trimmed(line.substr(sign + 1)));
+    if (!map.emplace(joint, moved).second)
+      return badInput(where + "'" + joint +
+                      "' is on the left twice; it can move one joint, so keep one line");
+    if (const auto [other, isNew] = moverOf.emplace(moved, joint); !moved.empty() && !isNew)
+      return badInput(where + "'" + moved + "' is moved by '" + other->second +
+                      "' already; keep one of the lines");
   }
   return map;
 }

@@ -1,6 +1,7 @@
 #include "mesh/components.h"
 
 #include "core/cancellation.h"
+#include "core/disjoint_sets.h"
 #include "core/ids.h"
 
 namespace vasa {

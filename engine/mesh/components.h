@@ -1,29 +1,9 @@
 #pragma once
-#include <numeric>
 #include <span>
 
 #include "mesh/edges.h"
 
 namespace vasa {
-
-/// Disjoint sets over 0 .. n-1. The root of a set is its smallest member, so results do not depend on the
-/// order of the unions.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// The parts of a mesh that hang together through vertices, in the order of their first triangles. A common
 /// vertex is enough: decimated thin tubes fall into triangles that share no edge. O(n).

@@ -143,3 +143,18 @@ TEST_CASE("joint maps: pairs, comments, joints left out; a bad line is named") {
   REQUIRE(!bad.ok());
   CHECK(bad.error().message.find("map.txt:2: a line must be") != std::string::npos);
 }
+
+TEST_CASE("joint maps: names that hold signs, comments, and what says a joint twice") {
+  const auto map =
+      parseJointMap("# a comment\nhip#1 = pelvis\t# the root\na=b = c = d\nleft=LeftArm\nend =\n", "m.txt");
+  REQUIRE(map.ok());
+  CHECK(*map == JointMap{{"hip#1", "pelvis"}, {"a=b", "c = d"}, {"left", "LeftArm"}, {"end", ""}});
+  const auto refusal = [](const char* text) {
+    const auto read = parseJointMap(text, "m.txt");
+    return read.ok() ? std::string() : read.error().message;
+  };
+  CHECK(refusal("a = b\na = c\n").starts_with("m.txt:2: 'a' is on the left twice"));
+  CHECK(refusal("a = b\n\nc = b\n").starts_with("m.txt:3: 'b' is moved by 'a' already"));
+  CHECK(refusal("a =\nb =\n").empty());
+  CHECK(refusal("= b\n").starts_with("m.txt:1: a line must be"));
+}
