@@ -16,7 +16,7 @@ constexpr std::size_t kRefined = 6;  // of the starts
 constexpr int kFacings = 4, kHeights = 9;
 constexpr float kSizes[] = {0.8f, 1, 1.25f};
 constexpr float kSmallest = 0.3f, kLargest = 3;  // from a newborn to an adult, and back
-constexpr float kFacingSurface = 0.3f;  // least cosine between normals that belong together
+constexpr float kFacingSurface = 0.3f;           // least cosine between normals that belong together
 constexpr float kFarAtFirst = 0.15f, kNearAtLast = 0.03f;  // of the body's height, between pairs
 constexpr float kOddSize = 0.25f;                          // of the logarithm: a size as odd as this ...
 constexpr float kOddSizeCost = 0.05f;  // ... is as bad as this share of the surface elsewhere
