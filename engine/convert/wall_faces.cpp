@@ -1,5 +1,6 @@
 #include "convert/wall_faces.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
