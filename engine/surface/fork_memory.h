@@ -7,7 +7,7 @@ namespace vasa {
 
 /// Where a fork folds, in triangles, unless it is smoothed; the lesser of two is the better fork.
 struct ForkFolds {
-  /// Not to be drawn: it folds at rest, and a part is a stump there or in a strained shape, 8 quads around.
+  /// Not to be drawn: smoothed or not, a part is a stump at rest or in a strained shape, 8 quads around.
   bool stump = false;
   std::uint32_t otherStumps = 0;  ///< other numbers of quads around for which it is one
   std::uint32_t steps = 0;        ///< of smoothing, at rest, 8 quads around
