@@ -1,6 +1,8 @@
 #include "network/network.h"
 
-#include <numeric>
+#include <algorithm>
+
+#include "core/disjoint_sets.h"
 
 namespace vasa {
 
@@ -35,22 +37,17 @@ std::uint32_t Network::junctionCount() const {
 }
 
 std::vector<std::uint32_t> Network::components() const {
-  std::vector<std::uint32_t> parent(vessels_.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&parent](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets parts(vessels_.size());
   for (const Node& node : nodes_) {
     const std::uint32_t first = node.host ? node.host->vessel.value : ends(node)[0].vessel.value;
-    for (const VesselEnd& end : ends(node)) {
-      const std::uint32_t a = root(first), b = root(end.vessel.value);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (const VesselEnd& end : ends(node)) parts.unite(first, end.vessel.value);
   }
   std::vector<std::uint32_t> number(vessels_.size());
   std::uint32_t next = 0;
-  for (std::uint32_t v = 0; v < number.size(); ++v) number[v] = root(v) == v ? next++ : number[root(v)];
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    const std::uint32_t least = parts.find(v);
+    number[v] = least == v ? next++ : number[least];
+  }
   return number;
 }
 

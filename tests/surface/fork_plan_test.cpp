@@ -132,8 +132,10 @@ TEST_CASE("random trees: every branch is accounted for, no fork is a stump at re
           report.forked + report.hidden + report.tooShort + report.crowded + report.folded);
     const std::vector<quat> frames = test::framesOf(network);
     const SweepTable table = makeSweepTable(network);
-    for (const shared::ForkRecord& fork : table.forks)
+    for (const shared::ForkRecord& fork : table.forks) {
       CHECK(!isStump({table, network.points(), frames}, fork, 8));
+      CHECK(foldedTriangles({table, network.points(), frames}, fork, 8, nullptr) == 0);
+    }
   }
 }
 
