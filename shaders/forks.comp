@@ -12,7 +12,6 @@
 void put(uint vertex, SurfacePoint point);
 vec2 stepOf(uint around);
 vec2 halfStepOf(uint around);
-uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d);
 
 #include "lib/fork.glsl"
 
@@ -37,8 +36,6 @@ ForkBranch branchAt(uint branch) { return push.branches.branch[branch]; }
 vec3 piercingOf(ForkBranch branch) {
   return pointAt(spanAt(push.points, push.tables, branch.crossPoint, branch.crossClass), branch.crossT).xyz;
 }
-
-uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d) { return push.keepAll != 0 ? 3 : seenOfQuad(a, b, c, d, gridOf(view)); }
 
 // Of the trunk's two ends, then of branches.
 ForkRing ringOfPart(ForkRecord fork, uint part) {
@@ -78,6 +75,20 @@ ForkShape shapeOf(ForkRecord fork) {
   for (uint i = 0; i < kMostBranches; ++i)
     shape.branch[i] = i < fork.branchCount ? push.around.value[push.branches.branch[fork.firstBranch + i].vessel] : 0;
   return shape;
+}
+
+// Leaves those triangles in the list that may be seen. Once a fork is as it stays: to look at every step of its smoothing
+// would take more loops than a device may allow (tests/render/loop_budget_test.cpp).
+void keepSeen(uint vertices) {
+  vec2 places[kMostForkVertices];
+  for (uint k = 0; k < vertices; ++k) places[k] = placeOf(corners[k].position);
+  PictureGrid grid = gridOf(view);
+  uint kept = 0;
+  for (uint i = 0; i < triangles; ++i) {
+    uint t = list[i];
+    if (seenOfTriangle(places[t & 255u], places[t >> 8 & 255u], places[t >> 16], grid)) list[kept++] = t;
+  }
+  triangles = kept;
 }
 
 // Vertices that the triangles need, a bit each, and how many lie before every word of them.
@@ -151,7 +162,9 @@ void main() {
         evaluateRings(fork);
         build(fork, shape);
       }
-      if (triangles != 0) vertices = chooseVertices(rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows));
+      uint all = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
+      if (push.keepAll == 0 && triangles != 0) keepSeen(all);
+      if (triangles != 0) vertices = chooseVertices(all);
     }
   }
   uint blocks = (vertices + kBlockVertices - 1) >> kBlockShift, last = kGroupThreads - 1;

@@ -1,7 +1,5 @@
 // A fork's rows of vertices and the list of its triangles. Mirrors parts of engine/surface/fork_template.cpp and
-// fork_check.cpp: the same operations in the same order. The shader that includes it has
-//   vec2 placeOf(vec3 position)                   on the picture [pixels] (lib/picture_place.glsl)
-//   uint seenOf(vec2 a, vec2 b, vec2 c, vec2 d)   which triangles of a quad are drawn (lib/visible.glsl)
+// fork_check.cpp: the same operations in the same order.
 #ifndef VASA_FORK_ROWS
 #define VASA_FORK_ROWS
 #include "lib/fork.glsl"
@@ -31,21 +29,17 @@ uint rowStart(ForkShape shape, uint row) {
 const float kFlat2 = 1e-10;  // square of the share of its edges that a triangle looks the right way
 
 SurfacePoint corners[kMostForkVertices];
-uint list[kMostForkTriangles];   // of the triangles that are drawn, 8 bits a corner
+uint list[kMostForkTriangles];   // of triangles, 8 bits a corner
 uint triangles;                  // how many
-bool folded;                     // some triangle that was added folds, drawn or not
+bool folded;                     // some triangle that was added folds
 
 // A vertex as the triangles around it need it: loads from an array cost a CPU device more than what is done with them.
 struct Corner {
   uint vertex;
   SurfacePoint point;
-  vec2 place;
 };
 
-Corner cornerAt(uint vertex) {
-  SurfacePoint point = corners[vertex];
-  return Corner(vertex, point, placeOf(point.position));
-}
+Corner cornerAt(uint vertex) { return Corner(vertex, corners[vertex]); }
 
 bool folds(SurfacePoint a, SurfacePoint b, SurfacePoint c) {
   precise vec3 first = b.position - a.position, second = c.position - a.position;
@@ -60,14 +54,12 @@ void add(uint a, uint b, uint c) { list[triangles++] = a | b << 8 | c << 16; }
 
 void addTriangle(Corner a, Corner b, Corner c) {
   folded = folded || folds(a.point, b.point, c.point);
-  if ((seenOf(a.place, b.place, c.place, c.place) & 1u) != 0u) add(a.vertex, b.vertex, c.vertex);
+  add(a.vertex, b.vertex, c.vertex);
 }
 
 void addQuad(Corner a, Corner b, Corner c, Corner d) {
-  folded = folded || folds(a.point, b.point, c.point) || folds(a.point, c.point, d.point);
-  uint seen = seenOf(a.place, b.place, c.place, d.place);
-  if ((seen & 1u) != 0u) add(a.vertex, b.vertex, c.vertex);
-  if ((seen & 2u) != 0u) add(a.vertex, c.vertex, d.vertex);
+  addTriangle(a, b, c);
+  addTriangle(a, c, d);
 }
 
 #endif

@@ -17,7 +17,7 @@ VASA_CONSTANT uint kCollarRows = 4;
 VASA_CONSTANT uint kMostBranches = 2;
 
 /// Most steps of smoothing a fork's parts that fold.
-VASA_CONSTANT uint kMostSmoothings = 32;
+VASA_CONSTANT uint kMostSmoothings = 20;
 
 /// A ring of a vessel: its section at t of one span.
 struct ForkRing {

@@ -39,9 +39,10 @@ inline uvec3 cornersAt(const Drawn& drawn, const shared::DrawCommand& draw, std:
 }
 
 /// A network in device memory, and what the passes make of all its tubes, caps, forks and patches.
+/// @param cull  only of triangles that a large picture of four samples a pixel may show
 struct Forks {
   Forks(const GpuRig& used, const Network& network, std::vector<vec4> posed, std::vector<quat> knotFrames,
-        const TubeDetail& detail)
+        const TubeDetail& detail, bool cull = false)
       : rig(used),
         points(std::move(posed)),
         frames(std::move(knotFrames)),
@@ -57,7 +58,8 @@ struct Forks {
     Camera camera;
     camera.position = {0, 0.5f, 9};  // everything is in view, so that nothing is left out
     camera.target = {0, 0.5f, 0};
-    view = detailView(camera, {}, pictureGrid(rig.device(), {640, 480}), detail);
+    const VkExtent2D size{cull ? 6400u : 640u, cull ? 4800u : 480u};
+    view = detailView(camera, {}, pictureGrid(rig.device(), size, cull ? 4 : 1), detail);
     forks.setSpanColours(rig.device(), kindColours(network));
     const FillRange all = everything(tubes);
     const Filling filling(rig.device(), tubes, forks, roomForAll(tubes, forks, all));
@@ -69,12 +71,12 @@ struct Forks {
                          {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address(), false});
       filling.recordStart(commands, all);
       tubePass.record(
-          commands, {tubes, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, false});
+          commands, {tubes, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, cull});
       gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
       if (all.forkEnd > 0)
         forkPass.record(commands, {tubes, forks, detailPass, pointBuffer.address(), knotBuffer.address(),
-                                   filling, filled, false});
+                                   filling, filled, cull});
       gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
       planPass.record(commands, filling, filled);
