@@ -292,8 +292,19 @@ bool isScene(const Options& options) {
   return options.file.empty() || std::filesystem::path(options.file).extension() == ".json";
 }
 
+Report profileReport(const std::string& title, std::span<const ProfileStation> stations) {
+  Report rows = Report::array();
+  for (const ProfileStation& at : stations)
+    rows.push_back({{"along_mm", 1e3 * double(at.along)},
+                    {"centre_m", {at.centre.x, at.centre.y, at.centre.z}},
+                    {"radius_mm", 1e3 * double(at.radius)},
+                    {"area_mm2", 1e6 * double(at.area())},
+                    {"curvature_per_mm", 1e-3 * double(at.curvature)}});
+  return {{"profile", title}, {"length_mm", 1e3 * double(stations.back().along)}, {"station", std::move(rows)}};
+}
+
 // A vessel's stations. A bare .vasa file is read without its scene's body.
-Result<void> printProfile(const Options& options) {
+Result<void> printProfile(const Globals& globals, const Options& options) {
   const auto network = [&]() -> Result<Network> {
     if (!isScene(options)) return readNetwork(options.file);
     const auto sources = chooseScene({.scene = options.file, .edits = options.edits});
@@ -323,6 +334,7 @@ Result<void> printProfile(const Options& options) {
     const auto chart = plate::drawProfile(title, stations);
     return chart ? writePng(options.output, *chart) : Result<void>(chart.error());
   }
+  if (globals.json && options.output.empty()) return printJson(profileReport(title, stations));
   const std::string csv = plate::profileCsv(stations);
   return options.output.empty() ? printText(csv) : writeFileAtomically(options.output, csv);
 }
@@ -355,7 +367,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   const std::string extension = extensionOf(options.output);
   if (!options.output.empty() && extension != ".csv" && extension != ".png")
     return Error{Fault::usage, "-o " + options.output + ": a profile is a table (.csv) or a picture (.png)"};
-  if (!options.profile.empty()) return printProfile(options);
+  if (!options.profile.empty()) return printProfile(globals, options);
   if (!options.output.empty())
     return Error{Fault::usage, "-o writes a vessel's profile; name the vessel with --profile"};
   auto report = [&]() -> Result<Report> {

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -68,6 +69,19 @@ int runCommand(Command& command) {
   return int(result.error().fault);
 }
 
+// "nan" and "inf" can be read as numbers, and would pass a range; no option means anything by them.
+void refuseNoNumbers(CLI::App& app) {
+  const auto fault = [](const std::string& text) {
+    double value = 0;
+    return CLI::detail::lexical_cast(text, value) && !std::isfinite(value) ? text + ": must be a finite number"
+                                                                           : std::string();
+  };
+  for (CLI::Option* option : app.get_options())
+    if (option->get_type_name().starts_with("FLOAT")) option->check(CLI::Validator(fault, ""));
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    refuseNoNumbers(*command);
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
@@ -101,6 +115,7 @@ int run(int argc, char** argv) {
   addBench(app, command);
   addDevices(app, command);
   addHelp(app, command);
+  refuseNoNumbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -9,6 +9,8 @@ namespace vasa::cli {
 Result<void> checkNetworkOutput(const std::filesystem::path& file) {
   constexpr std::array kOthers{".glb", ".gltf", ".vrm", ".obj", ".stl", ".vtp",  ".vtk",
                                ".swc", ".bvh",  ".csv", ".png", ".ply", ".json", ".vedit"};
+  if (file == "-")
+    return Error{Fault::usage, "-o -: a network is written to a file, not to standard output; name a .vasa"};
   const std::string extension = extensionOf(file);
   for (const char* other : kOthers)
     if (extension == other)

@@ -135,6 +135,10 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
   if (!quads) return quads.error();
   const auto shard = parseShard(options.shard);
   if (!shard) return shard.error();
+  if (shard->count > 1 && !options.video.empty())
+    return Error{Fault::usage,
+                 "--video films every frame and --shard draws some; draw the shards' pictures with -o, then film "
+                 "them with the same -o, --resume and --video (vasa help clusters)"};
   if (auto fine = checkLabels(options); !fine) return fine.error();
   const FilesRead files;
   auto choice = chooseScene(options.scene);

@@ -21,6 +21,7 @@ constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower tha
 constexpr std::uint32_t kFramesCompared = 12;
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
 constexpr float kStiffSure = 0.8f;                      // where the trunk is not followed
+constexpr float kTurnedRoundSure = 0.4f;                // where joints stand the other way round
 constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
 
 class Retargeter {
@@ -246,7 +247,23 @@ class Retargeter {
     const float plausible = plausibility(from_) * plausibility(to_);
     if (!told) out.sureness *= plausible * plausible;
     if (out.trunkMissing > kTrunkFollowed) out.sureness *= kStiffSure;
+    out.turnedRound = turnedRound();
+    if (!out.turnedRound.empty()) out.sureness *= kTurnedRoundSure;
     out.sureness *= 1 - std::clamp((out.meanAngle - kGoodAngle) / (kLostAngle - kGoodAngle), 0.0f, 1.0f);
+  }
+
+  std::string turnedRound() const {
+    const auto carries = [](const Rig& rig, std::uint32_t above, std::uint32_t joint) {
+      while (joint != kNone && joint != above) joint = rig.parents[joint];
+      return joint == above;
+    };
+    for (std::uint32_t j = 0; j < source_.size(); ++j)
+      for (std::uint32_t above = to_.parents[j]; above != kNone; above = to_.parents[above]) {
+        if (source_[j] == kNone || source_[above] == kNone || source_[j] == source_[above]) continue;
+        if (carries(from_, source_[j], source_[above]))
+          return "'" + to_.names[above] + "' above '" + to_.names[j] + "'";
+      }
+    return "";
   }
 
   // How far a trunk is bent against the hips, beside how it stands [degrees].
@@ -293,6 +310,8 @@ std::string describeMatch(const Retargeting& done) {
   if (done.trunkMissing > kTrunkFollowed)
     text += ", trunk: not followed (it bends by up to " +
             std::to_string(int(std::lround(done.trunkMissing))) + " degrees less)";
+  if (!done.turnedRound.empty())
+    text += ", the wrong way round: " + done.turnedRound + ", which follow joints that stand the other way";
   if (done.up != vec3(0, 1, 0))
     text += ", up is " + std::string(done.up.x + done.up.y + done.up.z < 0 ? "-" : "+") +
             (done.up.x != 0   ? "X"

@@ -23,6 +23,9 @@ struct Retargeting {
   /// [degrees] The most that the trunk's bend lacks in those of some frames in which it is less than half of
   /// the motion's.
   float trunkMissing = 0;
+  /// "'Head' above 'Hips'": two joints of the body of which the first carries the second, though the one that
+  /// the second follows carries the first's; empty: there are none.
+  std::string turnedRound;
 };
 constexpr float kLeastSureness = 0.5f;
 constexpr float kTrunkFollowed = 15;  ///< [degrees] trunkMissing beyond which the trunk is not followed
@@ -49,8 +52,9 @@ constexpr float kTrunkFollowed = 15;  ///< [degrees] trunkMissing beyond which t
 /// Sureness is the share of the fourteen parts that make a person move (of those that either has), times 0.95
 /// where only words and 0.8 where only the shape told them, times the square of the share of what must hold
 /// between them that does (shins behind thighs, both sides alike, legs away from the trunk), less where limbs
-/// end up more than 10 degrees from the motion's, and times 0.8 where the trunk bends against the hips by
-/// less than half of what the motion's does, and by more than kTrunkFollowed less.
+/// end up more than 10 degrees from the motion's, times 0.8 where the trunk bends against the hips by less
+/// than half of what the motion's does, and by more than kTrunkFollowed less, and times 0.4 where joints are
+/// paired that stand the other way round (a map with hips and head exchanged).
 ///
 /// Fails with badInput that names both and what is missing: the map names a joint that does not exist, no
 /// hips, fewer than six joints that follow one; without a map, sureness below kLeastSureness. O(frames ·

@@ -96,6 +96,17 @@ Clip readClip(const Asset& asset, const Model::Animation& animation,
   return clip;
 }
 
+// "walk", then "walk 2": so that each can be chosen by its name.
+std::string nameAmong(const std::vector<Clip>& clips, const std::string& wanted) {
+  const auto taken = [&](const std::string& name) {
+    return std::ranges::any_of(clips, [&](const Clip& clip) { return clip.name == name; });
+  };
+  if (!taken(wanted)) return wanted;
+  std::size_t k = 2;
+  while (taken(wanted + " " + std::to_string(k))) ++k;
+  return wanted + " " + std::to_string(k);
+}
+
 }  // namespace
 
 float framesPerSecondOf(const std::vector<float>& times) {
@@ -128,6 +139,7 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
              "lasts " + std::to_string(clip.end - clip.start) +
                  " s: more than the 1000000 frames that are accepted",
              "check the key times, which are in seconds");
+    clip.name = nameAmong(clips, clip.name);
     clips.push_back(std::move(clip));
   }
   return clips;

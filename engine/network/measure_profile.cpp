@@ -16,6 +16,7 @@ void addStations(std::span<const vec4> points, float from, float to, float step,
   constexpr float kMost = 1e6f;  // stations
   const ArcLength arc(points);
   const float first = arc.along(from), last = arc.along(to);
+  if (first == last && !stations.empty()) return;  // the way ends where it came in
   const auto count = std::uint32_t(std::clamp(std::ceil(std::abs(last - first) / step), 1.0f, kMost));
   for (std::uint32_t i = 0; i <= count; ++i) {
     ProfileStation station;

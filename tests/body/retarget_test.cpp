@@ -144,6 +144,21 @@ TEST_CASE("joints without a common name are paired by a map; what is missing is 
         std::string::npos);
 }
 
+TEST_CASE("a map that exchanges arm and hand is followed, and told to be the wrong way round") {
+  std::vector<std::string> names;
+  JointMap map;
+  for (const std::string& name : kCmuNames) names.push_back("x" + name), map[name] = names.back();
+  const Body body = standing(names);
+  const auto right = retargeted(stretched(), body, map);
+  REQUIRE(right.ok());
+  CHECK(right->turnedRound.empty());
+  std::swap(map["LeftArm"], map["LeftHand"]);
+  const auto wrong = retargeted(stretched(), body, map);
+  if (!wrong.ok()) FAIL(wrong.error().message);
+  CHECK(wrong->sureness < kLeastSureness);
+  CHECK(describeMatch(*wrong).find("the wrong way round: 'xLeftArm' above 'xLeft") != std::string::npos);
+}
+
 TEST_CASE("CMU's walk on other bodies: joints within 3.5 cm of a careful transfer of the same motion") {
   VASA_REQUIRE_SHARED_DATA(data);
   const auto motion = readBvh(data / "mocap/cmu_walk_02_01.bvh");

@@ -64,6 +64,11 @@ TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are
   const auto way = runProgram({"info", out, "--profile", "abdominal aorta", "--to", "left femoral artery"});
   REQUIRE_MESSAGE(way.exit == 0, way.err);
   CHECK(std::count(way.out.begin(), way.out.end(), '\n') > 400);  // millimetres of aorta, iliac and femoral
+  const auto listed =
+      runProgram({"info", out, "--profile", "abdominal aorta", "--step", "2", "--json"}).json();
+  CHECK(listed["profile"] == "abdominal aorta");
+  CHECK(listed["station"].size() + 1 == std::size_t(std::count(profile.out.begin(), profile.out.end(), '\n')));
+  CHECK(listed["length_mm"] == listed["station"].back()["along_mm"]);
   const auto chart = (folder.path() / "way.png").string();
   CHECK(runProgram({"info", out, "--profile", "abdominal aorta", "-o", chart}).exit == 0);
   CHECK(contentOf(chart).starts_with("\x89PNG"));

@@ -67,6 +67,10 @@ TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
         {"info", "--threads", "two"},
         {"info", "--seed", "4294967296"},
         {"render", "-o", "x.jpg"},
+        {"render", "--video", "x.mp4", "--shard", "0/2"},
+        {"place", "x.vasa", "-o", "y.vasa", "--move", "nan", "0", "0"},
+        {"place", "x.vasa", "-o", "y.vasa", "--scale", "inf"},
+        {"convert", "x.glb", "-o", "-"},
         {"render", "-o", "pictures"},
         {"paper"},
         {"paper", "-o", "never", "--size", "fine"}}) {

@@ -100,6 +100,13 @@ TEST_CASE("operations on vessels that can not be are refused with the rule") {
   refuses("delete trunk", "\"side\" hangs on it; write delete ... tree to take all 2 below it away, too");
 }
 
+TEST_CASE("who joins vessels of two kinds is told which of them stays") {
+  const Network kinds = edited(smallTree(), "cut trunk 0.55 0.7\nkind \"trunk (2)\" vein");
+  const Replay joined = replayed(kinds, "join trunk \"trunk (2)\"");
+  REQUIRE(joined.applied() == 1);
+  CHECK(joined.rows[0].change.ends_with("; its kind was vein and is artery now"));
+}
+
 TEST_CASE("the last vessel can not be deleted, nor vessels joined that both meet others") {
   const Network one = edited(smallTree(), "delete trunk tree");
   CHECK(refusalOf(one, "delete far").find("no vessel would be left") != std::string::npos);

@@ -59,6 +59,18 @@ TEST_CASE("joints, rest pose, clip and skin of a body worked by hand") {
   CHECK(near(bent[2], {0.5f, 0.5f, 0}));
 }
 
+TEST_CASE("clips of one name can each be chosen") {
+  GltfBuilder file = bodyFile();
+  auto& animations = file.document["animations"];
+  const nlohmann::json first = animations[0];
+  animations.push_back(first);
+  animations.push_back(first);
+  const Body body = bodyOf(file);
+  REQUIRE(body.clips.size() == 3);
+  CHECK(body.clips[1].name == body.clips[0].name + " 2");
+  CHECK(body.clips[2].name == body.clips[0].name + " 3");
+}
+
 TEST_CASE("joints are ordered parents first, whatever order the file has") {
   GltfBuilder file = bodyFile();
   file.document["nodes"] = {{{"name", "knee"}, {"translation", {0, -0.5, 0}}},

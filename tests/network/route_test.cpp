@@ -92,4 +92,9 @@ TEST_CASE("stations along a route count on from vessel to vessel, whichever way 
           doctest::Approx(stations[k].along - stations[k - 1].along).epsilon(1e-3));
     CHECK(stations[k].radius == doctest::Approx(0.01f));
   }
+  // A way that ends where one vessel meets the next does not end twice.
+  const auto down = finder.find({tree.branch, 2}, {tree.trunk, 1});
+  REQUIRE(down);
+  const auto once = stationsAlong(tree.network, tree.network.points(), *down, 0.01f);
+  CHECK(once.back().along > once[once.size() - 2].along);
 }
