@@ -237,7 +237,7 @@ std::uint32_t windowColumns(const shared::ForkBranch& branch, std::uint32_t bran
 }
 
 ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                        std::span<SurfacePoint> vertices, const ForkSteps* fixed) {
+                        std::span<SurfacePoint> vertices, const ForkSteps* fixed, bool turns) {
   assert(vertices.size() == shape.vertices());
   ForkStumps stumps;
   const std::vector<vec2> columns = ringDirections(shape.a), ringB = ringDirections(shape.b);
@@ -299,10 +299,10 @@ ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& f
     layout.steps = *fixed;
     smoothParts(shape, layout, vertices);
   } else {
-    layout.steps = smoothFolds(shape, layout, vertices);
+    layout.steps = smoothFolds(shape, layout, vertices, turns);
     stumps.a = {a.section, tangentA, b.section.centre};
     stumps.b = {b.section, -tangentB, a.section.centre};
-    stumps.replaceFolds(shape, layout, vertices);
+    stumps.replaceFolds(shape, layout, vertices, turns);
   }
   return layout;
 }

@@ -102,7 +102,10 @@ struct ForkLayout {
 /// @param fixed     none: parts that fold in this pose are smoothed, those that fold yet become stumps. Else
 ///                  parts are smoothed so often whether they fold or not: triangles belong to the same parts
 ///                  in all poses, and move with the pose without a step
+/// @param turns     a quad that folds along one diagonal does not, if it does not along the other
+///                  (forkTriangles() of surface/fork_template.h)
 ForkLayout evaluateFork(const PosedNetwork& network, const shared::ForkRecord& fork, const ForkShape& shape,
-                        std::span<SurfacePoint> vertices, const ForkSteps* fixed = nullptr);
+                        std::span<SurfacePoint> vertices, const ForkSteps* fixed = nullptr,
+                        bool turns = true);
 
 }  // namespace vasa

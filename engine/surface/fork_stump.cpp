@@ -56,13 +56,15 @@ vec3 Stump::tip() const {
   return towards + std::max(kStumpLeast * ring.radius - depth, 0.0f) * inward;
 }
 
-ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices) {
+ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices,
+                      bool turns) {
+  const std::span<const SurfacePoint> turning = turns ? vertices : std::span<SurfacePoint>();
   ForkSteps steps;
   for (std::uint32_t step = 0; step < shared::kMostSmoothings; ++step) {
     std::array<bool, shared::kMostBranches> folded{};
     for (std::uint32_t i = 0; i < shape.branchCount; ++i)
-      folded[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
-    const bool trunk = anyFolds(vertices, trunkTriangles(shape, layout));
+      folded[i] = anyFolds(vertices, branchTriangles(shape, layout, i, turning));
+    const bool trunk = anyFolds(vertices, trunkTriangles(shape, layout, turning));
     if (!trunk && std::ranges::none_of(folded, std::identity{})) break;
     if (trunk) smoothTrunk(shape, vertices), ++steps.trunk;
     for (std::uint32_t i = 0; i < shape.branchCount; ++i)
@@ -71,11 +73,12 @@ ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::spa
   return steps;
 }
 
-void ForkStumps::replaceFolds(const ForkShape& shape, ForkLayout& layout,
-                              std::span<SurfacePoint> vertices) const {
+void ForkStumps::replaceFolds(const ForkShape& shape, ForkLayout& layout, std::span<SurfacePoint> vertices,
+                              bool turns) const {
+  const std::span<const SurfacePoint> turning = turns ? vertices : std::span<SurfacePoint>();
   for (std::uint32_t i = 0; i < shape.branchCount; ++i)
-    layout.stump[i] = anyFolds(vertices, branchTriangles(shape, layout, i));
-  layout.cut = anyFolds(vertices, trunkTriangles(shape, layout));
+    layout.stump[i] = anyFolds(vertices, branchTriangles(shape, layout, i, turning));
+  layout.cut = anyFolds(vertices, trunkTriangles(shape, layout, turning));
   if (layout.cut) {
     write(a, shape, layout.a, {0, 1, 2}, vertices);
     write(b, shape, layout.b, {shared::kTrunkRows - 1, shared::kTrunkRows - 2, shared::kTrunkRows - 2},

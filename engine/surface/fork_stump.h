@@ -20,12 +20,14 @@ struct ForkStumps {
 
   /// Puts stumps in the place of parts that still fold: of one branch, or of all tubes where the trunk does,
   /// the wall where stumps left no hole included. Sets layout.stump and layout.cut. To be called after
-  /// smoothFolds().
-  void replaceFolds(const ForkShape& shape, ForkLayout& layout, std::span<SurfacePoint> vertices) const;
+  /// smoothFolds(). @param turns  as evaluateFork()'s
+  void replaceFolds(const ForkShape& shape, ForkLayout& layout, std::span<SurfacePoint> vertices,
+                    bool turns) const;
 };
 
 /// Smooths parts of a fork that fold until they do not, at most shared::kMostSmoothings times
-/// (surface/fork_smooth.h). @return how often
-ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices);
+/// (surface/fork_smooth.h). @param turns  as evaluateFork()'s @return how often
+ForkSteps smoothFolds(const ForkShape& shape, const ForkLayout& layout, std::span<SurfacePoint> vertices,
+                      bool turns);
 
 }  // namespace vasa

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/fork_check.h"
+
 // Two rows of as many vertices are joined by quads, others by stepping along both at like shares of the way.
 // The wall between window and hole is triangulated as between a circle and a rectangle around it, by the
 // directions of their vertices from the circle's middle, the hole's half length and angle being the units.
@@ -18,8 +20,8 @@ float squareWay(vec2 d) {
 
 class Writer {
  public:
-  Writer(const ForkShape& shape, const ForkLayout& layout)
-      : shape_(shape), layout_(layout), columns_(ringDirections(shape.a)) {}
+  Writer(const ForkShape& shape, const ForkLayout& layout, std::span<const SurfacePoint> vertices)
+      : shape_(shape), layout_(layout), vertices_(vertices), columns_(ringDirections(shape.a)) {}
 
   void trunk() {
     quads(0);
@@ -63,9 +65,24 @@ class Writer {
     for (std::uint32_t k = 0; k < m; ++k) {
       if (aroundWindows && inWindow(k)) continue;
       const std::uint32_t next = k + 1 == m ? 0 : k + 1;
-      add(low + k, low + next, high + next);
-      add(low + k, high + next, high + k);
+      quad(low + k, low + next, high + next, high + k);
     }
+  }
+
+  // Cut in two from a to c, or from b to d where only that does not fold.
+  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    const bool other = !vertices_.empty() && (foldsAt(a, b, c) || foldsAt(a, c, d)) && !foldsAt(b, c, d) &&
+                       !foldsAt(b, d, a);
+    if (other) {
+      add(b, c, d);
+      add(b, d, a);
+    } else {
+      add(a, b, c);
+      add(a, c, d);
+    }
+  }
+  bool foldsAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    return folds(vertices_[a], vertices_[b], vertices_[c]);
   }
 
   void strip(std::uint32_t row) {
@@ -125,6 +142,7 @@ class Writer {
 
   const ForkShape& shape_;
   const ForkLayout& layout_;
+  std::span<const SurfacePoint> vertices_;
   std::vector<vec2> columns_;
   ForkWindow window_;
 };
@@ -143,20 +161,23 @@ std::uint32_t outlineVertex(const ForkShape& shape, const ForkWindow& window, st
   return shape.rowStart(place.x) + (window.first + place.y) % shape.a;
 }
 
-std::vector<uvec3> trunkTriangles(const ForkShape& shape, const ForkLayout& layout) {
-  Writer writer(shape, layout);
+std::vector<uvec3> trunkTriangles(const ForkShape& shape, const ForkLayout& layout,
+                                  std::span<const SurfacePoint> vertices) {
+  Writer writer(shape, layout, vertices);
   writer.trunk();
   return std::move(writer.triangles);
 }
 
-std::vector<uvec3> branchTriangles(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch) {
-  Writer writer(shape, layout);
+std::vector<uvec3> branchTriangles(const ForkShape& shape, const ForkLayout& layout, std::uint32_t branch,
+                                   std::span<const SurfacePoint> vertices) {
+  Writer writer(shape, layout, vertices);
   writer.branch(branch);
   return std::move(writer.triangles);
 }
 
-std::vector<uvec3> forkTriangles(const ForkShape& shape, const ForkLayout& layout) {
-  Writer writer(shape, layout);
+std::vector<uvec3> forkTriangles(const ForkShape& shape, const ForkLayout& layout,
+                                 std::span<const SurfacePoint> vertices) {
+  Writer writer(shape, layout, vertices);
   for (std::uint32_t branch = 0; branch < shape.branchCount; ++branch) writer.branch(branch);
   writer.trunk();
   return std::move(writer.triangles);

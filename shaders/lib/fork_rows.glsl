@@ -52,14 +52,19 @@ bool folds(SurfacePoint a, SurfacePoint b, SurfacePoint c) {
 
 void add(uint a, uint b, uint c) { list[triangles++] = a | b << 8 | c << 16; }
 
+bool foldsAt(Corner a, Corner b, Corner c) { return folds(a.point, b.point, c.point); }
+
 void addTriangle(Corner a, Corner b, Corner c) {
-  folded = folded || folds(a.point, b.point, c.point);
+  folded = folded || foldsAt(a, b, c);
   add(a.vertex, b.vertex, c.vertex);
 }
 
+// Cut in two from a to c, or from b to d where only that does not fold.
 void addQuad(Corner a, Corner b, Corner c, Corner d) {
-  addTriangle(a, b, c);
-  addTriangle(a, c, d);
+  bool first = foldsAt(a, b, c) || foldsAt(a, c, d), other = first && !foldsAt(b, c, d) && !foldsAt(b, d, a);
+  folded = folded || (first && !other);
+  add(other ? b.vertex : a.vertex, other ? c.vertex : b.vertex, other ? d.vertex : c.vertex);
+  add(other ? b.vertex : a.vertex, other ? d.vertex : c.vertex, other ? a.vertex : d.vertex);
 }
 
 #endif

@@ -39,7 +39,7 @@ void checkAgainstReference(const Forks& passes) {
       position = std::max(position, glm::distance(vec3(v.x, v.y, v.z), points[k].position));
       normal = std::max(normal, glm::distance(unpackOctahedral(v.normal), points[k].normal));
     }
-    for (const uvec3& t : forkTriangles(shape, layout)) wanted.push_back(t + base);
+    for (const uvec3& t : forkTriangles(shape, layout, points)) wanted.push_back(t + base);
   }
   CHECK(position <= 1e-6f);
   CHECK(normal <= 2e-4f);
