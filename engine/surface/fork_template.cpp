@@ -4,7 +4,8 @@
 
 #include "surface/fork_check.h"
 
-// Two rows of as many vertices are joined by quads, others by stepping along both at like shares of the way.
+// Two rows of as many vertices are joined by quads, others by stepping along both at like shares of the way;
+// where the triangle of a step would fold and that of a step along the other row does not, that one is taken.
 // The wall between window and hole is triangulated as between a circle and a rectangle around it, by the
 // directions of their vertices from the circle's middle, the hole's half length and angle being the units.
 // (The angle from the hole is taken as twice the tangent of its half, which rises all the way round.)
@@ -81,6 +82,10 @@ class Writer {
       add(a, c, d);
     }
   }
+  // Whether a triangle on an edge from a to b does not fold with its third corner here, but does there.
+  bool better(std::uint32_t a, std::uint32_t b, std::uint32_t here, std::uint32_t there) const {
+    return !vertices_.empty() && foldsAt(a, b, there) && !foldsAt(a, b, here);
+  }
   bool foldsAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return folds(vertices_[a], vertices_[b], vertices_[c]);
   }
@@ -90,14 +95,12 @@ class Writer {
     if (p == q) return quads(row);
     const std::uint32_t low = shape_.rowStart(row), high = shape_.rowStart(row + 1);
     for (std::uint32_t i = 0, k = 0; i < p || k < q;) {
-      const std::uint32_t a = low + (i == p ? 0 : i), b = high + (k == q ? 0 : k);
-      if (k == q || (i < p && (2 * i + 1) * q <= (2 * k + 1) * p)) {
-        ++i;
-        add(a, low + (i == p ? 0 : i), b);
-      } else {
-        ++k;
-        add(a, high + (k == q ? 0 : k), b);
-      }
+      const std::uint32_t a = low + (i == p ? 0 : i), b = high + (k == q ? 0 : k),
+                          alongLow = low + (i + 1 >= p ? 0 : i + 1), alongHigh = high + (k + 1 >= q ? 0 : k + 1);
+      bool lower = k == q || (i < p && (2 * i + 1) * q <= (2 * k + 1) * p);
+      if (i < p && k < q) lower = lower != better(b, a, lower ? alongHigh : alongLow, lower ? alongLow : alongHigh);
+      add(b, a, lower ? alongLow : alongHigh);
+      ++(lower ? i : k);
     }
   }
 
@@ -114,13 +117,15 @@ class Writer {
     for (std::uint32_t o = 0, h = 0; o < outlined || h < hole;) {
       const std::uint32_t outer = outline(o == outlined ? 0 : o), inner = first + (h == hole ? 0 : h);
       // By the middles of the next steps: both fronts keep abreast.
-      if (h == hole || (o < outlined && outerWay(o) + outerWay(o + 1) <= holeWay(h) + holeWay(h + 1))) {
-        ++o;
-        add(inner, outer, outline(o == outlined ? 0 : o));
-      } else {
-        ++h;
-        add(inner, outer, first + (h == hole ? 0 : h));
-      }
+      const std::uint32_t alongOuter = outline(o + 1 >= outlined ? 0 : o + 1),
+                          alongInner = first + (h + 1 >= hole ? 0 : h + 1);
+      bool outwards =
+          h == hole || (o < outlined && outerWay(o) + outerWay(o + 1) <= holeWay(h) + holeWay(h + 1));
+      if (o < outlined && h < hole)
+        outwards = outwards != better(inner, outer, outwards ? alongInner : alongOuter,
+                                      outwards ? alongOuter : alongInner);
+      add(inner, outer, outwards ? alongOuter : alongInner);
+      ++(outwards ? o : h);
     }
   }
 

@@ -54,9 +54,14 @@ void add(uint a, uint b, uint c) { list[triangles++] = a | b << 8 | c << 16; }
 
 bool foldsAt(Corner a, Corner b, Corner c) { return folds(a.point, b.point, c.point); }
 
-void addTriangle(Corner a, Corner b, Corner c) {
-  folded = folded || foldsAt(a, b, c);
-  add(a.vertex, b.vertex, c.vertex);
+// The triangle on an edge from a to b whose third corner is c or d, as `first` has it, or, if both are to be had, the other
+// where only that does not fold. @return whether it is c
+bool addEither(Corner a, Corner b, Corner c, Corner d, bool first, bool both) {
+  bool one = foldsAt(a, b, c), other = foldsAt(a, b, d);
+  if (both && one != other) first = other;
+  folded = folded || (first ? one : other);
+  add(a.vertex, b.vertex, first ? c.vertex : d.vertex);
+  return first;
 }
 
 // Cut in two from a to c, or from b to d where only that does not fold.

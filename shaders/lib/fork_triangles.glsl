@@ -35,15 +35,13 @@ void addUneven(ForkShape shape, uint row) {
   Corner a = cornerAt(low), b = cornerAt(high);
   do {
     bool lower = k == q || (i < p && (2 * i + 1) * q <= (2 * k + 1) * p);
-    uint next = lower ? i + 1 : k + 1;
-    Corner third = cornerAt(lower ? low + (next == p ? 0 : next) : high + (next == q ? 0 : next));
-    addTriangle(a, third, b);
-    if (lower) {
+    Corner alongLow = cornerAt(low + (i + 1 >= p ? 0 : i + 1)), alongHigh = cornerAt(high + (k + 1 >= q ? 0 : k + 1));
+    if (addEither(b, a, alongLow, alongHigh, lower, i < p && k < q)) {
       ++i;
-      a = third;
+      a = alongLow;
     } else {
       ++k;
-      b = third;
+      b = alongHigh;
     }
   } while (i < p || k < q);
 }

@@ -68,18 +68,18 @@ void addWall(ForkShape shape, uint branch) {
   do {
     precise float outerSum = outerFrom + outerTo, holeSum = holeFrom + holeTo;
     bool outwards = h == hole || (o < outline && outerSum <= holeSum);
-    uint next = outwards ? o + 1 : h + 1;
-    Corner third = cornerAt(outwards ? outlineVertex(shape, window, next == outline ? 0 : next) : first + (next == hole ? 0 : next));
-    addTriangle(inner, outer, third);
-    float way = outwards ? outerWay(shape, window, start, min(next + 1, outline)) : holeWay(hole, min(next + 1, hole));
+    Corner alongOuter = cornerAt(outlineVertex(shape, window, o + 1 >= outline ? 0 : o + 1));
+    Corner alongInner = cornerAt(first + (h + 1 >= hole ? 0 : h + 1));
+    outwards = addEither(inner, outer, alongOuter, alongInner, outwards, o < outline && h < hole);
+    float way = outwards ? outerWay(shape, window, start, min(o + 2, outline)) : holeWay(hole, min(h + 2, hole));
     if (outwards) {
       ++o;
-      outer = third;
+      outer = alongOuter;
       outerFrom = outerTo;
       outerTo = way;
     } else {
       ++h;
-      inner = third;
+      inner = alongInner;
       holeFrom = holeTo;
       holeTo = way;
     }
