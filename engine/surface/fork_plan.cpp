@@ -15,8 +15,8 @@
 // A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it
 // are given room. A branch without room is dropped; that lengthens its own line again, so lines are gone
 // through until no branch is dropped any more. Then forks that fold are mended, and all is done again.
-// Branches are only ever dropped, tried in another manner, once each, until the best of them is settled, or
-// hung on another host, once, so this ends. The first manners make the widest fillets, which look most like a vessel that opens into
+// Branches are only ever dropped or tried in another manner, once each, until the best of them is settled, so
+// this ends. The first manners make the widest fillets, which look most like a vessel that opens into
 // another.
 namespace vasa {
 namespace {
@@ -30,8 +30,6 @@ constexpr Manner kManners[] = {
     {1.3f, 4, 0.9f}, {1.3f, 4, 0.6f},      {1.0f, 3, 0.6f},     {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
     {1.4f, 3, 0.5f}, {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},     {0.3f, 1, 0.15f},  {1.2f, 1.5f, 0.2f},
     {2.5f, 4, 0.5f}, {0.5f, 2, 0.15f},     {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
-constexpr int kWayOver = 16;  // a way of ForkWays: a manner, and so many times over_
-static_assert(std::size(kManners) < kWayOver);
 constexpr float kSliver = 0.1f;  // of the radius: shorter tubes go to the forks beside them
 
 enum class Fate { none, forked, hidden, tooShort, crowded, folded };
@@ -50,7 +48,6 @@ class Planner {
     old_.resize(lines_.lines.size(), true);
     for (const VesselLine& line : lines_.lines) keys_.push_back(line.key());
     trials_.resize(exits_.size());
-    over_.resize(exits_.size(), 0);
     for (std::uint32_t end = 0; end < exits_.size(); ++end)
       if (const LineEnd& lineEnd = lines_.ends[end / 2][end % 2]; lineEnd.kind == LineEnd::Kind::branch)
         children_[lineEnd.host].push_back(end);
@@ -70,9 +67,7 @@ class Planner {
     for (std::uint32_t end = 0; end < exits_.size(); ++end) {
       const std::size_t own = vesselEnd(end);
       const std::uint8_t way = own < before.of.size() ? before.of[own] : std::uint8_t(0);
-      const bool tube = way == ForkWays::kTube;
-      if (const int over = tube ? 0 : way / kWayOver; over > 0) hangBeyond(end, over == 2);
-      trials_[end].manner = tube ? 0 : way % kWayOver;
+      trials_[end].manner = way == ForkWays::kTube ? 0 : way;
       findExit(end);
       if (way == ForkWays::kTube && forked(end)) fates_[end] = Fate::folded;
     }
@@ -114,31 +109,6 @@ class Planner {
   void drop(std::uint32_t end, Fate fate) {
     fates_[end] = fate;
     touch(end);
-  }
-
-  // A branch that leaves its host where that has not yet left its own host leaves that one, beside it.
-  // @param last  of the host's ends
-  void hangBeyond(std::uint32_t end, bool last) {
-    LineEnd& own = lines_.ends[end / 2][end % 2];
-    const LineEnd beyond = lines_.ends[own.host][last];
-    if (own.kind != LineEnd::Kind::branch || beyond.kind != LineEnd::Kind::branch || beyond.host == end / 2)
-      return;
-    std::erase(children_[own.host], end);
-    children_[beyond.host].push_back(end);
-    own = beyond;
-    over_[end] = last ? 2 : 1;
-  }
-
-  // Once. @return false where it stays
-  bool rehang(const ForkLeaving& leaving, Range range) {
-    const std::uint32_t end = leaving.child, host = lines_.ends[end / 2][end % 2].host;
-    const bool last = leaving.centre > range.high;
-    if (over_[end] > 0 || !(leaving.centre < range.low || last) || !forked(2 * host + last)) return false;
-    touch(end);
-    hangBeyond(end, last);
-    trials_[end] = {};
-    findExit(end);
-    return over_[end] > 0;
   }
 
   void findExit(std::uint32_t end) {
@@ -231,8 +201,7 @@ class Planner {
     plan.ways.of.assign(2 * network_.vessels().size(), 0);
     for (std::uint32_t end = 0; end < exits_.size(); ++end)
       if (lines_.ends[end / 2][end % 2].kind == LineEnd::Kind::branch)
-        plan.ways.of[vesselEnd(end)] =
-            forked(end) ? std::uint8_t(over_[end] * kWayOver + trials_[end].manner) : ForkWays::kTube;
+        plan.ways.of[vesselEnd(end)] = forked(end) ? std::uint8_t(trials_[end].manner) : ForkWays::kTube;
     return plan;
   }
 
@@ -349,8 +318,7 @@ class Planner {
       }
     }
     if (worst) {
-      const ForkLeaving leaving = worst->thinnest();
-      if (!rehang(leaving, range)) drop(leaving.child, Fate::crowded);
+      drop(worst->thinnest().child, Fate::crowded);
       return false;
     }
     for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
@@ -439,7 +407,6 @@ class Planner {
   std::vector<ForkExit> exits_;      // 2 * line + end
   std::vector<Fate> fates_;
   std::vector<Trial> trials_;
-  std::vector<std::uint8_t> over_;  // of each end: hung on its host's host, by that one's first end (1) or last
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<ForkItem>> items_;
   std::vector<char> unsettled_, old_;  // lines of which something is another since they were settled, emitted
