@@ -6,6 +6,7 @@
 
 #include "support/networks.h"
 #include "surface/fork_check.h"
+#include "surface/fork_template.h"
 
 using namespace vasa;
 
@@ -82,6 +83,27 @@ TEST_CASE("smoothing leaves forks that do not fold as they are, to the bit, and 
   MESSAGE(folded << " fold, " << stumps << " are stumps");
   CHECK(folded >= 10);
   CHECK(5 * stumps <= folded);
+}
+
+TEST_CASE("what another cut through its quads unfolds is not smoothed, and has as many triangles") {
+  const Network network = test::branchingNetwork(61, 4);
+  Waves waves(network);
+  const PosedNetwork posed = waves.at(0.006f);
+  std::uint32_t turned = 0, kept = 0, cut = 0;
+  for (const shared::ForkRecord& fork : waves.table.forks) {
+    const ForkShape shape = forkShape(waves.table, fork, [](std::uint32_t) { return 8u; });
+    std::vector<SurfacePoint> points(shape.vertices());
+    kept += evaluateFork(posed, fork, shape, points, nullptr, false).steps.most();
+    const ForkLayout layout = evaluateFork(posed, fork, shape, points);
+    turned += layout.steps.most();
+    const std::vector<uvec3> always = forkTriangles(shape, layout, {}),
+                             now = forkTriangles(shape, layout, points);
+    CHECK(now.size() == always.size());
+    cut += now != always;
+  }
+  MESSAGE(turned << " steps for " << kept << ", " << cut << " forks with a quad cut otherwise");
+  CHECK(2 * turned < kept);
+  CHECK(cut > 5);
 }
 
 TEST_CASE("a fork that begins to fold hardly jumps") {
