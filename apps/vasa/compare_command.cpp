@@ -84,7 +84,9 @@ void addCompare(CLI::App& app, Command& command) {
       "the first's centre line from the other's, `back`: of the other's from the first's. The farthest apart come first.");
   sub->add_option("NETWORK", options->network, "The network (.vasa)")->required();
   sub->add_option("OTHER", options->other, "The one it is compared with (.vasa)")->required();
-  sub->add_option("--rows", options->rows, "Rows of the table")->capture_default_str();
+  sub->add_option("--rows", options->rows, "Rows of the table")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -140,20 +140,23 @@ Result<bool> Film::isPresent(std::uint32_t frame) const {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
   const auto comment = readPngComment(path);
-  if (comment && *comment == stamp()) return true;
+  if (!comment) return false;  // no whole picture: a copy that was interrupted
+  if (*comment == stamp(frame)) return true;
   return Error{Fault::resumeMismatch,
                path.string() +
                    ": was made by another run (other scene, clip or settings), so --resume "
                    "cannot go on from it; choose another output or leave out --resume"};
 }
 
-std::string Film::stamp() const { return fmt::format("vasa run {:016x}", job_.runHash); }
+std::string Film::stamp(std::uint32_t frame) const {
+  return fmt::format("vasa run {:016x} frame {}", job_.runHash, frame);
+}
 
 Result<void> Film::write(std::uint32_t frame, const Image& picture) {
   if (video_)
     if (auto written = video_->write(picture); !written) return written;
   if (!job_.pattern && !job_.printed) return {};
-  const auto bytes = encodePng(picture, {.alpha = job_.look.transparent, .comment = stamp()});
+  const auto bytes = encodePng(picture, {.alpha = job_.look.transparent, .comment = stamp(frame)});
   if (!bytes) return bytes.error();
   if (job_.pattern) return writeFileAtomically(job_.pattern->of(frame), *bytes);
   return printBytes(*bytes);

@@ -67,7 +67,7 @@ class Film {
   std::vector<std::uint32_t> withoutHidden(std::vector<std::uint32_t> colours) const;
   void highlightContacts();
   Result<bool> isPresent(std::uint32_t frame) const;
-  std::string stamp() const;
+  std::string stamp(std::uint32_t frame) const;
   Result<void> write(std::uint32_t frame, const Image& picture);
   Result<void> finishWriting();
   void noteStep(std::uint32_t frame);

@@ -84,10 +84,12 @@ Result<FramePattern> FramePattern::parse(const std::string& text, bool several) 
   FramePattern pattern;
   const auto open = text.find('{');
   if (open == std::string::npos) {
-    if (several)
+    if (several) {
+      const std::string extension = std::filesystem::path(text).extension().string();
       return usage("-o " + text +
-                   ": several frames would overwrite one file; put the number into the name, for example "
-                   "'frame_{frame:04}.png'");
+                   ": several frames would overwrite one file; put the number into the name, for example '" +
+                   text.substr(0, text.size() - extension.size()) + "_{frame:04}" + extension + "'");
+    }
     pattern.before_ = text;
     return pattern;
   }

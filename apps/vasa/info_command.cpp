@@ -300,7 +300,8 @@ Report profileReport(const std::string& title, std::span<const ProfileStation> s
                     {"radius_mm", 1e3 * double(at.radius)},
                     {"area_mm2", 1e6 * double(at.area())},
                     {"curvature_per_mm", 1e-3 * double(at.curvature)}});
-  return {{"profile", title}, {"length_mm", 1e3 * double(stations.back().along)}, {"station", std::move(rows)}};
+  return {
+      {"profile", title}, {"length_mm", 1e3 * double(stations.back().along)}, {"station", std::move(rows)}};
 }
 
 // A vessel's stations. A bare .vasa file is read without its scene's body.

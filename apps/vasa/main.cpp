@@ -69,17 +69,25 @@ int runCommand(Command& command) {
   return int(result.error().fault);
 }
 
-// "nan" and "inf" can be read as numbers, and would pass a range; no option means anything by them.
-void refuseNoNumbers(CLI::App& app) {
-  const auto fault = [](const std::string& text) {
+// "nan" and "inf" can be read as numbers, and would pass a range; no option means anything by them. A word
+// that is empty is a script's variable that was never set: to take it for an option that was not given would
+// draw all frames for one shard.
+void refuseNothing(CLI::App& app) {
+  const auto noNumber = [](const std::string& text) {
     double value = 0;
-    return CLI::detail::lexical_cast(text, value) && !std::isfinite(value) ? text + ": must be a finite number"
-                                                                           : std::string();
+    return CLI::detail::lexical_cast(text, value) && !std::isfinite(value)
+               ? text + ": must be a finite number"
+               : std::string();
   };
-  for (CLI::Option* option : app.get_options())
-    if (option->get_type_name().starts_with("FLOAT")) option->check(CLI::Validator(fault, ""));
-  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    refuseNoNumbers(*command);
+  const auto noWord = [](const std::string& text) {
+    return text.empty() ? std::string("is empty; leave it out, or give it a value") : std::string();
+  };
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(CLI::Validator(noNumber, ""));
+    if (option->get_type_name().starts_with("TEXT") && option->get_name() != "--title")
+      option->check(CLI::Validator(noWord, ""));
+  }
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuseNothing(*command);
 }
 
 }  // namespace
@@ -115,7 +123,7 @@ int run(int argc, char** argv) {
   addBench(app, command);
   addDevices(app, command);
   addHelp(app, command);
-  refuseNoNumbers(app);
+  refuseNothing(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -169,6 +169,10 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   const auto found = sceneClip(job->scene, *file);
   if (!found) return found.error();
   const Clip* clip = *found;
+  if (!clip && options.frame > 0)
+    return Error{
+        Fault::usage,
+        fmt::format("--frame {}: without a clip there is one pose, rest; add --clip NAME", options.frame)};
   if (clip && options.frame >= clip->frameCount())
     return Error{Fault::usage, fmt::format("--frame {}: the clip has frames 0 to {}", options.frame,
                                            clip->frameCount() - 1)};

@@ -135,10 +135,20 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
   if (!quads) return quads.error();
   const auto shard = parseShard(options.shard);
   if (!shard) return shard.error();
-  if (shard->count > 1 && !options.video.empty())
+  if (std::max(size->width, size->height) * options.supersample > 16384)
     return Error{Fault::usage,
-                 "--video films every frame and --shard draws some; draw the shards' pictures with -o, then film "
-                 "them with the same -o, --resume and --video (vasa help clusters)"};
+                 fmt::format("--size {} --supersample {}: would be drawn {} pixels wide or high, and "
+                             "16384 is the most; make one of the two smaller",
+                             options.size, options.supersample,
+                             std::max(size->width, size->height) * options.supersample)};
+  if (options.transparent && !options.video.empty())
+    return Error{Fault::usage,
+                 "--transparent: videos have no alpha; write pictures (-o) alone, or leave it out"};
+  if (shard->count > 1 && !options.video.empty())
+    return Error{
+        Fault::usage,
+        "--video films every frame and --shard draws some; draw the shards' pictures with -o, then film "
+        "them with the same -o, --resume and --video (vasa help clusters)"};
   if (auto fine = checkLabels(options); !fine) return fine.error();
   const FilesRead files;
   auto choice = chooseScene(options.scene);

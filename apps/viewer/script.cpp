@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/letters.h"
 #include "viewer/quoted.h"
 
 namespace vasa::viewer {
@@ -44,7 +45,8 @@ constexpr NamedKey kKeys[] = {
 };
 constexpr const char* kButtons[] = {"left", "right", "middle"};
 
-Key keyNamed(const std::string& name) {
+Key keyNamed(const std::string& given) {
+  const std::string name = lowerCase(given);
   for (const NamedKey& known : kKeys)
     if (name == known.name) return known.key;
   if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
@@ -162,7 +164,11 @@ class LineReader {
     std::string name;
     words_ >> name;
     const Key key = keyNamed(name);
-    if (key == Key::none) return "'" + name + "' is no key's name";
+    if (key == Key::none) {
+      std::string known;
+      for (const NamedKey& each : kKeys) known += std::string(", ") + each.name;
+      return "'" + name + "' is no key's name: a letter, a digit, f1 to f12" + known;
+    }
     if (verb == "key") put(KeyChanged{key, true});
     return addEvent(KeyChanged{key, verb == "hold"});
   }

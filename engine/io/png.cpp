@@ -116,16 +116,18 @@ Result<std::string> readPngComment(const std::filesystem::path& path) {
   if (bytes->size() < kSignature ||
       png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes->data()), 0, kSignature) != 0)
     return badInput(path.string() + ": is not a PNG");
+  std::string comment;
   for (std::size_t at = kSignature; at + kFrame <= bytes->size();) {
     const std::size_t length = number(at);
     if (length > bytes->size() - at - kFrame) break;
     const std::string_view data(reinterpret_cast<const char*>(bytes->data()) + at + 8, length);
     if (std::memcmp(bytes->data() + at + 4, "tEXt", 4) == 0 && data.starts_with(kCommentKey) &&
         data.size() > std::strlen(kCommentKey))
-      return std::string(data.substr(std::strlen(kCommentKey) + 1));
+      comment = data.substr(std::strlen(kCommentKey) + 1);
+    if (std::memcmp(bytes->data() + at + 4, "IEND", 4) == 0) return comment;
     at += kFrame + length;
   }
-  return std::string();
+  return badInput(path.string() + ": the PNG is cut off; make it again");
 }
 
 }  // namespace vasa

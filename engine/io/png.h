@@ -27,7 +27,7 @@ Result<void> writePng(const std::filesystem::path& path, const Image& image, Png
 Result<Image> decodePng(std::span<const std::byte> bytes, const std::string& name);
 Result<Image> readPng(const std::filesystem::path& path);
 
-/// The comment that a PNG file carries; empty if it has none. Looks at the head of the file only.
+/// The comment that a PNG file carries; empty if it has none. Fails with badInput where the file is cut off.
 Result<std::string> readPngComment(const std::filesystem::path& path);
 
 }  // namespace vasa

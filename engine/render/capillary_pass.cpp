@@ -15,7 +15,6 @@ namespace vasa {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> kEdges{shared::kThreads, 3, 5, 8, shared::kMostCapillaryEdges};
-constexpr std::uint32_t kThinEdges = 3;  // most of curves that are thin in the picture (plan.cpp)
 constexpr vec4 kBedColour{0.62f, 0.15f, 0.36f, 1};
 
 std::size_t edgesIndex(std::uint32_t edges) {
@@ -88,9 +87,9 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
   frame_ = gpu::Buffer(device, {"capillary frame", frameBytes});
 }
 
-// Most runs need one or two of the twelve.
-const gpu::GraphicsPipeline& CapillaryPass::pipelineFor(bool thin, LookStyle style, bool partial) const {
-  auto& made = draw_[thin][std::size_t(style)][partial];
+// Most runs need one of the six.
+const gpu::GraphicsPipeline& CapillaryPass::pipelineFor(LookStyle style, bool partial) const {
+  auto& made = draw_[std::size_t(style)][partial];
   if (made) return *made;
   const RibbonLayout layout;
   gpu::GraphicsSpec spec{.name = "capillaries",
@@ -106,12 +105,11 @@ const gpu::GraphicsPipeline& CapillaryPass::pipelineFor(bool thin, LookStyle sty
                          .blend = gpu::Blend::premultiplied};
   spec.constants.set(0, std::uint32_t(style));
   if (partial) spec.constants.set(1, std::uint32_t(target_.samples));
-  // What is thinner than a pixel hides little, and its fading edges less than that: thin curves lie over one
-  // another, the farthest first, and would glitter if they hid one another.
-  if (thin) spec.depthWrite = false;
+  // Curves hide little where they are thinner than a pixel or deep under the skin, and their fading edges less
+  // than that: they lie over one another, the farthest beds first, and hide nothing that comes after them.
+  spec.depthWrite = false;
   if (style == LookStyle::xray) {
     spec.depthTest = VK_COMPARE_OP_ALWAYS;
-    spec.depthWrite = false;
     spec.blend = gpu::Blend::add;
   }
   return made.emplace(*device_, spec);
@@ -161,7 +159,7 @@ void CapillaryPass::recordGrowth(VkCommandBuffer commands, const Input& input, s
 
 void CapillaryPass::recordDraw(VkCommandBuffer commands, const Input& input, std::size_t number) const {
   const CapillaryBatch& batch = plan_.batches[number];
-  pipelineFor(batch.edges <= kThinEdges, input.style, input.partial).bind(commands, input.draw);
+  pipelineFor(input.style, input.partial).bind(commands, input.draw);
   const VkBuffer buffer = ring(number).handle();
   const VkDeviceSize offset = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);

@@ -54,7 +54,7 @@ class CapillaryPass {
   std::uint64_t ringBytes() const;  ///< of vertices
 
  private:
-  const gpu::GraphicsPipeline& pipelineFor(bool thin, LookStyle style, bool partial) const;
+  const gpu::GraphicsPipeline& pipelineFor(LookStyle style, bool partial) const;
 
   gpu::Device* device_;
   gpu::TargetSpec target_;
@@ -64,9 +64,8 @@ class CapillaryPass {
   CapillaryWish wish_;
   CapillaryPlan plan_;
   gpu::ComputePipeline grow_;
-  // Of wide curves, of thin ones; one a LookStyle; for whole frames and partial ones; made when first drawn
-  // with.
-  mutable std::array<std::array<std::array<std::optional<gpu::GraphicsPipeline>, 2>, 3>, 2> draw_;
+  // One a LookStyle; for whole frames and partial ones; made when first drawn with.
+  mutable std::array<std::array<std::optional<gpu::GraphicsPipeline>, 2>, 3> draw_;
   std::array<gpu::Buffer, 2> rings_;
   std::array<gpu::Buffer, 5> indices_;  // of threads, and of ribbons of 3, 5, 8 and 10 edges
   gpu::Buffer tables_, bedBuffer_, spans_, colours_, host_, frame_;

@@ -30,7 +30,8 @@ std::uint32_t foldedTriangles(const PosedNetwork& network, const shared::ForkRec
   std::vector<SurfacePoint> points(shape.vertices());
   const ForkLayout layout = evaluateFork(network, fork, shape, points, fixed);
   std::uint32_t count = 0;
-  for (const uvec3& t : forkTriangles(shape, layout, fixed ? std::span<const SurfacePoint>() : points)) count += folds(points[t.x], points[t.y], points[t.z]);
+  for (const uvec3& t : forkTriangles(shape, layout, fixed ? std::span<const SurfacePoint>() : points))
+    count += folds(points[t.x], points[t.y], points[t.z]);
   return count;
 }
 

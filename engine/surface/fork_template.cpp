@@ -96,9 +96,11 @@ class Writer {
     const std::uint32_t low = shape_.rowStart(row), high = shape_.rowStart(row + 1);
     for (std::uint32_t i = 0, k = 0; i < p || k < q;) {
       const std::uint32_t a = low + (i == p ? 0 : i), b = high + (k == q ? 0 : k),
-                          alongLow = low + (i + 1 >= p ? 0 : i + 1), alongHigh = high + (k + 1 >= q ? 0 : k + 1);
+                          alongLow = low + (i + 1 >= p ? 0 : i + 1),
+                          alongHigh = high + (k + 1 >= q ? 0 : k + 1);
       bool lower = k == q || (i < p && (2 * i + 1) * q <= (2 * k + 1) * p);
-      if (i < p && k < q) lower = lower != better(b, a, lower ? alongHigh : alongLow, lower ? alongLow : alongHigh);
+      if (i < p && k < q)
+        lower = lower != better(b, a, lower ? alongHigh : alongLow, lower ? alongLow : alongHigh);
       add(b, a, lower ? alongLow : alongHigh);
       ++(lower ? i : k);
     }

@@ -210,7 +210,8 @@ class MeshLayout {
       const auto [target, own] = targetOf(place, layout, vertex);
       if (own) put(target, points[vertex], network_.table.vesselOfFork[index]);
     }
-    std::vector<uvec3> triangles = forkTriangles(shape, layout, fixed_.empty() ? points : std::span<const SurfacePoint>());
+    std::vector<uvec3> triangles =
+        forkTriangles(shape, layout, fixed_.empty() ? points : std::span<const SurfacePoint>());
     for (uvec3& t : triangles)
       t = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first,
            targetOf(place, layout, t.z).first};

@@ -127,6 +127,19 @@ TEST_CASE("shards share a film without overlap, and --resume keeps what is there
   CHECK(resumed.json()["frames"] == 2);
   CHECK(resumed.json()["frames_kept"] == 2);
   CHECK(listOf(folder.path()).size() == 4);
+  // What is cut off, as by a copy that was interrupted, is drawn anew; another frame's is refused.
+  const std::string whole = contentOf(folder.path() / "001.png");
+  for (const std::size_t bytes : {whole.size() - 1, whole.size() / 2, std::size_t(0)}) {
+    std::ofstream(folder.path() / "001.png", std::ios::binary) << whole.substr(0, bytes);
+    const auto mended = runProgram(walk(folder.path(), {"--frames", "0:3", "--resume", "--json"}));
+    REQUIRE_MESSAGE(mended.exit == 0, mended.err);
+    CHECK(mended.json()["frames_kept"] == 3);
+    CHECK(contentOf(folder.path() / "001.png") == whole);
+  }
+  std::filesystem::copy_file(folder.path() / "002.png", folder.path() / "001.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(runProgram(walk(folder.path(), {"--frames", "0:3", "--resume"})).exit == 7);
+  std::filesystem::remove(folder.path() / "001.png");
   const auto other = runProgram(walk(folder.path(), {"--frames", "0:3", "--resume", "--camera", "back"}));
   CHECK(other.exit == 7);
   CHECK(other.err.find("--resume cannot go on from it") != std::string::npos);

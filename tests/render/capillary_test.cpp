@@ -142,6 +142,12 @@ Picture pictureOf(const test::GpuRig& rig, const test::GrownNetwork& grown, cons
   return {renderer.readBack(), renderer.capillaryCounts()};
 }
 
+double opacityOf(const Image& image) {
+  double sum = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("the device grows what the specification says: generations, edges, seeds, both projections") {
@@ -341,15 +347,30 @@ TEST_CASE("what a renderer takes later looks as if it had been made with it; mes
   CHECK(pictures.size() == 6);
 }
 
+// Polylines of more edges are longer, and lie over themselves in bends. Where curves of five edges and more
+// hid one another, a third of this was left.
+TEST_CASE("curves of more edges are smoother, and hide one another no more") {
+  VASA_REQUIRE_GPU(rig);
+  const test::GrownNetwork grown(test::windingNetwork(10, 5));
+  const Camera camera = lookingAt(grown, 12, true);
+  RenderOptions options;
+  const double none = opacityOf(pictureOf(rig, grown, camera, options).image);
+  const auto added = [&](std::uint32_t edges) {
+    options.capillaries = {.levels = 3, .edges = edges, .smallest = 0};
+    return opacityOf(pictureOf(rig, grown, camera, options).image) - none;
+  };
+  const double few = added(3);
+  for (const std::uint32_t edges : {5u, 8u, 10u}) {
+    const double share = added(edges) / few;
+    CHECK(share > 1);
+    CHECK(share < 1.3);
+  }
+}
+
 TEST_CASE("threads look as ribbons do") {
   VASA_REQUIRE_GPU(rig);
   const test::GrownNetwork grown(test::windingNetwork(10, 5));
   const Camera camera = lookingAt(grown, 6, true);
-  const auto opacityOf = [](const Image& image) {
-    double sum = 0;
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4) sum += image.rgba[i];
-    return sum;
-  };
   RenderOptions options;
   const double none = opacityOf(pictureOf(rig, grown, camera, options).image);
   options.capillaries = {.levels = 3, .smallest = 0};
