@@ -330,9 +330,10 @@ Result<std::string> apply(const JoinEdit& edit, Draft& draft) {
       0, float(spanCount(before)));
   const VesselKind kind = draft.line(*first).label.kind, was = draft.line(*second).label.kind;
   draft.remove(*second);
-  return fmt::format("\"{}\" is part of it{}{}", other,
-                     gap > 1e-5f ? fmt::format(", over a gap of {:.1f} mm", gap / kMm) : "",
-                     was != kind ? fmt::format("; its kind was {} and is {} now", kindName(was), kindName(kind)) : "");
+  return fmt::format(
+      "\"{}\" is part of it{}{}", other,
+      gap > 1e-5f ? fmt::format(", over a gap of {:.1f} mm", gap / kMm) : "",
+      was != kind ? fmt::format("; its kind was {} and is {} now", kindName(was), kindName(kind)) : "");
 }
 
 Result<std::string> apply(const RenameEdit& edit, Draft& draft) {

@@ -105,8 +105,9 @@ const gpu::GraphicsPipeline& CapillaryPass::pipelineFor(LookStyle style, bool pa
                          .blend = gpu::Blend::premultiplied};
   spec.constants.set(0, std::uint32_t(style));
   if (partial) spec.constants.set(1, std::uint32_t(target_.samples));
-  // Curves hide little where they are thinner than a pixel or deep under the skin, and their fading edges less
-  // than that: they lie over one another, the farthest beds first, and hide nothing that comes after them.
+  // Curves hide little where they are thinner than a pixel or deep under the skin, and their fading edges
+  // less than that: they lie over one another, the farthest beds first, and hide nothing that comes after
+  // them.
   spec.depthWrite = false;
   if (style == LookStyle::xray) {
     spec.depthTest = VK_COMPARE_OP_ALWAYS;

@@ -18,7 +18,8 @@ std::vector<ForkSteps> stepsOfFilm(const SweepTable& table, const Film& film, co
     std::vector<SurfacePoint> vertices(own.vertices());
     for (const PosedFrame& frame : film.frames) {
       const ForkSteps wanted =
-          evaluateFork({table, frame.points, frame.knotFrames}, table.forks[i], own, vertices, nullptr, false).steps;
+          evaluateFork({table, frame.points, frame.knotFrames}, table.forks[i], own, vertices, nullptr, false)
+              .steps;
       steps[i].trunk = std::max(steps[i].trunk, wanted.trunk);
       for (std::size_t k = 0; k < wanted.collar.size(); ++k)
         steps[i].collar[k] = std::max(steps[i].collar[k], wanted.collar[k]);

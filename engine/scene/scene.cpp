@@ -72,8 +72,10 @@ Result<void> addMotion(const SceneFile& file, Body& body) {
   auto done = retargeted(*motion, body, map);
   if (!done) return done.error();
   const std::string match = file.clip + ": " + describeMatch(*done);
-  if (done->sureness < kLeastSureness) logWarning(match);  // a map is taken at its word
-  else logInfo(match);
+  if (done->sureness < kLeastSureness)
+    logWarning(match);  // a map is taken at its word
+  else
+    logInfo(match);
   body.clips.push_back(std::move(done->clip));
   return {};
 }

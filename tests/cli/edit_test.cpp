@@ -67,7 +67,8 @@ TEST_CASE("a stenosis of 70 % and an aneurysm of 55 mm in the built-in human are
   const auto listed =
       runProgram({"info", out, "--profile", "abdominal aorta", "--step", "2", "--json"}).json();
   CHECK(listed["profile"] == "abdominal aorta");
-  CHECK(listed["station"].size() + 1 == std::size_t(std::count(profile.out.begin(), profile.out.end(), '\n')));
+  CHECK(listed["station"].size() + 1 ==
+        std::size_t(std::count(profile.out.begin(), profile.out.end(), '\n')));
   CHECK(listed["length_mm"] == listed["station"].back()["along_mm"]);
   const auto chart = (folder.path() / "way.png").string();
   CHECK(runProgram({"info", out, "--profile", "abdominal aorta", "-o", chart}).exit == 0);

@@ -105,7 +105,8 @@ std::set<Triangle> trianglesOf(const test::Drawn& drawn) {
     for (std::uint32_t i = 0; i < draw.indexCount; i += 3) {
       const uvec3 t = test::cornersAt(drawn, draw, i);
       REQUIRE(std::max({t.x, t.y, t.z}) < drawn.vertices.size());
-      triangles.insert({bitsOf(drawn.vertices[t.x]), bitsOf(drawn.vertices[t.y]), bitsOf(drawn.vertices[t.z])});
+      triangles.insert(
+          {bitsOf(drawn.vertices[t.x]), bitsOf(drawn.vertices[t.y]), bitsOf(drawn.vertices[t.z])});
     }
   return triangles;
 }

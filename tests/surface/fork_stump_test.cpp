@@ -36,7 +36,8 @@ std::uint32_t foldsOf(const PosedNetwork& posed, const ForkShape& shape, const s
   std::vector<SurfacePoint> points(shape.vertices());
   const ForkLayout layout = evaluateFork(posed, fork, shape, points);
   std::uint32_t count = 0;
-  for (const uvec3& t : forkTriangles(shape, layout, points)) count += folds(points[t.x], points[t.y], points[t.z]);
+  for (const uvec3& t : forkTriangles(shape, layout, points))
+    count += folds(points[t.x], points[t.y], points[t.z]);
   return count;
 }
 
