@@ -3,7 +3,7 @@
 --pictures, a long film of a swaying body's leg artery, 64 pixels wide (of all vessels a hundred thousand pictures would take hours).
 Samples what the process holds beyond files ("Private_Dirty" of /proc/PID/smaps_rollup) and its descriptors; the
 median of the last quarter may be 2 MiB above that of the second quarter (an opening holds two scenes for a while), and
-descriptors none.
+descriptors none. With --validate a message fails it and memory does not: the layer's own grows.
   tests/soak/drift.py PROGRAM BODY.glb NETWORK.vasa [--frames 20000] [--resizes 500] [--openings 20] [--validate] [--clip NAME] [--pictures 0]"""
 import argparse, math, os, statistics, subprocess, sys, tempfile, time
 
@@ -48,7 +48,7 @@ def dirty(pid):
         return next(int(line.split()[1]) for line in rollup if line.startswith("Private_Dirty"))
 
 
-def watch(name, command, expected, pictures=None, **more):
+def watch(name, command, expected, pictures=None, allowed=ALLOWED_KIB, **more):
     """Runs it and samples ten times a second, until it ends; takes the pictures away from their folder."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **more)
     samples = []
@@ -71,7 +71,7 @@ def watch(name, command, expected, pictures=None, **more):
     opened = statistics.median_high(count for _, count in after) - statistics.median_high(count for _, count in before)
     marks = ", ".join(f"{statistics.median(kib for kib, _ in samples[i * len(samples) // 8:(i + 1) * len(samples) // 8]) / 1024:.1f}" for i in range(8))
     print(f"{name}: {expected}; {growth / 1024:.2f} MiB and {opened} descriptors more than after warm-up (MiB by eighths: {marks})", flush=True)
-    return growth <= ALLOWED_KIB and opened <= 0
+    return growth <= allowed and opened <= 0
 
 
 def main():
@@ -108,7 +108,7 @@ def main():
             try:
                 environment["DISPLAY"] = ":" + server.stdout.readline().strip()
                 good &= watch("view", [program, "view", *scene, *clip, *["--validate"] * wish.validate, "--script", script, "--size", "480x400"],
-                              f"{wish.frames} frames, {wish.resizes} resizes, {wish.openings} openings", env=environment, cwd=folder)
+                              f"{wish.frames} frames, {wish.resizes} resizes, {wish.openings} openings", allowed=float("inf") if wish.validate else ALLOWED_KIB, env=environment, cwd=folder)
             finally:
                 server.terminate()
                 server.wait()
