@@ -72,7 +72,7 @@ int runCommand(Command& command) {
 // "nan" and "inf" can be read as numbers, and would pass a range; no option means anything by them. A word
 // that is empty is a script's variable that was never set: to take it for an option that was not given would
 // draw all frames for one shard.
-void refuseNothing(CLI::App& app) {
+void refuseEmptyValues(CLI::App& app) {
   const auto noNumber = [](const std::string& text) {
     double value = 0;
     return CLI::detail::lexical_cast(text, value) && !std::isfinite(value)
@@ -87,7 +87,8 @@ void refuseNothing(CLI::App& app) {
     if (option->get_type_name().starts_with("TEXT") && option->get_name() != "--title")
       option->check(CLI::Validator(noWord, ""));
   }
-  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuseNothing(*command);
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    refuseEmptyValues(*command);
 }
 
 }  // namespace
@@ -123,7 +124,7 @@ int run(int argc, char** argv) {
   addBench(app, command);
   addDevices(app, command);
   addHelp(app, command);
-  refuseNothing(app);
+  refuseEmptyValues(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

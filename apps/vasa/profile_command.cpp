@@ -132,8 +132,6 @@ Result<Setting> prepare(const Options& options) {
     if (!quads) return quads.error();
     setting.quads.push_back(*quads);
   }
-  if (setting.quads.empty())
-    return Error{Fault::usage, "--quads: name at least one tessellation, such as 8x5"};
   const auto size = parseSize(options.size);
   if (!size) return size.error();
   setting.size = *size;

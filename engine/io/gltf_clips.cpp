@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "io/gltf_accessor.h"
 #include "io/gltf_rule.h"
@@ -96,16 +97,21 @@ Clip readClip(const Asset& asset, const Model::Animation& animation,
   return clip;
 }
 
-// "walk", then "walk 2": so that each can be chosen by its name.
-std::string nameAmong(const std::vector<Clip>& clips, const std::string& wanted) {
-  const auto taken = [&](const std::string& name) {
-    return std::ranges::any_of(clips, [&](const Clip& clip) { return clip.name == name; });
-  };
-  if (!taken(wanted)) return wanted;
-  std::size_t k = 2;
-  while (taken(wanted + " " + std::to_string(k))) ++k;
-  return wanted + " " + std::to_string(k);
-}
+// Names that clips have already; in step with their number, as a file may have very many of one name.
+class ClipNames {
+ public:
+  // "walk", then "walk 2": so that each can be chosen by its name.
+  std::string unique(const std::string& wanted) {
+    std::string name = wanted;
+    while (!taken_.insert(name).second)
+      name = wanted + " " + std::to_string(++last_.try_emplace(wanted, 1).first->second);
+    return name;
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, std::size_t> last_;  // number that a name was given
+};
 
 }  // namespace
 
@@ -129,6 +135,7 @@ float framesPerSecondOf(const std::vector<float>& times) {
 std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode) {
   checkKeyCount(asset.model, asset.bytes);
   std::vector<Clip> clips;
+  ClipNames names;
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
     Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);
     if (clip.name.empty()) clip.name = "animation " + std::to_string(i);
@@ -139,7 +146,7 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
              "lasts " + std::to_string(clip.end - clip.start) +
                  " s: more than the 1000000 frames that are accepted",
              "check the key times, which are in seconds");
-    clip.name = nameAmong(clips, clip.name);
+    clip.name = names.unique(clip.name);
     clips.push_back(std::move(clip));
   }
   return clips;
