@@ -1,6 +1,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -9,6 +10,7 @@
 #include "core/kept.h"
 #include "core/log.h"
 #include "core/parallel.h"
+#include "core/unawaited.h"
 #include "endings.h"
 #include "help_command.h"
 #include "kept_folders.h"
@@ -144,7 +146,10 @@ int main(int argc, char** argv) {
   vasa::cli::endWhereMemoryEnds();
   vasa::cli::tellWhatTerminates();
   try {
-    return vasa::cli::run(argc, argv);
+    const int code = vasa::cli::run(argc, argv);
+    if (!vasa::hasUnawaited()) return code;
+    std::fflush(nullptr);
+    std::_Exit(code);
   } catch (const std::bad_alloc&) {
     vasa::logError("out of memory; use smaller inputs or fewer threads");
   } catch (const std::exception& error) {

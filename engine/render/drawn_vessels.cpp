@@ -1,10 +1,7 @@
 #include "render/drawn_vessels.h"
 
-#include <functional>
-
 #include "gpu/barrier.h"
 #include "gpu/device.h"
-#include "gpu/error.h"
 #include "render/frame_stages.h"
 
 namespace vasa {
@@ -12,12 +9,6 @@ namespace {
 
 TubeDetail detailOf(const RenderOptions& options) {
   return {options.shape, options.pixelError, options.forks, options.table};
-}
-
-ForkPass makeForkPass(gpu::Device& device, std::uint32_t groupForks, bool compileBehind) {
-  // What fails here fails again, and is told, where the pass is used.
-  if (compileBehind) (void)gpu::attempt([&] { ForkPass::compile(device.adapter(), groupForks); });
-  return {device, groupForks};
 }
 
 }  // namespace
@@ -29,8 +20,10 @@ DrawnVessels::DrawnVessels(gpu::Device& device, const Network& network, const Re
       ownColours_(kindColours(network)),
       tubes_(device, network, detailOf(options), templateBytes_),
       forks_(device, tubes_.table(), tubes_.detail(), templateBytes_),
-      comingForkPass_(std::async(std::launch::async, makeForkPass, std::ref(device), forks_.groupForks(),
-                                 options.compileBehind)),
+      compiling_(options.compileBehind ? ForkPass::compile(device.adapter(), forks_.groupForks())
+                                       : std::future<void>()),
+      comingForkPass_(std::async(std::launch::async,
+                                 [&device, group = forks_.groupForks()] { return ForkPass(device, group); })),
       patches_(device, tubes_.table().patches),
       detailPass_(device, tubes_),
       tubePass_(device, samples_, tubes_),
@@ -41,13 +34,19 @@ DrawnVessels::DrawnVessels(gpu::Device& device, const Network& network, const Re
 }
 
 void DrawnVessels::settle(bool waits) {
-  if (comingForkPass_.valid() && (waits || isSettled({}))) forkPass_ = comingForkPass_.get();
+  if (comingForkPass_.valid() && (waits || isSettled({}))) {
+    if (compiling_.valid()) compiling_.get();
+    forkPass_ = comingForkPass_.get();
+  }
   range_ = everything(tubes_);
   if (comingForkPass_.valid()) range_.forkEnd = range_.firstFork;
 }
 
 bool DrawnVessels::isSettled(std::chrono::milliseconds within) const {
-  return !comingForkPass_.valid() || comingForkPass_.wait_for(within) == std::future_status::ready;
+  const auto ready = [&](const auto& future) {
+    return !future.valid() || future.wait_for(within) == std::future_status::ready;
+  };
+  return ready(compiling_) && ready(comingForkPass_);
 }
 
 void DrawnVessels::take(const Network& network, const RenderOptions& options) {

@@ -75,6 +75,7 @@ class DrawnVessels {
   std::vector<std::uint32_t> ownColours_;  // of the spans, by their vessels' kinds
   TubeSet tubes_;
   ForkSet forks_;
+  std::future<void> compiling_;  // the forks' shader, where it is to be ready before their pass is used
   std::future<ForkPass> comingForkPass_;
   PatchSet patches_;
   DetailPass detailPass_;

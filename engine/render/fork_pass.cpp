@@ -3,25 +3,38 @@
 #include <span>
 #include <string>
 
+#include "core/unawaited.h"
 #include "gpu/device.h"
+#include "gpu/error.h"
 #include "gpu/transfer.h"
 #include "spirv/forks_comp.h"
 
 namespace vasa {
+namespace {
 
-ForkPass::ForkPass(gpu::Device& device, std::uint32_t groupForks)
-    : pipeline_(device,
-                {spirv::forks_comp, sizeof(shared::ForksPush), gpu::Specialization().set(1, groupForks)}) {}
+gpu::ComputePipeline makePipeline(gpu::Device& device, std::uint32_t groupForks) {
+  return {device, {spirv::forks_comp, sizeof(shared::ForksPush), gpu::Specialization().set(1, groupForks)}};
+}
 
-void ForkPass::compile(const gpu::Adapter& adapter, std::uint32_t groupForks) {
-  if (adapter.driverId != VK_DRIVER_ID_MESA_LLVMPIPE) return;
-  gpu::Device device({.choice = std::to_string(adapter.index)});
-  const ForkPass pass(device, groupForks);
+void runEmpty(std::uint32_t adapter, std::uint32_t groupForks) {
+  gpu::Device device({.choice = std::to_string(adapter)});
+  const gpu::ComputePipeline pipeline = makePipeline(device, groupForks);
   const shared::Filling none{};
   const gpu::Buffer nothing = gpu::makeBuffer(device, "no forks", std::span<const shared::Filling>(&none, 1));
   gpu::Commands commands = device.queue().begin("compile forks");
-  pass.pipeline_.dispatch(commands, shared::ForksPush{.filling = nothing.address()}, 1);
+  pipeline.dispatch(commands, shared::ForksPush{.filling = nothing.address()}, 1);
   device.queue().wait(device.queue().submit(std::move(commands)));
+}
+
+}  // namespace
+
+ForkPass::ForkPass(gpu::Device& device, std::uint32_t groupForks)
+    : pipeline_(makePipeline(device, groupForks)) {}
+
+std::future<void> ForkPass::compile(const gpu::Adapter& adapter, std::uint32_t groupForks) {
+  return startUnawaited([driver = adapter.driverId, index = adapter.index, groupForks] {
+    if (driver == VK_DRIVER_ID_MESA_LLVMPIPE) (void)gpu::attempt([&] { runEmpty(index, groupForks); });
+  });
 }
 
 void ForkPass::record(VkCommandBuffer commands, const Input& input) const {

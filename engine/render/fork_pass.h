@@ -1,4 +1,6 @@
 #pragma once
+#include <future>
+
 #include "gpu/adapter.h"
 #include "render/fork_set.h"
 #include "render/tube_pass.h"
@@ -16,8 +18,10 @@ class ForkPass {
   /// Has the driver compile the pass and keep it for every device of the machine. lavapipe compiles a shader
   /// when it first runs, this one for seconds, in its queue's only thread, where all pictures would wait: so
   /// it runs once, with nothing to do, on a device of its own. Others compile when the pass is made; nothing
-  /// is done for them. May be called in a thread of its own. Throws gpu::Error.
-  static void compile(const gpu::Adapter& adapter, std::uint32_t groupForks);
+  /// is done for them.
+  /// @return ready once that is done, also where it failed: what fails here fails again, and is told, where
+  ///   the pass is used. No one has to wait for it (core/unawaited.h)
+  static std::future<void> compile(const gpu::Adapter& adapter, std::uint32_t groupForks);
 
   struct Input {
     const TubeSet& tubes;  ///< of the same network
