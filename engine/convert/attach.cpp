@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "convert/shared_rims.h"
 #include "convert/vessel_names.h"
+#include "core/disjoint_sets.h"
 #include "core/ids.h"
 #include "core/parallel.h"
 
@@ -272,7 +272,7 @@ class Attacher {
     for (std::size_t k = 0; k < rims_.size(); ++k) {
       const SharedRim& rim = rims_[k];
       const auto a = sideAt(rim, rim.first), b = sideAt(rim, rim.second);
-      if (rimTaken_[k] || !a || !b || !mayJoin(a->strand, b->strand) || root(a->strand) == root(b->strand))
+      if (rimTaken_[k] || !a || !b || !mayJoin(a->strand, b->strand) || isOnePart(a->strand, b->strand))
         continue;
       if (!mayShareCircuit(a->strand, b->strand)) continue;
       if (glm::distance(vec3(a->axis), vec3(b->axis)) <= rim.radius) continue;  // too short for a vessel
@@ -281,7 +281,7 @@ class Attacher {
       strand.sections = {vec4(vec3(branch.axis), rim.radius), vec4(rim.centre, rim.radius),
                          vec4(vec3(host.axis), rim.radius)};
       const std::uint32_t added = graph_.add(std::move(strand));
-      parts_.push_back(added);
+      parts_.add();
       circuit_.push_back(Circuit::unknown);
       for (const auto& [side, last] : {std::pair(branch, false), std::pair(host, true)}) {
         const StrandEnd end{added, last};
@@ -319,17 +319,16 @@ class Attacher {
   // element's own skeleton knows its rings, and between elements a ring wants ends that touch.
   bool mayClose(const Candidate& candidate) {
     if (!mayShareCircuit(candidate.end.strand, candidate.strand)) return false;
-    if (root(candidate.end.strand) != root(candidate.strand)) return true;
+    if (!isOnePart(candidate.end.strand, candidate.strand)) return true;
     const bool own = graph_.strands[candidate.end.strand].element == graph_.strands[candidate.strand].element;
     return !own && (candidate.bridge || candidate.cost <= kClosingCost);
   }
   bool mayShareCircuit(std::uint32_t strand, std::uint32_t other) {
-    const Circuit a = circuit_[root(strand)], b = circuit_[root(other)];
+    const Circuit a = circuit_[parts_.find(strand)], b = circuit_[parts_.find(other)];
     return a == b || a == Circuit::unknown || b == Circuit::unknown;
   }
   void collectParts() {
-    parts_.resize(graph_.strands.size());
-    std::iota(parts_.begin(), parts_.end(), 0u);
+    parts_ = DisjointSets(graph_.strands.size());
     circuit_.clear();
     for (const Strand& strand : graph_.strands)
       circuit_.push_back(circuitOf(elements_[strand.element].label));
@@ -338,14 +337,11 @@ class Attacher {
         unite(end.strand, joint.host ? *joint.host : joint.ends.front().strand);
   }
   void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parts_[a] = b;
-    if (circuit_[b] == Circuit::unknown) circuit_[b] = circuit_[a];
+    const Circuit first = circuit_[parts_.find(a)], second = circuit_[parts_.find(b)];
+    parts_.unite(a, b);
+    circuit_[parts_.find(a)] = second == Circuit::unknown ? first : second;
   }
-  std::uint32_t root(std::uint32_t strand) {
-    while (parts_[strand] != strand) strand = parts_[strand] = parts_[parts_[strand]];
-    return strand;
-  }
+  bool isOnePart(std::uint32_t a, std::uint32_t b) { return parts_.find(a) == parts_.find(b); }
 
   bool joinToSide(const Candidate& candidate) {
     Sections& own = graph_.strands[candidate.end.strand].sections;
@@ -466,8 +462,8 @@ class Attacher {
   AttachOptions options_;
   std::vector<OpenTip> tips_;
   std::vector<Aabb> boxes_;
-  std::vector<std::uint32_t> parts_;  // union-find over connected strands
-  std::vector<Circuit> circuit_;      // of a part, at its root
+  DisjointSets parts_{0};         // of strands that are connected
+  std::vector<Circuit> circuit_;  // of a part, at its root
   AttachReport report_;
 };
 

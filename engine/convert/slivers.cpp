@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "core/disjoint_sets.h"
 #include "core/ids.h"
 
 namespace vasa {
@@ -28,28 +28,23 @@ Wall wallOf(const StrandGraph& graph, std::uint32_t strand) {
 
 // Connected parts among strands, one left out.
 std::size_t partsWithout(const StrandGraph& graph, std::span<const Wall> walls, std::uint32_t left) {
-  std::map<std::uint32_t, std::uint32_t> parent;
+  std::map<std::uint32_t, std::uint32_t> alive;  // strand -> its number among these
   for (const Wall& wall : walls)
-    if (wall.strand != left && !graph.strands[wall.strand].dropped()) parent[wall.strand] = wall.strand;
-  const auto root = [&parent](std::uint32_t s) {
-    while (parent[s] != s) s = parent[s] = parent[parent[s]];
-    return s;
+    if (wall.strand != left && !graph.strands[wall.strand].dropped())
+      alive.emplace(wall.strand, std::uint32_t(alive.size()));
+  DisjointSets sets(alive.size());
+  std::size_t parts = alive.size();
+  std::map<std::uint32_t, std::uint32_t> atJoint;  // joint -> some strand's number there
+  const auto touch = [&](std::uint32_t joint, std::uint32_t number) {
+    if (sets.unite(atJoint.try_emplace(joint, number).first->second, number)) --parts;
   };
-  std::size_t parts = parent.size();
-  std::map<std::uint32_t, std::uint32_t> atJoint;  // joint -> some strand there
-  const auto touch = [&](std::uint32_t joint, std::uint32_t strand) {
-    if (joint == kNone) return;
-    const auto [entry, fresh] = atJoint.try_emplace(joint, strand);
-    const std::uint32_t a = root(entry->second), b = root(strand);
-    if (a != b) parent[a] = b, --parts;
-  };
-  std::vector<std::uint32_t> alive;
-  for (const auto& [strand, unused] : parent) alive.push_back(strand);
-  for (const std::uint32_t strand : alive)
+  for (const auto& [strand, number] : alive)
     for (const std::uint32_t joint : {graph.strands[strand].startJoint, graph.strands[strand].endJoint}) {
-      touch(joint, strand);
-      if (joint == kNone || !graph.joints[joint].host) continue;
-      if (const std::uint32_t host = *graph.joints[joint].host; parent.contains(host)) touch(joint, host);
+      if (joint == kNone) continue;
+      touch(joint, number);
+      if (!graph.joints[joint].host) continue;
+      if (const auto host = alive.find(*graph.joints[joint].host); host != alive.end())
+        touch(joint, host->second);
     }
   return parts;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -14,11 +15,14 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void unite(std::uint32_t a, std::uint32_t b) {
+  /// @return whether they were in two sets
+  bool unite(std::uint32_t a, std::uint32_t b) {
     a = find(a), b = find(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
+    parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
   }
+  /// One more, in a set of its own.
+  void add() { parent_.push_back(std::uint32_t(parent_.size())); }
 
  private:
   std::vector<std::uint32_t> parent_;

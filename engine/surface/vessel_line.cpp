@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
+#include "core/disjoint_sets.h"
 #include "core/hash.h"
 #include "core/ids.h"
 
@@ -83,9 +83,7 @@ class Joiner {
       : network_(network),
         apart_(apart),
         partner_(2 * network.vessels().size(), kNone),
-        group_(network.vessels().size()) {
-    std::iota(group_.begin(), group_.end(), 0u);
-  }
+        lines_(network.vessels().size()) {}
 
   // Joins the best pair of these ends.
   bool joinBest(const std::vector<VesselEnd>& ends) {
@@ -101,7 +99,8 @@ class Joiner {
     for (std::size_t i = 0; i < arms.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) {
         const float cosine = glm::dot(arms[i].outward, arms[k].outward);
-        if (cosine > kStraightest || root(arms[i].end.vessel.value) == root(arms[k].end.vessel.value) ||
+        if (cosine > kStraightest ||
+            lines_.find(arms[i].end.vessel.value) == lines_.find(arms[k].end.vessel.value) ||
             keptApart(arms[i].end.vessel, arms[k].end.vessel))
           continue;
         const float score = 1.5f * std::min(arms[i].radius, arms[k].radius) / largest - cosine;
@@ -111,7 +110,7 @@ class Joiner {
     const VesselEnd a = arms[one].end, b = arms[other].end;
     partner_[key(a)] = key(b);
     partner_[key(b)] = key(a);
-    group_[root(a.vessel.value)] = root(b.vessel.value);
+    lines_.unite(a.vessel.value, b.vessel.value);
     return true;
   }
   std::uint32_t partner(std::uint32_t end) const { return partner_[end]; }
@@ -123,13 +122,10 @@ class Joiner {
     });
   }
 
-  std::uint32_t root(std::uint32_t v) {
-    while (group_[v] != v) v = group_[v] = group_[group_[v]];
-    return v;
-  }
   const Network& network_;
   std::span<const std::array<VesselId, 2>> apart_;
-  std::vector<std::uint32_t> partner_, group_;
+  std::vector<std::uint32_t> partner_;
+  DisjointSets lines_;  // of vessels that run on into one another
 };
 
 // The ends that meet at a node, with the host's own end where the node is at it and that end is free.
