@@ -73,7 +73,8 @@ Result<CameraChoice> chooseCamera(CameraChoice choice, const CameraOptions& opti
     return Error{
         Fault::usage,
         "--camera " + options.camera +
-            ": give front, back, left, right, top, or POSITION/TARGET/ANGLE such as 0,1.2,3/0,1,0/25"};
+            ": give front, back, left, right, top, or POSITION/TARGET/ANGLE such as 0,1.2,3/0,1,0/25 (metres; 1 to 150 "
+            "degrees)"};
   }
   return choice;
 }

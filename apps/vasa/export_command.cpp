@@ -119,6 +119,9 @@ Result<void> run(const Globals& globals, const Options& options) {
     return Error{Fault::usage,
                  options.output +
                      ": unknown kind of file; export writes .glb, .obj, .stl, .vtp, .swc, .csv and .tubes"};
+  if (holdsMotion(*kind) && options.output.find("{frame") != std::string::npos)
+    return Error{Fault::usage, "-o " + options.output +
+                                   ": this kind of file holds all frames; leave {frame} out of its name"};
   const auto report = exportAs(options, *kind);
   if (!report) return report.error();
   if (globals.json) return printJson(*report);

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/stage_log.h"
 #include "io/png.h"
+#include "output_folder.h"
 #include "report.h"
 
 namespace vasa::cli {
@@ -158,7 +159,12 @@ Result<void> Film::write(std::uint32_t frame, const Image& picture) {
   if (!job_.pattern && !job_.printed) return {};
   const auto bytes = encodePng(picture, {.alpha = job_.look.transparent, .comment = stamp(frame)});
   if (!bytes) return bytes.error();
-  if (job_.pattern) return writeFileAtomically(job_.pattern->of(frame), *bytes);
+  if (job_.pattern) {
+    const auto path = job_.pattern->of(frame);
+    if (job_.pattern->numbersFolders())
+      if (auto made = makeOutputFolder(path.parent_path()); !made) return made;
+    return writeFileAtomically(path, *bytes);
+  }
   return printBytes(*bytes);
 }
 

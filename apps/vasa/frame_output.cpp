@@ -64,8 +64,10 @@ Result<Shard> parseShard(const std::string& text) {
 }
 
 Result<PictureSize> parseSize(const std::string& text) {
-  if (const auto size = product(text, {1, 16384}, {1, 16384})) return PictureSize{size->first, size->second};
-  return usage("--size " + text + ": give WIDTHxHEIGHT in pixels, for example 1280x720 (at most 16384 each)");
+  constexpr FrameRange kPixels{1, kMostPixelsAcross};
+  if (const auto size = product(text, kPixels, kPixels)) return PictureSize{size->first, size->second};
+  return usage(fmt::format("--size {}: give WIDTHxHEIGHT in pixels, for example 1280x720 (at most {} each)",
+                           text, kMostPixelsAcross));
 }
 
 Result<Quads> parseQuads(const std::string& text) {

@@ -20,7 +20,10 @@ struct Shard {
 };
 Result<Shard> parseShard(const std::string& text);
 
-/// "1280x720"; both 1 to 16384.
+/// Most pixels of a picture's width, and of its height: what Vulkan devices draw as a rule.
+inline constexpr std::uint32_t kMostPixelsAcross = 16384;
+
+/// "1280x720"; both 1 to kMostPixelsAcross.
 struct PictureSize {
   std::uint32_t width = 1280, height = 720;
 };
@@ -39,6 +42,8 @@ class FramePattern {
   /// @param several  more than one frame will be written, so the number must be in the name
   static Result<FramePattern> parse(const std::string& text, bool several);
   std::filesystem::path of(std::uint32_t frame) const;
+  /// Whether the number is in a folder's name, so that frames have folders of their own.
+  bool numbersFolders() const { return after_.find('/') != std::string::npos; }
 
  private:
   std::string before_, after_;

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/log.h"
 #include "core/stage_log.h"
+#include "frame_output.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
 #include "io/png.h"
@@ -66,7 +67,7 @@ Result<PageChoice> parsePage(const std::string& text) {
 
 // What a page may be in pixels, as in `render`, and what its picture may take of memory.
 Result<void> checkPixels(vec2 page, double dpi) {
-  constexpr double kMostAcross = 16384, kMost = 1u << 27;
+  constexpr double kMostAcross = kMostPixelsAcross, kMost = 1u << 27;
   const double width = page.x * dpi / kInch, height = page.y * dpi / kInch;
   if (width <= kMostAcross && height <= kMostAcross && width * height <= kMost) return {};
   return Error{

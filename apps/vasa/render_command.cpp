@@ -135,12 +135,12 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
   if (!quads) return quads.error();
   const auto shard = parseShard(options.shard);
   if (!shard) return shard.error();
-  if (std::max(size->width, size->height) * options.supersample > 16384)
+  if (std::max(size->width, size->height) * options.supersample > kMostPixelsAcross)
     return Error{Fault::usage,
                  fmt::format("--size {} --supersample {}: would be drawn {} pixels wide or high, and "
-                             "16384 is the most; make one of the two smaller",
+                             "{} is the most; make one of the two smaller",
                              options.size, options.supersample,
-                             std::max(size->width, size->height) * options.supersample)};
+                             std::max(size->width, size->height) * options.supersample, kMostPixelsAcross)};
   if (options.transparent && !options.video.empty())
     return Error{Fault::usage,
                  "--transparent: videos have no alpha; write pictures (-o) alone, or leave it out"};
@@ -266,13 +266,14 @@ std::string filesOf(const FilmJob& job, const Options& options) {
   return files;
 }
 
-std::string summaryOf(const Report& report, const std::string& files) {
+// A shard's frames are no neighbours, so that there is no step between them to tell.
+std::string summaryOf(const Report& report, const std::string& files, bool neighbours) {
   const auto frames = report["frames"].get<std::uint32_t>(),
              kept = report["frames_kept"].get<std::uint32_t>();
   std::string text = fmt::format("{}: {} {} in {:.1f} s", files, frames, frames == 1 ? "picture" : "pictures",
                                  report["seconds"].get<double>());
   if (kept > 0) text += fmt::format(", {} kept", kept);
-  if (frames > 1)
+  if (frames > 1 && neighbours)
     text += fmt::format("; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint",
                         1e3 * report["largest_step_m"].get<double>(),
                         1e3 * report["largest_joint_step_m"].get<double>());
@@ -331,7 +332,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!*film) return film->error();
   const Report& report = **film;
   if (globals.json) return printJson(report);
-  logInfo(summaryOf(report, filesOf(*job, options)));
+  logInfo(summaryOf(report, filesOf(*job, options), job->shard.count == 1));
   return {};
 }
 

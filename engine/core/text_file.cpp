@@ -3,8 +3,18 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
+#include "core/utf8.h"
 
 namespace vasa {
+namespace {
+
+// No text holds it, and numbers among the words (VTK) cannot do without: each count has a zero byte.
+bool isBinary(char character) {
+  const auto byte = static_cast<unsigned char>(character);
+  return byte < 0x20 && !(byte >= '\t' && byte <= '\r') && byte != 0x1a;
+}
+
+}  // namespace
 
 bool isUtf16(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
@@ -18,9 +28,11 @@ bool isUtf16(std::string_view text) {
 Result<std::string_view> plainText(std::string_view text, const std::string& name, std::string& kept) {
   if (isUtf16(text)) return badInput(name + ": " + kNotUtf8);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (text.find('\r') == text.npos || text.find('\n') != text.npos) return text;
-  kept = text;
-  std::ranges::replace(kept, '\r', '\n');
+  const bool windows = !isUtf8(text) && std::ranges::none_of(text, isBinary),
+             oldMac = text.find('\r') != text.npos && text.find('\n') == text.npos;
+  if (!windows && !oldMac) return text;
+  kept = windows ? utf8FromWindows(text) : std::string(text);
+  if (oldMac) std::ranges::replace(kept, '\r', '\n');
   return std::string_view(kept);
 }
 

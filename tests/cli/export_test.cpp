@@ -195,6 +195,7 @@ TEST_CASE("export tells what is wrong") {
   expect({"--clip", "no such", "-o", path("a.glb")}, 3, "no such");
   expect({"--clip", "walk", "--frames", "0:3", "-o", path("a.obj")}, 2, "{frame");
   expect({"--quads", "auto", "-o", path("a.glb")}, 2, "--quads auto");
+  expect({"--clip", "walk", "-o", path("{frame:03}.glb")}, 2, "leave {frame} out");
   expect({"--clip", "walk", "--frames", "0", "--quads", "3x2", "-o", path("no/folder/a.glb")}, 6, "folder");
   CHECK(listOf(folder.path()).empty());
 }

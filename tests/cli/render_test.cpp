@@ -145,6 +145,24 @@ TEST_CASE("shards share a film without overlap, and --resume keeps what is there
   CHECK(other.err.find("--resume cannot go on from it") != std::string::npos);
 }
 
+TEST_CASE("frames may have folders of their own; frames of a shard are no neighbours, with no step between") {
+  TemporaryFolder folder;
+  const auto own = (folder.path() / "{frame:02}" / "front.png").string();
+  const std::vector<std::string> two{"render", "--clip", "walk", "--size",     "32x32",  "--frames",
+                                     "0:2",    "-o",     own,    "--no-avoid", "--shard"};
+  const auto with = [&](const char* shard) {
+    std::vector<std::string> words = two;
+    words.push_back(shard);
+    return runProgram(words);
+  };
+  const auto shard = with("0/2"), all = with("0/1");
+  REQUIRE_MESSAGE(shard.exit == 0, shard.err);
+  CHECK(listOf(folder.path()) == std::vector<std::string>{"00", "01", "02"});
+  CHECK(std::filesystem::exists(folder.path() / "01" / "front.png"));
+  CHECK(shard.err.find("largest step") == std::string::npos);
+  CHECK(all.err.find("largest step") != std::string::npos);
+}
+
 TEST_CASE("a picture goes to standard output, with alpha if asked") {
   const auto outcome = runProgram({"render", "--size", "40x60", "--transparent", "-o", "-"});
   REQUIRE(outcome.exit == 0);
