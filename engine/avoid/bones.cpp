@@ -26,6 +26,7 @@ constexpr float kStride = 0.8f;        // ... and of the distance
 constexpr float kSteepest = 1.7321f;   // a field's slope along each axis is at most 1
 constexpr float kRounding = 1e-6f;     // [m] of what a field gives for a place
 constexpr float kUnknown = std::numeric_limits<float>::lowest();  // how far a tube is from entering, at least
+constexpr float kAnywhere = std::numeric_limits<float>::lowest();  // how deep a tube may be
 constexpr float kMovedFar = 0.002f;  // [m] less brings no tube from beyond a field's band into a part
 
 vec3 placed(const mat4& matrix, vec3 p) { return vec3(matrix * vec4(p, 1)); }
@@ -66,9 +67,12 @@ struct Bones::State {
   struct Solid {
     std::uint32_t joint;
     DistanceField field;
-    mat4 matrix{1}, inverse{1};                                // as bound -> posed, and back
-    mat4 inverseBefore{1};                                     // of the pose before
-    std::vector<std::pair<std::uint32_t, float>> atRest = {};  // tube, f < 0; sorted
+    mat4 matrix{1}, inverse{1};  // as bound -> posed, and back
+    mat4 inverseBefore{1};       // of the pose before
+    // Tube, and f < 0: how deep it may be; sorted. Where even its axis lies in the part, that is anywhere:
+    // the ways out of a rib lead to all sides there, and what keeps to one in a round keeps to another in the
+    // next.
+    std::vector<std::pair<std::uint32_t, float>> atRest = {};
 
     float allowed(std::uint32_t tube) const {
       const auto at = std::lower_bound(atRest.begin(), atRest.end(), tube,
@@ -362,7 +366,8 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     auto& atRest = state_->solids[contact.part].atRest;
     if (atRest.empty() || atRest.back().first != contact.tube)
       atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
-    atRest.back().second = std::min(atRest.back().second, contact.f);
+    const bool isSunk = contact.f < -restTubes[contact.tube].at(contact.s).w;
+    atRest.back().second = std::min(atRest.back().second, isSunk ? kAnywhere : contact.f);
   }
   state_->keepFields();
 }

@@ -27,6 +27,9 @@ struct BoneContact {
 /// joint; the field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the
 /// joint with the largest weight at its first corner.
 ///
+/// A tube whose axis lies in a part at rest, as those of vessels that run through a bone in the data, is not
+/// held out of that part.
+///
 /// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way
 /// to where the tube was in the pose before, as the part sees it, leaves the part, so that a vessel is not
 /// pushed through a bone. Where that way leads into another part and the nearest surface's does not, the

@@ -77,7 +77,7 @@ TEST_CASE("a bone that moves takes its field along") {
 }
 
 TEST_CASE("a vessel that lies in a bone at rest may stay there") {
-  const Setting setting = settingAt(0.009f);
+  const Setting setting = settingAt(0.011f);
   Avoider avoider(setting.network, &setting.body);
   test::Walker walker(avoider, lowered(setting, 0));
   CHECK(walker.stay(1).movedMax == 0);
@@ -87,6 +87,16 @@ TEST_CASE("a vessel that lies in a bone at rest may stay there") {
   CHECK(before.contacts == 0);
   CHECK(before.deeper > 0);
   CHECK(report.bonesAfter.deeper == 0);
+}
+
+TEST_CASE("a vessel whose axis lies in a bone at rest is not held out of that bone") {
+  const Setting setting = settingAt(0.009f);
+  Avoider avoider(setting.network, &setting.body);
+  test::Walker walker(avoider, lowered(setting, 0));
+  const test::Posed posed = lowered(setting, 0.002f);
+  CHECK(walker.to(posed).movedMax == 0);
+  CHECK(avoider.look(posed, posed.points).bones.deeper == 0);
+  CHECK(avoider.restBoneContactCount() > 0);
 }
 
 TEST_CASE("a bone that turns over under a vessel lifts it and lets it down again") {
