@@ -49,6 +49,7 @@ Report rowReport(const ProtocolRow& row, const ProtocolResult& result) {
                 {"low", orNull(row.low)},
                 {"high", orNull(row.high)},
                 {"blind", row.blind},
+                {"used_in_tuning", !row.blind},
                 {"source", row.source}};
   if (!result.refusal.empty()) {
     report["refusal"] = result.refusal;
@@ -56,8 +57,10 @@ Report rowReport(const ProtocolRow& row, const ProtocolResult& result) {
   }
   report["ours"] = result.ours;
   report["on_the_way"] = result.onTheWay;
-  report["right_sign"] = orNull(result.rightSign);
+  report["right_sign"] = report["sign_ok"] = orNull(result.rightSign);
   report["deviations"] = orNull(result.deviations);
+  report["within_1sd"] = result.deviations ? Report(result.within(1)) : Report(nullptr);
+  report["within_2sd"] = result.deviations ? Report(result.within(2)) : Report(nullptr);
   return report;
 }
 
@@ -66,6 +69,12 @@ Report reportOf(const Scene& scene, const SceneFile& file, const Protocol& proto
   Report report{{"body", scene.body.name},           {"vessels", file.networks.front().filename().string()},
                 {"score", scoreReport(study.tuned)}, {"blind", scoreReport(study.blind)},
                 {"rows", Report::array()},           {"curves", Report::array()}};
+  // Of all rows, as programs ask for it.
+  const RealismScore &tuned = study.tuned, &blind = study.blind;
+  report["usable"] = tuned.usable + blind.usable;
+  report["sign_ok"] = tuned.rightSign + blind.rightSign;
+  report["within_1sd"] = tuned.withinOne + blind.withinOne;
+  report["within_2sd"] = tuned.withinTwo + blind.withinTwo;
   for (std::size_t i = 0; i < protocol.rows.size(); ++i)
     report["rows"].push_back(rowReport(protocol.rows[i], study.results[i]));
   for (std::size_t i = 0; i < protocol.sweeps.size(); ++i) {

@@ -35,7 +35,13 @@ TEST_CASE(
   CHECK(row["ours"].get<double>() > -12);
   CHECK(row["right_sign"] == true);
   CHECK(row["on_the_way"].size() == 4);
-  CHECK(outcome.json()["score"]["within_2_sd"] == 1);
+  const auto report = outcome.json();
+  CHECK(report["score"]["within_2_sd"] == 1);
+  // Other tools rely on these.
+  for (const char* key : {"sign_ok", "within_2sd", "used_in_tuning"}) CHECK_MESSAGE(row[key] == true, key);
+  CHECK(row["within_1sd"].is_boolean());
+  for (const char* key : {"usable", "sign_ok", "within_2sd"}) CHECK_MESSAGE(report[key] == 1, key);
+  CHECK(report.contains("within_1sd"));
   CHECK(std::filesystem::exists(out / "report.json"));
   CHECK(contentOf(out / "index.html").find("Somebody 2006") != std::string::npos);
   writeProtocol(folder.path(), "A1," + landmarks + "length_change_percent,,6,1,,,,Somebody 2006,,");
