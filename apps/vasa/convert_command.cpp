@@ -136,15 +136,28 @@ Result<PatchReport> addPatches(Conversion& conversion, std::span<const SourceEle
   return std::move(kept.report);
 }
 
+bool tellsTheSame(const Centrelines& a, const Centrelines& b) {
+  return std::ranges::equal(a.lines, b.lines, {}, &Centrelines::Line::samples, &Centrelines::Line::samples);
+}
+
 Result<Centrelines> readLines(const Options& options, double metresPerUnit) {
-  Centrelines all;
+  std::vector<Centrelines> files;
   for (const std::string& file : options.meshes) {
     if (!holdsCentrelines(file)) return Error{Fault::usage, file + kApart};
     auto lines = readCentrelines(file, importOf(options, metresPerUnit));
     if (!lines) return lines.error();
     if (lines->lines.empty()) return badInput(file + ": the file holds no line of two places or more");
-    all.append(std::move(*lines));
+    if (const auto same =
+            std::ranges::find_if(files, [&](const auto& other) { return tellsTheSame(*lines, other); });
+        same != files.end()) {
+      logWarning(fmt::format("{}: tells the same as {}, and is left out", file,
+                             options.meshes[std::size_t(same - files.begin())]));
+      lines = Centrelines{};
+    }
+    files.push_back(std::move(*lines));
   }
+  Centrelines all;
+  for (Centrelines& lines : files) all.append(std::move(lines));
   if (options.meshes.size() > 1) joinTouchingLines(all);  // a file a trace
   return all;
 }
@@ -158,6 +171,14 @@ Result<Conversion> convertCentrelines(const Options& options) {
   if (!made) return badInput(options.meshes.front() + ": " + made.error().message);
   ConvertReport report = reportOfCentrelines(*all, *made);
   return Conversion{std::move(made->network), std::move(report), {}};
+}
+
+// An option that says how surfaces are followed, or null.
+const char* onlyForSurfaces(const Options& options) {
+  return options.interpolate     ? "--interpolate"
+         : options.tolerance > 0 ? "--tolerance"
+         : options.noBridges     ? "--no-bridges"
+                                 : nullptr;
 }
 
 void tellUnknownKinds(const Network& network) {
@@ -174,9 +195,9 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   ConvertOptions settings = convertOptions(options);
   const bool lines = holdsCentrelines(options.meshes.front());
-  if (lines && options.interpolate)
-    return Error{Fault::usage, options.meshes.front() +
-                                   ": centre lines are followed as they are told; leave out --interpolate"};
+  if (const char* ofSurfaces = onlyForSurfaces(options); lines && ofSurfaces)
+    return Error{Fault::usage, fmt::format("{}: centre lines are followed as they are told; leave out {}",
+                                           options.meshes.front(), ofSurfaces)};
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
   const auto sources =
       lines ? Result(std::vector<SourceElement>())

@@ -82,14 +82,16 @@ bool part(RestParting& parting, const Network& now, const std::set<VesselPair>& 
   return false;
 }
 
-std::vector<RestOverlap> overlapsOf(const Network& network, const std::set<VesselPair>& twice) {
+std::vector<RestOverlap> overlapsOf(const Network& network, const std::set<VesselPair>& twice,
+                                    OverlapReason otherwise) {
   Interference interference(network);
   std::map<VesselPair, RestOverlap> found;
   for (const Interference::Place& place : interference.find(network.points())) {
     const Contact& contact = place.contact;
     const VesselPair vessels = vesselsOf(contact, interference.layout());
     RestOverlap& overlap =
-        found.try_emplace(vessels, RestOverlap{{vessels.first}, {vessels.second}}).first->second;
+        found.try_emplace(vessels, RestOverlap{{vessels.first}, {vessels.second}, 0, 0, otherwise})
+            .first->second;
     ++overlap.pairs;
     overlap.depth = std::max(overlap.depth, -contact.f);
     const float thin = std::min(interference.tubes()[contact.i].at(contact.s).w,
@@ -106,7 +108,7 @@ std::vector<RestOverlap> overlapsOf(const Network& network, const std::set<Vesse
 }  // namespace
 
 std::string_view reasonName(OverlapReason reason) {
-  constexpr std::array<std::string_view, 3> kNames{"no room", "inside", "twice"};
+  constexpr std::array<std::string_view, 4> kNames{"no room", "inside", "twice", "as told"};
   return kNames[std::size_t(reason)];
 }
 
@@ -114,7 +116,8 @@ RestRepair overlapsAtRest(const Network& network) {
   RestRepair repair{.network = network};
   Interference atRest(network);
   repair.pairsBefore = repair.pairsAfter = atRest.restPairCount();
-  if (repair.pairsBefore > 0) repair.left = overlapsOf(network, toldTwice(network, atRest));
+  if (repair.pairsBefore > 0)
+    repair.left = overlapsOf(network, toldTwice(network, atRest), OverlapReason::asTold);
   return repair;
 }
 
@@ -133,7 +136,7 @@ RestRepair separateAtRest(const Network& network) {
     repair.network = std::move(*parted);
     if (done) break;
   }
-  repair.left = overlapsOf(repair.network, twice);
+  repair.left = overlapsOf(repair.network, twice, OverlapReason::noRoom);
   repair.pairsAfter = 0;
   for (const RestOverlap& overlap : repair.left) repair.pairsAfter += overlap.pairs;
   for (std::size_t p = 0; p < network.points().size(); ++p) {

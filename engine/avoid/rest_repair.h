@@ -6,10 +6,10 @@
 
 namespace vasa {
 
-/// Why two vessels still overlap: there is no room; the thinner lies wholly in the other; or both tell the
-/// same course.
-enum class OverlapReason : std::uint8_t { noRoom, inside, twice };
-std::string_view reasonName(OverlapReason reason);  ///< "no room", "inside", "twice"
+/// Why two vessels still overlap: there is no room; the thinner lies wholly in the other; both tell the same
+/// course; or nothing was done about it.
+enum class OverlapReason : std::uint8_t { noRoom, inside, twice, asTold };
+std::string_view reasonName(OverlapReason reason);  ///< "no room", "inside", "twice", "as told"
 
 /// Two vessels, or one and itself, that overlap at rest in spite of all.
 struct RestOverlap {

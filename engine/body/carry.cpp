@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "body/belonging.h"
 #include "body/binding.h"
 #include "body/deform.h"
 #include "body/inside.h"
@@ -164,6 +165,10 @@ class Carrier {
     std::vector<vec4> rest(network_.points().begin(), network_.points().end());
     for (const vec3& p : skin_.positions) rest.push_back(vec4(p, 0));
     std::vector<Tie> ties = tiesOf(network_);
+    // Among the skin's points a few vessels would not be noticed.
+    const auto spines = deriveSpines(from_.skeleton, from_.name);
+    if (!spines) return spines.error();
+    if (auto belongs = checkBelongs(from_, *spines, network_.points(), name_); !belongs) return belongs;
     auto binding = bindPoints(from_, rest, name_, ties);
     if (!binding) return binding.error();
     binding_ = std::move(*binding);

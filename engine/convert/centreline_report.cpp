@@ -21,8 +21,14 @@ ConvertReport reportOfCentrelines(const Centrelines& centrelines, const Centreli
     errors[i].area = double(line.samples.size());
     errors[i].coverage = 1;
   }
+  AttachReport joins;
+  for (const auto& joint : centrelines.joints)
+    if (joint.host)
+      joins.endToSide += std::uint32_t(joint.ends.size());
+    else
+      joins.endToEnd += std::uint32_t(joint.ends.size() - 1);
   const std::vector<ElementOutcome> outcomes(count, {"centre line", {}, {}});
-  return makeReport(assembly, elements, outcomes, errors, {});
+  return makeReport(assembly, elements, outcomes, errors, joins);
 }
 
 }  // namespace vasa

@@ -26,6 +26,8 @@ constexpr std::array<std::string_view, 5> kDiameter{"diameter", "diameters", "di
                                                     "durchmesser"};
 // What has a radius too, or bends.
 constexpr std::array<std::string_view, 3> kOther{"curv", "bend", "torsion"};
+// How sure radii are.
+constexpr std::array<std::string_view, 6> kSpread{"std", "dev", "sd", "sigma", "error", "variance"};
 
 Meaning meaningOf(std::string_view name) {
   if (name == kVmtk) return {0, {}};
@@ -47,6 +49,8 @@ Meaning meaningOf(std::string_view name) {
   for (const std::string& word : words) {
     const auto has = [&](std::string_view part) { return word.find(part) != word.npos; };
     if (std::ranges::any_of(kOther, has)) return {};
+    if (std::ranges::any_of(kSpread, [&](std::string_view spread) { return word.starts_with(spread); }))
+      return {};
     least |= word.starts_with("min");
   }
   const auto same = [&](std::string_view word) { return last == word; };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 
@@ -38,6 +39,10 @@ struct Radii {
   std::string remark;
 };
 
+const std::vector<double>& valuesOf(const std::vector<vtk::Array>& data, const std::string& name) {
+  return std::ranges::find(data, name, &vtk::Array::name)->values;
+}
+
 // Of points, else of lines; `lines` are the file's cells `kept`, which are told behind `before` others.
 Radii radiiOf(const Sections& file, std::span<const std::vector<std::uint32_t>> lines,
               std::span<const std::size_t> kept, std::size_t before, const ImportFrame& frame) {
@@ -55,12 +60,12 @@ Radii radiiOf(const Sections& file, std::span<const std::vector<std::uint32_t>> 
                 {}};
     radii.remark = radiusRemark(radii.array, *choice, ofLines);
     if (ofLines) {
-      const std::vector<double>& all = file.cellData.at(radii.array);
+      const std::vector<double>& all = valuesOf(file.cellData, radii.array);
       std::vector<double> ofLine;
       for (const std::size_t cell : kept) ofLine.push_back(all[before + cell]);
       radii.values = radiiOfPoints(file.points.size(), lines, ofLine);
     } else {
-      radii.values = file.pointData.at(radii.array);
+      radii.values = valuesOf(file.pointData, radii.array);
     }
     return radii;
   }
@@ -182,9 +187,13 @@ VtkContent vtkContent(const std::filesystem::path& path) {
     }
     return false;
   };
-  const bool lines = legacy ? counted("\nLINES ", 0) : counted("NumberOfLines=", '"'),
-             faces = legacy ? counted("\nPOLYGONS ", 0) || counted("\nTRIANGLE_STRIPS ", 0)
-                            : counted("NumberOfPolys=", '"') || counted("NumberOfStrips=", '"');
+  const auto any = [&](std::initializer_list<const char*> marks, char quote) {
+    return std::ranges::any_of(marks, [&](const char* mark) { return counted(mark, quote); });
+  };
+  const bool lines = legacy ? any({"\nLINES ", "\nlines "}, 0) : counted("NumberOfLines=", '"'),
+             faces = legacy
+                         ? any({"\nPOLYGONS ", "\npolygons ", "\nTRIANGLE_STRIPS ", "\ntriangle_strips "}, 0)
+                         : any({"NumberOfPolys=", "NumberOfStrips="}, '"');
   if (lines && !(faces && withoutRadii(*bytes, legacy, text))) return VtkContent::lines;
   return faces ? VtkContent::surface : VtkContent::nothing;
 }

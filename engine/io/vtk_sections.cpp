@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <optional>
 
 #include "core/cancellation.h"
@@ -180,11 +181,27 @@ class SectionReader {
     cells.ends.push_back(std::uint32_t(cells.points.size()));
   }
 
+  // Blanks and the like are written as %20.
+  std::string arrayName() {
+    const std::string_view written = word();
+    std::string name;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      unsigned code = 0;
+      const char* const digits = written.data() + i + 1;
+      if (written[i] == '%' && i + 2 < written.size() &&
+          std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2)
+        name += char(code), i += 2;
+      else
+        name += written[i];
+    }
+    return name;
+  }
+
   void readFields() {
     word();
     const std::size_t arrays = count("FIELD");
     for (std::size_t i = 0; i < arrays; ++i) {
-      const std::string name(word());
+      const std::string name = arrayName();
       if (upper(name) == "METADATA") {
         section("METADATA");
         --i;
@@ -197,12 +214,18 @@ class SectionReader {
       if (!scalar) breaks(name, "is of the type '" + told.substr(0, 40) + "', which is not read");
       if (components > 0 && rows > rest_.size() / components) breaks(name, "is cut short");
       std::vector<double> values = numbers(components * rows, *scalar, name);
-      if (data_ && components == 1) (*data_)[name] = std::move(values);
+      if (components == 1) keep(name, std::move(values));
     }
   }
 
+  void keep(const std::string& name, std::vector<double> values) {
+    if (!data_) return;
+    const auto same = std::ranges::find(*data_, name, &Array::name);
+    (same != data_->end() ? *same : data_->emplace_back(name)).values = std::move(values);
+  }
+
   void readAttribute(const std::string& kind) {
-    const std::string name(word());
+    const std::string name = arrayName();
     if (kind == "LOOKUP_TABLE") {
       const std::size_t colours = count(name);
       numbers(4 * colours, binary_ ? vtp::Scalar::uint8 : vtp::Scalar::float32, name);
@@ -224,12 +247,12 @@ class SectionReader {
         rest_ = before;
     }
     std::vector<double> values = numbers(components * rows_, scalar, name);
-    if (data_ && components == 1) (*data_)[name] = std::move(values);
+    if (components == 1) keep(name, std::move(values));
   }
 
   std::string_view rest_;
   bool binary_ = false;
-  std::map<std::string, std::vector<double>>* data_ = nullptr;
+  std::vector<Array>* data_ = nullptr;
   std::size_t rows_ = 0;
   Checkpoints checkpoints_;
   Sections out_;

@@ -21,11 +21,17 @@ struct Cells {
   }
 };
 
+struct Array {
+  std::string name;
+  std::vector<double> values;
+};
+
 /// What a legacy VTK file holds, section by section.
 struct Sections {
   std::vector<dvec3> points;
   std::map<std::string, Cells> cells;  ///< "LINES", "POLYGONS", "TRIANGLE_STRIPS"
-  std::map<std::string, std::vector<double>> pointData, cellData;
+  /// In the file's order, names as people write them. One of each name.
+  std::vector<Array> pointData, cellData;
 };
 
 /// Throws BrokenRule. @param text  plain (io/text_file.h)

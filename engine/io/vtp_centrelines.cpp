@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "io/chain_lines.h"
 #include "io/vtp.h"
@@ -89,21 +90,34 @@ Samples samplesOf(const VtpLines& file, std::uint32_t line) {
   return samples;
 }
 
-// Whole centre lines: the tracts with the same id, in order.
+// Whether a line goes on in another: no farther off than the samples of either, or a radius.
+bool goesOnIn(const Samples& line, const Samples& next) {
+  if (line.empty() || next.empty()) return true;
+  float farthest = std::max(line.back().w, next.front().w);
+  for (const Samples* samples : {&line, &next})
+    for (std::size_t i = 1; i < samples->size(); ++i)
+      farthest = std::max(farthest, glm::distance(vec3((*samples)[i - 1]), vec3((*samples)[i])));
+  return glm::distance(vec3(line.back()), vec3(next.front())) <= farthest;
+}
+
+// Whole centre lines: the tracts with the same id, in order. Where files were put together their numbers come
+// again: a tract that was there belongs to another line, and no line leaps to a tract that it does not meet.
 std::vector<Samples> wholeLines(const VtpLines& file) {
   const auto *ids = file.find("CenterlineIds"), *tracts = file.find("TractIds");
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> order;
+  using Tract = std::tuple<std::size_t, std::int64_t, std::int64_t>;  // how often it was there, line, tract
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> before;
+  std::map<Tract, std::uint32_t> order;
   for (std::uint32_t i = 0; i < file.lines.size(); ++i) {
-    const bool divided = ids && tracts;
-    order[{divided ? ids->values[i] : i, divided ? tracts->values[i] : 0}].push_back(i);
+    const std::int64_t id = ids && tracts ? ids->values[i] : i, tract = ids && tracts ? tracts->values[i] : 0;
+    order.emplace(Tract(before[{id, tract}]++, id, tract), i);
   }
   std::vector<Samples> lines;
-  std::optional<std::int64_t> last;
-  for (const auto& [key, numbers] : order) {
-    if (last != key.first) lines.emplace_back();
-    last = key.first;
-    for (const std::uint32_t line : numbers)
-      for (const vec4& sample : samplesOf(file, line)) append(lines.back(), sample);
+  std::optional<std::pair<std::size_t, std::int64_t>> last;
+  for (const auto& [tract, number] : order) {
+    const std::pair line(std::get<0>(tract), std::get<1>(tract));
+    const Samples samples = samplesOf(file, number);
+    if (std::exchange(last, line) != line || !goesOnIn(lines.back(), samples)) lines.emplace_back();
+    for (const vec4& sample : samples) append(lines.back(), sample);
   }
   std::erase_if(lines, [](const Samples& samples) { return samples.size() < 2; });
   return lines;
@@ -176,14 +190,29 @@ class Merger {
     for (const vec4& sample : own) append(samples, sample);
     if (after) append(samples, vec4(placeOf(*after), own.back().w));
     if (samples.size() < 2) return;
-    // Where the same way was traced twice the traces part by a little now and then.
-    const bool returns = before && after && before->line == after->line;
-    if (returns && lengthOf(samples) < kDetourRadii * own.front().w) return;
+    if (before && after && before->line == after->line && runsWithin(samples, *before, *after)) return;
     const auto number = std::uint32_t(out_.lines.size());
     out_.lines.push_back({{}, {}, VesselKind::other, std::move(samples)});
     taken_.add(number, out_.lines.back().samples);
     if (before) out_.joints.push_back({before, {{number, false}}});
     if (after) out_.joints.push_back({after, {{number, true}}});
+  }
+
+  // Where the same way was traced twice the traces part by a little now and then, within the vessel; what
+  // leaves it is a way of its own, however short.
+  bool runsWithin(const Samples& run, Centrelines::Place before, Centrelines::Place after) const {
+    const Samples& host = out_.lines[before.line].samples;
+    const std::size_t first = std::min(before.sample, after.sample),
+                      last = std::max(before.sample, after.sample);
+    if (lengthOf(run) >= kDetourRadii * host[first].w) return false;
+    return std::ranges::all_of(run, [&](const vec4& sample) {
+      for (std::size_t i = first; i <= last; ++i) {
+        const vec4 &a = host[i], &b = host[std::min(i + 1, last)];
+        const vec4 at = glm::mix(a, b, closestOnSegment(vec3(sample), vec3(a), vec3(b)));
+        if (glm::distance(vec3(at), vec3(sample)) <= at.w) return true;
+      }
+      return false;
+    });
   }
 
   std::vector<Samples> lines_;

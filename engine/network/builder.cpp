@@ -9,6 +9,8 @@
 namespace vasa {
 namespace {
 
+constexpr float kFarthest = 1000;  // [m] floats are 0.06 mm apart there
+
 std::string place(const Vessel& vessel, std::uint32_t index) {
   return "vessel " + std::to_string(index) + (vessel.name.empty() ? "" : " '" + vessel.name + "'");
 }
@@ -22,6 +24,11 @@ Result<void> checkPoints(std::span<const vec4> points, const std::string& where)
     if (p.w <= 0)
       return badInput(where + ": point " + std::to_string(i) + ": radius " + std::to_string(p.w) +
                       " must be positive");
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kFarthest)
+      return badInput(
+          where + ": point " + std::to_string(i) +
+          " lies more than 1 km from the origin, where numbers hold no tenths of a millimetre; move the "
+          "vessels nearer to it, or give the file's unit");
     if (i) length += glm::distance(vec3(p), vec3(points[i - 1]));
   }
   if (!(length > 0)) return badInput(where + " has no length");

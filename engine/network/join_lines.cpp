@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "core/cancellation.h"
+#include "core/disjoint_sets.h"
 #include "core/ids.h"
 #include "math/closest_point.h"
 
@@ -22,17 +23,23 @@ struct Found {
   float t = 0, cost = 1;  // distance over reach
 };
 
-bool sameKind(VesselKind a, VesselKind b) {
+// Of what nothing says the kind of, it may be either.
+bool mayBeOne(VesselKind a, VesselKind b) {
   const auto plain = [](VesselKind kind) { return kind == VesselKind::portalVein ? VesselKind::vein : kind; };
-  return plain(a) == plain(b);
+  return plain(a) == plain(b) || a == VesselKind::other || b == VesselKind::other;
 }
 
 class Joiner {
  public:
   explicit Joiner(Centrelines& lines)
-      : lines_(lines), joined_(2 * lines.lines.size()), hosts_(joined_.size(), kNone) {
+      : lines_(lines),
+        joined_(2 * lines.lines.size()),
+        hosts_(joined_.size(), kNone),
+        parts_(lines.lines.size()) {
+    for (const auto& line : lines.lines) kindOfPart_.push_back(line.kind);
     for (const auto& joint : lines.joints) {
       const std::uint32_t at = joint.host ? joint.host->line : joint.ends.front().line;
+      for (const auto& end : joint.ends) unite(end.line, at);
       for (const auto& end : joint.ends) {
         joined_[2 * end.line + end.last] = true, pairs_.insert(pairOf(end.line, at));
         if (joint.host) hosts_[2 * end.line + end.last] = joint.host->line;
@@ -89,7 +96,7 @@ class Joiner {
           if (cell == cells_.end()) continue;
           comparisons_ += 2 * cell->second.size();
           for (const auto& [line, i] : cell->second)
-            if (line != end.line && sameKind(lines_.lines[line].kind, lines_.lines[end.line].kind))
+            if (line != end.line && mayBeOne(lines_.lines[line].kind, lines_.lines[end.line].kind))
               for (const std::uint32_t from : {i, i - 1}) look(p, end.last, line, from, best);
         }
     return best;
@@ -133,7 +140,22 @@ class Joiner {
     return false;
   }
 
+  VesselKind& kindOfPart(std::uint32_t line) { return kindOfPart_[parts_.find(line)]; }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    const VesselKind told = kindOfPart(a) != VesselKind::other ? kindOfPart(a) : kindOfPart(b);
+    parts_.unite(a, b);
+    kindOfPart(a) = told;
+  }
+
   bool take(const Centrelines::End& end, const Found& seen) {
+    // What hangs together is arteries or veins by now, through lines of which nothing is told.
+    if (!mayBeOne(kindOfPart(end.line), kindOfPart(seen.line))) return false;
+    if (!join(end, seen)) return false;
+    unite(end.line, seen.line);
+    return true;
+  }
+
+  bool join(const Centrelines::End& end, const Found& seen) {
     if (!pairs_.insert(pairOf(end.line, seen.line)).second) return false;
     const Found found = nearestOn(seen.line, vec3(sampleOf(end)));
     auto& host = lines_.lines[found.line].samples;
@@ -197,7 +219,9 @@ class Joiner {
 
   Centrelines& lines_;
   std::vector<bool> joined_;
-  std::vector<std::uint32_t> hosts_;  // of each end the line on whose side it hangs
+  std::vector<std::uint32_t> hosts_;    // of each end the line on whose side it hangs
+  DisjointSets parts_;                  // of lines that hang together ...
+  std::vector<VesselKind> kindOfPart_;  // ... and the kind that any of them has, at their root
   float cell_ = 1e-6f;
   std::unordered_map<std::uint64_t, std::vector<Centrelines::Place>> cells_;
   std::size_t comparisons_ = 0, work_ = 0;

@@ -230,11 +230,18 @@ TEST_CASE("convert reads centre lines: an element a line, radii as told") {
   CHECK(report["elements"][0]["status"] == "ok");
   CHECK(report["elements"][0]["method"] == "centre line");
   CHECK(report["summary"]["junctions"] == 1);
+  CHECK(report["summary"]["joins"]["end_to_side"] == 1);
   CHECK(report["summary"]["quantised"] == false);
   CHECK(report["summary"]["error_mm"]["max"].get<double>() < 0.1);
   const auto network = readNetwork(folder.path("out.vasa"));
   REQUIRE(network.ok());
   CHECK(network->points().front() == vec4(0, 0, 0, 0.002f));
+  // The same file a second time brings nothing.
+  const auto twice =
+      runProgram({"convert", swc, swc, "--scale", "0.001", "-o", folder.path("twice.vasa"), "--json"});
+  REQUIRE(twice.exit == 0);
+  CHECK(twice.json()["summary"]["vessels"] == 2);
+  CHECK(contains(twice.err, "is left out"));
 }
 
 TEST_CASE("convert refuses centre lines that it cannot read, and surfaces and lines at once") {
@@ -253,6 +260,8 @@ TEST_CASE("convert refuses centre lines that it cannot read, and surfaces and li
   expect({folder.write("bad.swc", "1 1 0 0 0 -2 -1\n")}, 3, "bad.swc:1: radius -2 must be positive");
   expect({folder.write("dot.swc", "1 1 0 0 0 2 -1\n")}, 3, "no line of two places");
   expect({folder.write("bad.vtp", "<VTKFile/>")}, 3, "bad.vtp: /VTKFile");
+  for (const char* ofSurfaces : {"--interpolate", "--no-bridges"})
+    expect({good, ofSurfaces}, 2, std::string("leave out ") + ofSurfaces);
   expect({good, folder.write("tube.obj", tubesObj({{"tube", 0}}))}, 2, "converted apart");
   expect({folder.path("absent.swc")}, 6, "absent.swc");
 }

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
+
 #include "cli/program.h"
 #include "network/file.h"
 #include "support/shared_data.h"
@@ -64,6 +66,10 @@ TEST_CASE("fit tells what does not match") {
   expect({vessels, "--from", body, "-o", out}, 2, "--to");
   expect({(folder.path() / "none.vasa").string(), "--from", body, "--to", body, "-o", out}, 6, "none.vasa");
   expect({vessels, "--from", body, "--to", vessels, "-o", out}, 3, "human.vasa");
+  const auto line = (folder.path() / "far.swc").string(), far = (folder.path() / "far.vasa").string();
+  std::ofstream(line) << "1 1 50 1 0 0.01 -1\n2 3 50 1.2 0 0.01 1\n";
+  REQUIRE(runProgram({"convert", line, "--unit", "m", "-o", far}).exit == 0);
+  expect({far, "--from", body, "--to", body, "-o", out}, 3, "do not belong to the body");
 }
 
 TEST_CASE("a body whose joints have no names is known by its shape, and vessels fit it") {

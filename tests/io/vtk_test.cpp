@@ -60,6 +60,16 @@ TEST_CASE("legacy VTK: radii of points under any name, and of lines") {
   CHECK(read("POINT_DATA 6\nSCALARS RADIUS float 1\nLOOKUP_TABLE default\n1 2 3 1 1 1\n") == 2);
   CHECK(read("POINT_DATA 6\nFIELD f 2\nflow 1 6 float\n7 7 7 7 7 7\nDiameter 1 6 float\n2 4 6 1 1 1\n") == 2);
   CHECK(read("CELL_DATA 2\nSCALARS EdgeRadius float 1\nLOOKUP_TABLE default\n1 3\n") == 2);
+  CHECK(read("POINT_DATA 6\nFIELD f 1\nMax%20Diameter%20(m) 1 6 float\n2 4 6 1 1 1\n") == 2);
+  // How sure radii are is none; of two that are as likely the first counts.
+  CHECK(
+      read(
+          "POINT_DATA 6\nFIELD f 2\nStdDevRadius 1 6 float\n7 7 7 7 7 7\nMeanRadius 1 6 float\n1 2 3 1 1 1\n") ==
+      2);
+  CHECK(
+      read(
+          "POINT_DATA 6\nFIELD f 2\nOuterRadius 1 6 float\n1 2 3 1 1 1\nInnerRadius 1 6 float\n7 7 7 7 7 7\n") ==
+      2);
   CHECK(read("POINT_DATA 6\nSCALARS r float 1\nLOOKUP_TABLE default\n5 0 0 1 1 1\n") == 5);  // across lines
   const auto none =
       parseVtkLines(bytesOf(head("ASCII") + kVtkPoints + lines +
@@ -129,6 +139,8 @@ TEST_CASE("surfaces of XML VTK, and which of both a file is about") {
             writeBytes(folder.path() / "a.vtk", head("ASCII") + kVtkPoints + "POLYGONS 1 5\n4 0 1 2 3\n")) ==
         VtkContent::surface);
   CHECK(vtkContent(writeBytes(folder.path() / "b.vtk", head("ASCII") + kVtkPoints + "LINES 1 3\n2 0 1\n")) ==
+        VtkContent::lines);
+  CHECK(vtkContent(writeBytes(folder.path() / "e.vtk", head("ASCII") + kVtkPoints + "lines 1 3\n2 0 1\n")) ==
         VtkContent::lines);
   CHECK(vtkContent(folder.path() / "none.vtk") == VtkContent::nothing);
   // Edges drawn on a surface, and centre lines within one.

@@ -286,3 +286,68 @@ TEST_CASE(
     CHECK(made->network.junctionCount() == 1);
   }
 }
+
+namespace {
+
+// Whole lines, each of one or several tracts, with VMTK's numbers.
+VtpLines numbered(const std::vector<std::vector<vec4>>& tracts, const std::vector<std::int32_t>& ids,
+                  const std::vector<std::int32_t>& numbers) {
+  VtpLines file;
+  for (const auto& tract : tracts) {
+    file.lines.emplace_back();
+    for (const vec4& sample : tract) {
+      file.lines.back().push_back(std::uint32_t(file.points.size()));
+      file.points.push_back(sample);
+    }
+  }
+  file.cellArrays = {{"CenterlineIds", ids}, {"TractIds", numbers}};
+  return file;
+}
+
+std::vector<vec4> alongY(float x, float from, float to) {
+  std::vector<vec4> samples;
+  for (float y = from; y <= to; ++y) samples.push_back({x, y, 0, 1});
+  return samples;
+}
+
+}  // namespace
+
+TEST_CASE("lines of files that were put together keep apart though their numbers are the same") {
+  const auto lengths = [](const VtpLines& file) {
+    const auto lines = centrelinesOfVtp(file, "a", VesselKind::artery);
+    REQUIRE(lines.ok());
+    std::vector<float> all;
+    for (const auto& line : lines->lines)
+      all.push_back(glm::distance(vec3(line.samples.front()), vec3(line.samples.back())));
+    return all;
+  };
+  CHECK(lengths(numbered({alongY(0, 0, 40), alongY(0, 40, 90)}, {0, 0}, {0, 1})) == std::vector{90.0f});
+  CHECK(lengths(numbered({alongY(0, 0, 90), alongY(50, 0, 90)}, {0, 0}, {0, 0})) ==
+        std::vector{90.0f, 90.0f});
+  CHECK(lengths(numbered({alongY(0, 0, 40), alongY(0, 40, 90), alongY(50, 0, 40), alongY(50, 40, 90)},
+                         {0, 0, 0, 0}, {0, 1, 0, 1})) == std::vector{90.0f, 90.0f});
+  CHECK(lengths(numbered({alongY(0, 0, 40), alongY(50, 0, 40)}, {0, 0}, {0, 1})) ==
+        std::vector{40.0f, 40.0f});
+}
+
+TEST_CASE("a way beside a vessel is a way of its own once it leaves that vessel, however short") {
+  const auto linesWith = [](float aside) {
+    std::vector<vec4> trunk, loop;
+    for (int i = 0; i <= 100; ++i) trunk.push_back({0, float(i), 0, 4});
+    for (int i = 0; i <= 12; ++i)
+      loop.push_back({aside * std::sin(3.14159265f * float(i) / 12), 44 + float(i), 0, 4});
+    VtpLines file;
+    for (const auto& line : {trunk, loop}) {
+      file.lines.emplace_back();
+      for (const vec4& sample : line) {
+        file.lines.back().push_back(std::uint32_t(file.points.size()));
+        file.points.push_back(sample);
+      }
+    }
+    const auto lines = centrelinesOfVtp(file, "a", VesselKind::artery);
+    REQUIRE(lines.ok());
+    return lines->lines.size();
+  };
+  CHECK(linesWith(1) == 1);  // the same way, traced twice
+  CHECK(linesWith(5) == 2);
+}

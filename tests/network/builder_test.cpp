@@ -82,6 +82,10 @@ TEST_CASE("what cannot be a network is refused by name and cause") {
     builder.addVessel({"aorta"}, points);
     CHECK(messageOf(builder) == "vessel 0 'aorta': point 1 is not finite");
   }
+  SUBCASE("so far off that numbers tell no parts of a millimetre") {
+    builder.addVessel({"aorta"}, straightVessel({9e5f, 0, 0}, {9e5f, 1, 0}, 0.01f, 1));
+    CHECK(messageOf(builder).starts_with("vessel 0 'aorta': point 0 lies more than 1 km from the origin"));
+  }
   SUBCASE("no length") {
     builder.addVessel({"dot"}, std::vector<vec4>(5, vec4(1, 1, 1, 1)));
     CHECK(messageOf(builder) == "vessel 0 'dot' has no length");

@@ -56,3 +56,18 @@ TEST_CASE("lines in a triangle, each beginning on the next one's side: the last 
   if (!made.ok()) FAIL(made.error().message);
   CHECK(made->network.componentCount() == 1);
 }
+
+TEST_CASE("a trace of no known kind joins arteries or veins, but leads from none of these to the others") {
+  const auto partsWith = [](VesselKind second) {
+    Centrelines lines;
+    lines.lines.push_back(trace("artery", straight({0, 0, 0}, {0, 10, 0}, 1, 4)));
+    lines.lines.push_back(trace("untold", straight({0, 5, 0}, {6, 5, 0}, 0.3f, 6), VesselKind::other));
+    lines.lines.push_back(trace("second", straight({6, 0, 0}, {6, 10, 0}, 1, 4), second));
+    joinTouchingLines(lines);
+    const auto made = networkOfCentrelines(lines);
+    if (!made.ok()) FAIL(made.error().message);
+    return made->network.componentCount();
+  };
+  CHECK(partsWith(VesselKind::artery) == 1);
+  CHECK(partsWith(VesselKind::vein) == 2);
+}
