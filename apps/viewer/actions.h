@@ -36,6 +36,7 @@ enum class ActionId : std::uint8_t {
   branch,
   graft,
   remove,
+  removeTree,
   measure,
   nothing,
   focus,

@@ -25,8 +25,8 @@ void showVesselMenu(const PanelInput& in) {
   ImGui::Separator();
   showItems(in, {ActionId::stenosis, ActionId::branch, ActionId::graft});
   // Deleting belongs to editing; here it begins it.
-  if (ImGui::MenuItem(actionOf(ActionId::remove).name))
-    in.state.editing = true, perform(ActionId::remove, in.state, in.document);
+  for (const ActionId id : {ActionId::remove, ActionId::removeTree})
+    if (ImGui::MenuItem(actionOf(id).name)) in.state.editing = true, perform(id, in.state, in.document);
 }
 
 void showJointMenu(const PanelInput& in, JointId joint) {

@@ -238,8 +238,9 @@ void Editor::setRadius(double factor, const Document& document, ViewState& state
   writeLine(state, line, before.has_value());
 }
 
-void Editor::remove(const Document& document, ViewState& state) const {
-  if (const auto chosen = chosenOf(document, state)) writeLine(state, DeleteEdit{chosen->vessel}, false);
+void Editor::remove(bool tree, const Document& document, ViewState& state) const {
+  if (const auto chosen = chosenOf(document, state))
+    writeLine(state, DeleteEdit{chosen->vessel, tree}, false);
 }
 
 }  // namespace vasa::viewer

@@ -40,7 +40,7 @@ class Editor {
 
   void setStenosis(double percent, const Document& document, ViewState& state) const;
   void setRadius(double factor, const Document& document, ViewState& state) const;
-  void remove(const Document& document, ViewState& state) const;
+  void remove(bool tree, const Document& document, ViewState& state) const;  ///< with all that hangs on it
   /// What the last line sets at the chosen place; nothing where it is about something else.
   std::optional<StenosisEdit> stenosisThere(const Document& document, const ViewState& state) const;
   std::optional<RadiusEdit> radiusThere(const Document& document, const ViewState& state) const;

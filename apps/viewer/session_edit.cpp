@@ -27,7 +27,9 @@ std::optional<VesselPlace> carriedOver(const std::optional<VesselPlace>& place, 
 // Back and on through what was done; what was done in this frame becomes a step.
 void Session::travel() {
   if (!document_) return;
-  if (std::exchange(state_.wishDelete, false) && state_.editing) editor_.remove(*document_, state_);
+  for (const bool tree : {false, true})
+    if (std::exchange(tree ? state_.wishDeleteTree : state_.wishDelete, false) && state_.editing)
+      editor_.remove(tree, *document_, state_);
   if (state_.wishUndo && editor_.dropPassed(*document_, state_)) {
     state_.wishUndo = false;
     panelFrames_ = kRestingFrames;

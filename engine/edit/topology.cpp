@@ -364,7 +364,7 @@ Result<std::string> apply(const DeleteEdit& edit, Draft& draft) {
   if (below.size() > 1 && !edit.tree) {
     const auto hanging = draft.hangingOn(*vessel, -1, 1e9f);
     return badInput(listOf(hanging) + (hanging.size() > 1 ? " hang" : " hangs") +
-                    " on it; write delete ... tree to take all " +
+                    " on it; delete it with its branches (in a journal: delete ... tree) to take all " +
                     fmt::format("{} below it away, too", below.size() - 1));
   }
   const std::vector<std::uint32_t> before = partsOf(draft);

@@ -97,7 +97,9 @@ TEST_CASE("operations on vessels that can not be are refused with the rule") {
   refuses("cut far 0.01 0.5", "only 2.0 mm would be left on one side, less than the vessel is wide (6.0 mm)");
   refuses("join far side", "mm from \"side\", more than 50; write graft");
   refuses("rename far side", "another vessel is named \"side\" already");
-  refuses("delete trunk", "\"side\" hangs on it; write delete ... tree to take all 2 below it away, too");
+  refuses(
+      "delete trunk",
+      "\"side\" hangs on it; delete it with its branches (in a journal: delete ... tree) to take all 2 below it away, too");
 }
 
 TEST_CASE("who joins vessels of two kinds is told which of them stays") {

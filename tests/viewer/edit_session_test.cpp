@@ -120,6 +120,17 @@ TEST_CASE(
   CHECK(grown->name == "branch of left femoral artery");
   CHECK(grown->lengthMm > 50);
 
+  // What has branches goes with these alone.
+  const TemporaryFolder bare;
+  session(sceneIn(bare.path(), "left femoral artery"),
+          pick + "key delete\nsettle\nkey shift+delete\nsettle\n" + control("s"));
+  edits = readJournal(bare.path() / "scene.vedit");
+  REQUIRE(edits);
+  REQUIRE(edits->size() == 1);
+  const auto* taken = std::get_if<DeleteEdit>(&edits->back().operation);
+  REQUIRE(taken);
+  CHECK(taken->tree);
+
   // Past a place beside all vessels, which lies as deep as the place that it begins at.
   const TemporaryFolder third;
   const std::string graft = click("185 244") + click("380 500") + click("331 568");
