@@ -108,6 +108,7 @@ class Session {
   void travel();
   void nameSteps();
   void entitle();
+  Result<void> mayWrite(const std::filesystem::path& scene) const;
   void saveScene(const std::filesystem::path& as = {});
 
   // pictures

@@ -121,8 +121,23 @@ void Session::entitle() {
   if (title != title_) window_.setTitle(title_ = std::move(title));
 }
 
+// A script saves no scene elsewhere than its pictures, not even the one that it opened; the journal goes
+// beside it.
+Result<void> Session::mayWrite(const std::filesystem::path& scene) const {
+  if (!options_.script) return {};
+  for (const auto& file : {scene, ownJournal(scene)})
+    if (const auto place = placeBelow(options_.out, std::filesystem::absolute(file)); !place)
+      return place.error();
+  return {};
+}
+
 void Session::saveScene(const std::filesystem::path& as) {
   if (!document_) return;
+  if (const auto& scene = as.empty() ? keeper_.path() : as; !scene.empty())
+    if (const auto allowed = mayWrite(scene); !allowed) {
+      failure_ = allowed.error();
+      return;
+    }
   if (state_.journal != document_->journal) return say("An edit is still being made; save again in a moment");
   const auto written = keeper_.save(*document_, state_, freeName(options_.out, "json"), as);
   if (!written) {

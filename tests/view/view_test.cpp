@@ -226,6 +226,31 @@ TEST_CASE(
   CHECK(asked.json()["loads"].size() == 1);
 }
 
+TEST_CASE("a script saves no scene that lies elsewhere than its pictures") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "out", scene = folder.path() / "scene.json";
+  std::filesystem::create_directories(out);
+  const std::string text = R"({"clip": "stand"})";
+  std::ofstream(scene) << text;
+  const auto save = [&](const std::filesystem::path& opened) {
+    const auto script = scriptIn(folder.path(), "settle\nhold control\nkey s\nlet control\nframes 2\n");
+    return runProgram(
+        {"view", opened.string(), "--size", "400x300", "--out", out.string(), "--script", script},
+        on(display, folder));
+  };
+  const auto refused = save(scene);
+  CHECK(refused.exit == 3);
+  CHECK_MESSAGE(
+      refused.err.find(scene.string() + ": a script writes below " + out.string()) != std::string::npos,
+      refused.err);
+  CHECK(contentOf(scene) == text);
+  std::ofstream(out / "inner.json") << text;
+  const auto saved = save(out / "inner.json");
+  CHECK_MESSAGE(saved.exit == 0, saved.err);
+  CHECK(contentOf(out / "inner.json") != text);
+}
+
 TEST_CASE(
     "opening goes on beside a living window, and Esc ends it within a step; a still's capillaries come in slices") {
   const VirtualDisplay display;
