@@ -19,7 +19,7 @@
 //   live SECONDS        so long by the clock, as a person has it: shapes are not waited for
 //   settle              until loading, shapes and the still picture are done
 //   window FILE.png     writes the window's picture, panels and all
-//   picture FILE.png    writes the scene's picture alone
+//   picture FILE.png    writes the scene's picture alone, once there is one
 //   close
 // A FILE may stand in double quotes (viewer/quoted.h). What a script writes lies below the folder of
 // ViewOptions::out.

@@ -209,7 +209,24 @@ void Session::meetWishes() {
   if (std::exchange(state_.wishCopyPose, false) && document_)
     window_.setClipboard(poseText(poseOf(document_->scene.body.skeleton, state_.turns)));
   if (std::exchange(state_.wishPastePose, false) && document_) pastePose();
-  if (saving_) save(*std::exchange(saving_, std::nullopt));
+  if (saving_) saveForScript();
+}
+
+// A picture that a script asks for before anything is shown waits for what is being opened.
+void Session::saveForScript() {
+  const bool missing = !saving_->panels && !shown_;
+  if (missing && width_ > 0 && height_ > 0 && (document_ || loader_.busy())) {
+    settling_ = true;  // loading and shapes are waited for
+    return;
+  }
+  const SavePicture wish = *std::exchange(saving_, std::nullopt);
+  settling_ = false;
+  if (missing)
+    failure_ = Error{Fault::failed, wish.path.string() +
+                                        ": there is nothing to draw, for nothing is open; let the script "
+                                        "open something, or not cancel it, before `picture`"};
+  else
+    save(wish);
 }
 
 void Session::pastePose() {

@@ -125,6 +125,7 @@ class Session {
   void drawWindow();
   void noteFirst();
   void meetWishes();
+  void saveForScript();
   void pastePose();
   void record();
   void profile();

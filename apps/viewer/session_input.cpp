@@ -47,7 +47,7 @@ void Session::takeScript() {
   }
   if (liveUntil_ && Clock::now() < *liveUntil_) return;
   liveUntil_.reset();
-  if (settling_ && !idle()) return;
+  if (saving_ || (settling_ && !idle())) return;
   settling_ = false;
   while (step_ < options_.script->size()) {
     const ScriptStep& step = (*options_.script)[step_++];

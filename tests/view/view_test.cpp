@@ -226,6 +226,23 @@ TEST_CASE(
   CHECK(asked.json()["loads"].size() == 1);
 }
 
+TEST_CASE("a script's picture waits for what is being opened, and fails where nothing is") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& text) {
+    return runProgram({"view", "--clip", "stand", "--size", "400x300", "--out", folder.path().string(),
+                       "--script", scriptIn(folder.path(), text)},
+                      on(display, folder));
+  };
+  const auto waited = run("picture OUT/early.png\nclose\n");
+  CHECK_MESSAGE(waited.exit == 0, waited.err);
+  CHECK(readPng(folder.path() / "early.png"));
+  const auto cancelled = run("key escape\npicture OUT/none.png\n");
+  CHECK(cancelled.exit == 1);
+  CHECK_MESSAGE(cancelled.err.find("none.png: there is nothing to draw") != std::string::npos, cancelled.err);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "none.png"));
+}
+
 TEST_CASE("a script saves no scene that lies elsewhere than its pictures") {
   const VirtualDisplay display;
   const TemporaryFolder folder;
