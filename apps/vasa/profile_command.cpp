@@ -135,7 +135,7 @@ Result<Setting> prepare(const Options& options) {
   const auto size = parseSize(options.size);
   if (!size) return size.error();
   setting.size = *size;
-  auto choice = chooseScene(options.scene);
+  auto choice = chooseScene(options.scene, options.capillaries.rules);
   if (!choice) return choice.error();
   const auto cameraChoice = chooseCamera(choice->camera, options.camera);
   if (!cameraChoice) return cameraChoice.error();

@@ -151,7 +151,7 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
         "them with the same -o, --resume and --video (vasa help clusters)"};
   if (auto fine = checkLabels(options); !fine) return fine.error();
   const FilesRead files;
-  auto choice = chooseScene(options.scene);
+  auto choice = chooseScene(options.scene, options.capillaries.rules);
   if (!choice) return choice.error();
   job.choice = std::move(*choice);
   job.choice.capillaries = chooseCapillaries(job.choice.capillaries, options.capillaries);

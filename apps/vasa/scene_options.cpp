@@ -62,7 +62,7 @@ namespace {
 
 // What a scene file names and is not there is the scene file's fault, unless something else is given in its
 // place.
-Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
+Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options, const std::string& growth) {
   std::vector<std::filesystem::path> named;
   if (options.body.empty()) named.push_back(scene.body);
   if (options.networks.empty()) named.insert(named.end(), scene.networks.begin(), scene.networks.end());
@@ -70,6 +70,7 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
   if (options.holds.empty() && options.networks.empty()) named.push_back(scene.holds);
   if (options.clip.empty() && isMotionFile(scene.clip)) named.emplace_back(scene.clip);
   if (options.jointMap.empty()) named.push_back(scene.jointMap);
+  if (growth.empty()) named.push_back(scene.capillaries.rules);
   std::error_code ignored;
   for (const auto& file : named)
     if (!file.empty() && !std::filesystem::exists(file, ignored))
@@ -80,13 +81,13 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options) {
 
 }  // namespace
 
-Result<SceneFile> chooseScene(const SceneOptions& options) {
+Result<SceneFile> chooseScene(const SceneOptions& options, const std::string& growth) {
   SceneFile scene;
   if (!options.scene.empty()) {
     auto read = readSceneFile(options.scene);
     if (!read) return read;
     scene = std::move(*read);
-    if (auto checked = checkNamed(scene, options); !checked) return checked.error();
+    if (auto checked = checkNamed(scene, options, growth); !checked) return checked.error();
   }
   if (!options.body.empty()) scene.body = options.body;
   if (!options.networks.empty()) {

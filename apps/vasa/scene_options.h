@@ -32,6 +32,7 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options);
 
 /// The scene file that is meant, with the overrides applied. Without a scene file, what is not given comes
 /// from the built-in human: a body given without a network, or the other way round, is refused as usage.
-Result<SceneFile> chooseScene(const SceneOptions& options);
+/// @param growth  --growth, where a command has it: what the scene names in its place is not looked for
+Result<SceneFile> chooseScene(const SceneOptions& options, const std::string& growth = {});
 
 }  // namespace vasa::cli

@@ -75,7 +75,7 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     view.dropped = {file};
     scene.scene.clear();
   }
-  auto choice = chooseScene(scene);
+  auto choice = chooseScene(scene, options.capillaries.rules);
   if (!choice) return choice.error();
   choice->capillaries = chooseCapillaries(choice->capillaries, options.capillaries);
   // A look that nobody asked for is that of the last session.

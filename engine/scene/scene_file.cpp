@@ -104,8 +104,12 @@ class Reader {
       if (!value.is_array()) return fail(place, "must be a list of file names");
       if (value.size() > kMostFiles)
         return fail(place, "must be a list of at most " + std::to_string(kMostFiles) + " file names");
-      for (std::size_t i = 0; i < value.size(); ++i)
-        path(out.emplace_back())(value[i], place + "/" + std::to_string(i));
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        const std::string where = place + "/" + std::to_string(i);
+        path(out.emplace_back())(value[i], where);
+        if (out.back().empty())
+          return fail(where, "must name a file; leave it out of the list where there is none");
+      }
     };
   }
   void fail(const std::string& place, const std::string& rule) {

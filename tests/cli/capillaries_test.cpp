@@ -95,4 +95,14 @@ TEST_CASE("a scene file may ask for capillaries, and the command line may have i
   CHECK(asked > 0);
   CHECK(render({"--capillary-budget", "100"}) < asked);
   CHECK(render({"--capillaries", "0"}) == 0);
+
+  std::ofstream(scene) << R"({"capillaries": {"levels": 1, "rules": "absent"}})";
+  const auto absent = runProgram({"info", scene.string()});
+  CHECK(absent.exit == 3);
+  CHECK(absent.err.find("scene.json: names ") != std::string::npos);
+  CHECK(absent.err.find("absent, which is not there") != std::string::npos);
+  const auto rules = std::filesystem::path("data/growth");
+  CHECK(runProgram({"render", scene.string(), "--size", "64x64", "--growth", rules.string(), "-o",
+                    (folder.path() / "b.png").string()})
+            .exit == 0);
 }

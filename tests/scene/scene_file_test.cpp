@@ -169,6 +169,7 @@ TEST_CASE("each fault is told with its place") {
   CHECK(messageOf(R"({"body": 3})") == "x.json: /body must be a string");
   CHECK(messageOf(R"({"networks": "a"})") == "x.json: /networks must be a list of file names");
   CHECK(messageOf(R"({"networks": [1]})") == "x.json: /networks/0 must be a string");
+  CHECK(messageOf(R"({"edits": ["a", ""]})").starts_with("x.json: /edits/1 must name a file"));
   CHECK(messageOf(R"({"camera": {"angle": 0}})").find("/camera/angle must be a number from 1.0 to 150.0") !=
         std::string::npos);
   CHECK(messageOf(R"({"camera": {"position": [1, 2]}})") ==
