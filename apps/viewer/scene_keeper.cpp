@@ -62,6 +62,18 @@ void SceneKeeper::opened(const SceneFile& file, const ViewState& state) {
   orbit_ = state.orbit;
 }
 
+// As it is found wherever the program is installed: a scene without a body, or without networks too, has the
+// built-in human's.
+SceneFile SceneKeeper::withoutBuiltIn(SceneFile file) const {
+  if (builtIn_.empty() || file.body != builtIn_ / "human.glb") return file;
+  file.body.clear();
+  // Without a table of holds these vessels have the built-in one: then what lacks it is named.
+  if (file.networks != std::vector{builtIn_ / "human.vasa"} || file.holds.empty()) return file;
+  file.networks.clear();
+  if (file.holds == builtIn_ / "human.holds.csv") file.holds.clear();
+  return file;
+}
+
 Result<std::filesystem::path> SceneKeeper::save(const Document& document, const ViewState& state,
                                                 const std::filesystem::path& unnamed,
                                                 const std::filesystem::path& as) {
@@ -94,14 +106,7 @@ Result<std::filesystem::path> SceneKeeper::save(const Document& document, const 
   if (!named && !lines.empty()) file.edits.push_back(journal);
   if (named || !lines.empty())
     if (const auto written = writeFileAtomically(journal, lines); !written) return written.error();
-  SceneFile written = file;
-  // Without a table of holds these vessels have the built-in one: then what lacks it is named.
-  if (!builtIn_.empty() && file.body == builtIn_ / "human.glb" &&
-      file.networks == std::vector{builtIn_ / "human.vasa"} && !file.holds.empty()) {
-    written.body.clear();
-    written.networks.clear();
-    if (file.holds == builtIn_ / "human.holds.csv") written.holds.clear();
-  }
+  const SceneFile written = withoutBuiltIn(file);
   if (const auto done = writeFileAtomically(file.path, sceneText(written, file.path.parent_path())); !done)
     return done.error();
   opened(file, state);

@@ -27,6 +27,8 @@ class SceneKeeper {
   const std::filesystem::path& path() const { return file_.path; }
 
  private:
+  SceneFile withoutBuiltIn(SceneFile file) const;
+
   std::filesystem::path builtIn_;
   SceneFile file_;
   Orbit orbit_;

@@ -12,6 +12,7 @@
 #include "view/virtual_display.h"
 #include "viewer/app.h"
 #include "viewer/human_data.h"
+#include "viewer/scene_keeper.h"
 
 // Editing, undoing and saving as a person does it: sessions on a display without a screen.
 
@@ -52,6 +53,34 @@ std::string control(const char* key) {
 }
 
 }  // namespace
+
+TEST_CASE("a scene names no body where it has the built-in human's, with whatever vessels") {
+  const TemporaryFolder folder;
+  const Document document;
+  ViewState state;
+  state.playback.clip = -1;
+  const auto saved = [&](SceneFile file) {
+    file.path = folder.path() / "scene.json";
+    SceneKeeper keeper(kData);
+    keeper.opened(file, state);
+    REQUIRE(keeper.save(document, state, {}));
+    auto read = readSceneFile(file.path);
+    REQUIRE(read);
+    return *read;
+  };
+  SceneFile own = humanFile();
+  own.networks = {folder.path() / "own.vasa"};
+  CHECK(saved(own).body.empty());
+  CHECK(saved(own).networks == own.networks);
+  own.body = folder.path() / "human.glb";
+  CHECK(saved(own).body == own.body);
+  SceneFile builtIn = humanFile();
+  CHECK(saved(builtIn).networks.front().filename() == "human.vasa");  // without holds
+  builtIn.holds = kData / "human.holds.csv";
+  CHECK(saved(builtIn).body.empty());
+  CHECK(saved(builtIn).networks.empty());
+  CHECK(saved(builtIn).holds.empty());
+}
 
 TEST_CASE(
     "a vessel is dragged, undone, redone and saved; opened and saved again it is the same to the byte") {
