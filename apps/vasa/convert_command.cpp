@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "above_zero.h"
 #include "commands.h"
 #include "convert/centreline_report.h"
 #include "convert/convert.h"
@@ -262,7 +263,7 @@ void addConvert(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"artery", "vein", "portal", "lymphatic", "other"}));
   auto* scale =
       sub->add_option("--scale", options->scale, "Metres a unit of all but glTF files (0.001: millimetres)")
-          ->check(CLI::PositiveNumber);
+          ->check(aboveZero());
   sub->add_option(
          "--unit", options->unit,
          "The unit of all files, glTF too: m, cm, mm, in or um (default: glTF metres; others metres, or millimetres where they would be taller than 4 m)")
@@ -272,10 +273,10 @@ void addConvert(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
   sub->add_option("--body-height", options->bodyHeight, "Height of the body [m] (default: of the input)")
-      ->check(CLI::PositiveNumber);
+      ->check(aboveZero());
   auto* tolerance = sub->add_option("--tolerance", options->tolerance,
                                     "Largest distance of a sweep from the sections it fits [mm]")
-                        ->check(CLI::PositiveNumber);
+                        ->check(aboveZero());
   sub->add_flag(
          "--interpolate", options->interpolate,
          "A sweep between every two sections that were found, through both, as the source paper does, instead of the fewest "

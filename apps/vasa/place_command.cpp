@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "above_zero.h"
 #include "body/carry.h"
 #include "body/retarget.h"
 #include "commands.h"
@@ -227,9 +228,7 @@ void addPlace(CLI::App& app, Command& command) {
   sub->add_option("--turn", options->turns, "x:, y: or z: and degrees; may be given several times")
       ->take_all()
       ->allow_extra_args(false);
-  sub->add_option("--scale", options->scale, "Times this size")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  sub->add_option("--scale", options->scale, "Times this size")->check(aboveZero())->capture_default_str();
   sub->add_option("--move", options->move, "x,y,z in metres")->delimiter(',')->expected(3);
   sub->add_flag("--rigid", options->rigid, "Landmarks do not change the size");
   sub->add_flag("--exact", options->exact, "Write 32-bit floats, 16 bytes a point");

@@ -45,8 +45,9 @@ std::string bodyRemedy(const std::string& extension) {
   if (isAny(extension, kVessels))
     return "; it has no skeleton: vasa convert reads vessels, and vasa fit --from the skin of a scan";
   if (extension == ".bvh" || isAny(extension, kCaptures))
-    return "; it is a motion: give it with --clip, and a body with --body";
-  if (extension == ".vasa") return "; it is a network: give it with --network, and a body with --body";
+    return "; it is a motion: name a body in its place, and the motion where one is asked for";
+  if (extension == ".vasa")
+    return "; it is a network: name a body in its place, and the network where vessels are asked for";
   return {};
 }
 

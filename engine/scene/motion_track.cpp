@@ -154,10 +154,25 @@ Result<void> writeTrack(const std::filesystem::path& path, const MotionTrack& tr
   return writeFileAtomically(path, file.bytes());
 }
 
+namespace {
+
+// However damaged: what does not even begin like one is somebody's, and nothing to be removed.
+bool beginsLikeTrack(std::span<const std::byte> bytes) {
+  const std::size_t told = std::min(bytes.size(), kMagic.size() - 1);  // the last tells the edition
+  return std::equal(kMagic.begin(), kMagic.begin() + std::ptrdiff_t(told),
+                    reinterpret_cast<const char*>(bytes.data()));
+}
+
+}  // namespace
+
 Result<MotionTrack> readTrack(const std::filesystem::path& path, const Scene& scene, const Clip& clip,
                               std::uint64_t key) {
   const auto bytes = readFile(path);
   if (!bytes) return bytes.error();
+  if (!beginsLikeTrack(*bytes))
+    return badInput(path.string() +
+                    ": is no track of a motion; name another file, or one that is not there yet to keep the "
+                    "track in");
   const Error damaged =
       badInput(path.string() + ": is no whole track of a motion; remove it and it is made anew");
   ByteReader reader(*bytes);

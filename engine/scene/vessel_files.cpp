@@ -183,7 +183,10 @@ Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight,
                             const ReadingProgress& told) {
   if (holdsSurfaces(path)) return networkOfSurfaces(path, bodyHeight, told);
   if (holdsCentrelines(path)) return networkOfLines(path, bodyHeight);
-  return readNetwork(path);
+  auto network = readNetwork(path);
+  if (network || network.error().fault != Fault::badInput || extensionOf(path) == ".vasa") return network;
+  const std::string remedy = remedyFor(path, FileUse::vessels);
+  return remedy.empty() ? std::move(network) : badInput(path.string() + ": is no .vasa file" + remedy);
 }
 
 }  // namespace vasa

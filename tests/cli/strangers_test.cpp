@@ -345,7 +345,10 @@ TEST_CASE(
   const auto fbx = write(folder, "body.fbx", "Kaydara"), c3d = write(folder, "walk.c3d", "x");
   expect({"map", fbx, human}, 3, "export it with its armature as .glb");
   expect({"fit", net, "--from", fbx, "--to", human, "-o", "x.vasa"}, 3, "armature as .glb");
-  expect({"map", net, human}, 3, "give it with --network");
+  expect({"map", net, human}, 3, "it is a network: name a body in its place");
+  expect({"fit", net, "--from", human, "--to", net, "-o", "x.vasa"}, 3, "name a body in its place");
+  expect({"place", write(folder, "walk.bvh", "HIERARCHY"), "-o", "x.vasa"}, 3,
+         "it is a motion, and no vessels");
   expect({"check", "--clip", c3d, "--frames", "0"}, 3, "turn it into .bvh first");
   expect({"check", "--clip", fbx, "--frames", "0"}, 3, "export the armature's motion as .bvh");
   expect({"info", write(folder, "notes.txt", "x")}, 2, "write centre lines as .swc");

@@ -87,6 +87,18 @@ TEST_CASE("a wrong command line ends with 2 and a message on standard error") {
   }
 }
 
+TEST_CASE("a number that must be above 0 is told as that") {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"place", "x.vasa", "-o", "y.vasa", "--scale", "0"},
+        {"convert", "x.glb", "-o", "y.vasa", "--tolerance", "-1"},
+        {"convert", "x.glb", "-o", "y.vasa", "--body-height", "0"}}) {
+    const auto outcome = runProgram(arguments);
+    CHECK(outcome.exit == 2);
+    CHECK_MESSAGE(outcome.err.find(arguments.back() + ": must be above 0") != std::string::npos, outcome.err);
+    CHECK(outcome.err.size() < 150);
+  }
+}
+
 TEST_CASE("words that are not known are answered with those that were likely meant") {
   const auto refusal = [](const std::vector<std::string>& arguments, int exit = 2) {
     const auto outcome = runProgram(arguments);

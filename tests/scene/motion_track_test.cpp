@@ -143,6 +143,10 @@ TEST_CASE("a track of another motion and a damaged one are refused") {
   older[7] = std::byte('0');  // the last letter of the mark is the edition
   REQUIRE(writeFileAtomically(file, older).ok());
   CHECK(faultOf(key) == Fault::resumeMismatch);
+  REQUIRE(writeFileAtomically(file, std::string("VASA: somebody's vessels")).ok());
+  CHECK(readTrack(file, human(), clip, key)
+            .error()
+            .message.find("is no track of a motion; name another file") != std::string::npos);
   for (std::size_t at = 0; at < whole->size(); at += whole->size() / 40 + 1) {
     CAPTURE(at);
     std::vector<std::byte> bytes = *whole;
