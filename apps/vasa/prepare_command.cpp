@@ -50,6 +50,10 @@ Result<void> makeAll(Scene& scene, const SceneFile& file, const ReadingProgress&
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (globals.noCache)
+    return Error{Fault::usage,
+                 "--no-cache keeps nothing, and prepare makes what is kept; leave --no-cache out, or give -o "
+                 "FOLDER instead to keep it elsewhere"};
   auto choice = chooseScene(options.scene);
   if (!choice) return choice.error();
   const std::filesystem::path folder =

@@ -87,6 +87,10 @@ TEST_CASE("prepare says what it cannot do") {
   const auto nowhere = runProgram({"prepare"}, {.environment = {"HOME=", "XDG_CACHE_HOME="}});
   CHECK(nowhere.exit == 2);
   CHECK(nowhere.err.find("-o FOLDER") != std::string::npos);
+  const auto unkept = runProgram({"--no-cache", "prepare", "-o", folder.path().string()});
+  CHECK(unkept.exit == 2);
+  CHECK(unkept.err.find("leave --no-cache out") != std::string::npos);
+  CHECK(fs::is_empty(folder.path()));
   std::ofstream(folder.path() / "file") << "no folder";
   const auto file = runProgram({"prepare", "-o", (folder.path() / "file").string()});
   CHECK(file.exit == 6);
