@@ -111,6 +111,8 @@ Result<Motion> readMotion(const std::string& file) {
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (options.output == "-" && globals.json)
+    return Error{Fault::usage, "-o - and --json both write to standard output; leave one of them out"};
   const auto body = readBody(options.body);
   if (!body) return body.error();
   const auto motion = readMotion(options.motion);
@@ -124,10 +126,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto pairing = pair(*body, *motion, map);
   if (!pairing) return pairing.error();
   const std::string text = mapText(*body, *motion, *pairing);
-  if (!options.output.empty())
+  const bool toFile = !options.output.empty() && options.output != "-";
+  if (toFile)
     if (const auto written = writeFileAtomically(options.output, text); !written) return written.error();
   if (globals.json) return printJson(asReport(*body, *motion, *pairing));
-  if (options.output.empty()) return printText(text);
+  if (!toFile) return printText(text);
   return printText(pairing->match + "\nwritten    " + options.output +
                    "; mend it where a pair is wrong, and give it with --joint-map\n");
 }
@@ -151,7 +154,7 @@ void addMap(CLI::App& app, Command& command) {
   sub->add_option("MOTION", options->motion,
                   "A motion (.bvh), or the body that vasa fit is to carry vessels to")
       ->required();
-  sub->add_option("-o,--output", options->output, "The file to write; none: standard output");
+  sub->add_option("-o,--output", options->output, "The file to write; none, or -: standard output");
   sub->add_option("--joint-map", options->jointMap, "Pairs that are known already");
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });

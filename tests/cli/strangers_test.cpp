@@ -67,7 +67,14 @@ TEST_CASE("map writes pairs that can be mended and given back; a motion says how
   CHECK_MESSAGE(told.err.find("joints matched") != std::string::npos, told.err);
   CHECK(told.err.find("% sure") != std::string::npos);
   // Another body in place of a motion: what fit pairs.
-  CHECK(runProgram({"map", humanBody().string(), humanBody().string()}).exit == 0);
+  const auto printed = runProgram({"map", humanBody().string(), humanBody().string()});
+  CHECK(printed.exit == 0);
+  const auto named = runProgram({"map", humanBody().string(), humanBody().string(), "-o", "-"},
+                                {.folder = folder.path().string()});
+  CHECK(named.exit == 0);
+  CHECK(named.out == printed.out);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "-"));
+  CHECK(runProgram({"map", humanBody().string(), humanBody().string(), "-o", "-", "--json"}).exit == 2);
   CHECK(runProgram({"map", humanBody().string(), humanVessels().string()}).exit == 3);
 }
 
