@@ -7,6 +7,7 @@
 #include "convert/convert.h"
 #include "core/atomic_file.h"
 #include "core/log.h"
+#include "core/visible.h"
 #include "io/foreign_files.h"
 #include "io/gltf.h"
 #include "io/obj.h"
@@ -63,6 +64,17 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame:
   return read(VesselImport{{unit, up}, {}});
 }
 
+// Of a file that is converted on the way: nobody sees the report that vasa convert prints.
+void tellDoubtful(const std::filesystem::path& path, const ConvertReport& report) {
+  const auto first = std::ranges::find(report.elements, ElementStatus::doubtful, &ElementReport::status);
+  if (first == report.elements.end()) return;
+  logWarning(
+      fmt::format("{}: {} of {} elements are doubtful as vessels, the first '{}': {}; vasa convert "
+                  "lists them; leave out what is no vessel, and give a body with --body",
+                  path.string(), report.summary.doubtful, report.elements.size(), visible(first->name),
+                  visible(first->reason)));
+}
+
 Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyHeight,
                                   const ReadingProgress& told) {
   const auto sources = readSurfacesInLikelyUnit(path, ImportFrame::Up::y);
@@ -79,6 +91,7 @@ Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyH
   }
   auto conversion = convertElements(*sources, options);
   if (!conversion) return Error{conversion.error().fault, path.string() + ": " + conversion.error().message};
+  tellDoubtful(path, conversion->report);
   return std::move(conversion->network);
 }
 

@@ -46,7 +46,7 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
 
 /// A network out of any file that has vessels: ours (.vasa) as it is, others converted (convert/convert.h).
 /// Those without a unit of their own are read in the likely one (likelyUnit), and that is said where it is
-/// not metres.
+/// not metres; elements that are doubtful as vessels (convert/report.h) are warned of.
 /// @param bodyHeight  [m] of the body that they belong to; 0: their own
 Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight = 0,
                             const ReadingProgress& told = {});

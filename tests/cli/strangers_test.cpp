@@ -326,6 +326,16 @@ TEST_CASE("a body in centimetres or millimetres is read as that, and that is sai
   }
 }
 
+TEST_CASE("surfaces that are no vessels and are taken for a network are warned of") {
+  const TemporaryFolder folder;
+  const auto placed = runProgram(
+      {"place", write(folder, "trunk.obj", scannedTrunk()), "-o", (folder.path() / "x.vasa").string()});
+  CHECK_MESSAGE(placed.exit == 0, placed.err);
+  CHECK_MESSAGE(placed.err.find("trunk.obj: 1 of 1 elements are doubtful as vessels") != std::string::npos,
+                placed.err);
+  CHECK(placed.err.find("give a body with --body") != std::string::npos);
+}
+
 TEST_CASE("info tells of vessels before they are converted") {
   const TemporaryFolder folder;
   const auto lines = runProgram({"info", write(folder, "vein.swc", personVessels()), "--json"});
