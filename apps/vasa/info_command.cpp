@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "body/body.h"
 #include "body/motion_rest.h"
@@ -32,8 +33,10 @@ struct Options {
   std::string file, profile, to, output;
   std::vector<std::string> edits;
   bool vessels = false, joints = false;
-  float stepMm = 1;
+  std::optional<float> stepMm;
 };
+
+constexpr float kUsualStepMm = 1;
 
 Report networkReport(const Network& network, std::uintmax_t fileBytes, bool vessels) {
   const NetworkMeasures sum = measure(network, network.points());
@@ -211,8 +214,26 @@ Result<Report> lineReport(const std::filesystem::path& file) {
   return report;
 }
 
+// What is asked for and lies in no such file.
+struct NoSuchList {
+  bool vessels = false, joints = false;
+};
+
+Result<void> refuseLists(const NoSuchList& asked, const std::filesystem::path& file, const char* is) {
+  if (asked.vessels)
+    return Error{Fault::usage,
+                 fmt::format("--vessels is for a network (.vasa) or a scene; {} {}", file.string(), is)};
+  if (asked.joints)
+    return Error{Fault::usage,
+                 fmt::format("--joints is for a body, a motion (.bvh) or a scene; {} {}", file.string(), is)};
+  return {};
+}
+
+constexpr const char* kToConvert = "holds vessels that vasa convert makes a network of";
+
 Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool joints) {
   if (isMotionFile(file.string())) {
+    if (auto fine = refuseLists({.vessels = vessels}, file, "is a motion"); !fine) return fine.error();
     const auto motion = readBvh(file);
     if (!motion) return motion.error();
     return motionReport(*motion, sizeOf(file), joints);
@@ -220,15 +241,19 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
   if (const auto readable = readFile(file, 0); !readable && readable.error().fault == Fault::io)
     return readable.error();
   if (extensionOf(file) == ".vasa") {
+    if (auto fine = refuseLists({.joints = joints}, file, "is a network"); !fine) return fine.error();
     const auto network = readNetwork(file);
     if (!network) return network.error();
     return networkReport(*network, sizeOf(file), vessels);
   }
   const auto surfaces = holdsSurfacesAlone(file);
   if (!surfaces) return surfaces.error();
-  if (*surfaces) return surfaceReport(file);
-  if (holdsCentrelines(file)) return lineReport(file);
+  if (const bool lines = holdsCentrelines(file); *surfaces || lines) {
+    if (auto fine = refuseLists({vessels, joints}, file, kToConvert); !fine) return fine.error();
+    return lines ? lineReport(file) : surfaceReport(file);
+  }
   if (isGltfFile(file)) {
+    if (auto fine = refuseLists({.vessels = vessels}, file, "is a body"); !fine) return fine.error();
     const auto body = readBody(file);
     if (!body) return body.error();
     return bodyReport(*body, sizeOf(file), joints);
@@ -317,7 +342,7 @@ Result<void> printProfile(const Globals& globals, const Options& options) {
   if (!network) return network.error();
   const auto vessel = findVessel(*network, options.profile);
   if (!vessel) return badInput("--profile \"" + options.profile + "\": " + vessel.error().message);
-  const float step = 1e-3f * options.stepMm;
+  const float step = 1e-3f * options.stepMm.value_or(kUsualStepMm);
   std::string title = network->vessel(*vessel).name;
   std::vector<ProfileStation> stations;
   if (options.to.empty()) {
@@ -365,6 +390,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!options.to.empty() && options.profile.empty())
     return Error{Fault::usage,
                  "--to is where a profile ends; name the vessel where it begins with --profile"};
+  if (options.stepMm && options.profile.empty())
+    return Error{Fault::usage, "--step is of a profile; name its vessel with --profile"};
   const std::string extension = extensionOf(options.output);
   if (!options.output.empty() && extension != ".csv" && extension != ".png")
     return Error{Fault::usage, "-o " + options.output + ": a profile is a table (.csv) or a picture (.png)"};
@@ -414,8 +441,8 @@ void addInfo(CLI::App& app, Command& command) {
   sub->add_option("--profile", options->profile, "Print one vessel's radius and area along its way, as CSV");
   sub->add_option("--to", options->to,
                   "Of a profile: the vessel at whose end it ends, by the shortest way there");
-  sub->add_option("--step", options->stepMm, "Of a profile: millimetres between stations")
-      ->capture_default_str()
+  sub->add_option("--step", options->stepMm,
+                  fmt::format("Of a profile: millimetres between stations (default {})", kUsualStepMm))
       ->check(CLI::Range(0.01, 1000.0));
   sub->add_option(
       "-o,--output", options->output,

@@ -348,6 +348,18 @@ TEST_CASE("info tells of vessels before they are converted") {
   CHECK(surface.json()["metres_a_unit"] == 0.001);
   CHECK(surface.json()["next"].get<std::string>().starts_with("vasa convert"));
   CHECK(runProgram({"info", (folder.path() / "none.swc").string()}).exit == 6);
+  // What a file of this kind does not have is not left out without a word.
+  const auto swc = write(folder, "v.swc", personVessels()), net = humanVessels().string();
+  for (const auto& [words, remedy] :
+       {std::pair(std::vector<std::string>{"info", swc, "--vessels"}, "vasa convert makes a network of"),
+        std::pair(std::vector<std::string>{"info", swc, "--joints"}, "--joints is for a body"),
+        std::pair(std::vector<std::string>{"info", net, "--joints"}, "is a network"),
+        std::pair(std::vector<std::string>{"info", humanBody().string(), "--vessels"}, "is a body"),
+        std::pair(std::vector<std::string>{"info", net, "--step", "3"}, "--profile")}) {
+    const auto refused = runProgram(words);
+    CHECK(refused.exit == 2);
+    CHECK_MESSAGE(refused.err.find(remedy) != std::string::npos, refused.err);
+  }
 }
 
 TEST_CASE(
