@@ -189,6 +189,8 @@ class LineReader {
     if (!name) return "quotes around a file's name are closed, and within them stand \\\\, \\\" and \\xHH";
     const std::string& path = *name;
     if (path.empty()) return verb + " wants a file";
+    if (verb != "drop" && lowerCase(std::filesystem::path(path).extension().string()) != ".png")
+      return verb + " writes PNG files; end the name in .png";
     if (verb == "drop")
       put(FileDropped{path});
     else

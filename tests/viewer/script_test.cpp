@@ -91,6 +91,8 @@ TEST_CASE("what is wrong is told with its line") {
   CHECK(message("resize 0 4\n").find("width and height") != std::string::npos);
   CHECK(message("frames 2 3\n").find("'3' is too much") != std::string::npos);
   CHECK(message("window\n").find("wants a file") != std::string::npos);
+  for (const char* verb : {"window", "picture"})
+    CHECK(message(verb + std::string(" a.jpg\n")).find("end the name in .png") != std::string::npos);
 }
 
 TEST_CASE("a recorded session can be replayed: of moves in one frame the last, frames between") {
