@@ -17,8 +17,9 @@ struct Options {
   std::size_t rows = 20;
 };
 
-double medianOf(std::vector<double> values) {
-  if (values.empty()) return 0;
+// None of nothing.
+Report medianOf(std::vector<double> values) {
+  if (values.empty()) return nullptr;
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

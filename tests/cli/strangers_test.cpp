@@ -257,6 +257,10 @@ TEST_CASE("networks that have no vessel in common are said to be strangers") {
   const auto outcome = runProgram({"compare", net, humanVessels().string()});
   CHECK(outcome.exit == 0);
   CHECK_MESSAGE(outcome.out.find("no vessel is in both") != std::string::npos, outcome.out);
+  const auto summary = runProgram({"compare", net, humanVessels().string(), "--json"}).json()["summary"];
+  CHECK(summary["common"] == 0);
+  CHECK(summary["length_ratio_median"].is_null());
+  CHECK(summary["apart_median_m"].is_null());
 }
 
 namespace {
