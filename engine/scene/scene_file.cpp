@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
+#include "core/text_file.h"
 #include "io/foreign_files.h"
 
 namespace vasa {
@@ -269,8 +270,11 @@ Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
   if (!bytes && bytes.error().fault == Fault::badInput && extensionOf(path) != ".json")  // larger than any
     return noScene(path.string());
   if (!bytes) return bytes.error();
-  auto scene = parseScene({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.parent_path(),
-                          path.string());
+  std::string kept;
+  const auto text =
+      plainText({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), kept);
+  if (!text) return extensionOf(path) == ".json" ? text.error() : noScene(path.string());
+  auto scene = parseScene(std::string(*text), path.parent_path(), path.string());
   if (scene) scene->path = path;
   return scene;
 }

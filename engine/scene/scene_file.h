@@ -108,7 +108,7 @@ bool isMotionFile(std::string_view clip);
 
 /// Reads a scene file. badInput names the JSON place and the rule: malformed JSON, an unknown key, a wrong
 /// type, a number that is not finite or out of range, more than 1 MiB, 1000 networks, or 16 levels of
-/// nesting.
+/// nesting. Text as plainText() (core/text_file.h) has it: UTF-16 is refused by name.
 Result<SceneFile> readSceneFile(const std::filesystem::path& path);
 
 /// The same from text. @param folder  that relative paths start from; @param name  for messages

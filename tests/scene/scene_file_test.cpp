@@ -43,6 +43,24 @@ TEST_CASE("a full scene is read, paths relative to the file") {
   CHECK(scene->look.background->w == 0);
 }
 
+TEST_CASE("a scene in UTF-16 is refused as that, one in Windows' code page is read") {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "scene.json";
+  const std::string text = R"({"clip": "walk"})";
+  std::string wide = "\xFF\xFE";
+  for (const char letter : text) wide += {letter, '\0'};
+  REQUIRE(writeFileAtomically(path, wide).ok());
+  const auto refused = readSceneFile(path);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().fault == Fault::badInput);
+  CHECK(refused.error().message.find("scene.json: the text is UTF-16; save it as UTF-8") !=
+        std::string::npos);
+  REQUIRE(writeFileAtomically(path, std::string("{\"chosen\": \"art\xE8re\"}")).ok());
+  const auto read = readSceneFile(path);
+  REQUIRE(read.ok());
+  CHECK(read->chosen == "art\xC3\xA8re");
+}
+
 TEST_CASE("a motion file's path is relative to the scene, a clip's name is no path") {
   const auto scene =
       parseScene(R"({"clip": "walk.bvh", "joint_map": "map.txt", "holds": "h.csv", "as_recorded": true})",
