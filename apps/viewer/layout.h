@@ -1,4 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 #include "math/types.h"
 
 namespace vasa::viewer {
@@ -30,6 +34,17 @@ inline Layout layoutOf(float width, float height, float scale, bool panels, bool
           .transport = {0, above + down, narrow ? width : across, below},
           .outliner = {0, above, list, down},
           .bar = {0, 0, width, above}};
+}
+
+/// [pixels] that a window is drawn with: its own size or, where that is more than a device can take, the
+/// largest of its shape that is not.
+/// @param side, count  pixels along a side, and in all, that a device can take
+inline uvec2 drawnSize(uvec2 window, std::uint32_t side, std::uint64_t count) {
+  const glm::dvec2 size(window);
+  if (size.x * size.y == 0) return window;
+  const double share =
+      std::min({1.0, side / std::max(size.x, size.y), std::sqrt(double(count) / (size.x * size.y))});
+  return glm::max(uvec2(share * size), uvec2(1));
 }
 
 }  // namespace vasa::viewer

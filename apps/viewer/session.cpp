@@ -39,9 +39,8 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
       keeper_(options.builtIn),
       loader_(loader),
       worker_([] { Window::wake(); }, device_.isCpu()),
-      reshaper_([] { Window::wake(); }),
-      width_(window.width()),
-      height_(window.height()) {
+      reshaper_([] { Window::wake(); }) {
+  takeSize(window.width(), window.height());
   ui_.useClipboard(window);
   report_.loads.push_back({.title = loader_.title(), .outcome = "loading"});
   opening_ = options.dropped;

@@ -70,7 +70,9 @@ class Session {
   void gather();
   void takeWindowEvents();
   void takeScript();
-  void handle(const InputEvent& event);
+  void takeSize(std::uint32_t width, std::uint32_t height);
+  InputEvent asDrawn(InputEvent event) const;
+  void handle(const InputEvent& given);
   void click(const Click& click);
   void openContext(vec2 place);
   void escape();
@@ -190,7 +192,8 @@ class Session {
   bool arriving_ = false;                                          // loaded, but not seen yet
   enum class Untidy { no, growing, loaded } untidy_ = Untidy::no;  // what has left freed memory behind
   std::future<void> tidying_;
-  std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window
+  std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window as it is drawn
+  vec2 drawnShare_{1};                    // of its own pixels
   int panelFrames_ = kRestingFrames;
   bool ending_ = false, profiling_ = false;
   bool altAlone_ = false;     // pressed, and nothing since

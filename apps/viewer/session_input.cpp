@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "core/log.h"
 #include "viewer/actions.h"
 #include "viewer/session.h"
 
@@ -79,12 +82,39 @@ void Session::takeScript() {
   ending_ = true;
 }
 
-void Session::handle(const InputEvent& event) {
-  recorder_.add(event);
+// What the device cannot draw is drawn smaller and shown enlarged.
+void Session::takeSize(std::uint32_t width, std::uint32_t height) {
+  constexpr std::uint32_t kPixelBytes = 4;
+  const VkPhysicalDeviceLimits& limits = device_.limits();
+  const bool wasWhole = drawnShare_ == vec2(1);
+  const uvec2 window(width, height),
+      drawn = drawnSize(window, limits.maxImageDimension2D, limits.maxStorageBufferRange / kPixelBytes);
+  width_ = drawn.x;
+  height_ = drawn.y;
+  drawnShare_ = width > 0 && height > 0 ? vec2(drawn) / vec2(window) : vec2(1);
+  if (drawn == window || !wasWhole) return;
+  std::string told = fmt::format(
+      "The window's {}x{} pixels are more than the device can draw: it is drawn with {}x{} and enlarged; a "
+      "smaller window is sharper",
+      width, height, drawn.x, drawn.y);
+  if (options_.script)
+    logWarning(told);
+  else
+    say(std::move(told), 8);
+}
+
+// Places in the window as it is drawn.
+InputEvent Session::asDrawn(InputEvent event) const {
+  if (auto* moved = std::get_if<PointerMoved>(&event)) moved->place *= drawnShare_;
+  return event;
+}
+
+void Session::handle(const InputEvent& given) {
+  recorder_.add(given);
+  const InputEvent event = asDrawn(given);
   ui_.feed(event);
   if (const auto* size = std::get_if<WindowResized>(&event)) {
-    width_ = size->width;
-    height_ = size->height;
+    takeSize(size->width, size->height);
   } else if (const auto* key = std::get_if<KeyChanged>(&event)) {
     if (key->down && key->key == Key::escape)
       escape();

@@ -22,9 +22,11 @@ constexpr VkDeviceSize kSmallest = 16;
 Buffer::Buffer(Device& device, const BufferSpec& spec) : bytes_(spec.bytes) {
   const VkDeviceSize most = device.limits().maxStorageBufferRange;
   if (spec.bytes > most)
-    throw Error({Fault::failed, std::string(spec.name) + ": " + std::to_string(spec.bytes) +
-                                    " bytes, more than the " + std::to_string(most) +
-                                    " that the device lets a shader reach; use fewer quads or vessels"});
+    throw Error(
+        {Fault::failed,
+         std::string(spec.name) + ": " + std::to_string(spec.bytes) + " bytes, more than the " +
+             std::to_string(most) + " that the device lets a shader reach; use " +
+             (spec.role == MemoryRole::readBack ? "a smaller picture or window" : "fewer quads or vessels")});
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = std::max(spec.bytes, kSmallest);

@@ -53,6 +53,8 @@ TEST_CASE("a buffer that shaders cannot reach as a whole is refused") {
   const VkDeviceSize most = rig.device().limits().maxStorageBufferRange;
   CHECK_THROWS_WITH_AS(gpu::Buffer(rig.device(), {"vertices", most + 1}),
                        doctest::Contains("bytes, more than the "), gpu::Error);
+  CHECK_THROWS_WITH_AS(gpu::Buffer(rig.device(), {"picture", most + 1, gpu::MemoryRole::readBack}),
+                       doctest::Contains("use a smaller picture or window"), gpu::Error);
 }
 
 TEST_CASE("a moved buffer leaves an empty one") {

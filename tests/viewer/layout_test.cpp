@@ -17,6 +17,14 @@ bool overlap(const Rect& a, const Rect& b) {
 
 }  // namespace
 
+TEST_CASE("a window that is larger than a device can draw is drawn in its shape with as many pixels as go") {
+  CHECK(drawnSize({1280, 720}, 16384, 33'554'432) == uvec2(1280, 720));
+  CHECK(drawnSize({12000, 12000}, 16384, 33'554'432) == uvec2(5792, 5792));
+  CHECK(drawnSize({16000, 100}, 8192, 33'554'432) == uvec2(8192, 51));
+  CHECK(drawnSize({30000, 1}, 8192, 33'554'432) == uvec2(8192, 1));
+  CHECK(drawnSize({0, 720}, 16384, 33'554'432) == uvec2(0, 720));  // minimised
+}
+
 TEST_CASE("the window's parts share it out, with nothing on another, at any size and scale") {
   for (const vec2 size : {vec2(400, 300), vec2(800, 600), vec2(1280, 720), vec2(1920, 1280)})
     for (const float scale : {1.0f, 1.5f, 2.0f})
