@@ -366,7 +366,7 @@ void addCheck(CLI::App& app, Command& command) {
       "  vasa check --clip twist --method paper --threads 1\n"
       "A pair of tubes that overlaps at rest may stay as deep as it is there: rest_pairs counts these.\n"
       "obstacle_contacts: tubes in a bone or the heart that were not in it at rest; obstacle_deeper: those that were, and\n"
-      "lie deeper now, but for tubes whose axis lay in it; obstacle_rest_contacts counts all that were at rest.\n"
+      "lie deeper now, but for thin tubes whose axis lay in it; obstacle_rest_contacts counts all that were at rest.\n"
       "certified: no two tubes run through one another deeper than they do at rest, by an exact query; certificate\n"
       "lists what the word covers. It says nothing of tubes that are near one another along a vessel or across a\n"
       "fork (excluded_pairs), of the walls drawn around forks, of bones (obstacle_contacts), of capillaries, nor of\n"

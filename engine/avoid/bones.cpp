@@ -69,9 +69,9 @@ struct Bones::State {
     DistanceField field;
     mat4 matrix{1}, inverse{1};  // as bound -> posed, and back
     mat4 inverseBefore{1};       // of the pose before
-    // Tube, and f < 0: how deep it may be; sorted. Where even its axis lies in the part, that is anywhere:
-    // the ways out of a rib lead to all sides there, and what keeps to one in a round keeps to another in the
-    // next.
+    // Tube, and f < 0: how deep it may be; sorted. Where even the axis of a thin one lies in the part, that
+    // is anywhere: the ways out of a rib lead to all sides there, and what keeps to one in a round keeps to
+    // another in the next. Not so of the great vessels in the heart.
     std::vector<std::pair<std::uint32_t, float>> atRest = {};
 
     float allowed(std::uint32_t tube) const {
@@ -366,7 +366,8 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
     auto& atRest = state_->solids[contact.part].atRest;
     if (atRest.empty() || atRest.back().first != contact.tube)
       atRest.emplace_back(contact.tube, contact.f), ++state_->restContacts;
-    const bool isSunk = contact.f < -restTubes[contact.tube].at(contact.s).w;
+    const float radius = restTubes[contact.tube].at(contact.s).w;
+    const bool isSunk = contact.f < -radius && radius <= kWidest * state_->solids[contact.part].field.band();
     atRest.back().second = std::min(atRest.back().second, isSunk ? kAnywhere : contact.f);
   }
   state_->keepFields();

@@ -27,8 +27,9 @@ struct BoneContact {
 /// joint; the field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the
 /// joint with the largest weight at its first corner.
 ///
-/// A tube whose axis lies in a part at rest, as those of vessels that run through a bone in the data, is not
-/// held out of that part.
+/// A thin tube whose axis lies in a part at rest, as those of vessels that run through a bone in the data, is
+/// not held out of that part. (Thin: a radius of 3.6 mm at most, so that one ball is looked at in each
+/// place.)
 ///
 /// The way out of a part is that of its nearest surface; from within or beyond, it is where the straight way
 /// to where the tube was in the pose before, as the part sees it, leaves the part, so that a vessel is not
