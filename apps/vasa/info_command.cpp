@@ -248,9 +248,9 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
   }
   const auto surfaces = holdsSurfacesAlone(file);
   if (!surfaces) return surfaces.error();
-  if (const bool lines = holdsCentrelines(file); *surfaces || lines) {
+  if (*surfaces || holdsCentrelines(file)) {
     if (auto fine = refuseLists({vessels, joints}, file, kToConvert); !fine) return fine.error();
-    return lines ? lineReport(file) : surfaceReport(file);
+    return *surfaces ? surfaceReport(file) : lineReport(file);
   }
   if (isGltfFile(file)) {
     if (auto fine = refuseLists({.vessels = vessels}, file, "is a body"); !fine) return fine.error();

@@ -145,15 +145,15 @@ int main(int argc, char** argv) {
   vasa::cli::catchStopSignals();
   vasa::cli::endWhereMemoryEnds();
   vasa::cli::tellWhatTerminates();
+  int code = int(vasa::Fault::failed);
   try {
-    const int code = vasa::cli::run(argc, argv);
-    if (!vasa::hasUnawaited()) return code;
-    std::fflush(nullptr);
-    std::_Exit(code);
+    code = vasa::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
     vasa::logError("out of memory; use smaller inputs or fewer threads");
   } catch (const std::exception& error) {
     vasa::logError(error.what());
   }
-  return int(vasa::Fault::failed);
+  if (!vasa::hasUnawaited()) return code;
+  std::fflush(nullptr);
+  std::_Exit(code);
 }

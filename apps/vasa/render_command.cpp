@@ -266,14 +266,13 @@ std::string filesOf(const FilmJob& job, const Options& options) {
   return files;
 }
 
-// A shard's frames are no neighbours, so that there is no step between them to tell.
-std::string summaryOf(const Report& report, const std::string& files, bool neighbours) {
+std::string summaryOf(const Report& report, const std::string& files) {
   const auto frames = report["frames"].get<std::uint32_t>(),
              kept = report["frames_kept"].get<std::uint32_t>();
   std::string text = fmt::format("{}: {} {} in {:.1f} s", files, frames, frames == 1 ? "picture" : "pictures",
                                  report["seconds"].get<double>());
   if (kept > 0) text += fmt::format(", {} kept", kept);
-  if (frames > 1 && neighbours)
+  if (frames > 1 && report["largest_step_m"].is_number())
     text += fmt::format("; largest step between frames: {:.1f} mm of a control point, {:.1f} mm of a joint",
                         1e3 * report["largest_step_m"].get<double>(),
                         1e3 * report["largest_joint_step_m"].get<double>());
@@ -313,6 +312,10 @@ Result<void> run(const Globals& globals, const Options& options) {
     // A run that is stopped keeps what it solved, too.
     if (auto saved = track->save(); !saved) return saved.error();
     if (!done) return done.error();
+    // A shard's frames are no neighbours: there is no step between them to tell.
+    const auto ofNeighbours = [&](auto step) {
+      return job->shard.count == 1 ? Report(step) : Report(nullptr);
+    };
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return Report{{"frames", work.drawn},
                   {"frames_kept", work.kept},
@@ -320,9 +323,9 @@ Result<void> run(const Globals& globals, const Options& options) {
                   {"height", job->size.height},
                   {"sweeps", job->scene.network.sweepCount()},
                   {"seconds", seconds},
-                  {"largest_step_m", work.largestStep},
-                  {"largest_step_frame", work.largestStepFrame},
-                  {"largest_joint_step_m", work.largestJointStep},
+                  {"largest_step_m", ofNeighbours(work.largestStep)},
+                  {"largest_step_frame", ofNeighbours(work.largestStepFrame)},
+                  {"largest_joint_step_m", ofNeighbours(work.largestJointStep)},
                   {"capillaries", work.capillaries().curves},
                   {"capillary_trees", work.capillaries().trees},
                   {"capillary_bytes", work.capillaries().bytes},
@@ -332,7 +335,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!*film) return film->error();
   const Report& report = **film;
   if (globals.json) return printJson(report);
-  logInfo(summaryOf(report, filesOf(*job, options), job->shard.count == 1));
+  logInfo(summaryOf(report, filesOf(*job, options)));
   return {};
 }
 

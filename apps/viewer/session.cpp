@@ -81,8 +81,7 @@ Error Session::keepWhatIsThere(Error error) {
   if (recording_.running())
     if (const auto film = recording_.finish())
       error.message += "; the film until then is in " + film->string();
-  if (!options_.script && !saveSettings({width_, height_, state_}))
-    error.message += "; the view's settings could not be kept";
+  if (!options_.script && !keepSettings()) error.message += "; the view's settings could not be kept";
   return error;
 }
 
@@ -127,7 +126,7 @@ Result<ViewReport> Session::go() {
   loader_.stop();
   report_.stopMs = loader_.takeStopTimes();
   if (!options_.script)
-    if (const auto kept = saveSettings({width_, height_, state_}); !kept) logWarning(kept.error().message);
+    if (const auto kept = keepSettings(); !kept) logWarning(kept.error().message);
   return report();
 }
 
@@ -211,10 +210,14 @@ void Session::meetWishes() {
   if (saving_) saveForScript();
 }
 
-// A picture that a script asks for before anything is shown waits for what is being opened.
+Result<void> Session::keepSettings() const {
+  return saveSettings({window_.width(), window_.height(), state_});
+}
+
+// A picture that a script asks for waits for what is being opened.
 void Session::saveForScript() {
-  const bool missing = !saving_->panels && !shown_;
-  if (missing && width_ > 0 && height_ > 0 && (document_ || loader_.busy())) {
+  const bool alone = !saving_->panels, missing = alone && !shown_;
+  if (width_ > 0 && height_ > 0 && ((alone && loader_.busy()) || (missing && document_))) {
     settling_ = true;  // loading and shapes are waited for
     return;
   }

@@ -128,6 +128,7 @@ class Session {
   void noteFirst();
   void meetWishes();
   void saveForScript();
+  Result<void> keepSettings() const;
   void pastePose();
   void record();
   void profile();

@@ -14,6 +14,17 @@ bool isBinary(char character) {
   return byte < 0x20 && !(byte >= '\t' && byte <= '\r') && byte != 0x1a;
 }
 
+// Line by line: a file that several programs wrote may have both.
+std::string utf8ByLines(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, std::min(text.find('\n'), text.size() - 1) + 1);
+    out += isUtf8(line) ? std::string(line) : utf8FromWindows(line);
+    text.remove_prefix(line.size());
+  }
+  return out;
+}
+
 }  // namespace
 
 bool isUtf16(std::string_view text) {
@@ -31,8 +42,9 @@ Result<std::string_view> plainText(std::string_view text, const std::string& nam
   const bool windows = !isUtf8(text) && std::ranges::none_of(text, isBinary),
              oldMac = text.find('\r') != text.npos && text.find('\n') == text.npos;
   if (!windows && !oldMac) return text;
-  kept = windows ? utf8FromWindows(text) : std::string(text);
-  if (oldMac) std::ranges::replace(kept, '\r', '\n');
+  std::string lines(text);
+  if (oldMac) std::ranges::replace(lines, '\r', '\n');
+  kept = windows ? utf8ByLines(lines) : std::move(lines);
   return std::string_view(kept);
 }
 

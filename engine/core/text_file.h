@@ -13,9 +13,9 @@ namespace vasa {
 bool isUtf16(std::string_view text);
 
 /// The text behind a byte order mark. Where no line feed ends a line, carriage returns do (as on old Macs):
-/// then line feeds stand in their places, and each line has its number as elsewhere. Text that is no UTF-8 is
-/// taken for that of Windows in the west (code page 1252, Latin-1), unless it holds numbers as bytes. Fails
-/// with badInput where the text is UTF-16.
+/// then line feeds stand in their places, and each line has its number as elsewhere. Lines that are no
+/// UTF-8 are taken for those of Windows in the west (code page 1252, Latin-1), unless the text holds numbers
+/// as bytes. Fails with badInput where the text is UTF-16.
 /// @param text  outlives what is returned
 /// @param name  for messages
 /// @param kept  what is returned lies in it, or in `text`

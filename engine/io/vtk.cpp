@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <span>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "core/letters.h"
 #include "core/log.h"
 #include "core/text_file.h"
 #include "io/radius_array.h"
@@ -178,22 +178,24 @@ VtkContent vtkContent(const std::filesystem::path& path) {
     if (!plain) return VtkContent::nothing;
     text = *plain;
   }
+  std::string_view body = text;
+  for (int line = 0; legacy && line < 2; ++line)  // the second is a title, in any words
+    body.remove_prefix(std::min(body.find('\n', 1), body.size()));
   const auto counted = [&](std::string_view mark, char quote) {
-    for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + mark.size())) {
-      std::string_view rest = text.substr(at + mark.size(), 24);
+    const auto same = [](char a, char b) { return lowerCase(a) == lowerCase(b); };
+    for (auto at = body.begin();;) {
+      at = std::search(at, body.end(), mark.begin(), mark.end(), same);
+      if (at == body.end()) return false;
+      at += std::ptrdiff_t(mark.size());
+      const std::string_view rest = std::string_view(at, body.end()).substr(0, 24);
       if (quote && (rest.empty() || (rest[0] != '"' && rest[0] != '\''))) continue;
       const std::size_t digit = rest.find_first_of("123456789"), other = rest.find_first_not_of(" \"'0");
       if (digit != rest.npos && digit == other) return true;
     }
-    return false;
   };
-  const auto any = [&](std::initializer_list<const char*> marks, char quote) {
-    return std::ranges::any_of(marks, [&](const char* mark) { return counted(mark, quote); });
-  };
-  const bool lines = legacy ? any({"\nLINES ", "\nlines "}, 0) : counted("NumberOfLines=", '"'),
-             faces = legacy
-                         ? any({"\nPOLYGONS ", "\npolygons ", "\nTRIANGLE_STRIPS ", "\ntriangle_strips "}, 0)
-                         : any({"NumberOfPolys=", "NumberOfStrips="}, '"');
+  const bool lines = legacy ? counted("\nLINES ", 0) : counted("NumberOfLines=", '"'),
+             faces = legacy ? counted("\nPOLYGONS ", 0) || counted("\nTRIANGLE_STRIPS ", 0)
+                            : counted("NumberOfPolys=", '"') || counted("NumberOfStrips=", '"');
   if (lines && !(faces && withoutRadii(*bytes, legacy, text))) return VtkContent::lines;
   return faces ? VtkContent::surface : VtkContent::nothing;
 }

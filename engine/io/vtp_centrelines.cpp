@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <compare>
 #include <map>
 #include <numeric>
 #include <set>
@@ -18,7 +19,7 @@ namespace {
 
 // Two samples tell the same when their centres and their radii differ by less than this share of the radius.
 constexpr float kSameCentre = 0.05f, kSameRadius = 0.01f;
-constexpr float kDetourRadii = 4;
+constexpr float kDetourRadii = 4, kBifurcationRadii = 4;
 // Comparisons with lines taken before; what VMTK writes needs some ten a point. Where one step is as long as
 // a thousand others, all of these fall into one cell.
 constexpr std::size_t kComparisonsAPoint = 1000, kFreeComparisons = 100'000'000;
@@ -90,34 +91,44 @@ Samples samplesOf(const VtpLines& file, std::uint32_t line) {
   return samples;
 }
 
-// Whether a line goes on in another: no farther off than the samples of either, or a radius.
-bool goesOnIn(const Samples& line, const Samples& next) {
-  if (line.empty() || next.empty()) return true;
-  float farthest = std::max(line.back().w, next.front().w);
-  for (const Samples* samples : {&line, &next})
+// Whether a tract goes on in the next: no farther off than the samples of either, or than a bifurcation is
+// long, whose tracts may have been left out.
+bool goesOnIn(const Samples& tract, const Samples& next) {
+  if (tract.empty() || next.empty()) return true;
+  float farthest = kBifurcationRadii * std::max(tract.back().w, next.front().w);
+  for (const Samples* samples : {&tract, &next})
     for (std::size_t i = 1; i < samples->size(); ++i)
       farthest = std::max(farthest, glm::distance(vec3((*samples)[i - 1]), vec3((*samples)[i])));
-  return glm::distance(vec3(line.back()), vec3(next.front())) <= farthest;
+  return glm::distance(vec3(tract.back()), vec3(next.front())) <= farthest;
 }
 
 // Whole centre lines: the tracts with the same id, in order. Where files were put together their numbers come
-// again: a tract that was there belongs to another line, and no line leaps to a tract that it does not meet.
+// again: with the first that was there another file's begin. No line leaps to a tract that it does not meet.
 std::vector<Samples> wholeLines(const VtpLines& file) {
   const auto *ids = file.find("CenterlineIds"), *tracts = file.find("TractIds");
-  using Tract = std::tuple<std::size_t, std::int64_t, std::int64_t>;  // how often it was there, line, tract
-  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> before;
+  struct Tract {
+    std::size_t source;  // of the files that were put together
+    std::int64_t line, number;
+    auto operator<=>(const Tract&) const = default;
+  };
   std::map<Tract, std::uint32_t> order;
+  std::size_t source = 0;
   for (std::uint32_t i = 0; i < file.lines.size(); ++i) {
-    const std::int64_t id = ids && tracts ? ids->values[i] : i, tract = ids && tracts ? tracts->values[i] : 0;
-    order.emplace(Tract(before[{id, tract}]++, id, tract), i);
+    const bool divided = ids && tracts;
+    Tract tract{source, divided ? ids->values[i] : i, divided ? tracts->values[i] : 0};
+    if (order.contains(tract)) tract.source = ++source;
+    order.emplace(tract, i);
   }
   std::vector<Samples> lines;
-  std::optional<std::pair<std::size_t, std::int64_t>> last;
-  for (const auto& [tract, number] : order) {
-    const std::pair line(std::get<0>(tract), std::get<1>(tract));
-    const Samples samples = samplesOf(file, number);
-    if (std::exchange(last, line) != line || !goesOnIn(lines.back(), samples)) lines.emplace_back();
+  const Tract* last = nullptr;
+  Samples before;
+  for (const auto& [tract, i] : order) {
+    Samples samples = samplesOf(file, i);
+    const bool isNew = !last || last->source != tract.source || last->line != tract.line;
+    if (isNew || !goesOnIn(before, samples)) lines.emplace_back();
     for (const vec4& sample : samples) append(lines.back(), sample);
+    last = &tract;
+    before = std::move(samples);
   }
   std::erase_if(lines, [](const Samples& samples) { return samples.size() < 2; });
   return lines;
@@ -200,11 +211,12 @@ class Merger {
 
   // Where the same way was traced twice the traces part by a little now and then, within the vessel; what
   // leaves it is a way of its own, however short.
-  bool runsWithin(const Samples& run, Centrelines::Place before, Centrelines::Place after) const {
+  bool runsWithin(const Samples& run, Centrelines::Place before, Centrelines::Place after) {
     const Samples& host = out_.lines[before.line].samples;
     const std::size_t first = std::min(before.sample, after.sample),
                       last = std::max(before.sample, after.sample);
     if (lengthOf(run) >= kDetourRadii * host[first].w) return false;
+    taken_.comparisons += run.size() * (last - first + 1);
     return std::ranges::all_of(run, [&](const vec4& sample) {
       for (std::size_t i = first; i <= last; ++i) {
         const vec4 &a = host[i], &b = host[std::min(i + 1, last)];

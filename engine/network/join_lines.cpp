@@ -69,7 +69,10 @@ class Joiner {
       checkpoints.pass();
       work_ += lines_.lines[found.line].samples.size() + lines_.joints.size();
       if (work_ > kMostWork) break;
-      if (!joined_[2 * end.line + end.last] && take(end, found)) ++count;
+      if (joined_[2 * end.line + end.last]) continue;
+      // Where what it was nearest to turned out to be of another kind the next may do.
+      const auto fits = isOfKind(end.line, found.line) ? found : find(end);
+      if (fits && take(end, *fits)) ++count;
     }
     return count;
   }
@@ -96,7 +99,7 @@ class Joiner {
           if (cell == cells_.end()) continue;
           comparisons_ += 2 * cell->second.size();
           for (const auto& [line, i] : cell->second)
-            if (line != end.line && mayBeOne(lines_.lines[line].kind, lines_.lines[end.line].kind))
+            if (line != end.line && isOfKind(line, end.line))
               for (const std::uint32_t from : {i, i - 1}) look(p, end.last, line, from, best);
         }
     return best;
@@ -141,6 +144,8 @@ class Joiner {
   }
 
   VesselKind& kindOfPart(std::uint32_t line) { return kindOfPart_[parts_.find(line)]; }
+  // What hangs together is arteries or veins, also through lines of which nothing is told.
+  bool isOfKind(std::uint32_t a, std::uint32_t b) { return mayBeOne(kindOfPart(a), kindOfPart(b)); }
   void unite(std::uint32_t a, std::uint32_t b) {
     const VesselKind told = kindOfPart(a) != VesselKind::other ? kindOfPart(a) : kindOfPart(b);
     parts_.unite(a, b);
@@ -148,8 +153,6 @@ class Joiner {
   }
 
   bool take(const Centrelines::End& end, const Found& seen) {
-    // What hangs together is arteries or veins by now, through lines of which nothing is told.
-    if (!mayBeOne(kindOfPart(end.line), kindOfPart(seen.line))) return false;
     if (!join(end, seen)) return false;
     unite(end.line, seen.line);
     return true;

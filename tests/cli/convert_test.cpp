@@ -262,6 +262,7 @@ TEST_CASE("convert refuses centre lines that it cannot read, and surfaces and li
   expect({folder.write("bad.vtp", "<VTKFile/>")}, 3, "bad.vtp: /VTKFile");
   for (const char* ofSurfaces : {"--interpolate", "--no-bridges"})
     expect({good, ofSurfaces}, 2, std::string("leave out ") + ofSurfaces);
+  expect({good, "--tolerance", "5"}, 2, "leave out --tolerance");
   expect({good, folder.write("tube.obj", tubesObj({{"tube", 0}}))}, 2, "converted apart");
   expect({folder.path("absent.swc")}, 6, "absent.swc");
 }

@@ -21,6 +21,7 @@ TEST_CASE("text of Windows' code page is read as what it says") {
   CHECK(read("o Art\xe8re\n") == "o Artère\n");
   CHECK(read("o Art\xe8re\rv 0 0 0\r") == "o Artère\nv 0 0 0\n");
   CHECK(read("o Artère\n") == "o Artère\n");
+  CHECK(read("# \xa9\no Artère\n#") == "# ©\no Artère\n#");
   const std::string_view binary("LINES 1 3\n\0\0\0\2\xe8\xff", 16);  // numbers stand among the words
   CHECK(read(binary) == binary);
 }

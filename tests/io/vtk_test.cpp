@@ -140,7 +140,7 @@ TEST_CASE("surfaces of XML VTK, and which of both a file is about") {
         VtkContent::surface);
   CHECK(vtkContent(writeBytes(folder.path() / "b.vtk", head("ASCII") + kVtkPoints + "LINES 1 3\n2 0 1\n")) ==
         VtkContent::lines);
-  CHECK(vtkContent(writeBytes(folder.path() / "e.vtk", head("ASCII") + kVtkPoints + "lines 1 3\n2 0 1\n")) ==
+  CHECK(vtkContent(writeBytes(folder.path() / "e.vtk", head("ASCII") + kVtkPoints + "Lines 1 3\n2 0 1\n")) ==
         VtkContent::lines);
   CHECK(vtkContent(folder.path() / "none.vtk") == VtkContent::nothing);
   // Edges drawn on a surface, and centre lines within one.

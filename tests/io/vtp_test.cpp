@@ -326,6 +326,12 @@ TEST_CASE("lines of files that were put together keep apart though their numbers
         std::vector{90.0f, 90.0f});
   CHECK(lengths(numbered({alongY(0, 0, 40), alongY(0, 40, 90), alongY(50, 0, 40), alongY(50, 40, 90)},
                          {0, 0, 0, 0}, {0, 1, 0, 1})) == std::vector{90.0f, 90.0f});
+  // The second with a tract more, which would go on from the first's end.
+  CHECK(lengths(numbered(
+            {alongY(0, 0, 40), alongY(0, 40, 90), alongY(2, 0, 40), alongY(2, 40, 90), alongY(2, 90, 99)},
+            {0, 0, 0, 0, 0}, {0, 1, 0, 1, 2})) == std::vector{99.0f, 90.0f});
+  // A bifurcation's tract left out.
+  CHECK(lengths(numbered({alongY(0, 0, 40), alongY(0, 43, 90)}, {0, 0}, {0, 2})) == std::vector{90.0f});
   CHECK(lengths(numbered({alongY(0, 0, 40), alongY(50, 0, 40)}, {0, 0}, {0, 1})) ==
         std::vector{40.0f, 40.0f});
 }

@@ -229,15 +229,19 @@ TEST_CASE(
 TEST_CASE("a script's picture waits for what is being opened, and fails where nothing is") {
   const VirtualDisplay display;
   const TemporaryFolder folder;
-  const auto run = [&](const std::string& text) {
-    return runProgram({"view", "--clip", "stand", "--size", "400x300", "--out", folder.path().string(),
-                       "--script", scriptIn(folder.path(), text)},
+  const auto run = [&](const std::string& text, const std::string& opened) {
+    return runProgram({"view", opened, "--size", "400x300", "--out", folder.path().string(), "--script",
+                       scriptIn(folder.path(), text)},
                       on(display, folder));
   };
-  const auto waited = run("picture OUT/early.png\nclose\n");
+  const auto scene = folder.path() / "stand.json";
+  std::ofstream(scene) << R"({"clip": "stand"})";
+  const auto waited = run("picture OUT/early.png\nclose\n", scene.string());
   CHECK_MESSAGE(waited.exit == 0, waited.err);
   CHECK(readPng(folder.path() / "early.png"));
-  const auto cancelled = run("key escape\npicture OUT/none.png\n");
+  const auto slow = (folder.path() / "vessels.obj").string();
+  REQUIRE(runProgram({"export", "--quads", "10x8", "-o", slow}).exit == 0);
+  const auto cancelled = run("key escape\npicture OUT/none.png\n", slow);
   CHECK(cancelled.exit == 1);
   CHECK_MESSAGE(cancelled.err.find("none.png: there is nothing to draw") != std::string::npos, cancelled.err);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "none.png"));

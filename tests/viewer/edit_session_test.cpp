@@ -152,7 +152,7 @@ TEST_CASE(
   // What has branches goes with these alone.
   const TemporaryFolder bare;
   session(sceneIn(bare.path(), "left femoral artery"),
-          pick + "key delete\nsettle\nkey shift+delete\nsettle\n" + control("s"));
+          pick + "key delete\nsettle\nhold shift\nkey delete\nlet shift\nsettle\n" + control("s"));
   edits = readJournal(bare.path() / "scene.vedit");
   REQUIRE(edits);
   REQUIRE(edits->size() == 1);
