@@ -104,7 +104,7 @@ std::span<const Action> actions() {
        [](State& s, Shown, int) { editWith(s, EditTool::graft); }, anyChosen},
       {remove, MenuId::edit, "Delete vessel", {plain(Key::del)}, "delete the chosen vessel, while editing",
        [](State& s, Shown, int) { s.wishDelete = true; }, editable},
-      {removeTree, MenuId::edit, "Delete with branches", {{Key::del, false, true}}, "delete it with all that hangs on it",
+      {removeTree, MenuId::edit, "Delete with branches", {Chord{Key::del, false, true}}, "delete it with all that hangs on it",
        [](State& s, Shown, int) { s.wishDeleteTree = true; }, editable},
 
       {focus, MenuId::view, "Go to vessel", {plain('F'), plain(Key::period)}, "to the chosen vessel",

@@ -220,8 +220,9 @@ class SectionReader {
 
   void keep(const std::string& name, std::vector<double> values) {
     if (!data_) return;
-    const auto same = std::ranges::find(*data_, name, &Array::name);
-    (same != data_->end() ? *same : data_->emplace_back(name)).values = std::move(values);
+    auto own = std::ranges::find(*data_, name, &Array::name);
+    if (own == data_->end()) own = data_->insert(own, Array{name, {}});
+    own->values = std::move(values);
   }
 
   void readAttribute(const std::string& kind) {
