@@ -220,9 +220,9 @@ class SectionReader {
 
   void keep(const std::string& name, std::vector<double> values) {
     if (!data_) return;
-    auto own = std::ranges::find(*data_, name, &Array::name);
-    if (own == data_->end()) own = data_->insert(own, Array{name, {}});
-    own->values = std::move(values);
+    const auto [own, isNew] = places_[data_].emplace(name, data_->size());
+    if (isNew) data_->push_back({name, {}});
+    (*data_)[own->second].values = std::move(values);
   }
 
   void readAttribute(const std::string& kind) {
@@ -254,6 +254,7 @@ class SectionReader {
   std::string_view rest_;
   bool binary_ = false;
   std::vector<Array>* data_ = nullptr;
+  std::map<const std::vector<Array>*, std::map<std::string, std::size_t>> places_;  // of arrays by name
   std::size_t rows_ = 0;
   Checkpoints checkpoints_;
   Sections out_;
