@@ -78,9 +78,9 @@ TEST_CASE(
   const test::Filling filling = test::FillingMeter(human()).measure(curves);
   MESSAGE(curves.size() << " curves, of " << filling.places << " places out of the skin: " << filling.outside
                         << ", in bone: " << filling.inBone << ", filled of thigh: " << filling.thigh
-                        << ", scalp: " << filling.scalp << ", brain: " << filling.brain
-                        << ", lungs: " << filling.lungs << ", liver: " << filling.liver
-                        << ", kidneys: " << filling.kidneys << ", windpipe: " << filling.windpipe);
+                        << ", scalp: " << filling.scalp << ", brain: " << filling.brain << ", lungs: "
+                        << filling.lungs << ", liver: " << filling.liver << ", kidneys: " << filling.kidneys
+                        << ", heart: " << filling.heart << ", windpipe: " << filling.windpipe);
   CHECK(double(filling.outside) < 0.0005 * double(filling.places));
   CHECK(double(filling.inBone) < 0.005 * double(filling.places));
   CHECK(filling.thigh > 0.95);
@@ -89,6 +89,7 @@ TEST_CASE(
   CHECK(filling.lungs > 0.9);
   CHECK(filling.liver > 0.9);
   CHECK(filling.kidneys > 0.9);
+  CHECK(filling.heart > 0.9);
   CHECK(filling.windpipe < 0.015);
 }
 
@@ -99,10 +100,15 @@ TEST_CASE("an organ's capillaries hang on its own vessels, or on those that run 
     std::string organ, region;
     std::vector<const char*> vessels;  // parts of names
   };
-  for (const Owner& owner : {Owner{"left lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
-                             {"right lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
-                             {"liver", "glands", {"hepatic", "portal", "liver", "cystic"}},
-                             {"kidney", "glands", {"renal", "kidney"}}}) {
+  for (const Owner& owner :
+       {Owner{"left lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
+        {"right lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
+        {"liver", "glands", {"hepatic", "portal", "liver", "cystic"}},
+        {"kidney", "glands", {"renal", "kidney"}},
+        {"heart",
+         "heart",
+         {"coronary", "interventricular", "circumflex", "marginal", "diagonal", "posterolateral",
+          "posterior left ventricular", "nodal", "conal", "septal", "cardiac", "left ventricle"}}}) {
     CAPTURE(owner.organ);
     const auto mesh = std::ranges::find(human().body.meshes, "organ: " + owner.organ, &SkinnedMesh::name);
     REQUIRE(mesh != human().body.meshes.end());

@@ -14,8 +14,8 @@ struct Filling {
   std::size_t places = 0;   ///< looked at: five on every curve
   std::size_t outside = 0;  ///< of them out of the skin
   std::size_t inBone = 0;
-  float thigh = 0, scalp = 0, brain = 0, lungs = 0, liver = 0,
-        kidneys = 0;   ///< share of the centimetre cubes of flesh there that a curve runs through
+  float thigh = 0, scalp = 0, brain = 0, lungs = 0, liver = 0, kidneys = 0,
+        heart = 0;     ///< share of the centimetre cubes of flesh there that a curve runs through
   float windpipe = 0;  ///< share of the places in the box around the windpipe that lie in it
 };
 
@@ -63,6 +63,7 @@ class FillingMeter {
     filling.lungs = shareOfOrgan(places, "lung");
     filling.liver = shareOfOrgan(places, "liver");
     filling.kidneys = shareOfOrgan(places, "kidney");
+    filling.heart = shareOfOrgan(places, "heart");
     filling.windpipe = shareWithin(places, "windpipe");
     return filling;
   }
