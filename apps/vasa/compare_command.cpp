@@ -5,8 +5,8 @@
 #include "commands.h"
 #include "core/visible.h"
 #include "network/compare.h"
-#include "network/file.h"
 #include "report.h"
+#include "scene/vessel_files.h"
 
 // vasa compare: what two networks in one body tell of the vessels that both have.
 namespace vasa::cli {
@@ -60,9 +60,9 @@ std::string asText(const std::vector<VesselComparison>& all, const Report& repor
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
-  const auto network = readNetwork(options.network);
+  const auto network = readNetworkFile(options.network);
   if (!network) return network.error();
-  const auto other = readNetwork(options.other);
+  const auto other = readNetworkFile(options.other);
   if (!other) return other.error();
   std::vector<VesselComparison> all = compareVessels(*network, *other);
   std::ranges::stable_sort(all, std::greater{}, &VesselComparison::apart);

@@ -14,6 +14,7 @@
 #include "network_output.h"
 #include "report.h"
 #include "rest_report.h"
+#include "scene/vessel_files.h"
 #include "scene_options.h"
 
 // vasa edit: replays a journal of edits onto a network.
@@ -121,7 +122,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto inputs = readInputs(options);
   if (!inputs) return inputs.error();
-  const auto network = readNetwork(inputs->network);
+  const auto network = readNetworkFile(inputs->network);
   if (!network) return network.error();
   Replay replay = replayEdits(*network, inputs->edits);
   checkpoint();

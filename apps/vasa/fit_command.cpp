@@ -172,7 +172,7 @@ std::string asText(const Report& report) {
 
 Result<void> run(const Globals& globals, const Options& options) {
   if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
-  const auto network = readNetwork(options.network);
+  const auto network = readNetworkFile(options.network);
   if (!network) return network.error();
   const auto to = readBody(options.to);
   if (!to) return to.error();

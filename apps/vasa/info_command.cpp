@@ -332,7 +332,7 @@ Report profileReport(const std::string& title, std::span<const ProfileStation> s
 // A vessel's stations. A bare .vasa file is read without its scene's body.
 Result<void> printProfile(const Globals& globals, const Options& options) {
   const auto network = [&]() -> Result<Network> {
-    if (!isScene(options)) return readNetwork(options.file);
+    if (!isScene(options)) return readNetworkFile(options.file);
     const auto sources = chooseScene({.scene = options.file, .edits = options.edits});
     if (!sources) return sources.error();
     auto scene = loadScene(*sources);

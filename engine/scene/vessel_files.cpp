@@ -192,14 +192,18 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   return centrelines;
 }
 
-Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight,
-                            const ReadingProgress& told) {
-  if (holdsSurfaces(path)) return networkOfSurfaces(path, bodyHeight, told);
-  if (holdsCentrelines(path)) return networkOfLines(path, bodyHeight);
+Result<Network> readNetworkFile(const std::filesystem::path& path) {
   auto network = readNetwork(path);
   if (network || network.error().fault != Fault::badInput || extensionOf(path) == ".vasa") return network;
   const std::string remedy = remedyFor(path, FileUse::vessels);
   return remedy.empty() ? std::move(network) : badInput(path.string() + ": is no .vasa file" + remedy);
+}
+
+Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight,
+                            const ReadingProgress& told) {
+  if (holdsSurfaces(path)) return networkOfSurfaces(path, bodyHeight, told);
+  if (holdsCentrelines(path)) return networkOfLines(path, bodyHeight);
+  return readNetworkFile(path);
 }
 
 }  // namespace vasa

@@ -44,6 +44,9 @@ Result<std::vector<SourceElement>> readSurfacesInLikelyUnit(const std::filesyste
 TriangleMesh meshOf(const std::vector<SourceElement>& sources);
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import = {});
 
+/// A .vasa file; of another's kind of file the refusal says what to do with it (io/foreign_files.h).
+Result<Network> readNetworkFile(const std::filesystem::path& path);
+
 /// A network out of any file that has vessels: ours (.vasa) as it is, others converted (convert/convert.h).
 /// Those without a unit of their own are read in the likely one (likelyUnit), and that is said where it is
 /// not metres; elements that are doubtful as vessels (convert/report.h) are warned of.

@@ -382,6 +382,9 @@ TEST_CASE(
   expect({"fit", net, "--from", human, "--to", net, "-o", "x.vasa"}, 3, "name a body in its place");
   expect({"place", write(folder, "walk.bvh", "HIERARCHY"), "-o", "x.vasa"}, 3,
          "it is a motion, and no vessels");
+  const auto walk = write(folder, "walk.bvh", "HIERARCHY");
+  expect({"compare", walk, net}, 3, "it is a motion, and no vessels");
+  expect({"edit", walk, write(folder, "no.vedit", "x"), "-o", "x.vasa"}, 3, "it is a motion, and no vessels");
   expect({"check", "--clip", c3d, "--frames", "0"}, 3, "turn it into .bvh first");
   expect({"check", "--clip", fbx, "--frames", "0"}, 3, "export the armature's motion as .bvh");
   expect({"info", write(folder, "notes.txt", "x")}, 2, "write centre lines as .swc");
