@@ -148,7 +148,7 @@ void addExport(CLI::App& app, Command& command) {
       ".glb: the vessels as one mesh with a material a kind; the motion as morph targets, so that any viewer plays what\n"
       "is drawn here: a key a frame (or --fps) and more where motion is curved, each vertex within --tolerance at every key;\n"
       "between_error_mm tells how far off it is between keys. The mesh's extras name the vessels, the vertex\n"
-      "attribute _VESSEL numbers them. Without --quads, as fine as --budget allows.\n"
+      "attribute _VESSEL numbers them: vasa convert reads them back one by one. Without --quads, as fine as --budget allows.\n"
       ".obj, .stl: one frame's surface. .vtp (VMTK's arrays), .swc: one frame's centre lines. .csv: a row a frame and vessel.\n"
       ".tubes: the first and the last frame as the two poses of a tube list for vasa bench collide.\n"
       "Formats of one frame write the first where none is named.");

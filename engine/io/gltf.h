@@ -9,10 +9,10 @@
 // glTF 2.0, .gltf and .glb. Every file is checked completely before anything in it is used: container, JSON,
 // every index, range and alignment, the forest of nodes, key times, finite values. A broken rule is
 // Fault::badInput with "file: JSON place: rule; remedy"; a file that cannot be read is Fault::io. Pictures
-// are never opened, and other files only where they lie in the asset's folder or below it. Morph targets,
-// cameras and lights are ignored. Extensions: KHR_mesh_quantization is understood, meshes packed by
-// EXT_meshopt_compression and KHR_draco_mesh_compression are unpacked; a file that requires any other that
-// changes geometry is refused.
+// are never opened, and other files only where they lie in the asset's folder or below it. Morph targets are
+// in as far as the file's weights say; what animations do to them, cameras and lights are ignored.
+// Extensions: KHR_mesh_quantization is understood, meshes packed by EXT_meshopt_compression and
+// KHR_draco_mesh_compression are unpacked; a file that requires any other that changes geometry is refused.
 namespace vasa {
 
 /// A body: skeleton, skinned meshes (one for each node and material), clips. The file must have a skin.
@@ -30,7 +30,8 @@ Result<Body> parseBody(std::vector<std::byte> bytes, const std::filesystem::path
 
 /// One element for each node of the default scene that has a mesh, in the file's order: primitives merged, in
 /// world coordinates, skinned ones in the rest pose, as above. The name is the node's; category and ontology
-/// id are the node's (or the mesh's) extras "category" and "fma".
+/// id are the node's (or the mesh's) extras "category" and "fma". A mesh that encodeGlb() wrote
+/// (io/animated_mesh.h) is an element for each of its vessels.
 Result<std::vector<MeshElement>> readGltfElements(const std::filesystem::path& path);
 Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes,
                                                    const std::filesystem::path& path);

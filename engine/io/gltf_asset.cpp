@@ -1,10 +1,8 @@
 #include "io/gltf_asset.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/log.h"
-#include "core/visible.h"
 #include "io/gltf_check.h"
 #include "io/gltf_container.h"
 #include "io/gltf_json.h"
@@ -27,21 +25,6 @@ json parseJson(std::string_view text) {
   }
 }
 
-// Shapes that meshes are blended with are not read, which is said where one is in use.
-void warnOfShapes(const JsonView& root, const std::string& name) {
-  for (const char* array : {"meshes", "nodes"})
-    for (const JsonView& item : root.items(array)) {
-      const auto weights = item.find("weights");
-      if (!weights ||
-          std::ranges::all_of(weights->items(), [](const JsonView& own) { return own.number() == 0; }))
-        continue;
-      const auto title = item.find("name");
-      return logWarning(name + ": morph targets (shape keys) are left out, though " +
-                        (title ? "'" + visible(title->text()) + "'" : item.place()) +
-                        " is drawn with some; apply them before exporting");
-    }
-}
-
 }  // namespace
 
 Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path) {
@@ -57,7 +40,6 @@ Asset loadAsset(std::vector<std::byte> bytes, const std::filesystem::path& path)
       logWarning(asset.name +
                  ": copies of meshes by EXT_mesh_gpu_instancing are left out, each mesh is read once; make "
                  "the copies real objects before exporting");
-    warnOfShapes(root, asset.name);
     if (container.isGlb && !container.binary && countOf(root, "buffers") > 0 &&
         !root.at("buffers").first().has("uri"))
       root.at("buffers").first().fail("has no uri, and the GLB has no BIN chunk that could be meant");

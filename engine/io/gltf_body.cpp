@@ -57,7 +57,8 @@ std::map<int, Geometry> geometryByMaterial(const Asset& asset, const Model::Node
   std::map<int, Geometry> byMaterial;
   const auto& primitives = asset.model.meshes[std::size_t(node.mesh)].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i)
-    appendPrimitive(asset, primitives[i], node.skin >= 0, byMaterial[primitives[i].material]);
+    appendPrimitive(asset, primitives[i], weightsOf(asset.model, node), node.skin >= 0,
+                    byMaterial[primitives[i].material]);
   return byMaterial;
 }
 
@@ -152,7 +153,12 @@ void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t ver
   std::size_t sum = 0;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     if (model.nodes[i].mesh < 0 || !tree.inScene[i]) continue;
+    const auto& mesh = model.meshes[std::size_t(model.nodes[i].mesh)];
+    const auto morphs =
+        std::size_t(std::ranges::count_if(weightsOf(model, model.nodes[i]), [](float w) { return w != 0; }));
     sum += sizes[std::size_t(model.nodes[i].mesh)];
+    for (const auto& primitive : mesh.primitives)
+      sum += std::min(morphs, primitive.targets.size()) * primitive.vertices * sizeof(vec3);
     if (sum > most)
       breaks("/nodes/" + std::to_string(i),
              "the meshes, repeated as often as nodes name them, are too large: all up to this " +

@@ -18,6 +18,9 @@ void checkData(const Asset& asset);
 /// what else has one as packed, and see other numbers than we.
 bool hasStride(const JsonView& accessor, const std::vector<JsonView>& views);
 
+/// One finite number a target.
+void checkMorphWeights(const JsonView& weights, std::size_t targets);
+
 // The topics of checkStructure, in its order.
 void checkHead(const JsonView& root);        ///< asset version, extensions, kinds of the top-level arrays
 void checkBuffers(const JsonView& root);     ///< buffers and buffer views

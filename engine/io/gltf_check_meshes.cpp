@@ -159,6 +159,7 @@ void checkTargets(const JsonView& primitive, const Shapes& shapes, std::int64_t 
                    std::to_string(vertexCount));
       if (!primitive.at("attributes").has(name))
         place.fail("displaces " + std::string(name) + ", which the mesh does not have");
+      if (name == "POSITION") checkVector(place, shape, "VEC3", shapes.quantised());
     }
 }
 
@@ -174,6 +175,12 @@ void checkPrimitive(const JsonView& primitive, const JsonView& root, Shapes& sha
 
 }  // namespace
 
+void checkMorphWeights(const JsonView& weights, std::size_t targets) {
+  if (weights.size() != targets)
+    weights.fail("must hold one number for each of " + std::to_string(targets) + " morph targets");
+  weights.numbers(targets);
+}
+
 void checkMeshes(const JsonView& root) {
   Shapes shapes(root);
   for (const JsonView& mesh : root.items("meshes")) {
@@ -185,8 +192,7 @@ void checkMeshes(const JsonView& root) {
       if (countOf(primitive, "targets") != targets)
         primitive.fail("must have as many morph targets as the mesh's first primitive");
     }
-    if (const auto weights = mesh.find("weights"); weights && weights->size() != targets)
-      weights->fail("must hold one number for each of " + std::to_string(targets) + " morph targets");
+    if (const auto weights = mesh.find("weights")) checkMorphWeights(*weights, targets);
   }
 }
 

@@ -40,8 +40,7 @@ void checkReferences(const JsonView& node, const JsonView& root, const std::vect
   if (!node.has("mesh")) weights->fail("must not be given without a mesh");
   const JsonView& mesh = meshes[node.at("mesh").index(meshes.size(), "meshes")];
   const std::size_t targets = countOf(mesh.at("primitives").first(), "targets");
-  if (weights->size() != targets)
-    weights->fail("must hold one number for each of " + std::to_string(targets) + " morph targets");
+  checkMorphWeights(*weights, targets);
 }
 
 // Every node has at most one parent. Then a walk down from the parentless nodes reaches every node that is on

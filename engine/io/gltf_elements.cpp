@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "body/skinning.h"
+#include "core/ids.h"
 #include "io/gltf_body.h"
 #include "io/gltf_rule.h"
 
@@ -71,6 +72,39 @@ std::optional<vec3> colourTold(const Model& model, int node) {
   return std::nullopt;
 }
 
+// Ours (io/animated_mesh.h): in the place of the last element one for each of its vessels that has triangles,
+// and one for triangles that are of none. A triangle is its first corner's.
+void takeApart(std::span<const Model::VesselLabel> labels, std::span<const std::uint32_t> vesselOf,
+               std::vector<MeshElement>& elements) {
+  const MeshElement whole = std::move(elements.back());
+  elements.pop_back();
+  std::vector<std::vector<uvec3>> own(labels.size() + 1);
+  for (const uvec3& t : whole.mesh.triangles)
+    own[std::min<std::size_t>(vesselOf[t.x], labels.size())].push_back(t);
+  std::vector<std::uint32_t> numbers(whole.mesh.positions.size(), kNone);  // in the element being made
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (own[k].empty()) continue;
+    MeshElement element{whole.name, whole.category, whole.ontologyId, {}, whole.surroundings, {}, {}};
+    if (k < labels.size())
+      element.name = labels[k].name, element.category = labels[k].kind,
+      element.ontologyId = labels[k].ontologyId;
+    std::vector<std::uint32_t> used;
+    for (uvec3& t : own[k])
+      for (int c = 0; c < 3; ++c) {
+        std::uint32_t& number = numbers[t[c]];
+        if (number == kNone) {
+          number = std::uint32_t(used.size());
+          used.push_back(t[c]);
+          element.mesh.positions.push_back(whole.mesh.positions[t[c]]);
+        }
+        t[c] = number;
+      }
+    for (const std::uint32_t vertex : used) numbers[vertex] = kNone;
+    element.mesh.triangles = std::move(own[k]);
+    elements.push_back(std::move(element));
+  }
+}
+
 }  // namespace
 
 std::vector<MeshElement> elementsOf(const Asset& asset) {
@@ -86,8 +120,9 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     std::vector<MeshMaterial> materials;
     for (const auto& primitive : mesh.primitives) {
       materials.push_back(meshMaterialOf(asset.model, primitive.material, geometry));
-      appendPrimitive(asset, primitive, node.skin >= 0, geometry);
+      appendPrimitive(asset, primitive, weightsOf(asset.model, node), node.skin >= 0, geometry);
     }
+    const std::vector<std::uint32_t> vessels = std::move(geometry.vessels);
     if (node.skin < 0)
       transform(geometry, tree.world[i]);
     else if (!rest)
@@ -100,6 +135,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     elements.back().colour = colourTold(asset.model, int(i));
     elements.back().materials = std::move(materials);
     mustBeFinite(elements.back().mesh.positions, int(i));
+    if (!mesh.vessels.empty()) takeApart(mesh.vessels, vessels, elements);
   }
   if (elements.empty()) breaks("/nodes", "no node of the scene has a mesh", "export the meshes too");
   return elements;

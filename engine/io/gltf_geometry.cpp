@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/cancellation.h"
+#include "core/ids.h"
 #include "io/gltf_accessor.h"
 
 namespace vasa::gltf {
@@ -106,20 +107,45 @@ std::vector<vec3> normalsOf(const Asset& asset, const Model::Primitive& primitiv
   return normals;
 }
 
+// As the morph targets leave them.
+std::vector<vec3> positionsOf(const Asset& asset, const Model::Primitive& primitive,
+                              std::span<const float> weights) {
+  std::vector<vec3> positions = readVectors(asset, primitive.position);
+  for (std::size_t k = 0; k < std::min(weights.size(), primitive.targets.size()); ++k) {
+    if (weights[k] == 0 || primitive.targets[k] < 0) continue;
+    const std::vector<vec3> displacements = readVectors(asset, primitive.targets[k]);
+    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += weights[k] * displacements[v];
+  }
+  return positions;
+}
+
+void readVessels(const Asset& asset, const Model::Primitive& primitive, Geometry& geometry) {
+  const std::size_t vertices = geometry.mesh.positions.size();
+  if (primitive.vessel >= 0) {
+    const Model::Accessor& accessor = asset.model.accessors[std::size_t(primitive.vessel)];
+    if (accessor.type == "SCALAR" && !isFloatComponent(accessor.componentType)) {
+      const std::vector<std::uint32_t> numbers = readIntegers(asset, primitive.vessel);
+      geometry.vessels.insert(geometry.vessels.end(), numbers.begin(), numbers.end());
+    }
+  }
+  geometry.vessels.resize(vertices, kNone);
+}
+
 }  // namespace
 
-void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, bool skinned,
-                     Geometry& geometry) {
+void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, std::span<const float> weights,
+                     bool skinned, Geometry& geometry) {
   const int position = primitive.position;
   if (position < 0 || primitive.mode < kTriangles) return;
   const std::size_t vertices = asset.model.accessors[std::size_t(position)].count;
-  const TriangleMesh mesh{readVectors(asset, position),
+  const TriangleMesh mesh{positionsOf(asset, primitive, weights),
                           trianglesOf(cornersOf(asset, primitive, vertices), primitive.mode)};
   const auto normals = normalsOf(asset, primitive, mesh);
   const auto base = std::uint32_t(geometry.mesh.positions.size());
   geometry.mesh.positions.insert(geometry.mesh.positions.end(), mesh.positions.begin(), mesh.positions.end());
   geometry.normals.insert(geometry.normals.end(), normals.begin(), normals.end());
   for (const uvec3& triangle : mesh.triangles) geometry.mesh.triangles.push_back(triangle + base);
+  readVessels(asset, primitive, geometry);
   if (skinned) readInfluences(asset, primitive, vertices, geometry);
 }
 

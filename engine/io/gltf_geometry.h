@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +21,16 @@ struct Geometry {
     vec4 weights{0};
   };
   std::vector<Influence> influences;
-  std::size_t mendedWeights = 0;  ///< vertices whose weights did not sum to 1
+  std::vector<std::uint32_t> vessels;  ///< one a vertex: of Model::Mesh::vessels, kNone where none is told
+  std::size_t mendedWeights = 0;       ///< vertices whose weights did not sum to 1
 };
 
 /// Adds a primitive's triangles (lists, strips and fans, indexed or not). Points and lines add nothing.
 /// Corners of strips that are no triangle are left out.
+/// @param weights  how far morph targets are in; more of either than of the other count for nothing
 /// @param skinned  read joints and weights; the primitive has them
-void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, bool skinned, Geometry& geometry);
+void appendPrimitive(const Asset& asset, const Model::Primitive& primitive, std::span<const float> weights,
+                     bool skinned, Geometry& geometry);
 
 /// Moves positions and normals; where the transform mirrors, turns the triangles over so that they keep
 /// facing out.

@@ -23,7 +23,9 @@ constexpr std::size_t kAnAttribute = 96;  // a node of a tree with a short name
 
 // What tinygltf is not given, in the order of the document.
 struct Aside {
-  std::vector<int> indices, vertices;  // of every primitive of every mesh
+  std::vector<int> indices, vertices;                    // of every primitive of every mesh
+  std::vector<std::vector<int>> targets;                 // likewise
+  std::vector<std::vector<Model::VesselLabel>> vessels;  // of every mesh
   std::map<int, Model::Labels> nodeLabels, meshLabels;
   std::map<int, std::string> humanoid;
 };
@@ -49,6 +51,27 @@ void addLabels(const json& object, int number, std::map<int, Model::Labels>& lab
   if (extras == object.end() || !extras->is_object()) return;
   Model::Labels found{labelIn(*extras, "category"), labelIn(*extras, "fma")};
   if (!found.category.empty() || !found.ontologyId.empty()) labels.emplace(number, std::move(found));
+}
+
+// All of them or none: their numbers count.
+std::vector<Model::VesselLabel> vesselsIn(const json& mesh) {
+  const auto extras = mesh.find("extras");
+  if (extras == mesh.end() || !extras->is_object()) return {};
+  const json& list = listIn(*extras, "vessels");
+  if (!list.is_array()) return {};
+  std::vector<Model::VesselLabel> vessels;
+  for (const json& entry : list) {
+    if (!entry.is_object() || labelIn(entry, "name").empty()) return {};
+    vessels.push_back({labelIn(entry, "name"), labelIn(entry, "kind"), labelIn(entry, "id")});
+  }
+  return vessels;
+}
+
+std::vector<int> targetsIn(const json& primitive) {
+  std::vector<int> targets;
+  for (const json& target : listIn(primitive, "targets"))
+    targets.push_back(integerIn(target, "POSITION", -1));
+  return targets;
 }
 
 const json& memberOf(const json& object, const char* key) {
@@ -89,8 +112,10 @@ Aside takeAside(const json& document) {
   number = 0;
   for (const json& mesh : listIn(document, "meshes")) {
     addLabels(mesh, number++, aside.meshLabels);
+    aside.vessels.push_back(vesselsIn(mesh));
     for (const json& primitive : mesh.at("primitives")) {
       aside.indices.push_back(integerIn(primitive, "indices", -1));
+      aside.targets.push_back(targetsIn(primitive));
       const auto first = std::size_t(primitive.at("attributes").begin()->get<double>());
       aside.vertices.push_back(integerIn(accessors.at(first), "count", 0));
     }
@@ -196,6 +221,7 @@ Model::Primitive primitiveOf(const tinygltf::Primitive& primitive, int indices, 
   out.position = named("POSITION");
   out.normal = named("NORMAL");
   out.indices = indices;
+  out.vessel = named("_VESSEL");
   out.material = primitive.material;
   out.mode = primitive.mode < 0 ? int(kTriangles) : primitive.mode;
   out.vertices = std::size_t(vertices);
@@ -207,8 +233,13 @@ Model::Primitive primitiveOf(const tinygltf::Primitive& primitive, int indices, 
 }
 
 Model::Node nodeOf(const tinygltf::Node& node) {
-  Model::Node out{node.name,    node.mesh, node.skin, {}, {node.matrix.begin(), node.matrix.end()},
-                  node.children};
+  Model::Node out{node.name,
+                  node.mesh,
+                  node.skin,
+                  {},
+                  {node.matrix.begin(), node.matrix.end()},
+                  node.children,
+                  {node.weights.begin(), node.weights.end()}};
   if (const auto& t = node.translation; !t.empty()) out.transform.translation = vec3(dvec3(t[0], t[1], t[2]));
   if (const auto& s = node.scale; !s.empty()) out.transform.scale = vec3(dvec3(s[0], s[1], s[2]));
   if (const auto& q = node.rotation; !q.empty())
@@ -253,6 +284,10 @@ void fill(std::vector<From>& from, std::vector<To>& out, Maker make) {
 
 }  // namespace
 
+std::span<const float> weightsOf(const Model& model, const Model::Node& node) {
+  return node.weights.empty() ? model.meshes[std::size_t(node.mesh)].weights : node.weights;
+}
+
 std::size_t modelMemory(const JsonView& root) {
   using namespace tinygltf;
   std::size_t bytes = 0;
@@ -268,9 +303,13 @@ std::size_t modelMemory(const JsonView& root) {
   add(countOf(root, "buffers"), sizeof(Buffer), 0);
   for (const JsonView& mesh : root.items("meshes")) {
     add(1, sizeof(Mesh), sizeof(Model::Mesh));
-    for (const JsonView& primitive : mesh.items("primitives"))
+    for (const JsonView& primitive : mesh.items("primitives")) {
       add(1, sizeof(Primitive) + kAnAttribute * primitive.at("attributes").members().size(),
           sizeof(Model::Primitive));
+      add(countOf(primitive, "targets"), 0, kGrowing * sizeof(int));
+    }
+    if (const auto extras = mesh.find("extras"); extras && extras->isObject())
+      add(countOf(*extras, "vessels"), 0, kGrowing * sizeof(Model::VesselLabel));
   }
   for (const JsonView& animation : root.items("animations")) {
     add(1, sizeof(Animation), sizeof(Model::Animation));
@@ -288,10 +327,12 @@ Model modelOf(json document) {
   fill(read.accessors, model.accessors, accessorOf);
   std::size_t primitive = 0;
   fill(read.meshes, model.meshes, [&](const tinygltf::Mesh& mesh) {
-    Model::Mesh out{mesh.name, {}};
+    Model::Mesh out{mesh.name, {}, {mesh.weights.begin(), mesh.weights.end()}, {}};
+    out.vessels = std::move(aside.vessels[model.meshes.size()]);
     out.primitives.reserve(mesh.primitives.size());
     for (const auto& part : mesh.primitives) {
       out.primitives.push_back(primitiveOf(part, aside.indices[primitive], aside.vertices[primitive]));
+      out.primitives.back().targets = std::move(aside.targets[primitive]);
       ++primitive;
     }
     return out;

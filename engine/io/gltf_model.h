@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,10 +44,18 @@ struct Model {
     int position = -1, normal = -1, indices = -1, material = -1, mode = kTriangles;
     std::size_t vertices = 0;          // of any attribute
     std::vector<int> joints, weights;  // accessors, one a set
+    int vessel = -1;                   // the attribute _VESSEL: which of the mesh's vessels, a vertex each
+    std::vector<int> targets;          // positions' displacements of every morph target; -1: it has none
+  };
+  /// As encodeGlb() names them in a mesh's extras (io/animated_mesh.h).
+  struct VesselLabel {
+    std::string name, kind, ontologyId;
   };
   struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
+    std::vector<float> weights;  // of the morph targets
+    std::vector<VesselLabel> vessels;
   };
   struct Node {
     std::string name;
@@ -54,6 +63,7 @@ struct Model {
     JointTransform transform;
     std::vector<float> matrix;  // column by column, in place of the transform; empty: none
     std::vector<int> children;
+    std::vector<float> weights;  // in place of the mesh's; empty: none
   };
   struct Skin {
     std::vector<int> joints;
@@ -95,6 +105,9 @@ struct Model {
   std::map<int, Labels> nodeLabels, meshLabels;  // of those that have any
   std::map<int, std::string> humanoid;           // nodes that VRM's table says are a human's bones, and which
 };
+
+/// How far the morph targets of a node's mesh are in at rest.
+std::span<const float> weightsOf(const Model& model, const Model::Node& node);
 
 /// Memory that modelOf() takes at its peak, without the document and its text [bytes].
 /// @param root  has passed checkStructure

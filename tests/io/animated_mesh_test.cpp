@@ -46,7 +46,26 @@ TEST_CASE("an animated mesh becomes a GLB that our own complete check takes, mov
   CHECK(summary->animations == 1);
   const auto elements = readGltfElements(folder.path() / "a.glb");
   REQUIRE(elements.ok());
-  CHECK((*elements)[0].mesh.triangles.size() == 2);
+  REQUIRE(elements->size() == 2);  // as the weights of the first key leave them: its own shape
+  for (std::size_t k = 0; k < 2; ++k) {
+    const MeshElement& element = (*elements)[k];
+    CHECK(element.category == mesh.labels[k].kind);
+    CHECK(element.ontologyId == mesh.labels[k].ontologyId);
+    REQUIRE(element.mesh.triangles == std::vector<uvec3>{{0, 1, 2}});
+    for (int c = 0; c < 3; ++c)
+      CHECK(element.mesh.positions[c] == mesh.positions[mesh.parts[k].triangles[0][c]]);
+  }
+  CHECK((*elements)[0].name == mesh.labels[0].name);
+  mesh.weights[0] = {1, 0.5f};
+  const auto shaped = readGltfElements(write(folder, "s.glb", encodeGlb(mesh)));
+  REQUIRE(shaped.ok());
+  CHECK((*shaped)[1].mesh.positions == std::vector<vec3>{{1, 0, 1}, {1, 2, 1.25f}, {0, 1, 1}});
+  mesh.labelOfVertex = {0, 7, 0, 1};  // of no vessel there is
+  const auto stray = readGltfElements(write(folder, "n.glb", encodeGlb(mesh)));
+  REQUIRE(stray.ok());
+  CHECK(stray->size() == 2);
+  CHECK((*stray)[1].name == "vessels");
+  mesh = sample();
   CHECK(encodeGlb(mesh) == encodeGlb(mesh));
   mesh.normals.clear(), mesh.normalShapes.clear();
   CHECK(checkGltf(write(folder, "flat.glb", encodeGlb(mesh))).ok());

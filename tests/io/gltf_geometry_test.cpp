@@ -40,6 +40,20 @@ TEST_CASE("lists, strips and fans become triangles that face the same way") {
   for (const int mode : {0, 1, 2, 3}) CHECK(elementsOf(points(mode))[0].mesh.empty());
 }
 
+TEST_CASE("morph targets are in as far as a mesh's weights say, or its node's in their place") {
+  GltfBuilder file = points(4);
+  json& primitive = file.document["meshes"][0]["primitives"][0];
+  for (const float up : {1.0f, 10.0f})
+    primitive["targets"].push_back(
+        {{"POSITION", file.floats({0, 0, up, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}});
+  CHECK(elementsOf(file)[0].mesh.positions[0] == vec3(0));
+  file.document["meshes"][0]["weights"] = {0.5, 0};
+  CHECK(elementsOf(file)[0].mesh.positions[0] == vec3(0, 0, 0.5f));
+  file.document["nodes"][0]["weights"] = {0, 2};
+  CHECK(elementsOf(file)[0].mesh.positions[0] == vec3(0, 0, 20));
+  CHECK(elementsOf(file)[0].mesh.positions[1] == vec3(1, 1, 0));
+}
+
 TEST_CASE("indices of 8, 16 and 32 bits, and stitches of strips") {
   for (const int type :
        {GltfBuilder::kUnsignedByte, GltfBuilder::kUnsignedShort, GltfBuilder::kUnsignedInt}) {
