@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "commands.h"
 #include "core/log.h"
 #include "frame_output.h"
@@ -17,12 +20,36 @@ namespace export_command {
 struct Options {
   SceneOptions scene;
   std::string output, frames, quads, track, unit = "mm";
-  double fps = 0, budgetMegabytes = 100, toleranceMillimetres = 0.05, betweenMillimetres = 1,
+  double fps = 0, budgetMegabytes = 128, toleranceMillimetres = 0.05, betweenMillimetres = 1,
          clearanceMillimetres = 5;
   std::uint32_t samples = 2;
   TissueOptions tissue;
   bool avoid = true, flat = false;
+  std::function<bool(const char*)> isGiven;
 };
+
+// An option that a kind of file has no use for would be passed over without a word.
+Result<void> refuseUseless(const Options& options, ExportKind kind) {
+  using enum ExportKind;
+  const struct {
+    const char* option;
+    std::vector<ExportKind> kinds;
+    const char* of;
+  } uses[] = {{"--quads", {glb, obj, stl}, ".glb, .obj and .stl"},
+              {"--budget", {glb}, ".glb"},
+              {"--tolerance", {glb}, ".glb"},
+              {"--between", {glb}, ".glb"},
+              {"--fps", {glb}, ".glb"},
+              {"--flat", {glb}, ".glb"},
+              {"--samples", {vtp, swc}, ".vtp and .swc"},
+              {"--unit", {vtp, swc, stl}, ".vtp, .swc and .stl"},
+              {"--clearance", {csv}, ".csv"}};
+  for (const auto& [option, kinds, of] : uses)
+    if (options.isGiven(option) && std::ranges::find(kinds, kind) == kinds.end())
+      return Error{Fault::usage, fmt::format("{} is of {} files, and {} is none; leave it out", option, of,
+                                             options.output)};
+  return {};
+}
 
 struct Job {
   Scene scene;
@@ -71,7 +98,7 @@ Result<ExportOptions> exportOptions(const Options& options, const Job& job) {
     settings.shape = SweepShape{quads->around, quads->along};
   }
   settings.fps = float(options.fps);
-  settings.mostBytes = std::size_t(options.budgetMegabytes * 1048576);
+  settings.mostBytes = std::size_t(options.budgetMegabytes * 1e6);
   settings.tolerance = float(1e-3 * options.toleranceMillimetres);
   settings.between = float(1e-3 * options.betweenMillimetres);
   settings.normals = !options.flat;
@@ -108,7 +135,8 @@ Result<Report> exportAs(const Options& options, ExportKind kind) {
     std::visit([&](const auto& value) { full[fact.name] = value; }, fact.value);
   if (const double between = full.value("between_error_mm", 0.0); between > options.betweenMillimetres)
     logWarning(fmt::format(
-        "{}: between two keys vertices stray up to {:.1f} mm, more than --between {:g}; a higher --fps makes that less",
+        "{}: between two keys vertices stray up to {:.1f} mm, more than --between {:g}: something small moves all at once "
+        "there, and more keys (--fps) only shorten how long that shows",
         options.output, between, options.betweenMillimetres));
   return full;
 }
@@ -122,6 +150,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (holdsMotion(*kind) && options.output.find("{frame") != std::string::npos)
     return Error{Fault::usage, "-o " + options.output +
                                    ": this kind of file holds all frames; leave {frame} out of its name"};
+  if (auto fine = refuseUseless(options, *kind); !fine) return fine.error();
   const auto report = exportAs(options, *kind);
   if (!report) return report.error();
   if (globals.json) return printJson(*report);
@@ -137,10 +166,11 @@ void addExport(CLI::App& app, Command& command) {
   auto options = std::make_shared<Options>();
   CLI::App* sub = app.add_subcommand(
       "export", "Animated surface, posed surface, centre lines or measurements for other programs");
+  options->isGiven = [sub](const char* option) { return sub->count(option) > 0; };
   sub->footer(
       "Examples:\n"
       "  vasa export --clip walk -o walk.glb\n"
-      "  vasa export --clip walk -o small.glb --tolerance 0.5 --flat --budget 30\n"
+      "  vasa export --clip walk -o small.glb --tolerance 0.5 --flat --budget 40\n"
       "  vasa export --clip squat --frames 40 -o squat.obj --quads 12x6\n"
       "  vasa export --clip fist --frames 0:74 -o 'lines/{frame:03}.vtp'\n"
       "  vasa export --clip walk -o walk.csv\n"

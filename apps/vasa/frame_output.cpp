@@ -50,7 +50,8 @@ Result<FrameRange> parseFrameRange(const std::string& text, std::uint32_t count)
   const auto first = pair.left.empty() ? range.first : number(pair.left);
   const auto last = pair.right.empty() ? range.last : number(pair.right);
   if (!first || !last || *first > *last || *last >= count)
-    return usage(fmt::format("--frames {}: give FIRST:LAST within 0:{}, both included", text, count - 1));
+    return usage(fmt::format("--frames {}: give FIRST:LAST within 0:{}, both included{}", text, count - 1,
+                             count == 1 ? "; without a motion (--clip) there is one frame" : ""));
   return FrameRange{*first, *last};
 }
 

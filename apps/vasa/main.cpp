@@ -23,7 +23,8 @@ namespace {
 
 void addGlobals(CLI::App& app, Globals& globals) {
   app.add_flag("--json", globals.json, "Print a machine-readable report on standard output, nothing else");
-  app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
+  app.add_flag("--quiet", globals.quiet,
+               "Leave out notes, warnings and progress: the report and errors alone");
   app.add_flag("--verbose", globals.verbose, "Say more");
   app.add_flag_callback(
       "--no-color", [] { setenv("NO_COLOR", "1", 1); },
@@ -132,6 +133,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
     logError(usageMessage(app, error));
+    return int(Fault::usage);
+  }
+  if (const std::string reason = overwritingMessage(app); !reason.empty()) {
+    logError(reason);
     return int(Fault::usage);
   }
   return runCommand(command);

@@ -147,7 +147,7 @@ std::string legend() {
     const auto hex = [](float c) { return int(std::lround(255 * c)); };
     const vec3 c = kBands[i].colour;
     const std::string words =
-        i + 1 < kBands.size() ? fmt::format("to {}", 1e3f * kBands[i].within) : fmt::format("more");
+        i + 1 < kBands.size() ? fmt::format("to {:g}", 1e3f * kBands[i].within) : fmt::format("more");
     text += fmt::format("<span class=\"band\" style=\"background:#{:02x}{:02x}{:02x}\"></span>{}", hex(c.x),
                         hex(c.y), hex(c.z), words);
   }

@@ -129,14 +129,17 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!protocol) return protocol.error();
   const auto file = chooseScene(options.scene);
   if (!file) return file.error();
+  if (!options.output.empty())
+    if (auto made = makeOutputFolder(options.output); !made) return made;
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
+  if (!file->clip.empty())
+    if (const auto clip = findClip(scene->body, file->clip); !clip) return clip.error();
   const RealismStudy study = studyRealism(
       *scene, *protocol, {.keep = options.tissue.kept(), .slide = !options.tissue.noSlide, .avoid = true});
   const Report report = reportOf(*scene, *file, *protocol, study);
   if (!options.output.empty()) {
     const std::filesystem::path out = options.output;
-    if (auto made = makeOutputFolder(out); !made) return made;
     if (auto written = writeFileAtomically(out / "report.json", report.dump(2) + "\n"); !written)
       return written;
     if (auto written = writeFileAtomically(out / "index.html", realismPage(*protocol, study, report));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/nearest_names.h"
 
 namespace vasa::cli {
@@ -57,6 +59,24 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
         didYouMean(word, names, name == "vasa" ? "vasa help lists them" : name + " --help lists them"));
   return fmt::format("{} does not know what to do with '{}'; {} --help lists what it takes", name, word,
                      name);
+}
+
+std::string overwritingMessage(const CLI::App& app) {
+  const CLI::App* const command = understood(app).first;
+  const auto isOutput = [](const CLI::Option* option) {
+    return option->check_lname("output") || option->check_lname("pairs");
+  };
+  std::error_code ignored;
+  for (const CLI::Option* to : command->get_options(isOutput))
+    for (const std::string& output : to->results()) {
+      if (!std::filesystem::is_regular_file(output, ignored)) continue;
+      for (const CLI::Option* from :
+           command->get_options([&](const CLI::Option* own) { return !isOutput(own); }))
+        for (const std::string& input : from->results())
+          if (std::filesystem::equivalent(input, output, ignored))
+            return output + ": is read, too, and would be written over; give the result another name";
+    }
+  return {};
 }
 
 }  // namespace vasa::cli

@@ -89,8 +89,9 @@ Result<Pose> poseByAngles(const Skeleton& skeleton, std::span<const JointAngles>
   for (const JointAngles& own : angles) {
     const auto joint = anatomy.find(own.part);
     if (!joint)
-      return badInput("no joint of this skeleton is known to be '" + own.part +
-                      "'; vasa knows the names of CMU, Mixamo, MakeHuman, VRM, VRoid and Biovision");
+      return badInput(
+          "no joint of this skeleton is known to be '" + own.part +
+          "'; parts are called as in VRM (leftUpperLeg, head), and vasa info --joints lists those of a body");
     const std::vector<std::uint32_t> sharing = anatomy.jointsOf(*joint);
     for (const std::uint32_t j : sharing) {
       // In model space about the joint as it is at rest; its parent's own turn comes on top of that.

@@ -30,13 +30,13 @@ class Matcher {
     for (const auto& [from, to] : map) {
       const auto a = std::ranges::find(motion_.names, from), b = std::ranges::find(body_.names, to);
       if (a == motion_.names.end())
-        return badInput(motionName + " has no joint '" + from + "' that the joint map names" +
-                        perhaps(from, motion_.names));
+        return badInput(motionName + " has no joint '" + from +
+                        "', which a line of the joint map begins with" + perhaps(from, motion_.names));
       const auto source = std::uint32_t(a - motion_.names.begin());
       told_[source] = true, leftOut_[source] = to.empty();
       if (to.empty()) continue;
       if (b == body_.names.end())
-        return badInput(bodyName + " has no joint '" + to + "' that the joint map names" +
+        return badInput(bodyName + " has no joint '" + to + "', which a line of the joint map ends with" +
                         perhaps(to, body_.names));
       match_.source[std::size_t(b - body_.names.begin())] = source;
       taken_[std::size_t(b - body_.names.begin())] = true;

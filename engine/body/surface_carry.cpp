@@ -9,6 +9,8 @@
 #include "body/deform.h"
 #include "body/inside.h"
 #include "body/skin_warp.h"
+#include "core/letters.h"
+#include "core/log.h"
 #include "core/parallel.h"
 #include "mesh/weld.h"
 
@@ -18,6 +20,11 @@ namespace {
 constexpr float kWeld = 1e-6f;        // [m] corners that are one
 constexpr float kCutMargin = 0.005f;  // of the surface's height
 constexpr float kLevel = 0.97f;       // least cosine of a cut to the axis
+constexpr float kMostOnOtherSide = 0.5f;
+// Another person's trunk comes to 0.8 and more, an arm in another person's leg to 0.77.
+constexpr float kSureSurfaceShare = 0.9f;
+constexpr float kClearlyLess =
+    0.05f;  // of a fit's cost: a twentieth of the surface, which no noise makes up for
 
 // Whole and outward. The volume is taken about the middle, so that an open end does not tell its sign.
 TriangleMesh cleaned(const TriangleMesh& surface) {
@@ -54,6 +61,44 @@ float shareOutside(const SkinShell& shell, std::span<const vec4> points) {
   return samples ? float(outside) / float(samples) : 0;
 }
 
+// Places of vessels whose names say on which side of the body they are: +1 left, -1 right.
+struct Sided {
+  vec3 place;
+  float side;
+};
+
+std::vector<Sided> sidedPlaces(const Network& network) {
+  std::vector<Sided> places;
+  for (const Vessel& vessel : network.vessels()) {
+    const std::string name = lowerCase(vessel.name);
+    const bool left = name.find("left") != name.npos, right = name.find("right") != name.npos;
+    if (left == right) continue;
+    for (const vec4& p : network.pointsOf(vessel)) places.push_back({vec3(p), left ? 1.0f : -1.0f});
+  }
+  return places;
+}
+
+float shareOnOtherSide(std::span<const Sided> sided, const SkinShell& skin, const Similarity& by) {
+  const Aabb box = skin.mesh().bounds();
+  const float middle = 0.5f * (box.low.x + box.high.x);
+  const auto wrong = std::ranges::count_if(
+      sided, [&](const Sided& own) { return own.side * (by(own.place).x - middle) < 0; });
+  return sided.empty() ? 0 : float(wrong) / float(sided.size());
+}
+
+SurfaceFit fitBySides(const TriangleMesh& surface, std::span<const Sided> sided, const SkinShell& skin) {
+  return fitSurface(surface, skin, [&](const Similarity& by) { return shareOnOtherSide(sided, skin, by); });
+}
+
+bool isMirrored(TriangleMesh surface, std::vector<Sided> sided, const SkinShell& skin,
+                const SurfaceFit& fit) {
+  if (sided.empty() || fit.cost <= kClearlyLess) return false;
+  for (vec3& p : surface.positions) p.x = -p.x;
+  for (uvec3& t : surface.triangles) std::swap(t.y, t.z);
+  for (Sided& own : sided) own.place.x = -own.place.x;
+  return fitBySides(surface, sided, skin).cost + kClearlyLess < fit.cost;
+}
+
 }  // namespace
 
 Result<SurfaceCarried> carryBySurface(const Network& network, const TriangleMesh& surface, const Body& to,
@@ -71,7 +116,8 @@ Result<SurfaceCarried> carryBySurface(const Network& network, const TriangleMesh
   const SkinShell skin(std::move(target));
   SurfaceCarried out;
   TriangleMesh placed = withoutCuts(around.mesh());
-  out.fit = fitSurface(placed, skin);
+  const std::vector<Sided> sided = sidedPlaces(network);
+  out.fit = fitBySides(placed, sided, skin);
   if (out.fit.share < kLeastSurfaceShare)
     return badInput(fmt::format(
         "{} is not found in the skin of {}: {:.0f} % of it at the most lie near it ({:.0f} % are asked for). It must be "
@@ -80,6 +126,21 @@ Result<SurfaceCarried> carryBySurface(const Network& network, const TriangleMesh
         surfaceName, to.name, 100 * out.fit.share, 100 * kLeastSurfaceShare));
 
   const Similarity& by = out.fit.by;
+  if (const float wrong = shareOnOtherSide(sided, skin, by); wrong > kMostOnOtherSide)
+    return badInput(fmt::format(
+        "{}: of vessels that are called left or right {:.0f} % would lie on the other side of {}, where {} fits best: turn the "
+        "sign of one axis of the vessels, or mend their names",
+        name, 100 * wrong, to.name, surfaceName));
+  if (isMirrored(placed, sided, skin, out.fit))
+    return badInput(fmt::format(
+        "{} and {} are mirror images: they fit {} by shape and by names (left, right) once they are mirrored. Export both "
+        "again with the sign of one axis turned",
+        surfaceName, name, to.name));
+  if (out.fit.share < kSureSurfaceShare)
+    logWarning(fmt::format(
+        "{}: only {:.0f} % of it lie near the skin of {} where it fits best: look whether that is the "
+        "place (vasa render --body --network), or place the vessels by landmarks (vasa place)",
+        surfaceName, 100 * out.fit.share, to.name));
   CarriedNetwork& carried = out.network;
   carried.radiusFactor = by.scale;
   carried.bodyHeight = to.height();

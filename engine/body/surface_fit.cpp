@@ -10,10 +10,16 @@
 namespace vasa {
 namespace {
 
-constexpr std::size_t kCoarseSamples = 250, kFineSamples = 2000;
-constexpr int kCoarseSteps = 25, kFineSteps = 60;
-constexpr std::size_t kRefined = 6;  // of the starts
+// All starts are looked at roughly, and what comes of them ever more closely.
+struct Round {
+  std::size_t starts, samples;
+  int steps;
+};
+constexpr Round kRounds[] = {{100'000, 60, 8}, {40, 250, 25}, {6, 2000, 60}};
 constexpr int kFacings = 4, kHeights = 9;
+constexpr float kColumn =
+    0.09f;  // of the body's height, between two places side by side: less than from arm to trunk
+constexpr float kTilts[] = {0, -0.6f, 0.6f};  // [rad] sideways, of limbs: arms hang, or are held away
 constexpr float kSizes[] = {0.8f, 1, 1.25f};
 constexpr float kSmallest = 0.3f, kLargest = 3;  // from a newborn to an adult, and back
 constexpr float kFacingSurface = 0.3f;           // least cosine between normals that belong together
@@ -28,37 +34,37 @@ struct Sample {
 
 class Fitter {
  public:
-  Fitter(const TriangleMesh& surface, const SkinShell& skin)
-      : skin_(skin), tree_(skin.mesh()), height_(skin.mesh().bounds().extent().y) {
+  Fitter(const TriangleMesh& surface, const SkinShell& skin,
+         const std::function<float(const Similarity&)>& misplaced)
+      : skin_(skin), tree_(skin.mesh()), height_(skin.mesh().bounds().extent().y), misplaced_(misplaced) {
     const Aabb box = surface.bounds();
     centre_ = 0.5f * (box.low + box.high), extent_ = box.extent();
     const std::vector<vec3> normals = vertexNormals(surface);
-    const auto take = [&](std::size_t count) {
-      std::vector<Sample> samples;
-      count = std::min(count, surface.positions.size());
+    for (const Round& round : kRounds) {
+      std::vector<Sample>& samples = samplesOf_.emplace_back();
+      const std::size_t count = std::min(round.samples, surface.positions.size());
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t v = i * surface.positions.size() / count;
         samples.push_back({surface.positions[v], normals[v]});
       }
-      return samples;
-    };
-    coarse_ = take(kCoarseSamples), fine_ = take(kFineSamples);
+    }
   }
 
   SurfaceFit run() const {
     std::vector<Try> tries = starts();
-    parallelFor(tries.size(), 1, [&](std::size_t i) { refine(tries[i], coarse_, kCoarseSteps); });
-    std::ranges::stable_sort(tries, {}, &Try::cost);
-    tries.resize(std::min(tries.size(), kRefined));
-    parallelFor(tries.size(), 1, [&](std::size_t i) { refine(tries[i], fine_, kFineSteps); });
+    for (std::size_t k = 0; k < samplesOf_.size(); ++k) {
+      std::ranges::stable_sort(tries, {}, &Try::cost);
+      tries.resize(std::min(tries.size(), kRounds[k].starts));
+      parallelFor(tries.size(), 1, [&](std::size_t i) { refine(tries[i], samplesOf_[k], kRounds[k].steps); });
+    }
     const Try& best = *std::ranges::min_element(tries, {}, &Try::cost);
-    SurfaceFit fit{best.by, 0, 0};
+    SurfaceFit fit{best.by, 0, 0, best.cost};
     std::size_t near = 0;
     double sum = 0;
-    for (const Sample& sample : fine_)
+    for (const Sample& sample : samplesOf_.back())
       if (const auto there = partnerOf(sample, best.by, kNearAtLast * height_))
         ++near, sum += glm::distance(*there, best.by(sample.place));
-    fit.share = float(near) / float(std::max<std::size_t>(1, fine_.size()));
+    fit.share = float(near) / float(std::max<std::size_t>(1, samplesOf_.back().size()));
     fit.distance = near ? float(sum / double(near)) : 0;
     return fit;
   }
@@ -70,22 +76,33 @@ class Fitter {
     float cost = 0;
   };
 
-  // The surface's middle on the body's axis, at all heights at which it lies between head and feet.
+  // The surface's middle at all heights at which it lies between head and feet, and as far aside as it lies
+  // between the hands: a whole body or a trunk has its one place there, limbs have several.
   std::vector<Try> starts() const {
     const Aabb box = skin_.mesh().bounds();
     std::vector<Try> tries;
     for (int facing = 0; facing < kFacings; ++facing)
       for (const float size : kSizes) {
         const float half = std::min(0.5f * size * extent_.y, 0.5f * height_);
-        for (int i = 0; i < kHeights; ++i) {
-          const float low = box.low.y + half, high = box.high.y - half;
-          const vec3 middle(0.5f * (box.low.x + box.high.x),
-                            glm::mix(low, high, float(i) / float(kHeights - 1)),
-                            0.5f * (box.low.z + box.high.z));
-          Similarity by{size, glm::angleAxis(float(facing) * kPi / 2, vec3(0, 1, 0)), vec3(0)};
-          by.move = middle - by(centre_);
-          tries.push_back({by, facing != 0});
-        }
+        const float wide = facing % 2 ? extent_.z : extent_.x;
+        const float aside = std::max(0.5f * (box.extent().x - size * wide), 0.0f);
+        const int columns = int(aside / (kColumn * height_));  // on either side
+        for (int i = 0; i < kHeights; ++i)
+          for (int column = -columns; column <= columns; ++column) {
+            const float low = box.low.y + half, high = box.high.y - half;
+            const vec3 middle(
+                0.5f * (box.low.x + box.high.x) + (columns > 0 ? aside * float(column) / float(columns) : 0),
+                glm::mix(low, high, float(i) / float(kHeights - 1)), 0.5f * (box.low.z + box.high.z));
+            for (const float tilt : kTilts) {
+              if (column == 0 && tilt != 0) continue;
+              Similarity by{size,
+                            glm::angleAxis(tilt, vec3(0, 0, 1)) *
+                                glm::angleAxis(float(facing) * kPi / 2, vec3(0, 1, 0)),
+                            vec3(0)};
+              by.move = middle - by(centre_);
+              tries.push_back({by, facing != 0});
+            }
+          }
       }
     return tries;
   }
@@ -132,20 +149,22 @@ class Fitter {
     }
     const float odd = std::log(one.by.scale) / kOddSize;
     return float(sum / double(std::max<std::size_t>(1, samples.size()))) + kOddSizeCost * odd * odd +
-           (one.turned ? kTurnedCost : 0);
+           (one.turned ? kTurnedCost : 0) + (misplaced_ ? misplaced_(one.by) : 0);
   }
 
   const SkinShell& skin_;
   TriangleTree tree_;
   float height_;
+  const std::function<float(const Similarity&)>& misplaced_;
   vec3 centre_{0}, extent_{0};
-  std::vector<Sample> coarse_, fine_;
+  std::vector<std::vector<Sample>> samplesOf_;  // a round each
 };
 
 }  // namespace
 
-SurfaceFit fitSurface(const TriangleMesh& surface, const SkinShell& skin) {
-  return Fitter(surface, skin).run();
+SurfaceFit fitSurface(const TriangleMesh& surface, const SkinShell& skin,
+                      const std::function<float(const Similarity&)>& misplaced) {
+  return Fitter(surface, skin, misplaced).run();
 }
 
 }  // namespace vasa

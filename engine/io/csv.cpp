@@ -67,7 +67,8 @@ Result<Table> Table::read(const std::filesystem::path& path) {
     }
     if (cells.size() != table.columns_.size())
       return badInput(table.name_ + ":" + std::to_string(line) + ": " + std::to_string(cells.size()) +
-                      " cells where the header has " + std::to_string(table.columns_.size()));
+                      " cells where the header has " + std::to_string(table.columns_.size()) +
+                      "; give each row as many, with nothing between two commas where it has no value");
     table.rows_.push_back({line, {cells.begin(), cells.end()}});
   }
   return table;
@@ -76,7 +77,8 @@ Result<Table> Table::read(const std::filesystem::path& path) {
 std::string_view Table::text(std::size_t row, std::string_view column) {
   const auto found = columns_.find(std::string(column));
   if (found != columns_.end()) return rows_[row].cells[found->second];
-  fault(row, "the table has no column " + quoted(column));
+  fault(row, "the table has no column " + quoted(column) +
+                 ": its first line that is no comment names the columns");
   return {};
 }
 

@@ -40,6 +40,9 @@ Result<std::vector<JointRange>> readJointRanges(const std::filesystem::path& pat
                      glm::radians(table->number(r, "low_deg")), glm::radians(table->number(r, "high_deg"))};
     if (!(range.low <= 0 && range.high >= 0 && range.low < range.high))
       table->fault(r, "low_deg and high_deg must be on both sides of 0, the rest pose");
+    if (!(range.low >= -kPi && range.high <= kPi))
+      table->fault(
+          r, "low_deg and high_deg must be from -180 to 180, as a joint comes to the same place beyond");
     if (std::ranges::count(ranges, range.name, &JointRange::name))
       table->fault(r, "there are two ranges called " + csv::quoted(range.name));
     ranges.push_back(range);
@@ -48,6 +51,9 @@ Result<std::vector<JointRange>> readJointRanges(const std::filesystem::path& pat
     ranges.push_back(std::move(range));
   }
   if (!table->state()) return table->state().error();
+  if (ranges.empty())
+    return badInput(path.string() +
+                    ": has no row below its header; data/realism/ranges.csv shows what one is like");
   return ranges;
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMostMemory = std::size_t(3) << 29;
 constexpr SweepShape kShapes[] = {{12, 8}, {10, 6}, {8, 5}, {8, 4}, {6, 4},
                                   {6, 3},  {5, 3},  {4, 3}, {4, 2}, {3, 2}};
+constexpr SweepShape kCoarsest = kShapes[std::size(kShapes) - 1];
 
 // How far a pose is from what lies straight between two others: what a player that moves vertices straight
 // from key to key gets wrong there.
@@ -132,21 +133,26 @@ std::size_t bytesOf(const Bake& bake) {
                      !bake.mesh.normals.empty());
 }
 
+std::string megabytes(std::size_t bytes) {
+  const std::size_t tenths = (bytes + 50'000) / 100'000;
+  return std::to_string(tenths / 10) + (tenths % 10 ? "." + std::to_string(tenths % 10) : "") + " MB";
+}
+
 Error tooLarge(const SweepShape& shape, std::size_t bytes, std::size_t most) {
-  return {Fault::failed,
-          std::to_string(shape.around) + "x" + std::to_string(shape.along) + " quads take " +
-              std::to_string(bytes >> 20) + " MB, the budget is " + std::to_string(most >> 20) +
-              " MB; give coarser quads, fewer frames, a larger --tolerance or a larger --budget"};
+  const bool isCoarsest = shape.around == kCoarsest.around && shape.along == kCoarsest.along;
+  return {Fault::failed, std::to_string(shape.around) + "x" + std::to_string(shape.along) + " quads take " +
+                             megabytes(bytes) + ", the budget is " + megabytes(most) + "; give " +
+                             (isCoarsest ? "" : "coarser quads, ") +
+                             "fewer frames, a larger --tolerance, --flat or a larger --budget"};
 }
 
 // The number of shapes hardly depends on how finely sweeps are cut: a coarse trial tells what each shape will
 // take.
 Result<Bake> finestThatFits(const FilmBaker& baker, std::size_t frames, const BakeOptions& options) {
-  constexpr SweepShape coarsest{3, 2};
-  if (const auto size = baker.sizeOf(coarsest); !holdable(size, frames))
-    return tooLarge(coarsest, size.vertices * 24 * frames, kMostMemory);
-  Bake trial = baker.run(coarsest);
-  if (bytesOf(trial) > options.maxBytes) return tooLarge(coarsest, bytesOf(trial), options.maxBytes);
+  if (const auto size = baker.sizeOf(kCoarsest); !holdable(size, frames))
+    return tooLarge(kCoarsest, size.vertices * 24 * frames, kMostMemory);
+  Bake trial = baker.run(kCoarsest);
+  if (bytesOf(trial) > options.maxBytes) return tooLarge(kCoarsest, bytesOf(trial), options.maxBytes);
   for (const SweepShape& shape : kShapes) {
     if (shape.around > options.shape.around || shape.along > options.shape.along) continue;
     const auto size = baker.sizeOf(shape);

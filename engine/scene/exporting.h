@@ -29,7 +29,7 @@ struct ExportOptions {
   std::uint32_t first = 0, last = 0;               ///< frames of the clip, both included
   std::optional<SweepShape> shape;                 ///< quads; none: of .glb the finest that fits, else 8 by 5
   float fps = 0;                                   ///< keys a second of .glb; 0: one a frame
-  std::size_t mostBytes = std::size_t(100) << 20;  ///< of .glb
+  std::size_t mostBytes = 128'000'000;            ///< of .glb
   float tolerance = 5e-5f;                         ///< [m] BakeOptions::mesh
   float between = 1e-3f;                           ///< [m] BakeOptions::betweenTolerance
   bool normals = true;                             ///< of .glb

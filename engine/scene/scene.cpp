@@ -156,25 +156,28 @@ Result<Scene> makeScene(Body body, std::vector<Network> networks, const SceneFil
 Result<const Clip*> findClip(const Body& body, std::string_view name) {
   const Clip* found = nullptr;
   bool several = false;
-  std::string list;
+  std::string list, begun;
   std::vector<std::string> names;
   for (const Clip& clip : body.clips) {
     list += (list.empty() ? "" : ", ") + clip.name;
     names.push_back(clip.name);
     if (clip.name == name) return &clip;
     if (!clip.name.starts_with(name)) continue;
+    begun += (begun.empty() ? "" : ", ") + clip.name;
     several = found != nullptr;
     found = &clip;
   }
   const std::string quoted = "clip '" + std::string(name) + "'";
   if (several)
     return badInput(body.name + ": " + quoted +
-                    " is the beginning of several names; write more of it: " + list);
+                    " is the beginning of several names; write more of it: " + begun);
   if (!found) {
     const std::string near = didYouMean(std::string(name), names),
                       remedy = remedyFor(std::filesystem::path(name), FileUse::motion);
     return badInput(body.name + " has no " + quoted + "; " + near + (near.empty() ? "" : " ") +
-                    (list.empty() ? "it has no clips at all" : "It has " + list) +
+                    (list.empty()   ? "it has no clips at all"
+                     : near.empty() ? "it has " + list
+                                    : "It has " + list) +
                     (remedy.empty() ? "; --clip takes .bvh files, too" : remedy));
   }
   return found;

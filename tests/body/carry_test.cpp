@@ -8,6 +8,7 @@
 #include "body/strain.h"
 #include "body/strain_limit.h"
 #include "body/surface_carry.h"
+#include "mesh/weld.h"
 #include "network/sample_network.h"
 
 using namespace vasa;
@@ -116,6 +117,44 @@ TEST_CASE(
     CHECK_MESSAGE(away < 0.015f, turn);
     CHECK(carried->network.points[0].w == doctest::Approx(network.points()[0].w).epsilon(0.06));
   }
+}
+
+TEST_CASE("a limb's surface is found in its own limb, and a mirror image by what its vessels are called") {
+  const Body body = person();
+  const TriangleMesh whole = skinAtRest(body);
+  const auto at = [&](const char* joint) {
+    return vec3(body.skeleton.joints[body.skeleton.find(joint).value].restWorld[3]);
+  };
+  const auto carried = [&](TriangleMesh surface, float x, vec3 move) {
+    NetworkBuilder builder;
+    for (const float side : {1.0f, -1.0f}) {
+      if (side < 0 && surface.triangles.size() < whole.triangles.size()) continue;  // of the left arm alone
+      const vec3 sign(side * x, 1, 1);
+      builder.addVessel(
+          {side > 0 ? "left ulnar artery" : "right ulnar artery", {}, VesselKind::artery},
+          straightVessel(sign * at("leftLowerArm") + move, sign * at("leftHand") + move, 0.002f, 8));
+    }
+    for (vec3& p : surface.positions) p = vec3(x, 1, 1) * p + move;
+    if (x < 0)
+      for (uvec3& t : surface.triangles) std::swap(t.y, t.z);
+    const auto network = builder.build(1.75f);
+    REQUIRE(network.ok());
+    return carryBySurface(*network, surface, body, "arm.vasa", "arm.stl");
+  };
+  TriangleMesh arm{whole.positions, {}};
+  for (const uvec3& t : whole.triangles)
+    if (std::min({whole.positions[t.x].x, whole.positions[t.y].x, whole.positions[t.z].x}) >
+        at("leftLowerArm").x - 0.03f)
+      arm.triangles.push_back(t);
+  const auto placed = carried(weld(arm, 0), 1, {0.5f, -0.3f, 1.2f});
+  if (!placed.ok()) FAIL(placed.error().message);
+  CHECK(placed->fit.share > 0.95f);
+  CHECK(glm::distance(vec3(placed->network.points.front()), at("leftLowerArm")) < 0.01f);
+  CHECK(glm::distance(vec3(placed->network.points.back()), at("leftHand")) < 0.01f);
+  const auto refused = carried(whole, -1, vec3(0));
+  REQUIRE_FALSE(refused);
+  CHECK_MESSAGE(refused.error().message.find("arm.stl and arm.vasa are mirror images") != std::string::npos,
+                refused.error().message);
 }
 
 TEST_CASE("surfaces that are no skin of the vessels or of a person are refused with what helps") {
