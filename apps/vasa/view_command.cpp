@@ -35,6 +35,15 @@ const auto kStart = std::chrono::steady_clock::now();  // before main()
 constexpr const char* kDroppable =
     "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
 
+// Vessels take the place of others: those were what edits were of, and what the scene's name stands for.
+SceneFile withVessels(SceneFile scene, const std::filesystem::path& path) {
+  scene.networks = {path};
+  scene.holds.clear();
+  scene.edits.clear();
+  scene.path.clear();
+  return scene;
+}
+
 // What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file
 // with a skeleton is a body, one without is vessels.
 Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
@@ -42,17 +51,15 @@ Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& no
   if (extension == ".json") return chooseScene({.scene = path.string()});
   SceneFile scene = now;
   if (isMotionFile(path.string())) {
-    scene.clip = path.string();
+    scene.clip = path.string(), scene.time = 0;
   } else if (isGltfFile(path)) {
     const auto summary = checkGltf(path);
     if (!summary) return summary.error();
-    if (summary->skins == 0)
-      scene.networks = {path}, scene.holds.clear();
-    else
-      scene.body = path;
-    if (summary->skins > 0 && !isMotionFile(scene.clip)) scene.clip.clear();
+    if (summary->skins == 0) return withVessels(std::move(scene), path);
+    scene.body = path;
+    if (!isMotionFile(scene.clip)) scene.clip.clear();
   } else if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) {
-    scene.networks = {path}, scene.holds.clear();
+    return withVessels(std::move(scene), path);
   } else {
     return Error{Fault::usage, path.string() + ": " + kDroppable};
   }

@@ -118,18 +118,22 @@ std::string titleOf(const SceneFile& file) {
 }
 
 Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, const Furnishing& furnishing,
-                                                     const ReadingProgress& told) {
+                                                     const ReadingProgress& told,
+                                                     const std::optional<std::vector<std::string>>& edits) {
   auto document = std::make_shared<Document>();
   document->file = file;
   document->title = titleOf(file);
   SceneFile others = file;
   std::vector<std::string> journal;
   if (!file.edits.empty() && !file.path.empty() && file.edits.back() == ownJournal(file.path)) {
-    auto lines = linesOf(file.edits.back());
-    if (!lines) return lines.error();
-    journal = std::move(*lines);
+    if (!edits) {
+      auto lines = linesOf(file.edits.back());
+      if (!lines) return lines.error();
+      journal = std::move(*lines);
+    }
     others.edits.pop_back();
   }
+  if (edits) journal = *edits;
   auto scene = loadScene(others, told);
   if (!scene) return scene.error();
   document->scene = std::move(*scene);

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "atlas/vessel_groups.h"
@@ -70,8 +71,10 @@ struct Furnishing {
 };
 
 /// Reads a document; can be cancelled.
-Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, const Furnishing& furnishing,
-                                                     const ReadingProgress& told);
+/// @param edits  its own journal, where that is not what its file says
+Result<std::shared_ptr<const Document>> loadDocument(
+    const SceneFile& file, const Furnishing& furnishing, const ReadingProgress& told,
+    const std::optional<std::vector<std::string>>& edits = std::nullopt);
 
 /// The journal that belongs to a scene file: beside it, with its name.
 std::filesystem::path ownJournal(const std::filesystem::path& scene);

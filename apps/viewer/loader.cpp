@@ -29,7 +29,7 @@ void Loader::start(Wanted wanted, std::function<void()> changed) {
                                try {
                                  const auto scene = wanted.scene();
                                  if (!scene) return scene.error();
-                                 return loadDocument(*scene, wanted.furnishing, told);
+                                 return loadDocument(*scene, wanted.furnishing, told, wanted.edits);
                                } catch (const Cancelled&) {
                                  return Error{Fault::failed, "cancelled"};
                                } catch (const std::exception& error) {

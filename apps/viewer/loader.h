@@ -21,6 +21,7 @@ class Loader {
     std::string title;
     SceneChoice scene;
     Furnishing furnishing;
+    std::optional<std::vector<std::string>> edits = std::nullopt;  ///< loadDocument()
   };
   /// Starts; cancels what is being loaded. @param changed  called from the loading thread at every step and
   /// at the end

@@ -23,6 +23,10 @@ class SceneKeeper {
   Result<std::filesystem::path> save(const Document& document, const ViewState& state,
                                      const std::filesystem::path& unnamed,
                                      const std::filesystem::path& as = {});
+  /// Another motion is shown; all else is as it was.
+  void takeMotion(const std::string& clip) { file_.clip = clip; }
+  /// As it was opened or saved last.
+  const SceneFile& file() const { return file_; }
   /// Empty: there is none yet.
   const std::filesystem::path& path() const { return file_.path; }
 

@@ -92,10 +92,13 @@ class Session {
   void goOn();
   void remember(const std::vector<std::filesystem::path>& files);
   void adopt();
+  void beginWith();
+  void goOnWith(std::shared_ptr<const Document> moved);
   void cancelLoading();
   void watchLoading();
   void tidy();
   void takeChoices();
+  void takeClip();
   void orderShape();
   void takeShape();
   void follow();
@@ -190,7 +193,9 @@ class Session {
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
   Clock::time_point loadStart_, lastWatched_;
-  bool arriving_ = false;                                          // loaded, but not seen yet
+  bool arriving_ = false;     // loaded, but not seen yet
+  bool beginning_ = false;    // ... and the view that it begins with is still being found
+  bool motionAlone_ = false;  // is being loaded, for what is shown
   enum class Untidy { no, growing, loaded } untidy_ = Untidy::no;  // what has left freed memory behind
   std::future<void> tidying_;
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window as it is drawn

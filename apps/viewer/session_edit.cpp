@@ -39,7 +39,7 @@ void Session::travel() {
   const bool held = state_.wishHome || state_.wishFocus || pointer_.dragging() || poseTool_.held() ||
                     editor_.held() || ui_.isHeld() || now_ - scrolledAt_ < kScrollEnds ||
                     state_.journal != document_->journal;
-  if (arriving_) {  // the view is still being found
+  if (beginning_) {
     history_.start(state_);
     nameSteps();
     return;
@@ -77,7 +77,7 @@ void Session::reshape() {
   if (steady()) reshaper_.wait();
   if (coming_) return;
   auto outcome = reshaper_.take();
-  if (!outcome) return;
+  if (!outcome || outcome->wish.document->base != document_->base) return;  // of what was shown before
   if (outcome->made) {
     editor_.refusal.clear();
     coming_ = std::move(*outcome->made);

@@ -27,6 +27,14 @@ Loader::Wanted wantedOf(const ViewOptions& options, std::vector<std::filesystem:
   return {std::move(title), choice, options.furnishing};
 }
 
+bool areMotions(const std::vector<std::filesystem::path>& files) {
+  return std::ranges::all_of(files, [](const auto& file) { return isMotionFile(file.string()); });
+}
+
+bool sameJoints(const Skeleton& a, const Skeleton& b) {
+  return std::ranges::equal(a.joints, b.joints, {}, &Skeleton::Joint::name, &Skeleton::Joint::name);
+}
+
 }  // namespace
 
 Loader::Wanted firstWanted(const ViewOptions& options) {
@@ -34,10 +42,11 @@ Loader::Wanted firstWanted(const ViewOptions& options) {
   return {titleOf(options.file), [file = options.file] { return file; }, options.furnishing};
 }
 
-// What is not saved is asked about first.
+// What is not saved is asked about first, unless it stays: a motion leaves all but the motion as it is.
 void Session::openFiles() {
   if (!state_.wishFiles.empty()) dropped_ = std::exchange(state_.wishFiles, {});
   if (dropped_.empty() || state_.waiting != Waiting::nothing) return;
+  if (document_ && areMotions(dropped_)) return startOpening();
   state_.waiting = Waiting::open;
   state_.wishGoOn = true;
   goOn();
@@ -59,8 +68,10 @@ void Session::goOn() {
 void Session::startOpening() {
   if (loader_.busy()) cancelLoading();
   state_.failure.clear();
-  opening_ = dropped_;
-  auto wanted = wantedOf(options_, std::exchange(dropped_, {}), document_ ? document_->file : options_.file);
+  opening_ = std::exchange(dropped_, {});
+  motionAlone_ = document_ && areMotions(opening_);
+  auto wanted = wantedOf(options_, opening_, document_ ? keeper_.file() : options_.file);
+  if (motionAlone_) wanted.edits = document_->journal;
   report_.loads.push_back({.title = wanted.title, .outcome = "loading"});
   loadStart_ = lastWatched_ = Clock::now();
   loader_.start(std::move(wanted), [] { Window::wake(); });
@@ -85,7 +96,8 @@ void Session::watchLoading() {
     panelFrames_ = std::max(panelFrames_, 1);
   }
   // The view that was found belongs to the beginning: it is no step.
-  if (shown_ && std::exchange(arriving_, false)) {
+  if (shown_) arriving_ = false;
+  if (shown_ && std::exchange(beginning_, false)) {
     history_.start(state_);
     nameSteps();
   }
@@ -120,7 +132,12 @@ void Session::adopt() {
     state_.failure = answer->error().message;
     return;
   }
-  document_ = **answer;
+  const bool goesOn =
+      motionAlone_ && sameJoints((**answer)->scene.body.skeleton, document_->scene.body.skeleton);
+  if (goesOn)
+    goOnWith(**answer);
+  else
+    document_ = **answer;
   arriving_ = true;
   body_.reset();
   shown_.reset();
@@ -129,6 +146,23 @@ void Session::adopt() {
   coming_.reset();
   wanted_ = document_->journal;
   wantedLive_ = false;
+  profiler_.reset();
+  profiling_ = false;
+  remember(opening_);
+  if (!goesOn) beginWith();
+  entitle();
+}
+
+// What is shown with another motion: whatever was done to it, or is being done meanwhile, stays.
+void Session::goOnWith(std::shared_ptr<const Document> moved) {
+  changeTo(std::move(moved));
+  takeClip();
+  keeper_.takeMotion(document_->file.clip);
+}
+
+// A document as its scene says that it is to be shown: nothing has been done to it yet.
+void Session::beginWith() {
+  beginning_ = true;
   way_ = carried_ = vec3(0);
   state_.journal = document_->journal;
   state_.selected.reset();
@@ -138,13 +172,9 @@ void Session::adopt() {
   state_.turns = turnsOf(document_->scene.body.skeleton, document_->file.pose);
   state_.from = state_.to = std::nullopt;
   state_.joint = {};
-  profiler_.reset();
-  profiling_ = false;
   takeChoices();
-  remember(opening_);
   keeper_.opened(document_->file, state_);
   history_.start(state_);
-  entitle();
 }
 
 // The dialogs in which files are chosen.
@@ -204,8 +234,8 @@ void Session::remember(const std::vector<std::filesystem::path>& files) {
   if (state_.recent.size() > kMost) state_.recent.resize(kMost);
 }
 
-// What the scene says of how it is to be shown.
-void Session::takeChoices() {
+// The scene's clip, at the moment that it names.
+void Session::takeClip() {
   const auto& body = document_->scene.body;
   const SceneFile& choice = document_->file;
   const auto clip = choice.clip.empty() ? Result<const Clip*>(nullptr) : findClip(body, choice.clip);
@@ -217,6 +247,12 @@ void Session::takeChoices() {
   if (state_.playback.clip >= 0 && choice.time > 0)
     state_.playback.time =
         std::min(state_.playback.time + choice.time, body.clips[std::size_t(state_.playback.clip)].end);
+}
+
+// What the scene says of how it is to be shown.
+void Session::takeChoices() {
+  const SceneFile& choice = document_->file;
+  takeClip();
   state_.detail.capillaries = int(choice.capillaries.levels);
   if (!choice.look.preset.empty()) {
     state_.preset = choice.look.preset;

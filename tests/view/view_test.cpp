@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "cli/motion_text.h"
 #include "cli/program.h"
 #include "golden/compare.h"
 #include "io/png.h"
@@ -224,6 +225,46 @@ TEST_CASE(
       "settle\nmove 320 300\npress right\nrelease right\nsettle\nkey escape\nkey h\ndrop OUT/second.json\nsettle\nkey escape\nsettle\n");
   CHECK(asked.exit == 0);
   CHECK(asked.json()["loads"].size() == 1);
+}
+
+TEST_CASE("a motion that is opened leaves edits, undoing and the scene's name; other vessels do not") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  for (const char* name : {"first.bvh", "second.bvh"}) std::ofstream(folder.path() / name) << motionText();
+  REQUIRE(runProgram({"export", "-o", (folder.path() / "lines.vtp").string()}).exit == 0);
+  const auto control = [](const std::string& keys) {
+    return "hold control\n" + keys + "let control\nframes 3\n";
+  };
+  const std::string removeArtery = control("key f\n") +
+                                   "type left femoral artery\nframes 2\nkey enter\nsettle\nmove 320 300\n"
+                                   "key e\nhold shift\nkey delete\nlet shift\nsettle\n",
+                    save = control("key s\n");
+  const auto outcome = runProgram(
+      {"view", "--clip", "stand", "--size", "800x600", "--json", "--out", folder.path().string(), "--script",
+       scriptIn(folder.path(),
+                "settle\n" + removeArtery + "drop OUT/first.bvh\nsettle\n" + save + control("key z\n") +
+                    "settle\n" + control("hold shift\nkey s\nlet shift\n") +
+                    "type undone\nkey enter\nsettle\n" + control("key y\n") + "settle\n" + save +
+                    "drop OUT/second.bvh\nsettle\n" + save + "drop OUT/lines.vtp\nsettle\n" + save)},
+      on(display, folder));
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  const auto report = outcome.json();
+  REQUIRE(report["loads"].size() == 4);
+  for (const auto& load : report["loads"]) CHECK(load["outcome"] == "opened");
+  std::vector<std::string> names;
+  for (const auto& file : report["files"])
+    names.push_back(std::filesystem::path(file.get<std::string>()).filename().string());
+  CHECK(names == std::vector<std::string>{"vasa_001.json", "undone.json", "undone.json", "undone.json",
+                                          "vasa_002.json"});
+  const auto saved = [&](const char* name) {
+    return nlohmann::json::parse(contentOf(folder.path() / name), nullptr, false);
+  };
+  CHECK(saved("vasa_001.json")["clip"] == "first.bvh");
+  CHECK(contentOf(folder.path() / "vasa_001.vedit").starts_with("delete "));
+  CHECK(saved("undone.json")["clip"] == "second.bvh");
+  CHECK(contentOf(folder.path() / "undone.vedit").starts_with("delete "));
+  CHECK(saved("vasa_002.json")["networks"] == nlohmann::json{"lines.vtp"});
+  CHECK_FALSE(saved("vasa_002.json").contains("edits"));
 }
 
 TEST_CASE("a script's picture waits for what is being opened, and fails where nothing is") {
