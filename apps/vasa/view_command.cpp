@@ -178,6 +178,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!report.validation.empty())
     return Error{Fault::failed, fmt::format("{} validation messages, the first: {}", report.validation.size(),
                                             report.validation.front())};
+  if (report.refused) return *report.refused;
   return {};
 }
 

@@ -63,6 +63,7 @@ struct ViewReport {
   std::vector<std::filesystem::path> files;
   std::uint64_t videoFrames = 0;  ///< of all videos
   std::vector<LoadReport> loads;
+  std::optional<Error> refused;     ///< of a script: why files that it opens could not be, the first's fault
   std::vector<double> stopMs;       ///< how long loads that were cancelled went on
   std::vector<ProfileRow> profile;  ///< of the latest run of Table III
   std::vector<std::string> validation;

@@ -14,7 +14,7 @@
 //   key NAME            pressed and released; `hold NAME` and `let NAME` for one of both
 //   type TEXT           text, to the end of the line
 //   resize W H          the window, in pixels
-//   drop FILE           a file on the window
+//   drop FILE           a file on the window; the script goes on if it cannot be opened, and fails at its end
 //   frames N            so many pictures pass, each a thirtieth of a second after the one before
 //   live SECONDS        so long by the clock, as a person has it: shapes are not waited for
 //   settle              until loading, shapes and the still picture are done

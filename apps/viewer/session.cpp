@@ -43,8 +43,8 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
   takeSize(window.width(), window.height());
   ui_.useClipboard(window);
   report_.loads.push_back({.title = loader_.title(), .outcome = "loading"});
-  opening_ = options.dropped;
-  if (!options.file.path.empty()) opening_.push_back(options.file.path);
+  opening_ = {.wanted = firstWanted(options), .files = options.dropped};
+  if (!options.file.path.empty()) opening_.files.push_back(options.file.path);
   loadStart_ = options.start;
   lastWatched_ = Clock::now();
 }
@@ -71,6 +71,7 @@ std::string Session::keepUnsaved() {
 // Of a session that cannot go on: what was not saved, what was done in it, how it looked, and the film so
 // far.
 Error Session::keepWhatIsThere(Error error) {
+  if (report_.refused) error.message += "; before that: " + report_.refused->message;
   if (!document_) return error;
   if (const std::string told = keepUnsaved(); !told.empty()) error.message += "; " + told;
   const auto path = options_.record;

@@ -85,6 +85,14 @@ class Session {
   double pass();
   void openFiles();
   void startOpening();
+  /// What the loader is at.
+  struct Opening {
+    Loader::Wanted wanted;
+    std::vector<std::filesystem::path> files;
+    bool motionAlone = false;  // for what is shown
+  };
+  void load(Opening opening);
+  void refuse(const Error& error);
   void askForFile();
   void takeFile();
   void startExport(const std::filesystem::path& file);
@@ -179,9 +187,10 @@ class Session {
   ScriptRecorder recorder_;
   std::deque<InputEvent> events_;
   std::vector<std::filesystem::path> dropped_;  // to be opened
-  std::vector<std::filesystem::path> opening_;  // by the loader
-  std::size_t step_ = 0;                        // of the script
-  std::uint32_t passing_ = 0;                   // frames that it lets pass
+  Opening opening_;
+  std::vector<Opening> interrupted_;  // by others: begun again if those cannot be opened
+  std::size_t step_ = 0;              // of the script
+  std::uint32_t passing_ = 0;         // frames that it lets pass
   bool settling_ = false;
   std::optional<Clock::time_point> liveUntil_;
   std::optional<SavePicture> saving_;
@@ -193,9 +202,8 @@ class Session {
   Clock::time_point last_ = Clock::now();
   std::optional<Clock::time_point> lastShown_;
   Clock::time_point loadStart_, lastWatched_;
-  bool arriving_ = false;     // loaded, but not seen yet
-  bool beginning_ = false;    // ... and the view that it begins with is still being found
-  bool motionAlone_ = false;  // is being loaded, for what is shown
+  bool arriving_ = false;   // loaded, but not seen yet
+  bool beginning_ = false;  // ... and the view that it begins with is still being found
   enum class Untidy { no, growing, loaded } untidy_ = Untidy::no;  // what has left freed memory behind
   std::future<void> tidying_;
   std::uint32_t width_ = 0, height_ = 0;  // [pixels] of the window as it is drawn

@@ -66,20 +66,50 @@ void Session::goOn() {
 }
 
 void Session::startOpening() {
-  if (loader_.busy()) cancelLoading();
+  if (loader_.busy()) {
+    report_.loads.back().outcome = "cancelled";
+    interrupted_.push_back(std::move(opening_));
+  }
   state_.failure.clear();
-  opening_ = std::exchange(dropped_, {});
-  motionAlone_ = document_ && areMotions(opening_);
-  auto wanted = wantedOf(options_, opening_, document_ ? keeper_.file() : options_.file);
-  if (motionAlone_) wanted.edits = document_->journal;
-  report_.loads.push_back({.title = wanted.title, .outcome = "loading"});
+  auto files = std::exchange(dropped_, {});
+  const bool motionAlone = document_ && areMotions(files);
+  auto wanted = wantedOf(options_, files, document_ ? keeper_.file() : options_.file);
+  if (motionAlone) wanted.edits = document_->journal;
+  load({std::move(wanted), std::move(files), motionAlone});
+}
+
+void Session::load(Opening opening) {
+  opening_ = std::move(opening);
+  report_.loads.push_back({.title = opening_.wanted.title, .outcome = "loading"});
   loadStart_ = lastWatched_ = Clock::now();
-  loader_.start(std::move(wanted), [] { Window::wake(); });
+  loader_.start(opening_.wanted, [] { Window::wake(); });
   panelFrames_ = kRestingFrames;
+}
+
+// What was open stays, and what was being opened goes on.
+void Session::refuse(const Error& error) {
+  constexpr double kTimeToRead = 15;
+  if (!document_ && report_.loads.size() == 1) {
+    failure_ = error;
+    return;
+  }
+  if (options_.script) {
+    if (report_.refused)
+      report_.refused->message += "; " + error.message;
+    else
+      report_.refused = error;
+  }
+  say(error.message, kTimeToRead);
+  state_.failure = error.message;
+  if (interrupted_.empty()) return;
+  auto again = std::move(interrupted_.back());
+  interrupted_.pop_back();
+  load(std::move(again));
 }
 
 void Session::cancelLoading() {
   loader_.cancel();
+  interrupted_.clear();
   report_.loads.back().outcome = "cancelled";
   panelFrames_ = kRestingFrames;
 }
@@ -122,18 +152,10 @@ void Session::adopt() {
   if (!answer) return;
   untidy_ = Untidy::loaded;
   report_.loads.back().outcome = *answer ? "opened" : answer->error().message;
-  if (!*answer) {
-    constexpr double kTimeToRead = 15;
-    if (!document_ && report_.loads.size() == 1) {
-      failure_ = answer->error();
-      return;
-    }
-    say(answer->error().message, kTimeToRead);
-    state_.failure = answer->error().message;
-    return;
-  }
+  if (!*answer) return refuse(answer->error());
+  interrupted_.clear();
   const bool goesOn =
-      motionAlone_ && sameJoints((**answer)->scene.body.skeleton, document_->scene.body.skeleton);
+      opening_.motionAlone && sameJoints((**answer)->scene.body.skeleton, document_->scene.body.skeleton);
   if (goesOn)
     goOnWith(**answer);
   else
@@ -148,7 +170,7 @@ void Session::adopt() {
   wantedLive_ = false;
   profiler_.reset();
   profiling_ = false;
-  remember(opening_);
+  remember(opening_.files);
   if (!goesOn) beginWith();
   entitle();
 }

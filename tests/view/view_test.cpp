@@ -93,10 +93,11 @@ TEST_CASE(
   const auto outcome = runProgram({"view", "--clip", "walk", "--size", "960x640", "--validate", "--json",
                                    "--script", scriptIn(folder.path(), text)},
                                   options);
-  CHECK_MESSAGE(outcome.exit == 0, outcome.err);
-  // Nothing but in which unit the dropped lines were read.
+  CHECK_MESSAGE(outcome.exit == 3, outcome.err);
+  // Nothing but in which unit the dropped lines were read, and at the end what could not be.
   CHECK_MESSAGE(outcome.err.find("lines.vtp: read as millimetres") != std::string::npos, outcome.err);
-  CHECK_MESSAGE(std::ranges::count(outcome.err, '\n') == 1, outcome.err);
+  CHECK_MESSAGE(outcome.err.find("bad.swc:1") != std::string::npos, outcome.err);
+  CHECK_MESSAGE(std::ranges::count(outcome.err, '\n') == 2, outcome.err);
   const auto report = outcome.json();
   CHECK(report["validation_messages"] == 0);
   CHECK(report["files"].size() == 15);
@@ -265,6 +266,26 @@ TEST_CASE("a motion that is opened leaves edits, undoing and the scene's name; o
   CHECK(contentOf(folder.path() / "undone.vedit").starts_with("delete "));
   CHECK(saved("vasa_002.json")["networks"] == nlohmann::json{"lines.vtp"});
   CHECK_FALSE(saved("vasa_002.json").contains("edits"));
+}
+
+TEST_CASE("what is being opened when a file is refused is opened, and the script fails as the file did") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "bad.json") << "{";
+  for (const auto& [name, exit] : {std::pair("absent.json", 6), {"bad.json", 3}}) {
+    const std::string text = std::string("drop OUT/") + name + "\npicture OUT/" + name + ".png\n";
+    const auto outcome = runProgram({"view", "--clip", "stand", "--size", "400x300", "--json", "--out",
+                                     folder.path().string(), "--script", scriptIn(folder.path(), text)},
+                                    on(display, folder));
+    CHECK(outcome.exit == exit);
+    CHECK_MESSAGE(outcome.err.find(name) != std::string::npos, outcome.err);
+    CHECK(readPng(folder.path() / (std::string(name) + ".png")));
+    const auto loads = outcome.json()["loads"];
+    REQUIRE(loads.size() == 3);
+    CHECK(loads[0]["outcome"] == "cancelled");
+    CHECK(loads[2]["title"] == loads[0]["title"]);
+    CHECK(loads[2]["outcome"] == "opened");
+  }
 }
 
 TEST_CASE("a script's picture waits for what is being opened, and fails where nothing is") {
