@@ -32,8 +32,8 @@ struct Options {
 
 const auto kStart = std::chrono::steady_clock::now();  // before main()
 
-constexpr const char* kDroppable =
-    "drop a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
+constexpr const char* kOpenable =
+    "open a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
 
 // Vessels take the place of others: those were what edits were of, and what the scene's name stands for.
 SceneFile withVessels(SceneFile scene, const std::filesystem::path& path) {
@@ -61,7 +61,7 @@ Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& no
   } else if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) {
     return withVessels(std::move(scene), path);
   } else {
-    return Error{Fault::usage, path.string() + ": " + kDroppable};
+    return Error{Fault::usage, path.string() + ": this is no kind of file that the app opens; " + kOpenable};
   }
   return scene;
 }

@@ -71,6 +71,7 @@ void Session::startOpening() {
     interrupted_.push_back(std::move(opening_));
   }
   state_.failure.clear();
+  message_.clear();  // of what could not be opened before
   auto files = std::exchange(dropped_, {});
   const bool motionAlone = document_ && areMotions(files);
   auto wanted = wantedOf(options_, files, document_ ? keeper_.file() : options_.file);
@@ -185,6 +186,7 @@ void Session::goOnWith(std::shared_ptr<const Document> moved) {
 // A document as its scene says that it is to be shown: nothing has been done to it yet.
 void Session::beginWith() {
   beginning_ = true;
+  editor_.refusal.clear();
   way_ = carried_ = vec3(0);
   state_.journal = document_->journal;
   state_.selected.reset();

@@ -4,7 +4,7 @@
 # does. Whatever was saved has to be the same to the byte once it has been opened and saved again. What the app has understood is read from
 # its window's title, which begins with a star while something is unsaved, and from the scene.
 set -eu
-command -v xdotool >/dev/null || exit 77
+command -v xdotool >/dev/null && command -v ffmpeg >/dev/null || exit 77
 if [ -z "${MOUSE_SESSION_INSIDE:-}" ]; then
   export MOUSE_SESSION_INSIDE=1
   exec xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' "$0" "$@"
@@ -145,17 +145,27 @@ cmp "$folder/first.json" "$folder/scene.json" || fail 'saving under another name
 cp "$folder/second.json" "$folder/kept.json"
 
 # What is damaged is told, and another scene opened by the dialog.
+# no_message: nothing is written below the scene's name and numbers
+no_message() {
+  ffmpeg -v error -f x11grab -video_size 250x16 -i "$DISPLAY+10,82" -frames:v 1 -pix_fmt gray -f rawvideo - |
+    od -An -v -tu1 -w1 | sort -u >"$folder/greys"
+  [ "$(wc -l <"$folder/greys")" -eq 1 ]
+}
 echo '{ "body": 3 }' >"$folder/bad.json"
 start "$folder/scene.json"
 xdotool key ctrl+o
 type_file "$folder/bad.json"
 xdotool key Return
+told=$(date +%s)
 sleep 1
+no_message && fail 'that a file cannot be opened is not told'
 xdotool key Escape
 sleep 0.3
 xdotool key ctrl+o
 type_file "$folder/second.json"
 xdotool key Return
+wait_for 'taking away the message of the file before' no_message
+[ $(($(date +%s) - told)) -lt 14 ] || fail 'the message of the file before was not taken away, but had its time'
 save_again() {
   xdotool key ctrl+s
   sleep 0.5

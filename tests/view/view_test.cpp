@@ -272,13 +272,20 @@ TEST_CASE("what is being opened when a file is refused is opened, and the script
   const VirtualDisplay display;
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "bad.json") << "{";
-  for (const auto& [name, exit] : {std::pair("absent.json", 6), {"bad.json", 3}}) {
+  struct Refused {
+    const char *name, *told;
+    int exit;
+  };
+  for (const auto& [name, told, exit] :
+       {Refused{"absent.json", "absent.json", 6},
+        {"bad.json", "bad.json: is not valid JSON", 3},
+        {"table.csv", "table.csv: this is no kind of file that the app opens; open a scene", 2}}) {
     const std::string text = std::string("drop OUT/") + name + "\npicture OUT/" + name + ".png\n";
     const auto outcome = runProgram({"view", "--clip", "stand", "--size", "400x300", "--json", "--out",
                                      folder.path().string(), "--script", scriptIn(folder.path(), text)},
                                     on(display, folder));
     CHECK(outcome.exit == exit);
-    CHECK_MESSAGE(outcome.err.find(name) != std::string::npos, outcome.err);
+    CHECK_MESSAGE(outcome.err.find(told) != std::string::npos, outcome.err);
     CHECK(readPng(folder.path() / (std::string(name) + ".png")));
     const auto loads = outcome.json()["loads"];
     REQUIRE(loads.size() == 3);
