@@ -139,16 +139,24 @@ void showEditHandle(const PanelInput& in) {
 
 void showQuestion(const PanelInput& in) {
   if (in.state.waiting == Waiting::nothing || in.files->isOpen()) return;
-  const bool quits = in.state.waiting == Waiting::quit;
+  const bool quits = in.state.waiting == Waiting::quit, cuts = quits && !in.exportTitle.empty();
+  const bool unsaved = in.unsaved || !cuts;
   const Rect& picture = in.layout.picture;
   ImGui::SetNextWindowPos({picture.left + picture.width / 2, picture.top + picture.height / 2}, 0,
                           {0.5f, 0.5f});
   if (ImGui::Begin("##question", nullptr, kFixedTool)) {
-    ImGui::TextUnformatted("Edits or the pose are not saved.");
-    if (ImGui::Button(quits ? "Save and quit" : "Save and open"))
-      in.state.wishSave = in.state.wishGoOn = true;
-    ImGui::SameLine();
-    if (ImGui::Button(quits ? "Quit without saving" : "Open without saving")) in.state.wishDiscard = true;
+    if (cuts) ImGui::Text("%s is still being written.", in.exportTitle.c_str());
+    if (unsaved) {
+      ImGui::TextUnformatted("Edits or the pose are not saved.");
+      if (ImGui::Button(quits ? "Save and quit" : "Save and open"))
+        in.state.wishSave = in.state.wishGoOn = true;
+      ImGui::SameLine();
+    }
+    const char* const leave = !quits    ? "Open without saving"
+                              : !cuts   ? "Quit without saving"
+                              : unsaved ? "Quit without both"
+                                        : "Quit without it";
+    if (ImGui::Button(leave)) in.state.wishDiscard = true;
     ImGui::SameLine();
     if (ImGui::Button("Go on (Esc)")) in.state.waiting = Waiting::nothing;
   }

@@ -35,6 +35,7 @@ struct PanelInput {
   std::string message;                  ///< the latest news, e.g. of a picture that was written
   std::optional<Loader::Stage> loading;
   std::string loadingTitle;
+  bool unsaved = false;     ///< edits or the pose
   std::string exportTitle;  ///< of what is being written; empty: nothing is
   float exportShare = 0;    ///< done of it, 0..1
 };

@@ -120,6 +120,7 @@ Result<ViewReport> Session::go() {
   }
   if (!ending_)
     if (const std::string told = keepUnsaved(); !told.empty()) logWarning(told);
+  if (exporter_.busy()) logWarning(exporter_.title() + ": the export was cancelled");
   if (const auto written = keepScript(); !written) return written.error();
   state_.recording = false;
   record();

@@ -98,6 +98,7 @@ class Session {
   void startExport(const std::filesystem::path& file);
   void watchExport();
   void goOn();
+  bool asksFirst() const;
   void remember(const std::vector<std::filesystem::path>& files);
   void adopt();
   void beginWith();

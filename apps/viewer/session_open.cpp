@@ -52,12 +52,16 @@ void Session::openFiles() {
   goOn();
 }
 
-// With what waits, unless something is not saved and nobody said that it need not be.
+// Whether what waits takes something along that nobody has said may go.
+bool Session::asksFirst() const {
+  return (document_ && history_.unsaved(state_)) || (state_.waiting == Waiting::quit && exporter_.busy());
+}
+
+// With what waits, unless something would be lost and nobody said that it may be.
 void Session::goOn() {
   const bool asked = std::exchange(state_.wishGoOn, false),
              discard = std::exchange(state_.wishDiscard, false);
-  if (state_.waiting == Waiting::nothing || !(discard || (asked && !(document_ && history_.unsaved(state_)))))
-    return;
+  if (state_.waiting == Waiting::nothing || !(discard || (asked && !asksFirst()))) return;
   const Waiting waited = std::exchange(state_.waiting, Waiting::nothing);
   if (waited == Waiting::quit)
     ending_ = true;

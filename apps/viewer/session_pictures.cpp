@@ -219,6 +219,7 @@ void Session::watchExport() {
   const auto outcome = exporter_.take();
   if (!outcome) return;
   exportMore_ = false;
+  if (state_.waiting == Waiting::quit) state_.wishGoOn = true;
   if (!*outcome) {
     if (options_.script) failure_ = outcome->error();
     if (outcome->error().fault != Fault::interrupted) state_.failure = outcome->error().message;
@@ -256,6 +257,7 @@ void Session::drawWindow() {
               .message = now_ < messageUntil_ ? message_ : "",
               .loading = loader_.busy() ? std::optional(loader_.stage()) : std::nullopt,
               .loadingTitle = loader_.title(),
+              .unsaved = document_ && history_.unsaved(state_),
               .exportTitle = exporter_.title(),
               .exportShare = exporter_.share()});
   const auto declared = Clock::now();

@@ -37,7 +37,7 @@ struct ContextTarget {
   bool opens = false;  ///< with the next picture
 };
 
-/// What waits for an answer because something is not saved.
+/// What waits for an answer because something is not saved, or is still being written.
 enum class Waiting : std::uint8_t { nothing, quit, open };
 
 /// What undoing brings back (undo_history.h); small, by value.
@@ -99,7 +99,7 @@ struct ViewState : Undoable {
   ExportWish exportWish;                           ///< as the dialog has it
   std::vector<std::filesystem::path> chosenFiles;  ///< in the dialog of files, for its purpose; none yet
 
-  Waiting waiting = Waiting::nothing;  ///< whether to go on with something unsaved is being asked
+  Waiting waiting = Waiting::nothing;  ///< whether to go on without that is being asked
   std::string failure;              ///< why something could not be opened, until it is read; empty: it could
   std::vector<std::string> recent;  ///< paths of what was opened lately, the latest first
 };

@@ -281,6 +281,30 @@ cmp "$folder/kept.json" "$folder/edited.json" || fail 'opened and saved again, t
 cmp "$folder/kept.vedit" "$journal" || fail 'opened and saved again, the journal is another'
 "$vasa" edit "$data/human.vasa" "$journal" -o "$folder/edited.vasa" >"$folder/log" || fail 'vasa edit refuses what the app saved'
 
+# Whoever quits while a film is being written is asked; left without it, there is nothing of it.
+echo '{ "clip": "walk" }' >"$folder/walk.json"
+start "$folder/walk.json"
+point 480 600
+xdotool key ctrl+e
+type_file "$folder/film.mp4"
+xdotool key Return
+sleep 0.7
+asked() {
+  xdotool key ctrl+q
+  sleep 0.7
+  xdotool getwindowname "$window" >/dev/null || fail 'quitting dropped the film unasked'
+}
+asked
+xdotool key Escape # goes on
+sleep 0.3
+asked
+point 270 322 # Quit without it
+xdotool click 1
+wait "$app" || fail 'the app ended with an error'
+app=
+grep -q 'film.mp4: the export was cancelled' "$folder/log" || fail 'that the film was cancelled is not told'
+[ ! -e "$folder/film.mp4" ] || fail 'half a film was left'
+
 # A pose is copied, undone and pasted; several vessels are chosen by arrow keys, shown alone and named, and colours have a legend.
 cat >"$folder/posed.json" <<END
 { "body": "$data/human.glb", "networks": ["$data/human.vasa"], "camera": { "view": "front" } }
