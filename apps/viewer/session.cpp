@@ -141,6 +141,10 @@ double Session::pass() {
     state_.playback.advance(document_->scene.body.clips[std::size_t(state_.playback.clip)],
                             std::min(seconds, 0.25));
   still_ += seconds;
+  if (!message_.empty() && now_ >= messageUntil_) {  // nothing else may come that draws the panels without it
+    message_.clear();
+    panelFrames_ = kRestingFrames;
+  }
   return seconds;
 }
 

@@ -254,7 +254,7 @@ void Session::drawWindow() {
               .profiler = profiler_.get(),
               .fine = shown_ && shown_->fine,
               .framesPerSecond = framesPerSecond(),
-              .message = now_ < messageUntil_ ? message_ : "",
+              .message = message_,
               .loading = loader_.busy() ? std::optional(loader_.stage()) : std::nullopt,
               .loadingTitle = loader_.title(),
               .unsaved = document_ && history_.unsaved(state_),

@@ -153,6 +153,10 @@ no_message() {
 }
 echo '{ "body": 3 }' >"$folder/bad.json"
 start "$folder/scene.json"
+xdotool key F12
+message() { ! no_message; }
+wait_for 'telling that a picture was written' message
+wait_for 'the end of that message' no_message
 xdotool key ctrl+o
 type_file "$folder/bad.json"
 xdotool key Return
