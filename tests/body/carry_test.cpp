@@ -144,7 +144,7 @@ TEST_CASE("a limb's surface is found in its own limb, and a mirror image by what
   TriangleMesh arm{whole.positions, {}};
   for (const uvec3& t : whole.triangles)
     if (std::min({whole.positions[t.x].x, whole.positions[t.y].x, whole.positions[t.z].x}) >
-        at("leftLowerArm").x - 0.03f)
+        at("leftUpperArm").x)
       arm.triangles.push_back(t);
   const auto placed = carried(weld(arm, 0), 1, {0.5f, -0.3f, 1.2f});
   if (!placed.ok()) FAIL(placed.error().message);
