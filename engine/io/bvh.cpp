@@ -44,6 +44,7 @@ class Parser {
       readJoint({}, 0);
     }
     readMotion();
+    keepOffsets();
     passOverRest();
     return std::move(motion_);
   }
@@ -236,6 +237,26 @@ class Parser {
     for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line), ++count)
       if (have + count < perFrame_) values_[have + count] = numberOf(word, "a channel's value");
     return count;
+  }
+  // Some give every joint channels for its place and record none: a joint that is on the one above it in
+  // every frame, and is not by its OFFSET, stays where that has it. A root's OFFSET says nothing.
+  void keepOffsets() {
+    const std::size_t joints = motion_.joints.size();
+    std::size_t kept = 0;
+    for (std::size_t j = 0; j < joints; ++j) {
+      Motion::Joint& joint = motion_.joints[j];
+      if (!joint.moves || !joint.parent.valid() || joint.offset == vec3(0)) continue;
+      bool recorded = false;
+      for (std::uint32_t frame = 0; frame < motion_.frameCount && !recorded; ++frame)
+        recorded = motion_.translation(frame, j) != vec3(0);
+      if (recorded) continue;
+      joint.moves = false, ++kept;
+      for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame)
+        motion_.translations[frame * joints + j] = joint.offset;
+    }
+    if (kept > 0)
+      logWarning(motion_.name + ": the places of " + std::to_string(kept) + " of " + std::to_string(joints) +
+                 " joints are zero in every frame, as where none were recorded; their OFFSETs are taken");
   }
   // Some put marks of an end behind the last row.
   void passOverRest() {

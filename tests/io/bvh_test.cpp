@@ -81,6 +81,23 @@ TEST_CASE("dialects of BVH: braces behind names, channels first, named ends, car
                  "in seconds, not milliseconds: write 0.0333333");
 }
 
+TEST_CASE("places of joints that are zero in every frame were not recorded: the OFFSETs hold") {
+  std::string hierarchy = kHierarchy;
+  const std::string three = "CHANNELS 3 ";
+  hierarchy.replace(hierarchy.find(three), three.size(), "CHANNELS 6 Xposition Yposition Zposition ");
+  const std::string head = hierarchy + "MOTION\nFrames: 2\nFrame Time: .1\n";
+  const auto motion = parseBvh(head + "0 0 0 0 0 0  0 0 0 0 0 0\n0 0 0 0 0 0  0 0 0 90 0 0\n", "a.bvh");
+  if (!motion.ok()) FAIL(motion.error().message);
+  CHECK(motion->translation(0, 0) == vec3(0));  // a root is where its channels have it
+  CHECK(motion->joints[0].moves);
+  for (const std::uint32_t frame : {0u, 1u}) CHECK(motion->translation(frame, 1) == vec3(0, -1, 0));
+  CHECK_FALSE(motion->joints[1].moves);
+  const auto moving = parseBvh(head + "0 0 0 0 0 0  0 0 0 0 0 0\n0 0 0 0 0 0  0 0 .1 0 0 0\n", "a.bvh");
+  if (!moving.ok()) FAIL(moving.error().message);
+  CHECK(moving->translation(0, 1) == vec3(0));
+  CHECK(moving->joints[1].moves);
+}
+
 TEST_CASE("BVH frames are rows: what does not fit the hierarchy is named with its row") {
   const std::string motion = kHierarchy + "MOTION\nFrames: 3\nFrame Time: 0.1\n";
   const std::string row = "1 2 3 4 5 6 7 8 9\n", narrow = "1 2 3 4 5 6 7 8\n",
