@@ -13,6 +13,10 @@ constexpr std::uint32_t kFramesAsked = 64;
 constexpr float kUpright = 0.5f;  // least cosine between the trunk and +Y for +Y to be up
 constexpr float kSteady = 0.8f;   // length of the mean of unit vectors that say the same
 constexpr float kStandingTrunk = 0.77f, kStandingLeg = 0.71f;  // cosines of 40 and 45 degrees
+// Shares of a leg. Hips are as high above a floor as legs are long, whether they squat or tiptoe; not even
+// those who lie have theirs nearer to it than half of a trunk's thickness; the lower foot stays on it but
+// for steps and small leaps.
+constexpr float kLowestHips = 0.5f, kHighestHips = 1.6f, kLyingHips = 0.05f, kFootLift = 0.15f;
 constexpr const char* kSides[] = {"left", "right"};
 
 quat orIdentity(const Motion& motion, std::uint32_t frame, std::size_t joint) {
@@ -50,16 +54,28 @@ class RestStance {
     return length > 0 ? way / length : vec3(0);
   }
 
-  // Cosines of the trunk with +Y and of each bone of the legs with -Y.
+  // The lower of both feet along an axis, or of what is known of the legs.
+  float lowFoot(const MotionPose& pose, vec3 axis) const {
+    float low = glm::dot(pose.places[hips_], axis);
+    for (const std::string side : kSides)
+      for (const char* part : {"Foot", "LowerLeg", "UpperLeg"})
+        if (const std::uint32_t j = of(side + part); j != kNone) {
+          low = std::min(low, glm::dot(pose.places[j], axis));
+          break;
+        }
+    return low;
+  }
+
+  // Cosines of the trunk with an axis and of each bone of the legs with its opposite.
   struct Uprightness {
     float trunk = 0, worstLeg = 1, sum = 0;
   };
-  Uprightness uprightness(const MotionPose& pose) const {
+  Uprightness uprightness(const MotionPose& pose, vec3 axis = {0, 1, 0}) const {
     Uprightness result;
     const auto along = [&](std::uint32_t a, std::uint32_t b) {
       const vec3 way = pose.places[b] - pose.places[a];
       const float length = glm::length(way);
-      return length > 0 ? way.y / length : 0.0f;
+      return length > 0 ? glm::dot(way, axis) / length : 0.0f;
     };
     if (hips_ != kNone && top_ != kNone) result.trunk = along(hips_, top_);
     result.sum = result.trunk;
@@ -72,6 +88,11 @@ class RestStance {
         result.sum += down;
       }
     return result;
+  }
+
+  bool stands(const MotionPose& pose, vec3 axis) const {
+    const Uprightness own = uprightness(pose, axis);
+    return own.trunk >= kStandingTrunk && own.worstLeg >= kStandingLeg;
   }
 
   float legLength(const MotionPose& pose) const {
@@ -88,6 +109,70 @@ class RestStance {
  private:
   std::span<const std::string_view> parts_;
   std::uint32_t hips_ = kNone, top_ = kNone;
+};
+
+// The axis that a direction is nearest to.
+vec3 axisOf(vec3 way) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(way[i]) > std::abs(way[axis])) axis = i;
+  vec3 nearest(0);
+  nearest[axis] = way[axis] > 0 ? 1.0f : -1.0f;
+  return nearest;
+}
+
+// What some of a motion's frames say of where its floor is.
+class FramesStance {
+ public:
+  FramesStance(const Motion& motion, const RestStance& stance) : stance_(stance) {
+    for (const std::uint32_t frame : sampledFrames(motion, kFramesAsked))
+      poses_.push_back(motionPose(motion, frame));
+    leg_ = stance.legLength(poses_.front());
+  }
+
+  // Along which the person is stretched out in the mean, which may be lying; +Y where that varies much.
+  vec3 up() const {
+    vec3 mean(0);
+    for (const MotionPose& pose : poses_) mean += stance_.up(pose) / float(poses_.size());
+    const float steady = glm::length(mean);
+    return steady < kSteady || mean.y >= kUpright * steady ? vec3(0, 1, 0) : axisOf(mean);
+  }
+  // In most frames the lower foot is at one height: one that crawls along the axis takes it along.
+  bool feetStay(vec3 axis) const {
+    std::vector<float> heights;
+    for (const MotionPose& pose : poses_) heights.push_back(stance_.lowFoot(pose, axis));
+    const auto middle = heights.begin() + std::ptrdiff_t(heights.size() / 2);
+    std::ranges::nth_element(heights, middle);
+    const float floor = *middle;
+    const auto near =
+        std::ranges::count_if(heights, [&](float h) { return std::abs(h - floor) < kFootLift * leg_; });
+    return 2 * std::size_t(near) > heights.size();
+  }
+  bool hipsAtLegsHeight(vec3 axis) const {
+    float mean = 0;
+    for (const MotionPose& pose : poses_) mean += height(pose, axis) / float(poses_.size());
+    return mean > kLowestHips * leg_ && mean < kHighestHips * leg_;
+  }
+  // As of somebody who stands, sits or lies on a floor, in every frame.
+  bool hipsAboveFloor(vec3 axis) const {
+    return std::ranges::all_of(poses_, [&](const MotionPose& pose) {
+      return height(pose, axis) > kLyingHips * leg_ && height(pose, axis) < kHighestHips * leg_;
+    });
+  }
+  bool hipsAtOrigin() const {
+    return std::ranges::all_of(poses_, [&](const MotionPose& pose) {
+      return glm::length(pose.places[stance_.hips()]) < kLyingHips * leg_;
+    });
+  }
+
+ private:
+  float height(const MotionPose& pose, vec3 axis) const {
+    return glm::dot(pose.places[stance_.hips()], axis);
+  }
+
+  const RestStance& stance_;
+  std::vector<MotionPose> poses_;
+  float leg_ = 0;
 };
 
 }  // namespace
@@ -114,29 +199,22 @@ std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t mos
   return frames;
 }
 
+// People lie, crawl and swim: how they are stretched out in the frames says little of what is up. A zero pose
+// that stands says more. Files whose zero pose stands along one axis and whose motion is along another one
+// are told from those of somebody who lies by the root: its height is that of who stands along the other
+// axis, and none of who is on a floor along the zero pose's.
 vec3 upOf(const Motion& motion, std::span<const std::string_view> parts) {
   const vec3 house(0, 1, 0);
   const RestStance stance(parts);
-  if (stance.hips() == kNone) return house;
-  vec3 mean(0), hips(0);
-  float away = 0;
-  const auto frames = sampledFrames(motion, kFramesAsked);
-  for (const std::uint32_t frame : frames) {
-    const MotionPose pose = motionPose(motion, frame);
-    mean += stance.up(pose) / float(frames.size());
-    hips += pose.places[stance.hips()] / float(frames.size());
-    away = std::max(away, glm::length(pose.places[stance.hips()]));
-  }
-  const float steady = glm::length(mean);
-  if (steady < kSteady || mean.y >= kUpright * steady) return house;
-  int axis = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(mean[i]) > std::abs(mean[axis])) axis = i;
-  vec3 up(0);
-  up[axis] = mean[axis] > 0 ? 1.0f : -1.0f;
-  const float leg = stance.legLength(motionPose(motion, MotionPose::kZero)), high = glm::dot(hips, up);
-  const bool stands = high > 0.5f * leg && high < 1.6f * leg, inPlace = away < 0.2f * leg;
-  return stands || inPlace ? up : house;
+  const MotionPose zero = motionPose(motion, MotionPose::kZero);
+  if (stance.hips() == kNone || !(stance.legLength(zero) > 0)) return house;
+  const FramesStance frames(motion, stance);
+  const vec3 posed = frames.up(), zeroUp = axisOf(stance.up(zero));
+  const bool upright = frames.feetStay(posed), high = frames.hipsAtLegsHeight(posed);
+  if (!stance.stands(zero, zeroUp)) return (upright && high) || frames.hipsAtOrigin() ? posed : house;
+  if (posed == zeroUp) return posed;
+  const int forPosed = int(high) + int(!frames.hipsAboveFloor(zeroUp)) + int(posed == house);
+  return upright && forPosed >= 2 ? posed : zeroUp;
 }
 
 Motion withUp(const Motion& motion, vec3 up) {
@@ -161,14 +239,20 @@ Motion withUp(const Motion& motion, vec3 up) {
 std::uint32_t standingPose(const Motion& motion, std::span<const std::string_view> parts) {
   const RestStance stance(parts);
   if (stance.hips() == kNone) return MotionPose::kZero;
-  const auto zero = stance.uprightness(motionPose(motion, MotionPose::kZero));
-  if (zero.trunk >= kStandingTrunk && zero.worstLeg >= kStandingLeg) return MotionPose::kZero;
-  std::uint32_t best = MotionPose::kZero;
-  float most = zero.sum;
-  for (const std::uint32_t frame : sampledFrames(motion, kFramesAsked))
-    if (const float sum = stance.uprightness(motionPose(motion, frame)).sum; sum > most + 0.02f)
-      most = sum, best = frame;
-  return best;
+  const MotionPose zero = motionPose(motion, MotionPose::kZero);
+  if (stance.stands(zero, {0, 1, 0})) return MotionPose::kZero;
+  const auto best = [&](const auto& upright) {
+    std::uint32_t found = MotionPose::kZero;
+    float most = upright(zero);
+    for (const std::uint32_t frame : sampledFrames(motion, kFramesAsked))
+      if (const float sum = upright(motionPose(motion, frame)); sum > most + 0.02f) most = sum, found = frame;
+    return found;
+  };
+  const std::uint32_t frame = best([&](const MotionPose& pose) { return stance.uprightness(pose).sum; });
+  // Of who lies all the time the frame in which they are stretched out most.
+  return frame != MotionPose::kZero
+             ? frame
+             : best([&](const MotionPose& pose) { return stance.uprightness(pose, stance.up(pose)).sum; });
 }
 
 double metresAUnit(const Motion& motion, std::span<const std::string_view> parts) {

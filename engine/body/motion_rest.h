@@ -20,9 +20,12 @@ MotionPose motionPose(const Motion& motion, std::uint32_t frame);
 /// Some of a motion's frames, evenly, the first one among them.
 std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t most);
 
-/// Which way is up in a motion: +Y, or the axis along which the trunk stands above the legs where that is
-/// another one and the hips are as high along it as legs are long (or never leave the origin): others' files
-/// have +Z up, also such whose zero pose stands along +Y.
+/// Which way is up in a motion: the axis along which its zero pose stands. Another one, along which the
+/// person is stretched out in the frames, only where the feet stay at one height along it and two of three
+/// hold: the hips are as high along it as legs are long, they are not always as those of somebody on a floor
+/// along the zero pose's (who lies or crawls), it is +Y. Where the zero pose does not stand, the axis of the
+/// frames, if feet and hips are so or the hips never leave the origin; else +Y. Others' files have +Z up,
+/// also such whose zero pose stands along +Y.
 /// @param parts  what each joint is (body/humanoid.h)
 vec3 upOf(const Motion& motion, std::span<const std::string_view> parts);
 
@@ -31,7 +34,7 @@ Motion withUp(const Motion& motion, vec3 up);
 
 /// The pose to compare a body's rest pose with: all rotations zero, where that is a person who stands (arms
 /// may hang, be stretched out or anything between); else, as in files whose zero pose has all bones along one
-/// axis, the frame of the motion that stands most upright. @return its frame, or MotionPose::kZero
+/// axis, the frame of the motion that stands most upright, or where none does lies most straight. @return its frame, or MotionPose::kZero
 std::uint32_t standingPose(const Motion& motion, std::span<const std::string_view> parts);
 
 /// Metres that a unit of the motion is, judged by the length of a leg: 1, 0.01, 0.0254, 0.0564 (CMU's),

@@ -21,7 +21,9 @@ std::uint32_t jointOf(const Body& body, const std::string& part, const std::stri
 }
 
 // The largest angle [degrees] between a limb of the body and the performance's, in every frame.
-float worstAngle(const Body& body, const Clip& clip, const std::string& family) {
+// @param laid  turns the performance
+float worstAngle(const Body& body, const Clip& clip, const std::string& family,
+                 const quat& laid = {1, 0, 0, 0}) {
   float worst = 0;
   const auto& parts = dollParts();
   for (int frame = 0; frame < kDollFrames; ++frame) {
@@ -32,10 +34,10 @@ float worstAngle(const Body& body, const Clip& clip, const std::string& family) 
           continue;
         const vec3 from(pose.world[jointOf(body, limb, family)][3]),
             to(pose.world[jointOf(body, parts[i].part, family)][3]);
-        worst = std::max(worst,
-                         std::acos(std::clamp(glm::dot(glm::normalize(to - from), dollDirection(limb, frame)),
-                                              -1.0f, 1.0f)) *
-                             180 / kPi);
+        worst = std::max(
+            worst, std::acos(std::clamp(
+                       glm::dot(glm::normalize(to - from), laid * dollDirection(limb, frame)), -1.0f, 1.0f)) *
+                       180 / kPi);
       }
   }
   return worst;
@@ -84,6 +86,33 @@ TEST_CASE("motions in others' dialects move a body's limbs as theirs: names, zer
                       units -
                   1) < 0.01);
       }
+}
+
+TEST_CASE("who lies or crawls all the time stays down: the zero pose and the hips' height tell what is up") {
+  using Zero = DollDialect::Zero;
+  const Body body = dollBody("cmu");
+  for (const char* family : {"cmu", "numbered"})
+    for (const Zero zero : {Zero::t, Zero::i, Zero::oneAxis})
+      for (const float degrees : {85.0f, -90.0f})                          // prone, supine
+        for (const vec3 way : {vec3(0), vec3(0, 0, 1), vec3(0, 0, -1)}) {  // in place, head or feet first
+          auto motion = parseBvh(dollMotion({family, zero, 100, false, false}), "doll.bvh");
+          REQUIRE(motion.ok());
+          const quat laid = glm::angleAxis(degrees * kPi / 180, vec3(1, 0, 0));
+          const std::size_t joints = motion->joints.size();
+          for (std::size_t frame = 0; frame < motion->frameCount; ++frame) {
+            quat& root = motion->rotations[frame * joints];
+            root = laid * root;
+            motion->translations[frame * joints] =
+                100.0f * (vec3(0, 0.3f, 0) + 1.2f * float(frame) / float(kDollFrames) * way);
+          }
+          const auto done = retargeted(*motion, body);
+          if (!done.ok()) FAIL(done.error().message);
+          const std::string what = std::string(family) + " " + std::to_string(int(zero)) + " " +
+                                   std::to_string(degrees) + " " + std::to_string(way.z) + ": " +
+                                   describeMatch(*done);
+          CHECK_MESSAGE(done->up == vec3(0, 1, 0), what);
+          CHECK_MESSAGE(worstAngle(body, done->clip, "cmu", laid) < 10, what);
+        }
 }
 
 TEST_CASE("a zero pose that looks aside or back moves a body the same way") {
