@@ -26,8 +26,8 @@ struct Proportions {
 };
 constexpr Proportions kArm{1.15f, 0.2f, 0.67f, 0.25f}, kLeg{1.02f, 0.15f, 0.9f, 0.2f};
 // What else counts as much as one spread, squared: a bone shorter by this share than the way through its
-// joints; some joints passed over; a wrist where fingers begin.
-constexpr float kBentBone = 0.02f, kSkippedJoint = 0.3f, kHandSeen = 1.5f;
+// joints; some joints passed over; a wrist where fingers begin; a limb that ends at a tip and not at a joint.
+constexpr float kBentBone = 0.02f, kSkippedJoint = 0.3f, kHandSeen = 1.5f, kEndsAtTip = 1;
 
 struct Pair {
   std::uint32_t at, a, b;  // the joint they leave, the first joint of each
@@ -122,11 +122,17 @@ class Shape {
     return best;
   }
 
-  // A limb's longest chain, and where in it its upper bone begins, its lower bone, and what comes behind.
+  // A limb's longest chain, and where in it its upper bone begins, its lower bone, and what comes behind: a
+  // joint, or behind the last one its tip.
   struct Limb {
     std::vector<std::uint32_t> chain;
     std::size_t upper, lower, end;
+
+    bool endsAtJoint() const { return end < chain.size(); }
   };
+  vec3 placeIn(const std::vector<std::uint32_t>& chain, std::size_t i) const {
+    return i < chain.size() ? places_[chain[i]] : tips_[chain.back()];
+  }
 
   // Bones may be divided by joints that only twist them, so any three joints of the chain may be the limb's:
   // the three that look most like a person's, each bone straight, are.
@@ -135,10 +141,12 @@ class Shape {
     for (std::uint32_t j = first; j != kNone && best.chain.size() < kLongestChain; j = longest(j))
       best.chain.push_back(j);
     const auto& chain = best.chain;
+    const bool tip = tips_[chain.back()] != places_[chain.back()];
+    const std::size_t ends = chain.size() + (tip ? 1 : 0);
     float least = 1e30f;
     for (std::size_t i = 0; i < chain.size() && i <= kMostBefore; ++i)
       for (std::size_t j = i + 1; j < chain.size() && j - i <= kMostTwists + 1; ++j)
-        for (std::size_t k = j + 1; k < chain.size() && k - j <= kMostTwists + 1; ++k)
+        for (std::size_t k = j + 1; k < ends && k - j <= kMostTwists + 1; ++k)
           if (const float cost = unlikeness(chain, {i, j, k}, arm); cost < least)
             least = cost, best.upper = i, best.lower = j, best.end = k;
     return least < 1e30f ? std::optional(best) : std::nullopt;
@@ -158,15 +166,18 @@ class Shape {
     float cost = off(upper / lower, person.ratio, person.ratioSpread) +
                  off((upper + lower) / whole, person.share, person.shareSpread) + (2 - bend) / kBentBone +
                  kSkippedJoint * float(at[2] - at[0] - 2);
-    if (arm && hasFingers(chain[at[2]])) cost -= kHandSeen;
+    if (at[2] == chain.size())
+      cost += kEndsAtTip;
+    else if (arm && hasFingers(chain[at[2]]))
+      cost -= kHandSeen;
     return cost;
   }
   float straight(const std::vector<std::uint32_t>& chain, std::size_t a, std::size_t b) const {
-    return glm::distance(places_[chain[a]], places_[chain[b]]);
+    return glm::distance(placeIn(chain, a), placeIn(chain, b));
   }
   float along(const std::vector<std::uint32_t>& chain, std::size_t a, std::size_t b) const {
     float sum = 0;
-    for (std::size_t i = a + 1; i <= b; ++i) sum += link(chain[i]);
+    for (std::size_t i = a + 1; i <= b; ++i) sum += straight(chain, i - 1, i);
     return sum;
   }
   bool hasFingers(std::uint32_t joint) const {
@@ -194,7 +205,7 @@ class Shape {
     for (const bool a : {true, false}) {
       const auto leg = limb(a ? legs.a : legs.b, false);
       if (!leg) return std::nullopt;
-      forward += end(legs, a) - places_[leg->chain[leg->end]];
+      forward += end(legs, a) - placeIn(leg->chain, leg->end);
     }
     forward -= glm::dot(forward, up) * up;
     left_ =
@@ -212,7 +223,7 @@ class Shape {
     const auto& chain = own->chain;
     name(chain[own->upper], side + (arm ? "UpperArm" : "UpperLeg"));
     name(chain[own->lower], side + (arm ? "LowerArm" : "LowerLeg"));
-    name(chain[own->end], side + (arm ? "Hand" : "Foot"));
+    if (own->endsAtJoint()) name(chain[own->end], side + (arm ? "Hand" : "Foot"));
     if (arm && own->upper > 0) {  // of a collar bone and what follows it the longest
       std::size_t collar = 0;
       for (std::size_t i = 1; i < own->upper; ++i)

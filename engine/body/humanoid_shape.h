@@ -12,7 +12,7 @@ namespace vasa {
 /// two joints at which equal pairs of limbs leave a line are where arms and legs hang; of each limb those
 /// three joints are shoulder, elbow and wrist (hip, knee and ankle) whose two straight bones look most like a
 /// person's, by their lengths against one another and against the leg, so that joints between them may twist
-/// them. Trunk, neck and head but for the hips are left to body/trunk.h. Which pair is the legs is told by
+/// them; a limb may end at a tip in place of wrist or ankle. Trunk, neck and head but for the hips are left to body/trunk.h. Which pair is the legs is told by
 /// the feet, which point forward, or by the root, which is nearer to them; which side is left by where the
 /// feet point.
 /// @param parents  of each joint, before it; JointId::kNone at a root

@@ -20,10 +20,14 @@ std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<
   return glm::normalize(glm::quat_cast(*to * glm::transpose(*from)));
 }
 
-// Direction of a limb's bone: to the joint that is the next part.
+// Direction of a limb's bone; zero where it is not known.
 vec3 boneOf(const Rig& rig, std::uint32_t joint, std::string_view part) {
-  const std::uint32_t end = rig.limbEnd(part);
-  return end == kNone ? vec3(0) : rig.centres[end] - rig.centres[joint];
+  const vec3 from = rig.centres[joint];
+  return rig.boneEnd(joint, part, rig.centres, rig.tips).value_or(from) - from;
+}
+bool isLimb(std::string_view part) {
+  return part.ends_with("UpperArm") || part.ends_with("LowerArm") || part.ends_with("UpperLeg") ||
+         part.ends_with("LowerLeg");
 }
 
 std::uint32_t toesOf(const Rig& rig, std::uint32_t foot) {
@@ -84,6 +88,8 @@ class Alignment {
       const quat turn = turnBetween(above * own, wanted) * above;
       return part.ends_with("UpperArm") ? hingeTurn(j, turn) * turn : turn;
     }
+    // Where nothing tells where a forearm or a shin points it goes straight on.
+    if (isLimb(part)) return above;
     const bool finger = part.find("Proximal") != part.npos || part.ends_with("Toes");
     if (finger) return above;
     if (standing_ == MotionPose::kZero) return trunk;

@@ -226,12 +226,15 @@ class Retargeter {
       if (trunk.known() && theirs.known())
         if (const float wanted = bendOf(theirs, source), own = bendOf(trunk, pose); own < 0.5f * wanted)
           out.trunkMissing = std::max(out.trunkMissing, wanted - own);
+      const std::vector<vec3> places = placesOf(pose);
       for (std::uint32_t j = 0; j < source_.size(); ++j) {
-        const auto end = to_.limbEnd(to_.parts.of[j]),
-                   sourceEnd = source_[j] == kNone ? kNone : from_.limbEnd(from_.parts.of[source_[j]]);
-        if (end == kNone || sourceEnd == kNone) continue;
-        const vec3 own = directionOf(vec3(pose.world[end][3]) - vec3(pose.world[j][3])),
-                   wanted = directionOf(source.places[sourceEnd] - source.places[source_[j]]);
+        if (source_[j] == kNone) continue;
+        const auto end = to_.boneEnd(j, to_.parts.of[j], places, places),
+                   sourceEnd =
+                       from_.boneEnd(source_[j], from_.parts.of[source_[j]], source.places, source.tips);
+        if (!end || !sourceEnd) continue;
+        const vec3 own = directionOf(*end - places[j]),
+                   wanted = directionOf(*sourceEnd - source.places[source_[j]]);
         const float angle = std::acos(std::clamp(glm::dot(own, wanted), -1.0f, 1.0f)) * 180 / kPi;
         out.worstAngle = std::max(out.worstAngle, angle);
         sum += double(angle), ++measured;
@@ -266,6 +269,12 @@ class Retargeter {
     return "";
   }
 
+  static std::vector<vec3> placesOf(const Pose& pose) {
+    std::vector<vec3> places;
+    for (const mat4& joint : pose.world) places.push_back(vec3(joint[3]));
+    return places;
+  }
+
   // How far a trunk is bent against the hips, beside how it stands [degrees].
   static float bend(vec3 standing, vec3 now) {
     return std::acos(std::clamp(glm::dot(directionOf(standing), directionOf(now)), -1.0f, 1.0f)) * 180 / kPi;
@@ -275,8 +284,7 @@ class Retargeter {
     return bend(trunk.way(from_.centres), glm::conjugate(hips) * trunk.way(pose.places));
   }
   float bendOf(const Trunk& trunk, const Pose& pose) const {
-    std::vector<vec3> places;
-    for (const mat4& joint : pose.world) places.push_back(vec3(joint[3]));
+    const std::vector<vec3> places = placesOf(pose);
     const quat hips = rotationOf(pose.world[trunk.hips]) * glm::conjugate(restRotations_[trunk.hips]);
     return bend(trunk.way(to_.centres), glm::conjugate(hips) * trunk.way(places));
   }

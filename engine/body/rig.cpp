@@ -11,7 +11,10 @@
 namespace vasa {
 namespace {
 
-constexpr float kLongBone = 2.5f;                   // times the other bone of a limb: no person's
+constexpr float kLongBone = 2.5f;  // times the other bone of a limb: no person's
+// The same where only the shape told which bones these are: three spreads from a person's
+// (body/humanoid_shape.cpp), as of a collar bone taken for an upper arm.
+constexpr float kUnlikelyBone = 1.7f;
 constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand and foot
 constexpr int kGross = 8;                           // what no person has counts as much as this many doubts
 constexpr float kAlike = 0.25f;                     // the share by which the bones of both sides may differ
@@ -42,6 +45,14 @@ std::uint32_t Rig::limbEnd(std::string_view part) const {
     if (part.ends_with(own))
       return partNamed(std::string(part.starts_with("left") ? "left" : "right") + behind);
   return kNone;
+}
+
+std::optional<vec3> Rig::boneEnd(std::uint32_t joint, std::string_view part, std::span<const vec3> places,
+                                 std::span<const vec3> ends) const {
+  if (const std::uint32_t end = limbEnd(part); end != kNone) return places[end];
+  const bool lower = part.ends_with("LowerArm") || part.ends_with("LowerLeg");
+  if (!lower || ends[joint] == places[joint]) return std::nullopt;
+  return ends[joint];
 }
 
 void placeIn(Rig& rig, const MotionPose& pose) { rig.centres = pose.places, rig.tips = pose.tips; }
@@ -114,6 +125,7 @@ float plausibility(const Rig& rig) {
   const auto part = [&](const char* side, const char* name) {
     return rig.partNamed(std::string(side) + name);
   };
+  const float longBone = rig.parts.family == "shape" ? kUnlikelyBone : kLongBone;
   const std::uint32_t hips = rig.partNamed("hips"),
                       top = rig.partNamed(rig.partNamed("neck") == kNone ? "head" : "neck");
   for (const auto& limb :
@@ -132,7 +144,7 @@ float plausibility(const Rig& rig) {
       }
     for (int s = 0; s < 2; ++s) {
       const float upper = lengths[0][std::size_t(s)], lower = lengths[1][std::size_t(s)];
-      if (upper > 0 && lower > 0) ask(upper < kLongBone * lower && lower < kLongBone * upper, kGross);
+      if (upper > 0 && lower > 0) ask(upper < longBone * lower && lower < longBone * upper, kGross);
       (limb[0] == std::string_view("UpperArm") ? arm : leg) += upper > 0 && lower > 0 ? upper + lower : 0;
     }
     for (const auto& [left, right] :

@@ -1,6 +1,7 @@
 #pragma once
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct Rig {
   std::uint32_t partNamed(std::string_view part) const;
   /// The joint at which the bone of an arm's or a leg's part ends; kNone for other parts.
   std::uint32_t limbEnd(std::string_view part) const;
+  /// Where the bone of a joint that is this part ends: at that joint, or at its own tip where a skeleton ends
+  /// with a forearm or a shin; nothing where neither is there.
+  /// @param places, ends  of joints and tips, in any pose
+  std::optional<vec3> boneEnd(std::uint32_t joint, std::string_view part, std::span<const vec3> places,
+                              std::span<const vec3> ends) const;
 };
 
 Rig rigOf(const Skeleton& skeleton);  ///< at rest

@@ -115,6 +115,28 @@ TEST_CASE("who lies or crawls all the time stays down: the zero pose and the hip
         }
 }
 
+TEST_CASE("arms whose last joint is the elbow have forearms as far as its End Site") {
+  using Zero = DollDialect::Zero;
+  using Arms = DollDialect::Arms;
+  const Body body = dollBody("cmu");
+  for (const char* family : {"cmu", "biovision", "numbered"})
+    for (const Zero zero : {Zero::t, Zero::i, Zero::oneAxis}) {
+      const Retargeting done =
+          carried({.family = family, .zero = zero, .unitsAMetre = 100, .arms = Arms::endAtWrist}, body);
+      const std::string what =
+          std::string(family) + " " + std::to_string(int(zero)) + ": " + describeMatch(done);
+      CHECK_MESSAGE(worstAngle(body, done.clip, "cmu") < 10, what);
+      CHECK_MESSAGE(done.keys == kHumanoidKeys - 2, what);
+    }
+  // Where nothing tells how long the forearm is, names still do; a shape is doubtful.
+  const Retargeting named = carried({.family = "cmu", .unitsAMetre = 100, .arms = Arms::endAtElbow}, body);
+  CHECK_MESSAGE(worstAngle(body, named.clip, "cmu") < 10, describeMatch(named));
+  const auto motion = parseBvh(dollMotion({.family = "numbered", .arms = Arms::endAtElbow}), "doll.bvh");
+  REQUIRE(motion.ok());
+  const auto numbered = retargeted(*motion, body);
+  if (numbered.ok()) CHECK_MESSAGE(numbered->sureness < 0.6f, describeMatch(*numbered));
+}
+
 TEST_CASE("a zero pose that looks aside or back moves a body the same way") {
   const Body body = dollBody("cmu");
   for (const float facing : {90.0f, 180.0f, -90.0f})

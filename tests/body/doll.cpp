@@ -65,6 +65,8 @@ mat3 zeroTurn(const std::string& part, DollDialect::Zero zero) {
 
 const mat3 kLaysUp(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));  // +Y -> +Z, +Z -> -Y
 
+constexpr int kStill = -1;  // a joint that only goes along
+
 struct Writer {
   const DollDialect& dialect;
   std::string text;
@@ -75,10 +77,19 @@ struct Writer {
   void numbers(vec3 v) {
     for (int i = 0; i < 3; ++i) text.append(1, ' ').append(std::to_string(v[i]));
   }
+  void sword(vec3 offset) {
+    text += "JOINT joint_s" + std::to_string(order.size()) + "\n{\nOFFSET";
+    numbers(inFile(offset));
+    text += "\nCHANNELS 3 Zrotation Yrotation Xrotation\n";
+    order.push_back(kStill);
+  }
   void joint(int part) {
     const auto& parts = dollParts();
     const DollPart& own = parts[std::size_t(part)];
-    if (own.part.empty())
+    const bool cut = has(own.part, "Hand") && dialect.arms != DollDialect::Arms::whole,
+               end = own.part.empty() || cut;
+    if (cut && dialect.arms == DollDialect::Arms::endAtElbow) return;
+    if (end)
       text += "End Site\n{\nOFFSET";
     else
       text.append(own.parent < 0 ? "ROOT " : "JOINT ")
@@ -89,11 +100,13 @@ struct Writer {
     const mat3 turn = own.parent < 0 ? mat3(1) : zeroTurn(parts[std::size_t(own.parent)].part, dialect.zero);
     numbers(inFile(aside() * turn * offset));
     text += "\n";
-    if (!own.part.empty())
+    if (!end)
       text += own.parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n"
                              : "CHANNELS 3 Zrotation Yrotation Xrotation\n";
+    const bool armed = dialect.sword && own.part == "rightHand";
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (parts[i].parent == part) joint(int(i));
+      if (parts[i].parent == part && !cut && !armed) joint(int(i));
+    if (armed) sword(vec3(-0.1f, 0, 0)), sword(vec3(0, 0.9f, 0)), text += "}\n}\n";
     text += "}\n";
   }
 };
@@ -207,6 +220,10 @@ std::string dollMotion(const DollDialect& dialect, int frames) {
       return dialect.zUp ? kLaysUp * turn * glm::transpose(kLaysUp) : turn;
     };
     for (const int part : writer.order) {
+      if (part == kStill) {
+        writer.numbers(vec3(0));
+        continue;
+      }
       const int parent = parts[std::size_t(part)].parent;
       if (parent < 0) {
         const vec3 place = vec3(0.02f * float(frame), 0.95f, 0.03f * float(frame));

@@ -16,6 +16,9 @@ struct DollDialect {
   bool zUp = false;          ///< the whole file, rest and motion
   bool rootTurnsUp = false;  ///< the zero pose stands along +Y, the root's turns lay it along +Z
   float facing = 0;          ///< degrees about +Y by which the zero pose looks aside
+  /// Without joints at the wrists: an End Site is there, or not even that.
+  enum class Arms { whole, endAtWrist, endAtElbow } arms = Arms::whole;
+  bool sword = false;  ///< two more joints in the right hand
 };
 
 struct DollPart {
