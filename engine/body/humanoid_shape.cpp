@@ -16,6 +16,7 @@ namespace {
 constexpr float kEqual = 0.12f;  // a pair's lengths differ by no more than this share
 constexpr float kShortLimb =
     0.15f;  // of the longest way from the root to a tip: fingers, eyes and ribs are no limbs
+constexpr int kLimbJoints = 3;
 constexpr std::size_t kMostJoints = 1000;
 constexpr std::size_t kLongestChain = 24, kMostBefore = 4, kMostTwists = 4;
 
@@ -63,6 +64,19 @@ class Shape {
     return parents_[joint] == kNone ? 0.0f : glm::distance(places_[joint], places_[parents_[joint]]);
   }
 
+  // How far two limbs go on alike, joint by joint: one of two hands may hold something. Nothing where that
+  // are fewer than the three joints of a limb.
+  float alike(std::uint32_t a, std::uint32_t b) const {
+    float length = 0;
+    int joints = 0;
+    for (; a != kNone && b != kNone; a = longest(a), b = longest(b), ++joints) {
+      const float most = std::max(link(a), link(b));
+      if (std::abs(link(a) - link(b)) > kEqual * most) break;
+      length += most;
+    }
+    return joints >= kLimbJoints ? length : 0.0f;
+  }
+
   // Equal limbs that leave one joint, or two joints at one place after it (hip joints without length).
   std::optional<Pair> pairAt(std::uint32_t joint, float least) const {
     std::optional<Pair> best;
@@ -70,9 +84,10 @@ class Shape {
     for (std::size_t i = 0; i < own.size(); ++i)
       for (std::size_t k = i + 1; k < own.size(); ++k) {
         const float a = reach_[own[i]] + link(own[i]), b = reach_[own[k]] + link(own[k]);
-        if (std::min(a, b) < least || std::abs(a - b) > kEqual * std::max(a, b)) continue;
-        if (!sameCounts(own[i], own[k])) continue;
-        if (!best || std::min(a, b) > best->length) best = Pair{joint, own[i], own[k], std::min(a, b)};
+        const bool equal = std::abs(a - b) <= kEqual * std::max(a, b) && sameCounts(own[i], own[k]);
+        const float length = equal ? std::min(a, b) : alike(own[i], own[k]);
+        if (length < least) continue;
+        if (!best || length > best->length) best = Pair{joint, own[i], own[k], length};
       }
     return best;
   }

@@ -137,6 +137,13 @@ TEST_CASE("arms whose last joint is the elbow have forearms as far as its End Si
   if (numbered.ok()) CHECK_MESSAGE(numbered->sureness < 0.6f, describeMatch(*numbered));
 }
 
+TEST_CASE("a hand that holds a sword has an arm like the other one") {
+  const Body body = dollBody("cmu");
+  const Retargeting done = carried({.family = "numbered", .unitsAMetre = 100, .sword = true}, body);
+  CHECK_MESSAGE(worstAngle(body, done.clip, "cmu") < 10, describeMatch(done));
+  CHECK_MESSAGE(done.keys == kHumanoidKeys, describeMatch(done));
+}
+
 TEST_CASE("a zero pose that looks aside or back moves a body the same way") {
   const Body body = dollBody("cmu");
   for (const float facing : {90.0f, 180.0f, -90.0f})
