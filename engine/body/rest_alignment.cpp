@@ -25,10 +25,7 @@ vec3 boneOf(const Rig& rig, std::uint32_t joint, std::string_view part) {
   const vec3 from = rig.centres[joint];
   return rig.boneEnd(joint, part, rig.centres, rig.tips).value_or(from) - from;
 }
-bool isLimb(std::string_view part) {
-  return part.ends_with("UpperArm") || part.ends_with("LowerArm") || part.ends_with("UpperLeg") ||
-         part.ends_with("LowerLeg");
-}
+bool isLowerBone(std::string_view part) { return part.ends_with("LowerArm") || part.ends_with("LowerLeg"); }
 
 std::uint32_t toesOf(const Rig& rig, std::uint32_t foot) {
   return rig.partNamed(std::string(rig.parts.of[foot].starts_with("left") ? "left" : "right") + "Toes");
@@ -83,13 +80,14 @@ class Alignment {
       const auto own = handOf(to_, j), wanted = handOf(from_, s);
       return own && wanted ? glm::normalize(glm::quat_cast(*wanted * glm::transpose(*own))) : above;
     }
-    const vec3 own = boneOf(to_, j, part), wanted = boneOf(from_, s, part);
+    const vec3 own = boneOf(to_, j, part);
+    vec3 wanted = boneOf(from_, s, part);
+    // Where nothing tells where a forearm or a shin ends: zero poses have limbs straight.
+    if (wanted == vec3(0) && isLowerBone(part)) wanted = standingTurns_[s] * motion_.joints[s].offset;
     if (own != vec3(0) && wanted != vec3(0)) {
       const quat turn = turnBetween(above * own, wanted) * above;
       return part.ends_with("UpperArm") ? hingeTurn(j, turn) * turn : turn;
     }
-    // Where nothing tells where a forearm or a shin points it goes straight on.
-    if (isLimb(part)) return above;
     const bool finger = part.find("Proximal") != part.npos || part.ends_with("Toes");
     if (finger) return above;
     if (standing_ == MotionPose::kZero) return trunk;

@@ -128,9 +128,21 @@ TEST_CASE("arms whose last joint is the elbow have forearms as far as its End Si
       CHECK_MESSAGE(worstAngle(body, done.clip, "cmu") < 10, what);
       CHECK_MESSAGE(done.keys == kHumanoidKeys - 2, what);
     }
-  // Where nothing tells how long the forearm is, names still do; a shape is doubtful.
-  const Retargeting named = carried({.family = "cmu", .unitsAMetre = 100, .arms = Arms::endAtElbow}, body);
-  CHECK_MESSAGE(worstAngle(body, named.clip, "cmu") < 10, describeMatch(named));
+  // Where nothing tells where the forearm ends it goes straight on, also in a body whose elbows are bent at
+  // rest, if names tell which joint it is; a shape is doubtful.
+  Body bent = body;
+  for (const char* name : {"LeftHand", "RightHand"}) {
+    Skeleton::Joint& hand = bent.skeleton.joints[bent.skeleton.find(name).value];
+    const vec3 straight = hand.rest.translation;
+    hand.rest.translation = glm::angleAxis(0.7f, vec3(1, 0, 0)) * straight;
+    hand.restWorld[3] += vec4(hand.rest.translation - straight, 0);
+    hand.inverseBind = glm::inverse(hand.restWorld);
+  }
+  for (const Zero zero : {Zero::t, Zero::oneAxis}) {
+    const Retargeting named =
+        carried({.family = "cmu", .zero = zero, .unitsAMetre = 100, .arms = Arms::endAtElbow}, bent);
+    CHECK_MESSAGE(worstAngle(bent, named.clip, "cmu") < 10, describeMatch(named));
+  }
   const auto motion = parseBvh(dollMotion({.family = "numbered", .arms = Arms::endAtElbow}), "doll.bvh");
   REQUIRE(motion.ok());
   const auto numbered = retargeted(*motion, body);
