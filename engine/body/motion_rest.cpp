@@ -153,11 +153,12 @@ class FramesStance {
     for (const MotionPose& pose : poses_) mean += height(pose, axis) / float(poses_.size());
     return mean > kLowestHips * leg_ && mean < kHighestHips * leg_;
   }
-  // As of somebody who stands, sits or lies on a floor, in every frame.
+  // As of somebody who lies or crawls on a floor: above it in every frame, and not getting up.
   bool hipsAboveFloor(vec3 axis) const {
-    return std::ranges::all_of(poses_, [&](const MotionPose& pose) {
-      return height(pose, axis) > kLyingHips * leg_ && height(pose, axis) < kHighestHips * leg_;
-    });
+    float low = height(poses_.front(), axis), high = low;
+    for (const MotionPose& pose : poses_)
+      low = std::min(low, height(pose, axis)), high = std::max(high, height(pose, axis));
+    return low > kLyingHips * leg_ && high < kHighestHips * leg_ && high - low < kLowestHips * leg_;
   }
   bool hipsAtOrigin() const {
     return std::ranges::all_of(poses_, [&](const MotionPose& pose) {

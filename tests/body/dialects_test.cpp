@@ -115,6 +115,20 @@ TEST_CASE("who lies or crawls all the time stays down: the zero pose and the hip
         }
 }
 
+TEST_CASE("who walks where +Z is up is not lying, wherever that is, though the zero pose stands along +Y") {
+  const Body body = dollBody("cmu");
+  for (const float from : {-1.0f, 0.0f, 0.2f, 3.0f}) {
+    auto motion = parseBvh(dollMotion({"cmu", DollDialect::Zero::t, 100, false, true}), "doll.bvh");
+    REQUIRE(motion.ok());
+    for (std::size_t frame = 0; frame < motion->frameCount; ++frame)
+      motion->translations[frame * motion->joints.size()].y = 100 * (from + 0.03f * float(frame));
+    const auto done = retargeted(*motion, body);
+    if (!done.ok()) FAIL(done.error().message);
+    CHECK_MESSAGE(done->up == vec3(0, 0, 1), from << ": " << describeMatch(*done));
+    CHECK_MESSAGE(worstAngle(body, done->clip, "cmu") < 10, from);
+  }
+}
+
 TEST_CASE("arms whose last joint is the elbow have forearms as far as its End Site") {
   using Zero = DollDialect::Zero;
   using Arms = DollDialect::Arms;
