@@ -33,8 +33,9 @@ vec3 upOf(const Motion& motion, std::span<const std::string_view> parts);
 Motion withUp(const Motion& motion, vec3 up);
 
 /// The pose to compare a body's rest pose with: all rotations zero, where that is a person who stands (arms
-/// may hang, be stretched out or anything between); else, as in files whose zero pose has all bones along one
-/// axis, the frame of the motion that stands most upright, or where none does lies most straight. @return its frame, or MotionPose::kZero
+/// may hang, be stretched out or anything between); else, as in files whose zero pose has all bones along
+/// one axis, the frame of the motion that stands most upright, or where none does lies most straight.
+/// @return its frame, or MotionPose::kZero
 std::uint32_t standingPose(const Motion& motion, std::span<const std::string_view> parts);
 
 /// Metres that a unit of the motion is, judged by the length of a leg: 1, 0.01, 0.0254, 0.0564 (CMU's),
