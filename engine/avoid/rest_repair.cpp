@@ -16,6 +16,9 @@ namespace vasa {
 namespace {
 
 constexpr unsigned kPasses = 4, kSteps = 40;
+// A sweep, in the mean. Scanned bodies have up to 0.3; where it is many times that, what lies there is a
+// tangle of no vessels, and no way leads out of it.
+constexpr std::size_t kMostPairs = 4;
 constexpr unsigned kStepsOfMotion = 20;    // the first, before anything is thinned
 constexpr float kRepairClearance = 1e-6f;  // [m] well above what detection is exact to
 // Of coordinates that two vessels may come nearer by, √3 each, and of radii.
@@ -123,7 +126,9 @@ RestRepair overlapsAtRest(const Network& network) {
 
 RestRepair separateAtRest(const Network& network) {
   RestRepair repair = overlapsAtRest(network);
-  if (repair.pairsBefore == 0) return repair;
+  std::size_t sweeps = 0;
+  for (const Vessel& vessel : network.vessels()) sweeps += vessel.spanCount();
+  if (repair.pairsBefore == 0 || repair.pairsBefore > kMostPairs * sweeps) return repair;
   std::set<VesselPair> twice;
   for (const RestOverlap& overlap : repair.left)
     if (overlap.reason == OverlapReason::twice) twice.emplace(overlap.first.value, overlap.second.value);

@@ -33,9 +33,10 @@ struct RestRepair {
 /// of a frame would have to leave out (avoid/certificate.h). They are moved aside, the thin more than the
 /// wide, and where there is no room for that, thinned (avoid/rest_parting.h). Between them stays what
 /// rounding them in a file may take away (network/file.h). Two vessels that run along the same course are one
-/// told twice: there is no side to go to, and both are left as they are. Thinner vessels have fewer
-/// neighbours along the network (collide/neighbours.h), so these are looked up anew between passes. O(steps ·
-/// (tubes + overlaps · points that one moves)), deterministic. Can be cancelled (core/cancellation.h).
+/// told twice: there is no side to go to, and both are left as they are. So is a tangle, which has several
+/// times as many pairs as sweeps. Thinner vessels have fewer neighbours along the network
+/// (collide/neighbours.h), so these are looked up anew between passes. O(steps · (tubes + overlaps · points
+/// that one moves)), deterministic. Can be cancelled (core/cancellation.h).
 RestRepair separateAtRest(const Network& network);
 /// Nothing done: only what overlaps is told.
 RestRepair overlapsAtRest(const Network& network);

@@ -23,6 +23,9 @@
 namespace vasa {
 namespace {
 
+// Of a piece, end to end: a splinter of few triangles says no more by thousands. A straight tube of two rings
+// of six, 1 m long and 3 mm wide, has 46 a triangle.
+constexpr std::size_t kMostSections = 5000, kSectionsATriangle = 100;
 constexpr std::size_t kCoverageSamples = 2000;
 constexpr SurfaceErrorOptions kMeasured;  // what counts as covered
 constexpr double kWellCovered = 0.97;
@@ -94,7 +97,9 @@ PieceAxes axesByLevelSets(const Piece& piece, std::span<const float> distance, f
                           const ElementOptions& options) {
   PieceAxes result;
   const float radius = typicalRadius(piece.mesh, reach);
-  const float step = std::max({0.5f * radius, std::min(0.25f * options.detail, 0.1f * reach), reach / 5000});
+  const float finest =
+      reach / float(std::min(kMostSections, kSectionsATriangle * piece.mesh.triangles.size()));
+  const float step = std::max({0.5f * radius, std::min(0.25f * options.detail, 0.1f * reach), finest});
   result.graph = reebGraph(piece.mesh, piece.edges, distance, step);
   result.pruned = prune(result.graph, options.detail, keepStubs);
 
@@ -118,7 +123,7 @@ PieceAxes axesByLevelSets(const Piece& piece, std::span<const float> distance, f
     };
     trim(chain.start, false);
     trim(chain.end, true);
-    std::vector<vec4> sections = reslice(slicer, rough, 0.25f * options.detail);
+    std::vector<vec4> sections = reslice(slicer, rough, std::max(0.25f * options.detail, finest));
     if (strays(rough, sections)) {
       sections = rough;
       smoothSections(sections, 12);

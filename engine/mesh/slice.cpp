@@ -62,6 +62,7 @@ const std::vector<Contour>& Slicer::cut(vec3 onPlane, vec3 normal, float reach) 
   contours_.clear();
   candidates_.clear();
   tree_.nearPlane(onPlane, normal, reach, candidates_);
+  met_ += candidates_.size();
   // A vertex on the plane counts as above it, the same for every triangle around it: no special cases.
   const auto height = [&](std::uint32_t v) { return glm::dot(mesh_.positions[v] - onPlane, normal); };
   std::vector<Piece> pieces;
@@ -153,6 +154,7 @@ SectionShape shapeOf(const Contour& contour, vec3 onPlane, vec3 normal) {
 }
 
 std::optional<SectionShape> Slicer::section(vec3 onPlane, vec3 normal, float reach) {
+  if (met_ > kMostCuts * mesh_.triangles.size()) return std::nullopt;
   std::optional<SectionShape> best;
   const auto better = [&](const SectionShape& shape) {
     if (!best) return true;

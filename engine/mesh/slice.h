@@ -26,6 +26,8 @@ struct SectionShape {
 /// Cuts a mesh by planes. Holds references: mesh, edges and tree must outlive it. Not for several threads.
 class Slicer {
  public:
+  static constexpr std::size_t kMostCuts = 1000;  ///< of BodyParts3D's vessels none needs more than 97
+
   Slicer(const TriangleMesh& mesh, const MeshEdges& edges, const TriangleTree& tree)
       : mesh_(mesh), edges_(edges), tree_(tree) {}
 
@@ -36,7 +38,8 @@ class Slicer {
 
   /// The shape of the contour around the point: the smallest one that contains it, or else the one whose
   /// centroid is nearest and within `reach / 2`. None where there is no such contour, or where what is there
-  /// is open by more than 40 % of its outline.
+  /// is open by more than 40 % of its outline. None any more where planes have met the mesh's triangles
+  /// kMostCuts times each, as in a tangle that every plane meets everywhere.
   std::optional<SectionShape> section(vec3 onPlane, vec3 normal, float reach);
 
  private:
@@ -45,6 +48,7 @@ class Slicer {
   const TriangleTree& tree_;
   std::vector<std::uint32_t> candidates_;
   std::vector<Contour> contours_;
+  std::size_t met_ = 0;  // triangles by planes, so far
 };
 
 SectionShape shapeOf(const Contour& contour, vec3 onPlane, vec3 normal);
