@@ -398,6 +398,30 @@ TEST_CASE(
   expect({"convert", (folder.path() / "none.xyz").string(), "-o", "x.vasa"}, 6, "cannot open");
 }
 
+TEST_CASE("nothing that is read is written over, and no option is passed over without a word") {
+  const TemporaryFolder folder;
+  const auto refused = [&](std::vector<std::string> words, int exit, const char* reason) {
+    const auto outcome = runProgram(words);
+    CHECK(outcome.exit == exit);
+    CHECK_MESSAGE(outcome.err.find(reason) != std::string::npos, outcome.err);
+  };
+  const auto lines = write(folder, "v.swc", personVessels());
+  const auto net = (folder.path() / "v.vasa").string();
+  REQUIRE(runProgram({"convert", lines, "-o", net}).exit == 0);
+  const auto before = readFile(net);
+  refused({"place", net, "--scale", "2", "-o", net}, 2, "v.vasa: is read, too, and would be written over");
+  refused({"place", net, "--scale", "2", "-o", (folder.path() / "." / "v.vasa").string()}, 2, "written over");
+  CHECK(*readFile(net) == *before);
+  const auto to = [&](const char* name) { return (folder.path() / name).string(); };
+  refused({"export", "-o", to("a.obj"), "--unit", "mm"}, 2, "--unit is of .vtp, .swc and .stl files");
+  refused({"export", "-o", to("a.csv"), "--flat"}, 2, "--flat is of .glb files");
+  refused({"prepare", "--clip", "nope", "-o", to("kept")}, 3, "no clip 'nope'");
+  const std::string head = "name,part,motion,low_deg,high_deg\n";
+  refused({"poses", "--ranges", write(folder, "none.csv", head)}, 3, "has no row below its header");
+  refused({"poses", "--ranges", write(folder, "far.csv", head + "head flexion,head,flexion,-25,4000\n")}, 3,
+          "far.csv:2: low_deg and high_deg must be from -180 to 180");
+}
+
 TEST_CASE("files of a kind that is not read say what to do") {
   const TemporaryFolder folder;
   for (const auto& [name, remedy] :
