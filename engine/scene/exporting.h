@@ -26,17 +26,17 @@ constexpr bool holdsMotion(ExportKind kind) {
 
 struct ExportOptions {
   FrameOptions frame;
-  std::uint32_t first = 0, last = 0;               ///< frames of the clip, both included
-  std::optional<SweepShape> shape;                 ///< quads; none: of .glb the finest that fits, else 8 by 5
-  float fps = 0;                                   ///< keys a second of .glb; 0: one a frame
-  std::size_t mostBytes = 128'000'000;            ///< of .glb
-  float tolerance = 5e-5f;                         ///< [m] BakeOptions::mesh
-  float between = 1e-3f;                           ///< [m] BakeOptions::betweenTolerance
-  bool normals = true;                             ///< of .glb
-  std::string unit = "mm";                         ///< of .vtp, .swc and .stl: mm, cm or m
-  std::uint32_t samples = 2;                       ///< a sweep, of .vtp and .swc
-  float clearance = 5e-3f;                         ///< [m] those beyond are not looked for, of .csv
-  std::function<vec3(VesselKind)> colourOf;        ///< linear, of .glb
+  std::uint32_t first = 0, last = 0;         ///< frames of the clip, both included
+  std::optional<SweepShape> shape;           ///< quads; none: of .glb the finest that fits, else 8 by 5
+  float fps = 0;                             ///< keys a second of .glb; 0: one a frame
+  std::size_t mostBytes = 128'000'000;       ///< of .glb
+  float tolerance = 5e-5f;                   ///< [m] BakeOptions::mesh
+  float between = 1e-3f;                     ///< [m] BakeOptions::betweenTolerance
+  bool normals = true;                       ///< of .glb
+  std::string unit = "mm";                   ///< of .vtp, .swc and .stl: mm, cm or m
+  std::uint32_t samples = 2;                 ///< a sweep, of .vtp and .swc
+  float clearance = 5e-3f;                   ///< [m] those beyond are not looked for, of .csv
+  std::function<vec3(VesselKind)> colourOf;  ///< linear, of .glb
   std::function<void(std::size_t, std::size_t)> progress = {};  ///< done, of how many
 };
 
