@@ -45,7 +45,7 @@ Report asReport(const std::vector<VesselComparison>& all) {
 
 std::string asText(const std::vector<VesselComparison>& all, const Report& report, std::size_t rows) {
   if (all.empty())
-    return "no vessel is in both: vessels are compared by name and kind, and none has its like; vasa info NET --vessels lists them\n";
+    return "no vessel is in both: vessels are compared by name, or else by ontology id, and none has its like; vasa info NET --vessels lists them\n";
   const Report& summary = report["summary"];
   std::string text = fmt::format(
       "{} vessels in both; in the middle {:.2f} times as long and {:.1f} mm apart\n", all.size(),

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 
 #include "core/nearest_names.h"
 
@@ -63,15 +65,21 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
 
 std::string overwritingMessage(const CLI::App& app) {
   const CLI::App* const command = understood(app).first;
-  const auto isOutput = [](const CLI::Option* option) {
-    return option->check_lname("output") || option->check_lname("pairs");
+  // A joint map that is read and written is carried on.
+  const auto holds = [](const CLI::Option* option, std::initializer_list<const char*> names) {
+    return std::ranges::any_of(names, [&](const char* name) { return option->check_lname(name); });
+  };
+  const auto isOutput = [&](const CLI::Option* option) {
+    return holds(option, {"output", "pairs", "video"});
+  };
+  const auto isInput = [&](const CLI::Option* option) {
+    return !isOutput(option) && !holds(option, {"title", "joint-map", "track"});
   };
   std::error_code ignored;
   for (const CLI::Option* to : command->get_options(isOutput))
     for (const std::string& output : to->results()) {
       if (!std::filesystem::is_regular_file(output, ignored)) continue;
-      for (const CLI::Option* from :
-           command->get_options([&](const CLI::Option* own) { return !isOutput(own); }))
+      for (const CLI::Option* from : command->get_options(isInput))
         for (const std::string& input : from->results())
           if (std::filesystem::equivalent(input, output, ignored))
             return output + ": is read, too, and would be written over; give the result another name";

@@ -76,9 +76,10 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   }
   SceneOptions scene = options.scene;
   if (const std::filesystem::path file = scene.scene; !file.empty() && extensionOf(file) != ".json") {
-    if (!scene.holds.empty())
-      return Error{Fault::usage,
-                   "--holds is of vessels that --network gives; add --network " + file.string()};
+    const char* const given = !scene.holds.empty() ? "--holds" : !scene.edits.empty() ? "--edits" : nullptr;
+    if (given)
+      return Error{Fault::usage, std::string(given) + " is of vessels that --network gives; give --network " +
+                                     file.string() + " in place of " + file.string()};
     view.dropped = {file};
     scene.scene.clear();
   }

@@ -158,7 +158,7 @@ void showQuestion(const PanelInput& in) {
                                         : "Quit without it";
     if (ImGui::Button(leave)) in.state.wishDiscard = true;
     ImGui::SameLine();
-    if (ImGui::Button("Go on (Esc)")) in.state.waiting = Waiting::nothing;
+    if (ImGui::Button("Go on (Esc)")) in.state.wishStay = true;
   }
   ImGui::End();
 }

@@ -23,8 +23,8 @@ class SceneKeeper {
   Result<std::filesystem::path> save(const Document& document, const ViewState& state,
                                      const std::filesystem::path& unnamed,
                                      const std::filesystem::path& as = {});
-  /// Another motion is shown; all else is as it was.
-  void takeMotion(const std::string& clip) { file_.clip = clip; }
+  /// Another motion is shown, from its start; all else is as it was.
+  void takeMotion(const std::string& clip) { file_.clip = clip, file_.time = 0; }
   /// As it was opened or saved last.
   const SceneFile& file() const { return file_; }
   /// Empty: there is none yet.

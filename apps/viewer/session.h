@@ -76,6 +76,7 @@ class Session {
   void click(const Click& click);
   void openContext(vec2 place);
   void escape();
+  void stay();
   bool askForMenu(const KeyChanged& key);
   std::optional<VesselPlace> vesselAt(vec2 place) const;
   void lookUnderPointer();

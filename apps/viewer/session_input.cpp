@@ -161,16 +161,18 @@ bool Session::askForMenu(const KeyChanged& key) {
   return true;
 }
 
+// Nothing is quit or opened after all.
+void Session::stay() {
+  state_.waiting = Waiting::nothing;
+  dropped_.clear();
+}
+
 // Out of what is uppermost: a menu, a question, help, opening; last of what is chosen.
 void Session::escape() {
   files_.close();
   if (ui_.closePopups() || ui_.wantsKeys()) return;
   if (!state_.failure.empty()) return state_.failure.clear();
-  if (state_.waiting != Waiting::nothing) {
-    state_.waiting = Waiting::nothing;
-    dropped_.clear();
-    return;
-  }
+  if (state_.waiting != Waiting::nothing) return stay();
   if (std::exchange(state_.help, false)) return;
   if (loader_.busy())
     state_.wishCancel = true;

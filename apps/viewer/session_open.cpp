@@ -59,6 +59,7 @@ bool Session::asksFirst() const {
 
 // With what waits, unless something would be lost and nobody said that it may be.
 void Session::goOn() {
+  if (std::exchange(state_.wishStay, false)) stay();
   const bool asked = std::exchange(state_.wishGoOn, false),
              discard = std::exchange(state_.wishDiscard, false);
   if (state_.waiting == Waiting::nothing || !(discard || (asked && !asksFirst()))) return;

@@ -219,7 +219,12 @@ void Session::watchExport() {
   const auto outcome = exporter_.take();
   if (!outcome) return;
   exportMore_ = false;
-  if (state_.waiting == Waiting::quit) state_.wishGoOn = true;
+  if (state_.waiting == Waiting::quit) {
+    if (outcome->ok() || outcome->error().fault == Fault::interrupted)
+      state_.wishGoOn = true;
+    else
+      state_.waiting = Waiting::nothing;  // why it failed is to be seen
+  }
   if (!*outcome) {
     if (options_.script) failure_ = outcome->error();
     if (outcome->error().fault != Fault::interrupted) state_.failure = outcome->error().message;

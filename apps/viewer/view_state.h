@@ -90,9 +90,9 @@ struct ViewState : Undoable {
   // Wishes, taken back when they are met.
   bool wishQuit = false, wishPicture = false, wishProfile = false, wishHome = false, wishFocus = false,
        wishSearch = false, wishCancel = false, wishUndo = false, wishRedo = false, wishSave = false,
-       wishDelete = false, wishDeleteTree = false, wishDiscard = false, wishCopyPose = false,
-       wishPastePose = false, wishOpen = false, wishCopyPicture = false, wishFullScreen = false,
-       wishGoOn = false, wishExport = false, wishCancelExport = false;
+       wishDelete = false, wishDeleteTree = false, wishDiscard = false, wishStay = false,
+       wishCopyPose = false, wishPastePose = false, wishOpen = false, wishCopyPicture = false,
+       wishFullScreen = false, wishGoOn = false, wishExport = false, wishCancelExport = false;
   bool wishSaveAs = false, wishSaveProfile = false;
   /// Files that are to be opened together in place of what is shown.
   std::vector<std::filesystem::path> wishFiles;

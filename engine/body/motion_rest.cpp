@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/ids.h"
@@ -37,16 +38,21 @@ class RestStance {
   }
   std::uint32_t hips() const { return hips_; }
 
+  // Where a leg ends as far as it is known: the ankle, which may be an End Site of the shin, or a joint
+  // above.
+  std::optional<vec3> legEnd(const MotionPose& pose, const std::string& side) const {
+    if (const std::uint32_t foot = of(side + "Foot"); foot != kNone) return pose.places[foot];
+    if (const std::uint32_t knee = of(side + "LowerLeg"); knee != kNone) return pose.tips[knee];
+    if (const std::uint32_t hip = of(side + "UpperLeg"); hip != kNone) return pose.places[hip];
+    return std::nullopt;
+  }
+
   // From the feet, or what is known of the legs, to the top of the trunk.
   vec3 up(const MotionPose& pose) const {
     vec3 low(0);
     int count = 0;
     for (const std::string side : kSides)
-      for (const char* part : {"Foot", "LowerLeg", "UpperLeg"})
-        if (const std::uint32_t j = of(side + part); j != kNone) {
-          low += pose.places[j], ++count;
-          break;
-        }
+      if (const auto end = legEnd(pose, side)) low += *end, ++count;
     if (count == 0 && hips_ != kNone) low = pose.places[hips_], count = 1;
     if (top_ == kNone || count == 0) return vec3(0);
     const vec3 way = pose.places[top_] - low / float(count);
@@ -58,11 +64,7 @@ class RestStance {
   float lowFoot(const MotionPose& pose, vec3 axis) const {
     float low = glm::dot(pose.places[hips_], axis);
     for (const std::string side : kSides)
-      for (const char* part : {"Foot", "LowerLeg", "UpperLeg"})
-        if (const std::uint32_t j = of(side + part); j != kNone) {
-          low = std::min(low, glm::dot(pose.places[j], axis));
-          break;
-        }
+      if (const auto end = legEnd(pose, side)) low = std::min(low, glm::dot(*end, axis));
     return low;
   }
 
@@ -72,21 +74,23 @@ class RestStance {
   };
   Uprightness uprightness(const MotionPose& pose, vec3 axis = {0, 1, 0}) const {
     Uprightness result;
-    const auto along = [&](std::uint32_t a, std::uint32_t b) {
-      const vec3 way = pose.places[b] - pose.places[a];
-      const float length = glm::length(way);
-      return length > 0 ? glm::dot(way, axis) / length : 0.0f;
+    const auto along = [&](vec3 a, vec3 b) {
+      const float length = glm::distance(a, b);
+      return length > 0 ? glm::dot(b - a, axis) / length : 0.0f;
     };
-    if (hips_ != kNone && top_ != kNone) result.trunk = along(hips_, top_);
+    if (hips_ != kNone && top_ != kNone) result.trunk = along(pose.places[hips_], pose.places[top_]);
     result.sum = result.trunk;
-    for (const std::string side : kSides)
-      for (const auto& [from, to] : {std::pair("UpperLeg", "LowerLeg"), std::pair("LowerLeg", "Foot")}) {
-        const std::uint32_t a = of(side + from), b = of(side + to);
-        if (a == kNone || b == kNone) continue;
-        const float down = -along(a, b);
-        result.worstLeg = std::min(result.worstLeg, down);
-        result.sum += down;
-      }
+    const auto add = [&](vec3 from, vec3 to) {
+      const float down = -along(from, to);
+      result.worstLeg = std::min(result.worstLeg, down);
+      result.sum += down;
+    };
+    for (const std::string side : kSides) {
+      const std::uint32_t hip = of(side + "UpperLeg"), knee = of(side + "LowerLeg");
+      if (knee == kNone) continue;
+      if (hip != kNone) add(pose.places[hip], pose.places[knee]);
+      if (const vec3 end = *legEnd(pose, side); end != pose.places[knee]) add(pose.places[knee], end);
+    }
     return result;
   }
 
@@ -98,10 +102,10 @@ class RestStance {
   float legLength(const MotionPose& pose) const {
     float longest = 0;
     for (const std::string side : kSides) {
-      const std::uint32_t a = of(side + "UpperLeg"), b = of(side + "LowerLeg"), c = of(side + "Foot");
-      if (a == kNone || b == kNone || c == kNone) continue;
-      longest = std::max(longest, glm::distance(pose.places[a], pose.places[b]) +
-                                      glm::distance(pose.places[b], pose.places[c]));
+      const std::uint32_t hip = of(side + "UpperLeg"), knee = of(side + "LowerLeg");
+      if (hip == kNone || knee == kNone) continue;
+      const float shin = glm::distance(pose.places[knee], *legEnd(pose, side));
+      if (shin > 0) longest = std::max(longest, glm::distance(pose.places[hip], pose.places[knee]) + shin);
     }
     return longest;
   }

@@ -21,6 +21,7 @@ constexpr float kWeld = 1e-6f;        // [m] corners that are one
 constexpr float kCutMargin = 0.005f;  // of the surface's height
 constexpr float kLevel = 0.97f;       // least cosine of a cut to the axis
 constexpr float kMostOnOtherSide = 0.5f;
+constexpr float kNearMiddle = 0.04f;  // of the body's height
 // Another person's trunk comes to 0.8 and more, an arm in another person's leg to 0.77.
 constexpr float kSureSurfaceShare = 0.9f;
 constexpr float kClearlyLess =
@@ -61,42 +62,54 @@ float shareOutside(const SkinShell& shell, std::span<const vec4> points) {
   return samples ? float(outside) / float(samples) : 0;
 }
 
-// Places of vessels whose names say on which side of the body they are: +1 left, -1 right.
-struct Sided {
-  vec3 place;
-  float side;
+// Places of vessels whose names say on which side of the body they are. Some of the trunk's lie on the other,
+// near the middle (the left hepatic artery): farther off none does.
+class Sides {
+ public:
+  Sides(const Network& network, const SkinShell& skin) {
+    const Aabb box = skin.mesh().bounds();
+    middle_ = 0.5f * (box.low.x + box.high.x);
+    margin_ = kNearMiddle * box.extent().y;
+    std::vector<Place> all;
+    for (const Vessel& vessel : network.vessels()) {
+      const std::string name = lowerCase(vessel.name);
+      const bool left = name.find("left") != name.npos, right = name.find("right") != name.npos;
+      if (left == right) continue;
+      for (const vec4& p : network.pointsOf(vessel)) all.push_back({vec3(p), left ? 1.0f : -1.0f});
+    }
+    const std::size_t asked = std::min(all.size(), kPlacesAsked);
+    for (std::size_t i = 0; i < asked; ++i) places_.push_back(all[i * all.size() / asked]);
+  }
+
+  bool known() const { return !places_.empty(); }
+  float shareOnOtherSide(const Similarity& by) const {
+    const auto wrong = std::ranges::count_if(
+        places_, [&](const Place& own) { return own.side * (by(own.at).x - middle_) < -margin_; });
+    return known() ? float(wrong) / float(places_.size()) : 0;
+  }
+  void mirror() {
+    for (Place& own : places_) own.at.x = -own.at.x;
+  }
+
+ private:
+  struct Place {
+    vec3 at;
+    float side;  // +1 left, -1 right
+  };
+  std::vector<Place> places_;
+  float middle_ = 0, margin_ = 0;
 };
 
-std::vector<Sided> sidedPlaces(const Network& network) {
-  std::vector<Sided> places;
-  for (const Vessel& vessel : network.vessels()) {
-    const std::string name = lowerCase(vessel.name);
-    const bool left = name.find("left") != name.npos, right = name.find("right") != name.npos;
-    if (left == right) continue;
-    for (const vec4& p : network.pointsOf(vessel)) places.push_back({vec3(p), left ? 1.0f : -1.0f});
-  }
-  return places;
+SurfaceFit fitBySides(const TriangleMesh& surface, const Sides& sides, const SkinShell& skin) {
+  return fitSurface(surface, skin, [&](const Similarity& by) { return sides.shareOnOtherSide(by); });
 }
 
-float shareOnOtherSide(std::span<const Sided> sided, const SkinShell& skin, const Similarity& by) {
-  const Aabb box = skin.mesh().bounds();
-  const float middle = 0.5f * (box.low.x + box.high.x);
-  const auto wrong = std::ranges::count_if(
-      sided, [&](const Sided& own) { return own.side * (by(own.place).x - middle) < 0; });
-  return sided.empty() ? 0 : float(wrong) / float(sided.size());
-}
-
-SurfaceFit fitBySides(const TriangleMesh& surface, std::span<const Sided> sided, const SkinShell& skin) {
-  return fitSurface(surface, skin, [&](const Similarity& by) { return shareOnOtherSide(sided, skin, by); });
-}
-
-bool isMirrored(TriangleMesh surface, std::vector<Sided> sided, const SkinShell& skin,
-                const SurfaceFit& fit) {
-  if (sided.empty() || fit.cost <= kClearlyLess) return false;
+bool isMirrored(TriangleMesh surface, Sides sides, const SkinShell& skin, const SurfaceFit& fit) {
+  if (!sides.known() || fit.cost <= kClearlyLess) return false;
   for (vec3& p : surface.positions) p.x = -p.x;
   for (uvec3& t : surface.triangles) std::swap(t.y, t.z);
-  for (Sided& own : sided) own.place.x = -own.place.x;
-  return fitBySides(surface, sided, skin).cost + kClearlyLess < fit.cost;
+  sides.mirror();
+  return fitBySides(surface, sides, skin).cost + kClearlyLess < fit.cost;
 }
 
 }  // namespace
@@ -116,8 +129,8 @@ Result<SurfaceCarried> carryBySurface(const Network& network, const TriangleMesh
   const SkinShell skin(std::move(target));
   SurfaceCarried out;
   TriangleMesh placed = withoutCuts(around.mesh());
-  const std::vector<Sided> sided = sidedPlaces(network);
-  out.fit = fitBySides(placed, sided, skin);
+  const Sides sides(network, skin);
+  out.fit = fitBySides(placed, sides, skin);
   if (out.fit.share < kLeastSurfaceShare)
     return badInput(fmt::format(
         "{} is not found in the skin of {}: {:.0f} % of it at the most lie near it ({:.0f} % are asked for). It must be "
@@ -126,12 +139,12 @@ Result<SurfaceCarried> carryBySurface(const Network& network, const TriangleMesh
         surfaceName, to.name, 100 * out.fit.share, 100 * kLeastSurfaceShare));
 
   const Similarity& by = out.fit.by;
-  if (const float wrong = shareOnOtherSide(sided, skin, by); wrong > kMostOnOtherSide)
+  if (const float wrong = sides.shareOnOtherSide(by); wrong > kMostOnOtherSide)
     return badInput(fmt::format(
         "{}: of vessels that are called left or right {:.0f} % would lie on the other side of {}, where {} fits best: turn the "
         "sign of one axis of the vessels, or mend their names",
         name, 100 * wrong, to.name, surfaceName));
-  if (isMirrored(placed, sided, skin, out.fit))
+  if (isMirrored(placed, sides, skin, out.fit))
     return badInput(fmt::format(
         "{} and {} are mirror images: they fit {} by shape and by names (left, right) once they are mirrored. Export both "
         "again with the sign of one axis turned",

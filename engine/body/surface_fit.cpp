@@ -15,8 +15,9 @@ struct Round {
   std::size_t starts, samples;
   int steps;
 };
-constexpr Round kRounds[] = {{100'000, 60, 8}, {40, 250, 25}, {6, 2000, 60}};
+constexpr Round kRounds[] = {{~std::size_t(0), 60, 8}, {40, 250, 25}, {6, 2000, 60}};
 constexpr int kFacings = 4, kHeights = 9;
+constexpr int kMostColumns = 12;  // a person with arms held out has 6
 constexpr float kColumn =
     0.09f;  // of the body's height, between two places side by side: less than from arm to trunk
 constexpr float kTilts[] = {0, -0.6f, 0.6f};  // [rad] sideways, of limbs: arms hang, or are held away
@@ -86,7 +87,8 @@ class Fitter {
         const float half = std::min(0.5f * size * extent_.y, 0.5f * height_);
         const float wide = facing % 2 ? extent_.z : extent_.x;
         const float aside = std::max(0.5f * (box.extent().x - size * wide), 0.0f);
-        const int columns = int(aside / (kColumn * height_));  // on either side
+        const int columns =
+            int(std::min(aside / (kColumn * height_), float(kMostColumns)));  // on either side
         for (int i = 0; i < kHeights; ++i)
           for (int column = -columns; column <= columns; ++column) {
             const float low = box.low.y + half, high = box.high.y - half;

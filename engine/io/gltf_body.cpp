@@ -143,7 +143,7 @@ void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t ver
   for (const auto& mesh : model.meshes) {
     sizes.push_back(kBytesAMesh + mesh.name.size());
     for (const auto& primitive : mesh.primitives) {
-      sizes.back() += kBytesAPrimitive;
+      sizes.back() += kBytesAPrimitive + primitive.targets.size() * sizeof(float);  // looked at, used or not
       if (primitive.position >= 0) sizes.back() += primitive.vertices * vertexBytes;
       if (primitive.indices >= 0)
         sizes.back() += model.accessors[std::size_t(primitive.indices)].count * kBytesAnIndex;

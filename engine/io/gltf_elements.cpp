@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "body/skinning.h"
@@ -78,18 +79,17 @@ void takeApart(std::span<const Model::VesselLabel> labels, std::span<const std::
                std::vector<MeshElement>& elements) {
   const MeshElement whole = std::move(elements.back());
   elements.pop_back();
-  std::vector<std::vector<uvec3>> own(labels.size() + 1);
+  std::map<std::size_t, std::vector<uvec3>> own;  // of those that have any
   for (const uvec3& t : whole.mesh.triangles)
     own[std::min<std::size_t>(vesselOf[t.x], labels.size())].push_back(t);
   std::vector<std::uint32_t> numbers(whole.mesh.positions.size(), kNone);  // in the element being made
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    if (own[k].empty()) continue;
+  for (auto& [k, triangles] : own) {
     MeshElement element{whole.name, whole.category, whole.ontologyId, {}, whole.surroundings, {}, {}};
     if (k < labels.size())
       element.name = labels[k].name, element.category = labels[k].kind,
       element.ontologyId = labels[k].ontologyId;
     std::vector<std::uint32_t> used;
-    for (uvec3& t : own[k])
+    for (uvec3& t : triangles)
       for (int c = 0; c < 3; ++c) {
         std::uint32_t& number = numbers[t[c]];
         if (number == kNone) {
@@ -100,7 +100,7 @@ void takeApart(std::span<const Model::VesselLabel> labels, std::span<const std::
         t[c] = number;
       }
     for (const std::uint32_t vertex : used) numbers[vertex] = kNone;
-    element.mesh.triangles = std::move(own[k]);
+    element.mesh.triangles = std::move(triangles);
     elements.push_back(std::move(element));
   }
 }

@@ -154,7 +154,7 @@ SectionShape shapeOf(const Contour& contour, vec3 onPlane, vec3 normal) {
 }
 
 std::optional<SectionShape> Slicer::section(vec3 onPlane, vec3 normal, float reach) {
-  if (met_ > kMostCuts * mesh_.triangles.size()) return std::nullopt;
+  if (met_ > kMostCuts * std::max(mesh_.triangles.size(), kFewTriangles)) return std::nullopt;
   std::optional<SectionShape> best;
   const auto better = [&](const SectionShape& shape) {
     if (!best) return true;

@@ -26,7 +26,9 @@ struct SectionShape {
 /// Cuts a mesh by planes. Holds references: mesh, edges and tree must outlive it. Not for several threads.
 class Slicer {
  public:
-  static constexpr std::size_t kMostCuts = 1000;  ///< of BodyParts3D's vessels none needs more than 97
+  /// Of BodyParts3D's vessels none needs more than 97. Of few triangles all may be met by each of thousands
+  /// of planes, as of a straight tube of two rings, so that a mesh counts as this many at least.
+  static constexpr std::size_t kMostCuts = 1000, kFewTriangles = 200;
 
   Slicer(const TriangleMesh& mesh, const MeshEdges& edges, const TriangleTree& tree)
       : mesh_(mesh), edges_(edges), tree_(tree) {}

@@ -160,7 +160,9 @@ TEST_CASE("arms whose last joint is the elbow have forearms as far as its End Si
   const auto motion = parseBvh(dollMotion({.family = "numbered", .arms = Arms::endAtElbow}), "doll.bvh");
   REQUIRE(motion.ok());
   const auto numbered = retargeted(*motion, body);
-  if (numbered.ok()) CHECK_MESSAGE(numbered->sureness < 0.6f, describeMatch(*numbered));
+  CHECK_MESSAGE(
+      (numbered ? numbered->sureness < 0.6f : numbered.error().message.find("% sure") != std::string::npos),
+      (numbered ? describeMatch(*numbered) : numbered.error().message));
 }
 
 TEST_CASE("a hand that holds a sword has an arm like the other one") {

@@ -211,6 +211,20 @@ TEST_CASE("glTF of nasty shapes grows in proportion") {
              return gltfWith(kMesh + R"("nodes":[{"mesh":0,"extras":{"a":0)" +
                              times(n, [](std::size_t i) { return ",\"" + of(i) + "\":{}"; }) + "}}]");
            }},
+          {"nodes with one mesh of many vessels", 2'000,
+           [](std::size_t n) {
+             return gltfWith(
+                 kAccessors +
+                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}],"extras":{"vessels":)" +
+                 list(times(n, R"({"name":"a"},)")) + R"(}}],"nodes":)" + list(times(n, R"({"mesh":0},)")));
+           }},
+          {"nodes with one mesh of many morph targets", 2'000,
+           [](std::size_t n) {
+             return gltfWith(kAccessors +
+                             R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"targets":)" +
+                             list(times(n, R"({"POSITION":0},)")) + R"(}],"weights":)" +
+                             list(times(n, "0,")) + R"(}],"nodes":)" + list(times(n, R"({"mesh":0},)")));
+           }},
           {"a broken end", 20'000,
            [&](std::size_t n) { return nodes(times(n, R"({"mesh":0},)") + R"({"mesh":7},)"); }},
       },
