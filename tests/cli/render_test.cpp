@@ -176,7 +176,7 @@ TEST_CASE("what cannot be drawn or written ends with the right code, a remedy an
   const auto output = (folder.path() / "{frame}.png").string();
   const auto unknown = runProgram({"render", "--clip", "moonwalk", "-o", output});
   CHECK(unknown.exit == 3);
-  CHECK(unknown.err.find("It has") != std::string::npos);
+  CHECK(unknown.err.find("it has") != std::string::npos);
   CHECK(unknown.err.find("walk") != std::string::npos);
   CHECK(runProgram({"render", "--body", "/nowhere.glb", "--network", humanVessels().string(), "-o", output})
             .exit == 6);
