@@ -21,13 +21,15 @@ constexpr int kMostColumns = 12;  // a person with arms held out has 6
 constexpr float kColumn =
     0.09f;  // of the body's height, between two places side by side: less than from arm to trunk
 constexpr float kTilts[] = {0, -0.6f, 0.6f};  // [rad] sideways, of limbs: arms hang, or are held away
-constexpr float kSizes[] = {0.8f, 1, 1.25f};
+constexpr float kSizes[] = {0.65f, 0.8f, 1, 1.25f, 1.6f};
 constexpr float kSmallest = 0.3f, kLargest = 3;  // from a newborn to an adult, and back
 constexpr float kFacingSurface = 0.3f;           // least cosine between normals that belong together
 constexpr float kFarAtFirst = 0.15f, kNearAtLast = 0.03f;  // of the body's height, between pairs
 constexpr float kOddSize = 0.25f;                          // of the logarithm: a size as odd as this ...
 constexpr float kOddSizeCost = 0.05f;  // ... is as bad as this share of the surface elsewhere
-constexpr float kTurnedCost = 0.02f;   // and so is another facing than the file's
+constexpr float kExact = 0.1f,
+                kLeastDoubt = 0.3f;   // ... but for a share of it, where no more of it is elsewhere
+constexpr float kTurnedCost = 0.02f;  // and so is another facing than the file's
 
 struct Sample {
   vec3 place, normal;
@@ -149,9 +151,12 @@ class Fitter {
       const auto there = partnerOf(sample, one.by, within);
       sum += there ? glm::distance(*there, one.by(sample.place)) / within : 1;
     }
+    const float elsewhere = float(sum / double(std::max<std::size_t>(1, samples.size())));
     const float odd = std::log(one.by.scale) / kOddSize;
-    return float(sum / double(std::max<std::size_t>(1, samples.size()))) + kOddSizeCost * odd * odd +
-           (one.turned ? kTurnedCost : 0) + (misplaced_ ? misplaced_(one.by) : 0);
+    // Where it fits exactly, its size is right however odd: a child's.
+    const float doubt = std::clamp(elsewhere / kExact, kLeastDoubt, 1.0f);
+    return elsewhere + doubt * kOddSizeCost * odd * odd + (one.turned ? kTurnedCost : 0) +
+           (misplaced_ ? misplaced_(one.by) : 0);
   }
 
   const SkinShell& skin_;

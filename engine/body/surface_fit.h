@@ -16,9 +16,9 @@ struct SurfaceFit {
 
 /// Finds it by shape alone. The surface must stand upright, head up, in metres; where it stands and which way
 /// it faces does not matter, but where front and back look alike it is taken to face +Z.
-/// Method: from four facings, places all over the skin's box and three sizes, iterated nearest points that
+/// Method: from four facings, places all over the skin's box and five sizes, iterated nearest points that
 /// face alike (Besl and McKay 1992), by similarities; the best of these again with more points. Sizes beyond
-/// 0.6 to 1.6 times its own are not looked for. Deterministic, for any number of threads.
+/// 0.5 to 2 times its own are hardly found. Deterministic, for any number of threads.
 /// @param surface    outward, one vertex a place
 /// @param misplaced  what else tells where it belongs: the share, 0 to 1, of what a place contradicts
 SurfaceFit fitSurface(const TriangleMesh& surface, const SkinShell& skin,
