@@ -1,10 +1,11 @@
 #pragma once
 #include <string>
+#include <vector>
 
 namespace vasa::test {
 
-/// Two frames of a skeleton with CMU's names: standing, then the left arm raised sideways.
-inline std::string motionText() {
+/// Frames of a skeleton with CMU's names, standing, the left arm raised sideways by so many degrees.
+inline std::string armMotion(const std::vector<std::string>& angles) {
   const auto joint = [](const std::string& name, const std::string& offset, const std::string& inside) {
     return "JOINT " + name + "\n{\nOFFSET " + offset + "\nCHANNELS 3 Zrotation Yrotation Xrotation\n" +
            inside + "}\n";
@@ -19,13 +20,16 @@ inline std::string motionText() {
     text += joint(side + "Arm", out + "3 8 0",
                   joint(side + "ForeArm", out + "5 0 0", joint(side + "Hand", out + "4 0 0", end)));
   }
-  text += "}\nMOTION\nFrames: 2\nFrame Time: 0.04\n";
-  for (int frame = 0; frame < 2; ++frame) {
+  text += "}\nMOTION\nFrames: " + std::to_string(angles.size()) + "\nFrame Time: 0.04\n";
+  for (const std::string& angle : angles) {
     text += "0 15 0";
-    for (int value = 0; value < 39; ++value) text += value == 12 ? (frame ? " 40" : " -80") : " 0";
+    for (int value = 0; value < 39; ++value) text += value == 12 ? " " + angle : " 0";
     text += "\n";
   }
   return text;
 }
+
+/// Two frames: arms hanging, then the left one raised.
+inline std::string motionText() { return armMotion({"-80", "40"}); }
 
 }  // namespace vasa::test

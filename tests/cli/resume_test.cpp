@@ -3,6 +3,7 @@
 #include <cstring>
 #include <functional>
 
+#include "cli/motion_text.h"
 #include "cli/program.h"
 #include "core/atomic_file.h"
 #include "support/shared_data.h"
@@ -36,27 +37,6 @@ void writeHumanInTwoFiles(const std::filesystem::path& folder) {
   write(folder / "human.bin", glb.substr(20 + length + 8));
 }
 
-// One frame of arms and legs, the left arm raised by so many degrees.
-std::string armMotion(const char* angle) {
-  const auto joint = [](const std::string& name, const std::string& offset, const std::string& inside) {
-    return "JOINT " + name + "\n{\nOFFSET " + offset + "\nCHANNELS 3 Zrotation Yrotation Xrotation\n" +
-           inside + "}\n";
-  };
-  const std::string end = "End Site\n{\nOFFSET 0 0 1\n}\n";
-  std::string text =
-      "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n";
-  for (const std::string& side : {std::string("Left"), std::string("Right")}) {
-    const std::string out = side == "Left" ? "" : "-";
-    text += joint(side + "UpLeg", out + "1.5 -1 0",
-                  joint(side + "Leg", "0 -7 0", joint(side + "Foot", "0 -7 0", end)));
-    text += joint(side + "Arm", out + "3 8 0",
-                  joint(side + "ForeArm", out + "5 0 0", joint(side + "Hand", out + "4 0 0", end)));
-  }
-  text += "}\nMOTION\nFrames: 1\nFrame Time: 0.04\n0 15 0";
-  for (int value = 0; value < 39; ++value) text += value == 12 ? std::string(" ").append(angle) : " 0";
-  return text + "\n";
-}
-
 // Draws a picture, keeps it in a run that reads the same, then refuses to after the change.
 void checkHeld(const std::filesystem::path& folder, const std::vector<std::string>& scene,
                const std::function<void()>& change) {
@@ -81,10 +61,10 @@ void checkHeld(const std::filesystem::path& folder, const std::vector<std::strin
 TEST_CASE("--resume sees that a motion's file changed, or the map of its joints") {
   const TemporaryFolder folder;
   const auto motion = folder.path() / "motion.bvh", map = folder.path() / "joints.txt";
-  write(motion, armMotion("-80"));
+  write(motion, armMotion({"-80"}));
   write(map, "LeftArm = LeftArm\n");
   const std::vector<std::string> scene{"--clip", motion.string(), "--joint-map", map.string()};
-  checkHeld(folder.path(), scene, [&] { write(motion, armMotion("10")); });
+  checkHeld(folder.path(), scene, [&] { write(motion, armMotion({"10"})); });
   std::filesystem::remove(folder.path() / "picture.png");
   checkHeld(folder.path(), scene, [&] { write(map, "LeftArm = LeftArm\nRightArm = RightArm\n"); });
 }
