@@ -305,8 +305,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   LoadingLine line;
   const auto scene = loadScene(*file, line.told());
   if (!scene) return scene.error();
-  if (!file->clip.empty())
-    if (const auto clip = findClip(scene->body, file->clip); !clip) return clip.error();
+  if (const auto clip = clipOf(scene->body, *file); !clip) return clip.error();
   std::string settings;
   for (const PoseRay& ray : *rays) settings += ray.name() + "|";
   settings +=

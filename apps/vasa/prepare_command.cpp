@@ -72,8 +72,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   std::optional<LoadingLine> line(std::in_place);
   auto scene = loadScene(*choice, line->told());
   if (!scene) return scene.error();
-  if (!choice->clip.empty())
-    if (const auto clip = findClip(scene->body, choice->clip); !clip) return clip.error();
+  if (const auto clip = clipOf(scene->body, *choice); !clip) return clip.error();
   (*line)("preparing");
   if (auto made = makeAll(*scene, *choice, line->told()); !made) return made;
   line.reset();

@@ -133,8 +133,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     if (auto made = makeOutputFolder(options.output); !made) return made;
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
-  if (!file->clip.empty())
-    if (const auto clip = findClip(scene->body, file->clip); !clip) return clip.error();
+  if (const auto clip = clipOf(scene->body, *file); !clip) return clip.error();
   const RealismStudy study = studyRealism(
       *scene, *protocol, {.keep = options.tissue.kept(), .slide = !options.tissue.noSlide, .avoid = true});
   const Report report = reportOf(*scene, *file, *protocol, study);

@@ -267,7 +267,7 @@ void Session::remember(const std::vector<std::filesystem::path>& files) {
 void Session::takeClip() {
   const auto& body = document_->scene.body;
   const SceneFile& choice = document_->file;
-  const auto clip = choice.clip.empty() ? Result<const Clip*>(nullptr) : findClip(body, choice.clip);
+  const auto clip = clipOf(body, choice);
   if (clip && *clip)
     state_.playback.clip = int(*clip - body.clips.data());
   else

@@ -126,9 +126,7 @@ RestRepair overlapsAtRest(const Network& network) {
 
 RestRepair separateAtRest(const Network& network) {
   RestRepair repair = overlapsAtRest(network);
-  std::size_t sweeps = 0;
-  for (const Vessel& vessel : network.vessels()) sweeps += vessel.spanCount();
-  if (repair.pairsBefore == 0 || repair.pairsBefore > kMostPairs * sweeps) return repair;
+  if (repair.pairsBefore == 0 || repair.pairsBefore > kMostPairs * network.sweepCount()) return repair;
   std::set<VesselPair> twice;
   for (const RestOverlap& overlap : repair.left)
     if (overlap.reason == OverlapReason::twice) twice.emplace(overlap.first.value, overlap.second.value);

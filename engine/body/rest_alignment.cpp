@@ -25,7 +25,6 @@ vec3 boneOf(const Rig& rig, std::uint32_t joint, std::string_view part) {
   const vec3 from = rig.centres[joint];
   return rig.boneEnd(joint, part, rig.centres, rig.tips).value_or(from) - from;
 }
-bool isLowerBone(std::string_view part) { return part.ends_with("LowerArm") || part.ends_with("LowerLeg"); }
 
 std::uint32_t toesOf(const Rig& rig, std::uint32_t foot) {
   return rig.partNamed(std::string(rig.parts.of[foot].starts_with("left") ? "left" : "right") + "Toes");

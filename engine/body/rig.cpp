@@ -47,11 +47,12 @@ std::uint32_t Rig::limbEnd(std::string_view part) const {
   return kNone;
 }
 
+bool isLowerBone(std::string_view part) { return part.ends_with("LowerArm") || part.ends_with("LowerLeg"); }
+
 std::optional<vec3> Rig::boneEnd(std::uint32_t joint, std::string_view part, std::span<const vec3> places,
                                  std::span<const vec3> ends) const {
   if (const std::uint32_t end = limbEnd(part); end != kNone) return places[end];
-  const bool lower = part.ends_with("LowerArm") || part.ends_with("LowerLeg");
-  if (!lower || ends[joint] == places[joint]) return std::nullopt;
+  if (!isLowerBone(part) || ends[joint] == places[joint]) return std::nullopt;
   return ends[joint];
 }
 

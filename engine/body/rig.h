@@ -34,6 +34,9 @@ struct Rig {
                               std::span<const vec3> ends) const;
 };
 
+/// A forearm or a shin.
+bool isLowerBone(std::string_view part);
+
 Rig rigOf(const Skeleton& skeleton);  ///< at rest
 /// In the first frame: a zero pose may have all bones along one line.
 Rig rigOf(const Motion& motion);

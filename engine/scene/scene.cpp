@@ -209,10 +209,13 @@ std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::
   return arms;
 }
 
+Result<const Clip*> clipOf(const Body& body, const SceneFile& file) {
+  return file.clip.empty() ? Result<const Clip*>(nullptr) : findClip(body, file.clip);
+}
+
 Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file) {
-  if (file.clip.empty()) return nullptr;
-  auto found = findClip(scene.body, file.clip);
-  if (!found) return found;
+  auto found = clipOf(scene.body, file);
+  if (!found || !*found) return found;
   clearArms(file, scene.body,
             std::span(scene.body.clips).subspan(std::size_t(*found - scene.body.clips.data()), 1));
   return found;

@@ -29,6 +29,8 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told = {})
 
 /// The body's clip with this name, or the only one that begins with it. badInput lists what there is.
 Result<const Clip*> findClip(const Body& body, std::string_view name);
+/// The one that a scene names; null where it names none.
+Result<const Clip*> clipOf(const Body& body, const SceneFile& file);
 
 /// The clip that a scene file names; nullptr where it names none. Arms that pass through the body are turned
 /// out of it (body/limb_clearance.h), and what was done is told, unless the file asks for the motion as
