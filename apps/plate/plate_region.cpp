@@ -98,7 +98,7 @@ Result<void> takeEnclosed(PlateSubject& subject, const Scene& scene, const Frame
   std::vector<vec3> bones;
   std::vector<uvec3> triangles;
   const auto take = [&](const SkinnedMesh& mesh) {
-    const auto joints = mainJoints(mesh);
+    const auto joints = mainJoints(scene.body, mesh);
     const std::uint32_t first = std::uint32_t(bones.size());
     bones.insert(bones.end(), mesh.mesh.positions.begin(), mesh.mesh.positions.end());
     for (const uvec3& t : mesh.mesh.triangles)
@@ -161,7 +161,7 @@ void takeMeshes(PlateSubject& subject, const Scene& scene, const FrameMaker& fra
   const auto framing = framingMeshes(scene.body, choice && choice->byBones());
   const std::vector<mat4> matrices(frame.jointMatrices().begin(), frame.jointMatrices().end());
   for (const SkinnedMesh& mesh : scene.body.meshes) {
-    const auto joints = mainJoints(mesh);
+    const auto joints = mainJoints(scene.body, mesh);
     SkinnedMesh part = choice ? drawnPart(mesh, joints, *choice) : mesh;
     if (part.mesh.triangles.empty()) continue;
     if (std::ranges::find(framing, &mesh) != framing.end()) {
@@ -198,14 +198,14 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
 
 }  // namespace
 
-std::vector<std::uint16_t> mainJoints(const SkinnedMesh& mesh) {
+std::vector<std::uint16_t> mainJoints(const Body& body, const SkinnedMesh& mesh) {
   std::vector<std::uint16_t> joints;
   joints.reserve(mesh.influences.size());
   for (const SkinInfluence& influence : mesh.influences) {
     int most = 0;
     for (int k = 1; k < 4; ++k)
       if (influence.weights[k] > influence.weights[most]) most = k;
-    joints.push_back(influence.joints[std::size_t(most)]);
+    joints.push_back(std::uint16_t(body.carrier(influence.joints[std::size_t(most)])));
   }
   return joints;
 }

@@ -21,7 +21,7 @@ struct PlateSubject {
 };
 
 /// Of each of a mesh's vertices the joint that moves it most.
-std::vector<std::uint16_t> mainJoints(const SkinnedMesh& mesh);
+std::vector<std::uint16_t> mainJoints(const Body& body, const SkinnedMesh& mesh);
 
 /// Fails with usage that lists the pages for a name that is none of theirs: front, back, head, brain, thorax,
 /// abdomen, arm, hand, leg, foot.

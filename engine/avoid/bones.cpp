@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "avoid/solid_parts.h"
+#include "body/skinning.h"
 #include "collide/distance_field.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
@@ -100,6 +101,7 @@ struct Bones::State {
   };
   std::vector<Bezier> rest;  // tubes
   std::vector<Solid> solids;
+  std::vector<JointId> carriers;                    // of them
   std::vector<Bezier> base;                         // the shape when all were looked at last
   std::vector<int> pieces;                          // a tube each
   std::vector<Aabb> boxes;                          // of the parts in the pose
@@ -352,14 +354,11 @@ Bones::Bones(const Body& body, std::span<const Bezier> restTubes) : state_(std::
   for (std::size_t k = 0; k < fields.size(); ++k) {
     state_->keptBricks += fields[k].filledBricks();
     state_->solids.push_back({parts.joint(k), std::move(fields[k])});
+    state_->carriers.push_back({body.carrier(parts.joint(k))});
   }
   state_->rest.assign(restTubes.begin(), restTubes.end());
   for (const Bezier& tube : restTubes) state_->pieces.push_back(piecesOf(tube));
-  std::vector<mat4> matrices;
-  const Pose rest = restPose(body.skeleton);
-  for (std::size_t j = 0; j < body.skeleton.joints.size(); ++j)
-    matrices.push_back(rest.world[j] * body.skeleton.joints[j].inverseBind);
-  pose(matrices);
+  pose(skinMatrices(body, restPose(body.skeleton)));
   keepPose();
   contacts(restTubes, restTubes);
   for (const BoneContact& contact : state_->contacts) {
@@ -383,7 +382,7 @@ Bones::~Bones() {
 Bones::Bones(Bones&&) noexcept = default;
 
 std::uint32_t Bones::partCount() const { return std::uint32_t(state_->solids.size()); }
-JointId Bones::jointOf(std::uint32_t part) const { return {std::uint16_t(state_->solids[part].joint)}; }
+JointId Bones::jointOf(std::uint32_t part) const { return state_->carriers[part]; }
 std::size_t Bones::restContactCount() const { return state_->restContacts; }
 std::size_t Bones::bytes() const {
   std::size_t sum = 0;

@@ -23,9 +23,9 @@ struct BoneContact {
 };
 
 /// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint
-/// that carries them. A part is rigid, so its distance field is made once, and tubes are looked at from the
-/// joint; the field's accuracy (collide/distance_field.h) is that of every answer. A triangle belongs to the
-/// joint with the largest weight at its first corner.
+/// or vertebra that carries them. A part is rigid, so its distance field is made once, and tubes are looked
+/// at from the joint; the field's accuracy (collide/distance_field.h) is that of every answer. A triangle
+/// belongs to the joint with the largest weight at its first corner.
 ///
 /// A thin tube whose axis lies in a part at rest, as those of vessels that run through a bone in the data, is
 /// not held out of that part. (Thin: a radius of 3.6 mm at most, so that one ball is looked at in each
@@ -43,7 +43,7 @@ class Bones {
   ~Bones();
   Bones(Bones&&) noexcept;
 
-  /// The parts go to a pose. @param jointMatrices  a joint's world · inverseBind
+  /// The parts go to a pose. @param jointMatrices  a joint's world · inverseBind, then the vertebrae's
   void pose(std::span<const mat4> jointMatrices);
   /// The present pose is from now on the one before.
   void keepPose();

@@ -8,13 +8,14 @@
 
 namespace vasa {
 
-/// What vessels must not enter: a body's solid meshes (body/mesh_role.h), cut by the joint that carries each
-/// triangle, which is the one with the largest weight at the triangle's first corner.
+/// What vessels must not enter: a body's solid meshes (body/mesh_role.h), cut by the joint or vertebra that
+/// carries each triangle, which is the one with the largest weight at the triangle's first corner.
 class SolidParts {
  public:
   explicit SolidParts(const Body& body);
 
   std::size_t count() const { return parts_.size(); }
+  /// As influences name it.
   std::uint32_t joint(std::size_t part) const { return parts_[part].joint; }
 
   /// A field each, with the bricks that an earlier run filled where it kept them (core/kept.h).

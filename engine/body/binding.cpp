@@ -59,6 +59,14 @@ class PointBinder {
     return shares_;
   }
 
+  /// How a point moves with one limb alone.
+  std::span<const LimbShare> bindAlong(std::size_t point, JointId tip) {
+    point_ = point;
+    shares_.clear();
+    addLimb(tip, 1);
+    return shares_;
+  }
+
  private:
   float phase(const std::vector<float>& table, std::uint32_t joint) const {
     return table[phases_.at(joint, point_)];
@@ -153,13 +161,15 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
   if (body.skeleton.joints.size() > 65535)
     return badInput(
         fmt::format("{}: {} joints; a body may have 65535", body.name, body.skeleton.joints.size()));
-  Binding binding{std::move(*spines), std::uint32_t(points.size()), {}, {}};
+  Binding binding{std::move(*spines), std::uint32_t(points.size()), {}, {}, {}};
   const BoneField bones(body, binding.spines);
   if (const Result<void> belongs = checkBelongs(body, binding.spines, points, name); !belongs)
     return belongs.error();
   chooseArcs(binding.spines, body, bones, points);
-  Phases phases = measurePhases(binding.spines, bones, SkinField(body), points);
-  limitSlopes(phases, binding.spines, points, ties);
+  std::vector<vec4> places(points.begin(), points.end());
+  for (const Vertebra& vertebra : body.vertebrae) places.emplace_back(vertebra.centre, 0.0f);
+  Phases phases = measurePhases(binding.spines, bones, SkinField(body), places);
+  limitSlopes(phases, binding.spines, places, ties);
 
   PointBinder binder(binding.spines, phases);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -167,6 +177,8 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
     if (i % Binding::kBlock == 0) binding.firstRecord.push_back(std::uint32_t(binding.records.size()));
     appendRecords(binder.bind(i), binding.records);
   }
+  for (std::size_t k = 0; k < body.vertebrae.size(); ++k)
+    appendRecords(binder.bindAlong(points.size() + k, body.vertebrae[k].head), binding.vertebrae);
   const float behind = shareLeftBehind(body, binding, points);
   return Bound{std::move(binding), behind};
 }
@@ -217,7 +229,7 @@ Binding Rebinder::rebind(const Binding& bound, std::span<const vec4> points,
   limitSlopes(phases, fields_->spines, others, ties);
   PointBinder binder(fields_->spines, phases);
   const std::vector<std::uint32_t> firsts = firstRecords(bound);
-  Binding binding{fields_->spines, std::uint32_t(points.size()), {}, {}};
+  Binding binding{fields_->spines, std::uint32_t(points.size()), {}, {}, bound.vertebrae};
   std::size_t point = 0, other = 0;
   for (const Kept& vessel : vessels)
     for (std::uint32_t i = 0; i < vessel.pointCount; ++i, ++point) {

@@ -7,7 +7,7 @@ namespace vasa {
 
 float Body::height() const {
   const Pose rest = restPose(skeleton);
-  const auto matrices = skinMatrices(skeleton, rest);
+  const auto matrices = skinMatrices(*this, rest);
   Aabb box;
   std::vector<vec3> positions;
   for (const SkinnedMesh& mesh : meshes) {

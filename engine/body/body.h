@@ -9,7 +9,8 @@
 
 namespace vasa {
 
-/// Up to four joints that move a vertex by linear blend skinning; weights sum to 1.
+/// Up to four joints, or vertebrae of the body (Body::vertebrae), that move a vertex by linear blend
+/// skinning; weights sum to 1.
 struct SkinInfluence {
   std::array<std::uint16_t, 4> joints{};
   vec4 weights{0};
@@ -24,13 +25,26 @@ struct SkinnedMesh {
   vec4 colour{0.8f, 0.8f, 0.8f, 1};       ///< linear base colour and opacity
 };
 
+/// A bone of its own within what one joint carries. Influences name the kth by the number of joints plus k.
+struct Vertebra {
+  JointId carrier;  ///< the joint that carries it in the file
+  JointId head;     ///< the joint that ends its spine
+  vec3 centre{0};   ///< [m] model space, at rest
+};
+
 /// What a glTF file gives: skeleton, the meshes it moves, and motion.
 struct Body {
   std::string name;  ///< file name, for messages
   Skeleton skeleton;
   std::vector<SkinnedMesh> meshes;
   std::vector<Clip> clips;
+  std::vector<Vertebra> vertebrae;  ///< none as read: body/vertebrae.h
 
+  /// The joint that carries what an influence names.
+  std::uint32_t carrier(std::uint32_t influence) const {
+    const std::size_t joints = skeleton.joints.size();
+    return influence < joints ? influence : vertebrae[influence - joints].carrier.value;
+  }
   /// Vertical extent of the meshes at rest, or of the joints if there are none [m].
   float height() const;
 };

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kNearestPlaces = 6;
 constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
-constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
 // Of the links' length must have rigid vertices: else they are eyes, shoes, a hat.
@@ -46,7 +45,7 @@ std::vector<bool> aboveBody(const Body& body) {
   for (const SkinnedMesh& mesh : body.meshes)
     for (const SkinInfluence& influence : mesh.influences)
       for (int k = 0; k < 4; ++k)
-        weight[influence.joints[std::size_t(k)]] += double(influence.weights[k]),
+        weight[body.carrier(influence.joints[std::size_t(k)])] += double(influence.weights[k]),
             whole += double(influence.weights[k]);
   std::vector<bool> above(weight.size(), false);
   for (std::size_t j = 0; j < above.size() && whole > 0; ++j) {
@@ -110,7 +109,7 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
       const SkinInfluence& influence = mesh.influences[v];
       for (int k = 0; k < 4; ++k)
         if (influence.weights[k] >= kRigidWeight)
-          points[influence.joints[std::size_t(k)]].push_back(mesh.mesh.positions[v]);
+          points[body.carrier(influence.joints[std::size_t(k)])].push_back(mesh.mesh.positions[v]);
     }
   }
   std::vector<Links> links = linksOf(spines);

@@ -37,6 +37,8 @@ class BoneField {
   bool fromMeshes_ = false;
 };
 
+constexpr float kRigidWeight = 0.99f;  ///< of a vertex that follows one joint
+
 /// A mesh whose vertices each follow one joint, nearly all of them.
 bool movesByRigidParts(const SkinnedMesh& mesh);
 

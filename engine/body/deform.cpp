@@ -24,28 +24,30 @@ void forEachPoint(const Binding& binding, const Visit& visit) {
   });
 }
 
+/// Where the records of one point take it.
 /// @param turn   moves p by one joint's own motion, in rest space
 /// @param place  moves p by a station's whole motion
+template <class Turn, class Place>
+vec3 placed(std::span<const BindingRecord> records, vec3 rest, const Turn& turn, const Place& place) {
+  if (records.size() == 1) return place(records[0].station(), rest);
+  vec3 p = rest, mean(0);
+  for (const BindingRecord& record : records) {
+    if (record.share == 0) {
+      p = turn(record.station(), p);
+      continue;
+    }
+    mean += float(record.share) / float(kWholeShare) * place(record.station(), p);
+    p = rest;
+  }
+  return mean;
+}
+
 template <class Turn, class Place>
 void movePoints(const Binding& binding, std::span<const vec4> rest, std::span<vec4> out, const Turn& turn,
                 const Place& place) {
   assert(rest.size() == binding.pointCount && out.size() == binding.pointCount);
   forEachPoint(binding, [&](std::size_t i, std::span<const BindingRecord> records) {
-    vec3 p(rest[i]);
-    if (records.size() == 1) {
-      out[i] = vec4(place(records[0].station(), p), rest[i].w);
-      return;
-    }
-    vec3 mean(0);
-    for (const BindingRecord& record : records) {
-      if (record.share == 0) {
-        p = turn(record.station(), p);
-        continue;
-      }
-      mean += float(record.share) / float(kWholeShare) * place(record.station(), p);
-      p = vec3(rest[i]);
-    }
-    out[i] = vec4(mean, rest[i].w);
+    out[i] = vec4(placed(records, vec3(rest[i]), turn, place), rest[i].w);
   });
 }
 
@@ -82,6 +84,28 @@ void Deformer::rotations(std::span<quat> out) const {
     for (; records[k].share == 0; ++k) chained = pose_.turning(records[k].station()) * chained;
     out[i] = pose_.rotation(records[k].station()) * chained;
   });
+}
+
+// A vertebra's one limb moves it by a similarity, which four places tell.
+void Deformer::vertebrae(std::span<mat4> out) const {
+  const BindingRecord* record = binding_->vertebrae.data();
+  for (mat4& motion : out) {
+    const BindingRecord* first = record;
+    while (record->share == 0) ++record;
+    const std::span records(first, ++record);
+    const auto place = [&](vec3 p) {
+      return placed(
+          records, p, [this](Station station, vec3 q) { return pose_.turn(station, q); },
+          [this](Station station, vec3 q) { return pose_.place(station, q); });
+    };
+    const vec3 origin = place(vec3(0));
+    motion[3] = vec4(origin, 1);
+    for (int k = 0; k < 3; ++k) {
+      vec3 unit(0);
+      unit[k] = 1;
+      motion[k] = vec4(place(unit) - origin, 0);
+    }
+  }
 }
 
 }  // namespace vasa

@@ -25,6 +25,9 @@ class Deformer {
   /// reference directions of frames. @param out  one a point
   void rotations(std::span<quat> out) const;
 
+  /// Where the body's vertebrae are in the pose of the last run: from model space at rest, one a vertebra.
+  void vertebrae(std::span<mat4> out) const;
+
   /// The spines in the pose of the last run.
   const SpinePose& spines() const { return pose_; }
 

@@ -27,7 +27,7 @@ std::optional<Bound> findBound(std::uint64_t key, const Body& body) {
   auto spines = kept ? deriveSpines(body.skeleton, body.name) : Result<SpineSet>(SpineSet{});
   if (!kept || !spines) return {};
   ByteReader in(*kept);
-  Bound bound{{std::move(*spines), 0, {}, {}}, 0};
+  Bound bound{{std::move(*spines), 0, {}, {}, {}}, 0};
   for (SpineJoint& joint : bound.binding.spines.joints) {
     std::uint8_t spreads = 0;
     if (!in.take(joint.arc) || !in.take(spreads)) return {};
@@ -35,12 +35,16 @@ std::optional<Bound> findBound(std::uint64_t key, const Body& body) {
   }
   using Raw = std::array<std::uint16_t, 3>;
   static_assert(sizeof(Raw) == sizeof(BindingRecord));
-  std::vector<Raw> records;
+  std::vector<Raw> records, vertebrae;
   if (!in.take(bound.behind) || !in.take(bound.binding.pointCount) || !in.takeAll(records) ||
-      !in.takeAll(bound.binding.firstRecord))
+      !in.takeAll(bound.binding.firstRecord) || !in.takeAll(vertebrae))
     return {};
-  bound.binding.records.reserve(records.size());
-  for (const Raw& raw : records) bound.binding.records.push_back(std::bit_cast<BindingRecord>(raw));
+  const auto unpack = [](const std::vector<Raw>& from, std::vector<BindingRecord>& to) {
+    to.reserve(from.size());
+    for (const Raw& raw : from) to.push_back(std::bit_cast<BindingRecord>(raw));
+  };
+  unpack(records, bound.binding.records);
+  unpack(vertebrae, bound.binding.vertebrae);
   return bound;
 }
 
@@ -54,6 +58,7 @@ void keepBound(std::uint64_t key, const Bound& bound) {
   out.add(bound.binding.pointCount);
   out.addAll(std::span<const BindingRecord>(bound.binding.records));
   out.addAll(std::span<const std::uint32_t>(bound.binding.firstRecord));
+  out.addAll(std::span<const BindingRecord>(bound.binding.vertebrae));
   keep(kKind, key, out.bytes());
 }
 

@@ -9,7 +9,7 @@ namespace vasa {
 
 TriangleMesh meshAtRest(const Body& body, const SkinnedMesh& skinned) {
   TriangleMesh mesh = skinned.mesh;
-  skinPositions(skinned, skinMatrices(body.skeleton, restPose(body.skeleton)), mesh.positions);
+  skinPositions(skinned, skinMatrices(body, restPose(body.skeleton)), mesh.positions);
   return mesh;
 }
 

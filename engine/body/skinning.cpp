@@ -22,6 +22,12 @@ std::vector<mat4> skinMatrices(const Skeleton& skeleton, const Pose& pose) {
   return matrices;
 }
 
+std::vector<mat4> skinMatrices(const Body& body, const Pose& pose) {
+  std::vector<mat4> matrices = skinMatrices(body.skeleton, pose);
+  for (const Vertebra& vertebra : body.vertebrae) matrices.push_back(mat4(matrices[vertebra.carrier.value]));
+  return matrices;
+}
+
 void skinVertices(const SkinnedMesh& mesh, const std::vector<mat4>& matrices, std::vector<vec3>& positions,
                   std::vector<vec3>& normals) {
   const std::size_t count = mesh.mesh.positions.size();

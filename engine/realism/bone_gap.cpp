@@ -22,7 +22,7 @@ float boneBegins(const Body& body, JointId joint) {
     const TriangleMesh rest = meshAtRest(body, mesh);
     for (std::size_t v = 0; v < rest.positions.size(); ++v)
       for (int i = 0; i < 4; ++i)
-        if (mesh.influences[v].joints[std::size_t(i)] == joint.value && mesh.influences[v].weights[i] > 0.5f)
+        if (body.carrier(mesh.influences[v].joints[std::size_t(i)]) == joint.value && mesh.influences[v].weights[i] > 0.5f)
           nearest = std::min(nearest, glm::distance(rest.positions[v], centre));
   }
   return std::isfinite(nearest) ? nearest : 0;
@@ -31,7 +31,7 @@ float boneBegins(const Body& body, JointId joint) {
 }  // namespace
 
 PosedBones::PosedBones(const Body& body, const Pose& pose) : body_(&body), pose_(&pose) {
-  const std::vector<mat4> matrices = skinMatrices(body.skeleton, pose);
+  const std::vector<mat4> matrices = skinMatrices(body, pose);
   for (const SkinnedMesh& mesh : body.meshes) {
     if (roleNamed(mesh.name) != MeshRole::bones) continue;
     skinPositions(mesh, matrices, bones_.emplace_back(Bone{&mesh.mesh, {}}).positions);

@@ -19,10 +19,10 @@ bool isHeart(const SkinnedMesh& mesh) {
 }
 
 // The joint that carries most of the mesh.
-std::uint32_t carrier(const SkinnedMesh& mesh, std::size_t joints) {
-  std::vector<float> weight(joints, 0.0f);
+std::uint32_t carrier(const SkinnedMesh& mesh, const Body& body) {
+  std::vector<float> weight(body.skeleton.joints.size(), 0.0f);
   for (const SkinInfluence& influence : mesh.influences)
-    for (int k = 0; k < 4; ++k) weight[influence.joints[std::size_t(k)]] += influence.weights[k];
+    for (int k = 0; k < 4; ++k) weight[body.carrier(influence.joints[std::size_t(k)])] += influence.weights[k];
   return std::uint32_t(std::max_element(weight.begin(), weight.end()) - weight.begin());
 }
 
@@ -37,7 +37,7 @@ vec3 meshCentre(const SkinnedMesh& mesh) {
 HeartBeat::HeartBeat(const Scene& scene) {
   const auto heart = std::ranges::find_if(scene.body.meshes, isHeart);
   if (heart == scene.body.meshes.end()) return;
-  joint_ = carrier(*heart, scene.body.skeleton.joints.size());
+  joint_ = carrier(*heart, scene.body);
   centre_ = meshCentre(*heart);
   float radius = 0;
   for (const vec3& p : heart->mesh.positions) radius = std::max(radius, glm::distance(p, centre_));

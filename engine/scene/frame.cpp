@@ -49,7 +49,8 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       posedPoints_(scene.network.points().begin(), scene.network.points().end()),
       points_(posedPoints_),
       knotFrames_(scene.network.sectionCount()),
-      jointMatrices_(scene.body.skeleton.joints.size()) {
+      jointMatrices_(scene.body.skeleton.joints.size() + scene.body.vertebrae.size()),
+      vertebrae_(scene.body.vertebrae.size()) {
   if (avoider_) startAtRest();
 }
 
@@ -107,11 +108,10 @@ void FrameMaker::moveTo(const Pose& pose, float time, float seconds) {
 void FrameMaker::deform(const Pose& pose, float time) {
   heartScale_ = options_.beat ? HeartBeat::scaleAt(time) : 1;
   pose_ = pose;
-  for (std::size_t j = 0; j < jointMatrices_.size(); ++j)
-    jointMatrices_[j] = pose.world[j] * scene_->body.skeleton.joints[j].inverseBind;
   {
     StageClock clock(report_.deformMs);
     deformer_.run(scene_->network, pose, posedPoints_);
+    moveBody();
     deformer_.rotations(rotations_);
     if (options_.slide) slider_.run(posedPoints_, rotations_);
     beat_.apply(heartScale_, jointMatrices_, posedPoints_);
@@ -119,6 +119,18 @@ void FrameMaker::deform(const Pose& pose, float time) {
   StageClock clock(report_.kinksMs);
   report_.kinks = kinks_.run(posedPoints_);
   pinEnds(scene_->network, posedPoints_);  // what branches off a straightened vessel goes along
+}
+
+void FrameMaker::moveBody() {
+  const Body& body = scene_->body;
+  const std::size_t count = body.skeleton.joints.size();
+  for (std::size_t j = 0; j < count; ++j)
+    jointMatrices_[j] = pose_.world[j] * body.skeleton.joints[j].inverseBind;
+  deformer_.vertebrae(vertebrae_);
+  for (std::size_t k = 0; k < vertebrae_.size(); ++k) {
+    const Skeleton::Joint& carrier = body.skeleton.joints[body.vertebrae[k].carrier.value];
+    jointMatrices_[count + k] = vertebrae_[k] * carrier.restWorld * carrier.inverseBind;
+  }
 }
 
 // Vessels in the pose of the last deform(). @return whether the step was made

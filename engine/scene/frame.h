@@ -63,8 +63,10 @@ class FrameMaker {
   const Pose& pose() const { return pose_; }
   std::span<const vec4> points() const { return points_; }
   std::span<const quat> knotFrames() const { return knotFrames_; }
-  std::span<const mat4> jointMatrices() const { return jointMatrices_; }  ///< world · inverse bind
-  float heartScale() const { return heartScale_; }                        ///< RenderInput::heartScale
+  std::span<const mat4> jointMatrices() const {
+    return jointMatrices_;
+  }                                                 ///< world · inverse bind; then vertebrae's
+  float heartScale() const { return heartScale_; }  ///< RenderInput::heartScale
   const FrameReport& report() const { return report_; }
   /// The network as the body alone moves it, without kinks, before vessels were moved apart.
   std::span<const vec4> posedPoints() const { return posedPoints_; }
@@ -77,6 +79,7 @@ class FrameMaker {
 
  private:
   void deform(const Pose& pose, float time);
+  void moveBody();
   bool step(const Stride& stride);
   const VolumeKeeper* keeper() const { return options_.keep == Keep::radii ? nullptr : &volume_; }
   void walk(const Pose& target, float fromTime, float time, float seconds);
@@ -106,7 +109,7 @@ class FrameMaker {
   PosePath path_;
   std::vector<vec4> posedPoints_, points_;
   std::vector<quat> knotFrames_;
-  std::vector<mat4> jointMatrices_;
+  std::vector<mat4> jointMatrices_, vertebrae_;
   FrameReport report_;
 };
 

@@ -2,8 +2,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "body/skinning.h"
+#include "body/vertebrae.h"
 #include "core/parallel.h"
 #include "human/made_human.h"
 #include "make_human/bones.h"
@@ -110,6 +112,15 @@ void forPoses(Visit visit) {
 }
 
 }  // namespace
+
+TEST_CASE("the 12 vertebrae of neck and loins have motions of their own") {
+  Body body = madeBody();
+  separateVertebrae(body);
+  std::set<std::uint16_t> own;
+  for (const SkinInfluence& influence : body.meshes[1].influences)
+    if (influence.joints[0] >= body.skeleton.joints.size()) own.insert(influence.joints[0]);
+  CHECK(own.size() == 12);
+}
 
 TEST_CASE("no motion brings a bone out of the skin") {
   std::map<std::string, std::array<float, 2>> worst;  // of a clip and joint: [m] out, frame
