@@ -22,7 +22,8 @@ float boneBegins(const Body& body, JointId joint) {
     const TriangleMesh rest = meshAtRest(body, mesh);
     for (std::size_t v = 0; v < rest.positions.size(); ++v)
       for (int i = 0; i < 4; ++i)
-        if (body.carrier(mesh.influences[v].joints[std::size_t(i)]) == joint.value && mesh.influences[v].weights[i] > 0.5f)
+        if (body.carrier(mesh.influences[v].joints[std::size_t(i)]) == joint.value &&
+            mesh.influences[v].weights[i] > 0.5f)
           nearest = std::min(nearest, glm::distance(rest.positions[v], centre));
   }
   return std::isfinite(nearest) ? nearest : 0;

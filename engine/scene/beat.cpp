@@ -22,7 +22,8 @@ bool isHeart(const SkinnedMesh& mesh) {
 std::uint32_t carrier(const SkinnedMesh& mesh, const Body& body) {
   std::vector<float> weight(body.skeleton.joints.size(), 0.0f);
   for (const SkinInfluence& influence : mesh.influences)
-    for (int k = 0; k < 4; ++k) weight[body.carrier(influence.joints[std::size_t(k)])] += influence.weights[k];
+    for (int k = 0; k < 4; ++k)
+      weight[body.carrier(influence.joints[std::size_t(k)])] += influence.weights[k];
   return std::uint32_t(std::max_element(weight.begin(), weight.end()) - weight.begin());
 }
 
