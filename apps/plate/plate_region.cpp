@@ -201,12 +201,8 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
 std::vector<std::uint16_t> mainJoints(const Body& body, const SkinnedMesh& mesh) {
   std::vector<std::uint16_t> joints;
   joints.reserve(mesh.influences.size());
-  for (const SkinInfluence& influence : mesh.influences) {
-    int most = 0;
-    for (int k = 1; k < 4; ++k)
-      if (influence.weights[k] > influence.weights[most]) most = k;
-    joints.push_back(std::uint16_t(body.carrier(influence.joints[std::size_t(most)])));
-  }
+  for (const SkinInfluence& influence : mesh.influences)
+    joints.push_back(std::uint16_t(body.carrier(influence.joints[influence.heaviest()])));
   return joints;
 }
 

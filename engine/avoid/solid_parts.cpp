@@ -16,13 +16,6 @@ namespace {
 
 constexpr const char* kKind = "bones";
 
-std::uint32_t carrierOf(const SkinInfluence& influence) {
-  std::size_t heaviest = 0;
-  for (std::size_t k = 1; k < 4; ++k)
-    if (influence.weights[int(k)] > influence.weights[int(heaviest)]) heaviest = k;
-  return influence.joints[heaviest];
-}
-
 }  // namespace
 
 SolidParts::SolidParts(const Body& body) {
@@ -31,7 +24,10 @@ SolidParts::SolidParts(const Body& body) {
 }
 
 void SolidParts::add(const SkinnedMesh& mesh) {
-  const auto jointOf = [&](const uvec3& triangle) { return carrierOf(mesh.influences[triangle.x]); };
+  const auto jointOf = [&](const uvec3& triangle) -> std::uint32_t {
+    const SkinInfluence& influence = mesh.influences[triangle.x];
+    return influence.joints[influence.heaviest()];
+  };
   std::vector<uvec3> triangles = mesh.mesh.triangles;
   std::ranges::stable_sort(triangles, {}, jointOf);
   struct Number {

@@ -14,6 +14,14 @@ namespace vasa {
 struct SkinInfluence {
   std::array<std::uint16_t, 4> joints{};
   vec4 weights{0};
+
+  /// Which of the four weighs most; the first of equals.
+  std::size_t heaviest() const {
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < 4; ++k)
+      if (weights[int(k)] > weights[int(most)]) most = k;
+    return most;
+  }
 };
 
 /// A mesh that moves with the skeleton.

@@ -13,6 +13,7 @@ namespace vasa {
 namespace {
 
 constexpr std::size_t kNearestPlaces = 6;
+constexpr float kRigidWeight = 0.99f;  // of a vertex
 constexpr float kRigidShare = 0.95f;   // of a mesh's vertices
 constexpr float kReachHeights = 0.2f;  // distances beyond this part of the body's height need not be exact
 constexpr float kTipShare = 0.6f;      // length of a tip's link against the one before it
@@ -89,12 +90,14 @@ struct BoneField::Part {
   Aabb box;
 };
 
+std::uint32_t soleCarrier(const SkinInfluence& influence) {
+  const std::size_t k = influence.heaviest();
+  return influence.weights[int(k)] >= kRigidWeight ? influence.joints[k] : kNone;
+}
+
 bool movesByRigidParts(const SkinnedMesh& mesh) {
   std::size_t rigid = 0;
-  for (const SkinInfluence& influence : mesh.influences) {
-    const vec4 w = influence.weights;
-    rigid += std::max({w.x, w.y, w.z, w.w}) >= kRigidWeight;
-  }
+  for (const SkinInfluence& influence : mesh.influences) rigid += soleCarrier(influence) != kNone;
   return rigid > 0 && float(rigid) >= kRigidShare * float(mesh.influences.size());
 }
 
@@ -105,12 +108,9 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
   for (const SkinnedMesh& mesh : body.meshes) {
     if (!movesByRigidParts(mesh) || !isSolid(mesh)) continue;
     fromMeshes_ = true;
-    for (std::size_t v = 0; v < mesh.influences.size(); ++v) {
-      const SkinInfluence& influence = mesh.influences[v];
-      for (int k = 0; k < 4; ++k)
-        if (influence.weights[k] >= kRigidWeight)
-          points[body.carrier(influence.joints[std::size_t(k)])].push_back(mesh.mesh.positions[v]);
-    }
+    for (std::size_t v = 0; v < mesh.influences.size(); ++v)
+      if (const std::uint32_t carrier = soleCarrier(mesh.influences[v]); carrier != kNone)
+        points[body.carrier(carrier)].push_back(mesh.mesh.positions[v]);
   }
   std::vector<Links> links = linksOf(spines);
   fromMeshes_ = fromMeshes_ && standForBones(points, links);

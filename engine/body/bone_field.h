@@ -37,7 +37,8 @@ class BoneField {
   bool fromMeshes_ = false;
 };
 
-constexpr float kRigidWeight = 0.99f;  ///< of a vertex that follows one joint
+/// What carries a vertex alone, as its influence names it; kNone where several do.
+std::uint32_t soleCarrier(const SkinInfluence& influence);
 
 /// A mesh whose vertices each follow one joint, nearly all of them.
 bool movesByRigidParts(const SkinnedMesh& mesh);

@@ -25,30 +25,18 @@ void forEachPoint(const Binding& binding, const Visit& visit) {
 }
 
 /// Where the records of one point take it.
-/// @param turn   moves p by one joint's own motion, in rest space
-/// @param place  moves p by a station's whole motion
-template <class Turn, class Place>
-vec3 placed(std::span<const BindingRecord> records, vec3 rest, const Turn& turn, const Place& place) {
-  if (records.size() == 1) return place(records[0].station(), rest);
+vec3 placed(const SpinePose& pose, std::span<const BindingRecord> records, vec3 rest) {
+  if (records.size() == 1) return pose.place(records[0].station(), rest);
   vec3 p = rest, mean(0);
   for (const BindingRecord& record : records) {
     if (record.share == 0) {
-      p = turn(record.station(), p);
+      p = pose.turn(record.station(), p);
       continue;
     }
-    mean += float(record.share) / float(kWholeShare) * place(record.station(), p);
+    mean += float(record.share) / float(kWholeShare) * pose.place(record.station(), p);
     p = rest;
   }
   return mean;
-}
-
-template <class Turn, class Place>
-void movePoints(const Binding& binding, std::span<const vec4> rest, std::span<vec4> out, const Turn& turn,
-                const Place& place) {
-  assert(rest.size() == binding.pointCount && out.size() == binding.pointCount);
-  forEachPoint(binding, [&](std::size_t i, std::span<const BindingRecord> records) {
-    out[i] = vec4(placed(records, vec3(rest[i]), turn, place), rest[i].w);
-  });
 }
 
 }  // namespace
@@ -65,10 +53,11 @@ std::vector<Station> mainStations(const Binding& binding) {
 }
 
 void Deformer::run(std::span<const vec4> rest, const Pose& pose, std::span<vec4> out) {
+  assert(rest.size() == binding_->pointCount && out.size() == binding_->pointCount);
   pose_.run(binding_->spines, pose);
-  movePoints(
-      *binding_, rest, out, [this](Station station, vec3 p) { return pose_.turn(station, p); },
-      [this](Station station, vec3 p) { return pose_.place(station, p); });
+  forEachPoint(*binding_, [&](std::size_t i, std::span<const BindingRecord> records) {
+    out[i] = vec4(placed(pose_, records, vec3(rest[i])), rest[i].w);
+  });
 }
 
 void Deformer::run(const Network& network, const Pose& pose, std::span<vec4> out) {
@@ -93,11 +82,7 @@ void Deformer::vertebrae(std::span<mat4> out) const {
     const BindingRecord* first = record;
     while (record->share == 0) ++record;
     const std::span records(first, ++record);
-    const auto place = [&](vec3 p) {
-      return placed(
-          records, p, [this](Station station, vec3 q) { return pose_.turn(station, q); },
-          [this](Station station, vec3 q) { return pose_.place(station, q); });
-    };
+    const auto place = [&](vec3 p) { return placed(pose_, records, p); };
     const vec3 origin = place(vec3(0));
     motion[3] = vec4(origin, 1);
     for (int k = 0; k < 3; ++k) {

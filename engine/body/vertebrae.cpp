@@ -59,13 +59,6 @@ bool passesThrough(const Link& link, const Aabb& box) {
   return first <= last;
 }
 
-/// The joint that carries a vertex alone; kNone where several do.
-std::uint32_t carrierOf(const SkinInfluence& influence) {
-  for (int k = 0; k < 4; ++k)
-    if (influence.weights[k] >= kRigidWeight) return influence.joints[std::size_t(k)];
-  return kNone;
-}
-
 /// Parts hang together by triangles, and where places of `vertices` are the same.
 DisjointSets partsOf(const TriangleMesh& mesh, std::vector<std::uint32_t> vertices) {
   DisjointSets sets(mesh.positions.size());
@@ -114,12 +107,12 @@ class Separator {
     const SkinnedMesh& mesh = body_.meshes[meshIndex];
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < mesh.influences.size(); ++v)
-      if (linkOf(carrierOf(mesh.influences[v]))) vertices.push_back(v);
+      if (linkOf(soleCarrier(mesh.influences[v]))) vertices.push_back(v);
     if (vertices.empty()) return;
     DisjointSets sets = partsOf(mesh.mesh, std::move(vertices));
     std::vector<std::uint32_t> number(mesh.influences.size(), kNone);
     for (std::uint32_t v = 0; v < mesh.influences.size(); ++v) {
-      const std::uint32_t carrier = carrierOf(mesh.influences[v]);
+      const std::uint32_t carrier = soleCarrier(mesh.influences[v]);
       std::uint32_t& own = number[sets.find(v)];
       if (own == kNone) {
         own = std::uint32_t(parts_.size());

@@ -201,10 +201,7 @@ std::vector<JointBall> jointBalls(const SkinnedMesh& mesh) {
   std::map<std::uint32_t, Aabb> boxes;
   for (std::size_t i = 0; i < mesh.influences.size(); ++i) {
     const SkinInfluence& influence = mesh.influences[i];
-    int heaviest = 0;
-    for (int k = 1; k < 4; ++k)
-      if (influence.weights[k] > influence.weights[heaviest]) heaviest = k;
-    boxes[influence.joints[heaviest]].add(mesh.mesh.positions[i]);
+    boxes[influence.joints[influence.heaviest()]].add(mesh.mesh.positions[i]);
   }
   std::vector<JointBall> balls;
   for (const auto& [joint, box] : boxes)
