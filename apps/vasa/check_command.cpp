@@ -172,7 +172,7 @@ void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps
 }
 
 // The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two
-// are, and tubes in bones by the joint that carries the bone.
+// are, tubes in bones by the joint that carries the bone, and spans whose lumen gave way.
 void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Contact> changedSides,
                Report& row) {
   const Network& network = scene.network;
@@ -199,6 +199,11 @@ void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Conta
          {"depth_m", contact.allowed - contact.f},
          {"allowed_m", contact.allowed}});
   }
+  row["narrowed"] = Report::array();
+  for (const NarrowPlace& place : avoider.narrowed())
+    row["narrowed"].push_back({{"vessel", network.vessel(place.vessel).name},
+                               {"span", place.span},
+                               {"radius_by_rest", place.factor}});
 }
 
 Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uint32_t frame,
@@ -392,8 +397,9 @@ void addCheck(CLI::App& app, Command& command) {
   addTissueOptions(*sub, options->tissue);
   sub->add_flag("--skin-wall", options->skinWall,
                 "Hold vessels below the skin, too; without it skin_contacts are 0");
-  sub->add_flag("--places", options->places,
-                "Name the vessels that still interfere, have changed sides or are in bones in each frame");
+  sub->add_flag(
+      "--places", options->places,
+      "Name the vessels that still interfere, have changed sides, are in bones or gave way in each frame");
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

@@ -23,7 +23,7 @@ struct BoneContact {
 };
 
 /// The solid parts of a body, which vessels must not enter: its meshes other than the skin, cut by the joint
-/// or vertebra that carries them. A part is rigid, so its distance field is made once, and tubes are looked
+/// or axial bone that carries them. A part is rigid, so its distance field is made once, and tubes are looked
 /// at from the joint; the field's accuracy (collide/distance_field.h) is that of every answer. A triangle
 /// belongs to the joint with the largest weight at its first corner.
 ///
@@ -43,7 +43,7 @@ class Bones {
   ~Bones();
   Bones(Bones&&) noexcept;
 
-  /// The parts go to a pose. @param jointMatrices  a joint's world · inverseBind, then the vertebrae's
+  /// The parts go to a pose. @param jointMatrices  a joint's world · inverseBind, then the axial bones'
   void pose(std::span<const mat4> jointMatrices);
   /// The present pose is from now on the one before.
   void keepPose();

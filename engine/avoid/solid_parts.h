@@ -8,7 +8,7 @@
 
 namespace vasa {
 
-/// What vessels must not enter: a body's solid meshes (body/mesh_role.h), cut by the joint or vertebra that
+/// What vessels must not enter: a body's solid meshes (body/mesh_role.h), cut by the joint or axial bone that
 /// carries each triangle, which is the one with the largest weight at the triangle's first corner.
 class SolidParts {
  public:

@@ -167,7 +167,7 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
     return belongs.error();
   chooseArcs(binding.spines, body, bones, points);
   std::vector<vec4> places(points.begin(), points.end());
-  for (const Vertebra& vertebra : body.vertebrae) places.emplace_back(vertebra.centre, 0.0f);
+  for (const AxialBone& bone : body.axialBones) places.emplace_back(bone.place, 0.0f);
   Phases phases = measurePhases(binding.spines, bones, SkinField(body), places);
   limitSlopes(phases, binding.spines, places, ties);
 
@@ -177,8 +177,13 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
     if (i % Binding::kBlock == 0) binding.firstRecord.push_back(std::uint32_t(binding.records.size()));
     appendRecords(binder.bind(i), binding.records);
   }
-  for (std::size_t k = 0; k < body.vertebrae.size(); ++k)
-    appendRecords(binder.bindAlong(points.size() + k, body.vertebrae[k].head), binding.vertebrae);
+  for (std::size_t k = 0; k < body.axialBones.size(); ++k) {
+    const AxialBone& bone = body.axialBones[k];
+    if (bone.frontCarrier.valid())
+      binding.axialBones.emplace_back(Station{bone.frontCarrier, 2}, std::uint16_t(kWholeShare));
+    else
+      appendRecords(binder.bindAlong(points.size() + k, bone.head), binding.axialBones);
+  }
   const float behind = shareLeftBehind(body, binding, points);
   return Bound{std::move(binding), behind};
 }
@@ -229,7 +234,7 @@ Binding Rebinder::rebind(const Binding& bound, std::span<const vec4> points,
   limitSlopes(phases, fields_->spines, others, ties);
   PointBinder binder(fields_->spines, phases);
   const std::vector<std::uint32_t> firsts = firstRecords(bound);
-  Binding binding{fields_->spines, std::uint32_t(points.size()), {}, {}, bound.vertebrae};
+  Binding binding{fields_->spines, std::uint32_t(points.size()), {}, {}, bound.axialBones};
   std::size_t point = 0, other = 0;
   for (const Kept& vessel : vessels)
     for (std::uint32_t i = 0; i < vessel.pointCount; ++i, ++point) {

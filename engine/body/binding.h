@@ -39,7 +39,7 @@ struct Binding {
   std::uint32_t pointCount = 0;
   std::vector<BindingRecord> records;
   std::vector<std::uint32_t> firstRecord;  ///< of every kBlock-th point
-  std::vector<BindingRecord> vertebrae;    ///< of the body, one after another, as of points
+  std::vector<BindingRecord> axialBones;   ///< of the body, one after another, as of points
 
   /// Bytes of the records and their index: the paper's "binding".
   std::size_t bytes() const {
@@ -56,7 +56,7 @@ struct Binding {
 /// than the arcs need.
 ///
 /// Fails with badInput: no joints, a broken rest transform, no points, or points that do not belong to this
-/// body (body/belonging.h). The body's vertebrae are bound as points in their middles, along the spine.
+/// body (body/belonging.h). The body's axial bones are bound as points in their places, along the spine.
 /// @param points  (x, y, z, r) [m]; r is not looked at
 /// @param name    of what the points are, for messages: the network's file
 /// @param ties    points that are next to each other along a vessel

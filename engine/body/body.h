@@ -9,7 +9,7 @@
 
 namespace vasa {
 
-/// Up to four joints, or vertebrae of the body (Body::vertebrae), that move a vertex by linear blend
+/// Up to four joints, or axial bones of the body, that move a vertex by linear blend
 /// skinning; weights sum to 1.
 struct SkinInfluence {
   std::array<std::uint16_t, 4> joints{};
@@ -33,11 +33,15 @@ struct SkinnedMesh {
   vec4 colour{0.8f, 0.8f, 0.8f, 1};       ///< linear base colour and opacity
 };
 
-/// A bone of its own within what one joint carries. Influences name the kth by the number of joints plus k.
-struct Vertebra {
-  JointId carrier;  ///< the joint that carries it in the file
-  JointId head;     ///< the joint that ends its spine
-  vec3 centre{0};   ///< [m] model space, at rest
+/// A vertebra, a disc or a rib that moves by itself within what one joint carries. Influences name the kth by
+/// the number of joints plus k.
+struct AxialBone {
+  JointId carrier;                 ///< the joint that carries it in the file
+  JointId head;                    ///< the joint that ends its spine
+  vec3 place{0};                   ///< [m] at rest: a vertebra's middle, a rib's front end
+  std::uint32_t vertebra = kNone;  ///< of a rib: which of the axial bones before it it hangs on
+  vec3 root{0};                    ///< [m] of a rib: where
+  JointId frontCarrier;            ///< of a rib: carries what the front end is joined to; none: flesh does
 };
 
 /// What a glTF file gives: skeleton, the meshes it moves, and motion.
@@ -46,12 +50,12 @@ struct Body {
   Skeleton skeleton;
   std::vector<SkinnedMesh> meshes;
   std::vector<Clip> clips;
-  std::vector<Vertebra> vertebrae;  ///< none as read: body/vertebrae.h
+  std::vector<AxialBone> axialBones;  ///< none as read: body/axial_bones.h
 
   /// The joint that carries what an influence names.
   std::uint32_t carrier(std::uint32_t influence) const {
     const std::size_t joints = skeleton.joints.size();
-    return influence < joints ? influence : vertebrae[influence - joints].carrier.value;
+    return influence < joints ? influence : axialBones[influence - joints].carrier.value;
   }
   /// Vertical extent of the meshes at rest, or of the joints if there are none [m].
   float height() const;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/parallel.h"
+#include "math/direction.h"
 
 namespace vasa {
 namespace {
@@ -37,6 +38,22 @@ vec3 placed(const SpinePose& pose, std::span<const BindingRecord> records, vec3 
     p = rest;
   }
   return mean;
+}
+
+/// A vertebra's one limb moves it by a similarity, which four places tell.
+template <class Place>
+mat4 similarity(const Place& place) {
+  const vec3 origin = place(vec3(0));
+  return mat4(vec4(place(vec3(1, 0, 0)) - origin, 0), vec4(place(vec3(0, 1, 0)) - origin, 0),
+              vec4(place(vec3(0, 0, 1)) - origin, 0), vec4(origin, 1));
+}
+
+mat4 ribMotion(const AxialBone& rib, const mat4& vertebra, vec3 front) {
+  const vec3 root(vertebra * vec4(rib.root, 1)), carried(vertebra * vec4(rib.place, 1));
+  const mat3 linear = glm::mat3_cast(turnBetween(carried - root, front - root)) * mat3(vertebra);
+  mat4 motion(linear);
+  motion[3] = vec4(root - linear * rib.root, 1);
+  return motion;
 }
 
 }  // namespace
@@ -75,21 +92,21 @@ void Deformer::rotations(std::span<quat> out) const {
   });
 }
 
-// A vertebra's one limb moves it by a similarity, which four places tell.
-void Deformer::vertebrae(std::span<mat4> out) const {
-  const BindingRecord* record = binding_->vertebrae.data();
-  for (mat4& motion : out) {
+void Deformer::axialBones(const Body& body, std::span<mat4> out) const {
+  const std::vector<AxialBone>& bones = body.axialBones;
+  const BindingRecord* record = binding_->axialBones.data();
+  for (std::size_t b = 0; b < bones.size(); ++b) {
     const BindingRecord* first = record;
     while (record->share == 0) ++record;
-    const std::span records(first, ++record);
-    const auto place = [&](vec3 p) { return placed(pose_, records, p); };
-    const vec3 origin = place(vec3(0));
-    motion[3] = vec4(origin, 1);
-    for (int k = 0; k < 3; ++k) {
-      vec3 unit(0);
-      unit[k] = 1;
-      motion[k] = vec4(place(unit) - origin, 0);
-    }
+    const auto place = [&, records = std::span(first, ++record)](vec3 p) {
+      return placed(pose_, records, p);
+    };
+    out[b] = bones[b].vertebra == kNone ? similarity(place)
+                                        : ribMotion(bones[b], out[bones[b].vertebra], place(bones[b].place));
+  }
+  for (std::size_t b = 0; b < bones.size(); ++b) {  // from where the meshes are bound
+    const Skeleton::Joint& carrier = body.skeleton.joints[bones[b].carrier.value];
+    out[b] = out[b] * carrier.restWorld * carrier.inverseBind;
   }
 }
 

@@ -25,8 +25,10 @@ class Deformer {
   /// reference directions of frames. @param out  one a point
   void rotations(std::span<quat> out) const;
 
-  /// Where the body's vertebrae are in the pose of the last run: from model space at rest, one a vertebra.
-  void vertebrae(std::span<mat4> out) const;
+  /// Where the body's axial bones are in the pose of the last run. A rib hangs on its vertebra and turns
+  /// about its root, by the shortest way, to where the flesh takes its front end.
+  /// @param body  which the points are bound to  @param out  as skinMatrices() has them, one a bone
+  void axialBones(const Body& body, std::span<mat4> out) const;
 
   /// The spines in the pose of the last run.
   const SpinePose& spines() const { return pose_; }

@@ -35,16 +35,16 @@ std::optional<Bound> findBound(std::uint64_t key, const Body& body) {
   }
   using Raw = std::array<std::uint16_t, 3>;
   static_assert(sizeof(Raw) == sizeof(BindingRecord));
-  std::vector<Raw> records, vertebrae;
+  std::vector<Raw> records, axialBones;
   if (!in.take(bound.behind) || !in.take(bound.binding.pointCount) || !in.takeAll(records) ||
-      !in.takeAll(bound.binding.firstRecord) || !in.takeAll(vertebrae))
+      !in.takeAll(bound.binding.firstRecord) || !in.takeAll(axialBones))
     return {};
   const auto unpack = [](const std::vector<Raw>& from, std::vector<BindingRecord>& to) {
     to.reserve(from.size());
     for (const Raw& raw : from) to.push_back(std::bit_cast<BindingRecord>(raw));
   };
   unpack(records, bound.binding.records);
-  unpack(vertebrae, bound.binding.vertebrae);
+  unpack(axialBones, bound.binding.axialBones);
   return bound;
 }
 
@@ -58,7 +58,7 @@ void keepBound(std::uint64_t key, const Bound& bound) {
   out.add(bound.binding.pointCount);
   out.addAll(std::span<const BindingRecord>(bound.binding.records));
   out.addAll(std::span<const std::uint32_t>(bound.binding.firstRecord));
-  out.addAll(std::span<const BindingRecord>(bound.binding.vertebrae));
+  out.addAll(std::span<const BindingRecord>(bound.binding.axialBones));
   keep(kKind, key, out.bytes());
 }
 

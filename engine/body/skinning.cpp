@@ -24,7 +24,7 @@ std::vector<mat4> skinMatrices(const Skeleton& skeleton, const Pose& pose) {
 
 std::vector<mat4> skinMatrices(const Body& body, const Pose& pose) {
   std::vector<mat4> matrices = skinMatrices(body.skeleton, pose);
-  for (const Vertebra& vertebra : body.vertebrae) matrices.push_back(mat4(matrices[vertebra.carrier.value]));
+  for (const AxialBone& bone : body.axialBones) matrices.push_back(mat4(matrices[bone.carrier.value]));
   return matrices;
 }
 

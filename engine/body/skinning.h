@@ -10,7 +10,7 @@ namespace vasa {
 /// bind).
 std::vector<mat4> skinMatrices(const Skeleton& skeleton, const Pose& pose);
 
-/// With those of a body's vertebrae, each as its carrier has it: at rest, or where nothing is bound to it.
+/// With those of a body's axial bones, each as its carrier has it: at rest, or where nothing is bound to it.
 std::vector<mat4> skinMatrices(const Body& body, const Pose& pose);
 
 /// Linear blend skinning, the specification of what the GPU does: p' = Σ w (M p), and n' the unit vector

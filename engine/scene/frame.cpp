@@ -49,8 +49,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       posedPoints_(scene.network.points().begin(), scene.network.points().end()),
       points_(posedPoints_),
       knotFrames_(scene.network.sectionCount()),
-      jointMatrices_(scene.body.skeleton.joints.size() + scene.body.vertebrae.size()),
-      vertebrae_(scene.body.vertebrae.size()) {
+      jointMatrices_(scene.body.skeleton.joints.size() + scene.body.axialBones.size()) {
   if (avoider_) startAtRest();
 }
 
@@ -126,11 +125,7 @@ void FrameMaker::moveBody() {
   const std::size_t count = body.skeleton.joints.size();
   for (std::size_t j = 0; j < count; ++j)
     jointMatrices_[j] = pose_.world[j] * body.skeleton.joints[j].inverseBind;
-  deformer_.vertebrae(vertebrae_);
-  for (std::size_t k = 0; k < vertebrae_.size(); ++k) {
-    const Skeleton::Joint& carrier = body.skeleton.joints[body.vertebrae[k].carrier.value];
-    jointMatrices_[count + k] = vertebrae_[k] * carrier.restWorld * carrier.inverseBind;
-  }
+  deformer_.axialBones(body, std::span(jointMatrices_).subspan(count));
 }
 
 // Vessels in the pose of the last deform(). @return whether the step was made

@@ -65,7 +65,7 @@ class FrameMaker {
   std::span<const quat> knotFrames() const { return knotFrames_; }
   std::span<const mat4> jointMatrices() const {
     return jointMatrices_;
-  }                                                 ///< world · inverse bind; then vertebrae's
+  }                                                 ///< world · inverse bind; then axial bones'
   float heartScale() const { return heartScale_; }  ///< RenderInput::heartScale
   const FrameReport& report() const { return report_; }
   /// The network as the body alone moves it, without kinks, before vessels were moved apart.
@@ -109,7 +109,7 @@ class FrameMaker {
   PosePath path_;
   std::vector<vec4> posedPoints_, points_;
   std::vector<quat> knotFrames_;
-  std::vector<mat4> jointMatrices_, vertebrae_;
+  std::vector<mat4> jointMatrices_;
   FrameReport report_;
 };
 

@@ -16,7 +16,7 @@ namespace vasa {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'v', 'a', 's', 'a', 't', 'r', 'k', char('0' + kMotionEdition)};
-static_assert(kMotionEdition < 10);
+static_assert('0' + kMotionEdition < 127);
 
 struct Header {
   std::array<char, 8> magic;

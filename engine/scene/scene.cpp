@@ -7,7 +7,7 @@
 
 #include "body/belonging.h"
 #include "body/retarget.h"
-#include "body/vertebrae.h"
+#include "body/axial_bones.h"
 #include "core/cancellation.h"
 #include "core/letters.h"
 #include "core/log.h"
@@ -149,7 +149,7 @@ Result<Scene> makeScene(Body body, std::vector<Network> networks, const SceneFil
   if (network && !file.edits.empty()) network = replayJournals(*network, file.edits);
   if (network) tellFreed(*network, holds);
   if (!network) return network.error();
-  separateVertebrae(body);
+  separateAxialBones(body);
   auto binding = vasa::bind(body, *network, names);
   if (!binding) return binding.error();
   return Scene{std::move(body), std::move(*network), std::move(*binding), std::move(holds)};

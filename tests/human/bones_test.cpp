@@ -4,8 +4,10 @@
 #include <map>
 #include <set>
 
+#include "body/axial_bones.h"
+#include "body/binding.h"
+#include "body/deform.h"
 #include "body/skinning.h"
-#include "body/vertebrae.h"
 #include "core/parallel.h"
 #include "human/made_human.h"
 #include "make_human/bones.h"
@@ -101,35 +103,53 @@ float boneAllowedOut(std::string_view joint) {
   return joint.ends_with("ForeArm") ? 0.006f : joint.ends_with("Shoulder") ? 0.0023f : 0.002f;
 }
 
-/// Visits every few frames of each clip.
+const Body& separated() {
+  static const Body body = [] {
+    Body made = madeBody();
+    separateAxialBones(made);
+    return made;
+  }();
+  return body;
+}
+
+/// Visits every few frames of each clip, with vertebrae and ribs where they are.
 template <class Visit>
 void forPoses(Visit visit) {
-  for (const Clip& clip : madeBody().clips)
-    for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep)
-      visit(clip, frame,
-            skinMatrices(madeBody().skeleton,
-                         samplePose(madeBody().skeleton, clip, float(frame) / clip.framesPerSecond)));
+  const Body& body = separated();
+  std::vector<vec4> places;
+  for (const AxialBone& bone : body.axialBones) places.emplace_back(bone.place, 0.001f);
+  const auto binding = bindPoints(body, places, "axial bones");
+  REQUIRE(binding.ok());
+  Deformer deformer(*binding);
+  std::vector<vec4> moved(places.size());
+  for (const Clip& clip : body.clips)
+    for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
+      const Pose pose = samplePose(body.skeleton, clip, float(frame) / clip.framesPerSecond);
+      std::vector<mat4> matrices = skinMatrices(body, pose);
+      deformer.run(places, pose, moved);
+      deformer.axialBones(body, std::span(matrices).subspan(body.skeleton.joints.size()));
+      visit(clip, frame, matrices);
+    }
 }
 
 }  // namespace
 
-TEST_CASE("the 12 vertebrae of neck and loins have motions of their own") {
-  Body body = madeBody();
-  separateVertebrae(body);
+TEST_CASE("all 24 vertebrae and 24 ribs but the atlas' two have motions of their own") {
+  const Body& body = separated();
   std::set<std::uint16_t> own;
   for (const SkinInfluence& influence : body.meshes[1].influences)
     if (influence.joints[0] >= body.skeleton.joints.size()) own.insert(influence.joints[0]);
-  CHECK(own.size() == 12);
+  CHECK(own.size() == 48);
 }
 
 TEST_CASE("no motion brings a bone out of the skin") {
   std::map<std::string, std::array<float, 2>> worst;  // of a clip and joint: [m] out, frame
   std::vector<vec3> skin, bones;
   forPoses([&](const Clip& clip, std::size_t frame, const std::vector<mat4>& matrices) {
-    skinPositions(madeBody().meshes[0], matrices, skin);
-    const TriangleMesh surface{skin, madeBody().meshes[0].mesh.triangles};
+    skinPositions(separated().meshes[0], matrices, skin);
+    const TriangleMesh surface{skin, separated().meshes[0].mesh.triangles};
     const Solid solid(surface);
-    skinPositions(madeBody().meshes[1], matrices, bones);
+    skinPositions(separated().meshes[1], matrices, bones);
     std::vector<float> out(bones.size() / kBoneVertexStep, 0);
     parallelFor(out.size(), 256, [&](std::size_t i) {
       const vec3 p = bones[i * kBoneVertexStep];
@@ -138,7 +158,8 @@ TEST_CASE("no motion brings a bone out of the skin") {
     });
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (out[i] <= 0) continue;
-      const std::uint16_t joint = madeBody().meshes[1].influences[i * kBoneVertexStep].joints[0];
+      const std::uint32_t joint =
+          separated().carrier(separated().meshes[1].influences[i * kBoneVertexStep].joints[0]);
       auto& entry = worst[clip.name + ": " + madeBody().skeleton.joints[joint].name];
       if (out[i] > entry[0]) entry = {out[i], float(frame)};
     }

@@ -1,7 +1,9 @@
-#include "body/vertebrae.h"
+#include "body/axial_bones.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <span>
 #include <tuple>
 
 #include "body/bone_field.h"
@@ -13,6 +15,7 @@
 namespace vasa {
 namespace {
 
+constexpr std::size_t kMostOfARib = 4;           // vertebrae and discs: more, and it is a cage of many ribs
 constexpr std::size_t kMostInfluences = 0xffff;  // what an influence can name
 // [m] between vertices of bones that are joined. Ribs and their vertebrae: 0 to 1 mm in both of our bodies;
 // the first rib and the vertebra above its own, which is not joined to it: 2 and 4.5 mm; all others 16 and
@@ -81,25 +84,54 @@ struct Part {
   std::uint32_t carrier = kNone;  // kNone where there are several
 };
 
+/// Where a part is joined to another.
+struct Joined {
+  const Part* part;  // the other
+  vec3 place;        // of the first, where it is bound
+  float distance;
+};
+
+struct Rib {
+  const Part* part;
+  Joined at;  // its vertebra
+};
+
 class Separator {
  public:
   explicit Separator(Body& body) : body_(body), line_(spineLine(body.skeleton)) {
     if (line_.links.empty()) return;
+    for (const Link& link : line_.links)
+      longestLink_ = std::max(longestLink_, glm::distance(link.from, link.to));
     for (std::size_t m = 0; m < body.meshes.size(); ++m)
       if (movesByRigidParts(body.meshes[m])) collect(m);
   }
 
   void run() {
-    std::vector<const Part*> vertebrae, others;
+    std::vector<const Part*> vertebrae, others, blocks;
+    std::vector<Rib> ribs;
     for (const Part& part : parts_) (isVertebra(part) ? vertebrae : others).push_back(&part);
     float low = std::numeric_limits<float>::infinity(), high = -low;
-    for (const Part* part : vertebrae)
-      if (std::ranges::any_of(others, [&](const Part* other) { return touch(*part, *other); })) {
-        low = std::min(low, along(*part));
-        high = std::max(high, along(*part));
+    for (const Part* other : others) {
+      const std::vector<Joined> joined = joinedTo(*other, vertebrae);
+      if (!joined.empty() && joined.size() <= kMostOfARib && other->carrier != kNone) {
+        // Its own is the lowest: heads of ribs reach up to the one above.
+        ribs.push_back(
+            {other, std::ranges::min(joined, {}, [&](const Joined& own) { return along(*own.part); })});
+        continue;
       }
+      blocks.push_back(other);
+      for (const Joined& own : joined) {
+        low = std::min(low, along(*own.part));
+        high = std::max(high, along(*own.part));
+      }
+    }
+    std::vector<std::uint32_t> numbers(parts_.size(), kNone);
     for (const Part* part : vertebrae)
-      if (along(*part) < low || along(*part) > high) add(*part);
+      if (along(*part) < low || along(*part) > high)
+        numbers[indexOf(part)] = add(*part, {{part->carrier}, line_.head, atRest(*part, part->box.centre())});
+    for (const Rib& rib : ribs)
+      if (const std::uint32_t vertebra = numbers[indexOf(rib.at.part)]; vertebra != kNone)
+        addRib(rib, vertebra, blocks);
   }
 
  private:
@@ -133,26 +165,43 @@ class Separator {
   bool isVertebra(const Part& part) const {
     const Link* own = linkOf(part.carrier);
     if (!own) return false;
-    const vec3 way = glm::abs(own->to - own->from);
-    const float length = glm::length(way);
-    return glm::dot(part.box.extent(), way) < length * length &&
+    const vec3 along = glm::abs(glm::normalize(own->to - own->from));
+    return glm::dot(part.box.extent(), along) < longestLink_ &&
            std::ranges::any_of(line_.links, [&](const Link& link) { return passesThrough(link, part.box); });
   }
 
-  bool touch(const Part& a, const Part& b) const {
-    Aabb near;
-    near.add(a.box.low, kJoined);
-    near.add(a.box.high, kJoined);
-    if (!linkOf(b.carrier) || !near.overlaps(b.box)) return false;
-    const auto place = [&](const Part& part, std::uint32_t v) {
-      return body_.meshes[part.mesh].mesh.positions[v];
+  vec3 place(const Part& part, std::uint32_t vertex) const {
+    return body_.meshes[part.mesh].mesh.positions[vertex];
+  }
+
+  /// Where two parts are nearest to one another, if that is near enough for them to be joined.
+  std::optional<Joined> join(const Part& part, const Part& other) const {
+    const auto within = [&](const Part& own, const Part& of) {
+      Aabb near;
+      near.add(of.box.low, kJoined);
+      near.add(of.box.high, kJoined);
+      std::vector<vec3> places;
+      if (!near.overlaps(own.box)) return places;
+      for (const std::uint32_t v : own.vertices)
+        if (const vec3 p = place(own, v); near.distance(p) == 0) places.push_back(p);
+      return places;
     };
-    return std::ranges::any_of(b.vertices, [&](std::uint32_t v) {
-      const vec3 p = place(b, v);
-      return near.distance(p) == 0 && std::ranges::any_of(a.vertices, [&](std::uint32_t w) {
-               return glm::distance(place(a, w), p) < kJoined;
-             });
-    });
+    Joined nearest{&other, vec3(0), kJoined};
+    const std::vector<vec3> theirs = within(other, part);
+    for (const vec3& p : within(part, other))
+      for (const vec3& q : theirs)
+        if (const float distance = glm::distance(p, q); distance < nearest.distance)
+          nearest.place = p, nearest.distance = distance;
+    if (nearest.distance < kJoined) return nearest;
+    return {};
+  }
+
+  std::vector<Joined> joinedTo(const Part& part, std::span<const Part* const> others) const {
+    std::vector<Joined> joined;
+    for (const Part* other : others)
+      if (linkOf(part.carrier) && linkOf(other->carrier))
+        if (const auto own = join(part, *other)) joined.push_back(*own);
+    return joined;
   }
 
   /// How far up the spine a part is.
@@ -168,23 +217,46 @@ class Separator {
     return place;
   }
 
-  void add(const Part& part) {
-    const std::size_t number = body_.skeleton.joints.size() + body_.vertebrae.size();
-    if (number > kMostInfluences) return;
+  vec3 atRest(const Part& part, vec3 bound) const {
     const Skeleton::Joint& joint = body_.skeleton.joints[part.carrier];
-    const vec3 centre(joint.restWorld * joint.inverseBind * vec4(part.box.centre(), 1));
-    body_.vertebrae.push_back({{part.carrier}, line_.head, centre});
-    for (const std::uint32_t v : part.vertices)
-      body_.meshes[part.mesh].influences[v] = {{std::uint16_t(number)}, {1, 0, 0, 0}};
+    return vec3(joint.restWorld * joint.inverseBind * vec4(bound, 1));
   }
+
+  /// @return its number among the axial bones
+  std::uint32_t add(const Part& part, const AxialBone& bone) {
+    const std::size_t own = body_.axialBones.size(), named = body_.skeleton.joints.size() + own;
+    if (named > kMostInfluences) return kNone;
+    body_.axialBones.push_back(bone);
+    for (const std::uint32_t v : part.vertices)
+      body_.meshes[part.mesh].influences[v] = {{std::uint16_t(named)}, {1, 0, 0, 0}};
+    return std::uint32_t(own);
+  }
+
+  /// Its front is held where that is joined to what keeps to its block: the breastbone's cartilage.
+  void addRib(const Rib& rib, std::uint32_t vertebra, std::span<const Part* const> blocks) {
+    const Part& part = *rib.part;
+    vec3 front = rib.at.place;
+    for (const std::uint32_t v : part.vertices)
+      if (const vec3 p = place(part, v); glm::distance(p, rib.at.place) > glm::distance(front, rib.at.place))
+        front = p;
+    AxialBone bone{{part.carrier}, line_.head, atRest(part, front), vertebra, atRest(part, rib.at.place)};
+    for (const Joined& held : joinedTo(part, blocks)) {
+      bone.place = atRest(*held.part, held.place);
+      bone.frontCarrier = {held.part->carrier};
+    }
+    add(part, bone);
+  }
+
+  std::size_t indexOf(const Part* part) const { return std::size_t(part - parts_.data()); }
 
   Body& body_;
   SpineLine line_;
+  float longestLink_ = 0;  // [m]
   std::vector<Part> parts_;
 };
 
 }  // namespace
 
-void separateVertebrae(Body& body) { Separator(body).run(); }
+void separateAxialBones(Body& body) { Separator(body).run(); }
 
 }  // namespace vasa
