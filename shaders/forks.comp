@@ -9,8 +9,6 @@
 #include "lib/picture_place.glsl"
 #include "lib/ring.glsl"
 
-void put(uint vertex, SurfacePoint point);
-vec2 stepOf(uint around);
 vec2 halfStepOf(uint around);
 
 #include "lib/fork.glsl"
@@ -27,9 +25,6 @@ layout(constant_id = 1) const uint kGroupThreads = kGroupForks;
 layout(local_size_x_id = 1) in;
 layout(push_constant, std430) uniform Push { ForksPush push; };
 
-void put(uint vertex, SurfacePoint point) { corners[vertex] = point; }
-
-vec2 stepOf(uint around) { return stepAt(push.tables, around); }
 vec2 halfStepOf(uint around) { return halfStepAt(push.tables, around); }
 
 ForkBranch branchAt(uint branch) { return push.branches.branch[branch]; }
@@ -44,16 +39,15 @@ ForkRing ringOfPart(ForkRecord fork, uint part) {
   return push.branches.branch[fork.firstBranch + part - 2].ring;
 }
 
-// A ball around the fork, with room to spare for the collars' control points, lies outside one side of the picture.
+// By the rings, which have to be loaded anyway: a CPU device compiles each load as a loop over lanes. A ball around the fork, with room to spare for the collars' control points, lies outside one side of the picture.
 bool outOfView(ForkRecord fork) {
-  vec4 ends[2 + kMostBranches];
-  for (uint part = 0; part < 2 + fork.branchCount; ++part) {
-    ForkRing ring = ringOfPart(fork, part);
-    ends[part] = pointAt(spanAt(push.points, push.tables, ring.point, ring.spanClass), ring.t);
+  Section a = rings[0].section, b = rings[1].section;
+  vec3 centre = 0.5 * (a.centre + b.centre);
+  float reach = distance(centre, a.centre) + a.radius + b.radius;
+  for (uint i = 0; i < kMostBranches; ++i) {
+    Section branch = rings[2 + i].section;
+    if (i < fork.branchCount) reach = max(reach, distance(centre, branch.centre) + branch.radius);
   }
-  vec3 centre = 0.5 * (ends[0].xyz + ends[1].xyz);
-  float reach = distance(centre, ends[0].xyz) + ends[0].w + ends[1].w;
-  for (uint part = 2; part < 2 + fork.branchCount; ++part) reach = max(reach, distance(centre, ends[part].xyz) + ends[part].w);
   for (uint i = 0; i < 5; ++i) {
     vec4 plane = view.planes[i];
     if (dot(plane.xyz, centre) + plane.w < -1.8 * reach) return true;
@@ -62,9 +56,12 @@ bool outOfView(ForkRecord fork) {
 }
 
 // One loop for all of them: a device compiles what is called once for each place that calls it.
-void evaluateRings(ForkRecord fork) {
-  for (uint part = 0; part < 2 + fork.branchCount; ++part)
+void evaluateRings(ForkRecord fork, ForkShape shape) {
+  for (uint part = 0; part < 2 + fork.branchCount; ++part) {
     setRing(part, ringOf(push.points, push.knots, push.tables, ringOfPart(fork, part)));
+    uint around = part == 0 ? shape.a : part == 1 ? shape.b : part == 2 ? shape.branch[0] : shape.branch[1];
+    setDirections(part, stepAt(push.tables, around), around);
+  }
 }
 
 ForkShape shapeOf(ForkRecord fork) {
@@ -77,18 +74,32 @@ ForkShape shapeOf(ForkRecord fork) {
   return shape;
 }
 
+// Vertices as they are written, and instead of the rest of their normals their places on the picture.
+void pack(uint vertices) {
+  for (uint k = 0; k < vertices; ++k) {
+    SurfacePoint point = cornerOf(k);
+    uvec2 rest = uvec2(floatBitsToUint(point.position.z), packOctahedral(point.normal));
+    corners[k] = CornerWords(wordOf(point.position.xy), wordOf(rest), wordOf(placeOf(point.position)));
+  }
+}
+
+vec2 placeAt(uint vertex) { return vec2Of(corners[vertex & 255u].c); }
+
 // Leaves those triangles in the list that may be seen. Once a fork is as it stays: to look at every step of its smoothing
 // would take more loops than a device may allow (tests/render/loop_budget_test.cpp).
-void keepSeen(uint vertices) {
-  vec2 places[kMostForkVertices];
-  for (uint k = 0; k < vertices; ++k) places[k] = placeOf(corners[k].position);
+void keepSeen() {
   PictureGrid grid = gridOf(view);
   uint kept = 0;
-  for (uint i = 0; i < triangles; ++i) {
-    uint t = list[i];
-    if (seenOfTriangle(places[t & 255u], places[t >> 8 & 255u], places[t >> 16], grid)) list[kept++] = t;
+  triangles = 0;
+  for (uint i = 0; i < pieces; ++i) {
+    uint quad = list[i], a = quad & 255u, d = quad >> 24;
+    uint seen = seenOfQuad(placeAt(a), placeAt(quad >> 8), placeAt(quad >> 16), placeAt(d), grid) & (a == d ? 1u : 3u);
+    if (seen == 1) quad = quad & 0xffffffu | a << 24;
+    if (seen == 2) quad = quad >> 8 & 0xffff00u | a << 24 | a;
+    if (seen != 0) list[kept++] = quad;
+    triangles += uint(bitCount(seen));
   }
-  triangles = kept;
+  pieces = kept;
 }
 
 // Vertices that the triangles need, a bit each, and how many lie before every word of them.
@@ -97,8 +108,8 @@ uint needed[kVertexWords], firsts[kVertexWords];
 
 // @return how many
 uint chooseVertices(uint all) {
-  for (uint i = 0; i < triangles && push.keepAll == 0; ++i)
-    [[dont_unroll]] for (uint rest = list[i], c = 0; c < 3; ++c, rest >>= 8) {
+  for (uint i = 0; i < pieces && push.keepAll == 0; ++i)
+    [[dont_unroll]] for (uint rest = list[i], c = 0; c < 4; ++c, rest >>= 8) {
       uint vertex = rest & 255u;
       needed[vertex >> 5] |= 1u << (vertex & 31u);
     }
@@ -117,17 +128,23 @@ void writeVertices(uint block, uint blocks, uint colour) {
   Vertices vertices = push.vertices;
   uint vertex = block << kBlockShift;
   for (uint w = 0; w < kVertexWords; ++w)
-    for (uint bits = needed[w]; bits != 0; bits &= bits - 1)
-      vertices.vertex[vertex++] = packVertex(corners[32 * w + uint(findLSB(bits))]);
+    for (uint bits = needed[w]; bits != 0; bits &= bits - 1) {
+      CornerWords words = corners[32 * w + uint(findLSB(bits))];
+      vertices.vertex[vertex++] = Word2(words.a, words.b);
+    }
   UintsOut colours = push.blockColours;
   for (uint k = 0; k < blocks; ++k) colours.value[block + k] = colour;
 }
 
 void writeTriangles(uint vertex, uint target) {
   UintsOut indices = push.indices;
-  for (uint i = 0; i < triangles; ++i)
-    [[dont_unroll]] for (uint rest = list[i], c = 0; c < 3; ++c, rest >>= 8)
-      indices.value[target++] = vertex + placeOfVertex(rest & 255u);
+  for (uint i = 0; i < pieces; ++i) {
+    uint quad = list[i], count = (quad & 255u) == quad >> 24 ? 3 : 6;
+    [[dont_unroll]] for (uint c = 0; c < count; ++c) {
+      uint corner = c < 3 ? c : c == 3 ? 0 : c - 2;
+      indices.value[target++] = vertex + placeOfVertex(quad >> (8 * corner) & 255u);
+    }
+  }
 }
 
 shared uint groupBlock, groupVertexBlocks;
@@ -150,7 +167,7 @@ void main() {
   uint local = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, vertices = 0, colour = 0;
   uint begin = push.filling.state.firstFork + group * kGroupThreads, item = begin + local;
   bool first = group == 0 && push.filling.state.firstTube == push.filling.state.tubeEnd;  // of the round
-  triangles = 0;
+  pieces = triangles = 0;
   for (uint w = 0; w < kVertexWords; ++w) needed[w] = 0;
   if (begin < undoneFork() && item < push.filling.state.forkEnd) {
     colour = push.colours.value[item];
@@ -158,12 +175,11 @@ void main() {
     if ((view.hiddenKinds >> (colour >> 24) & 1u) == 0u) {
       ForkRecord fork = push.forks.fork[item];
       ForkShape shape = shapeOf(fork);
-      if (push.keepAll != 0 || !outOfView(fork)) {
-        evaluateRings(fork);
-        build(fork, shape);
-      }
+      evaluateRings(fork, shape);
+      if (push.keepAll != 0 || !outOfView(fork)) build(fork, shape);
       uint all = rowStart(shape, kTrunkRows + fork.branchCount * kBranchRows);
-      if (push.keepAll == 0 && triangles != 0) keepSeen(all);
+      if (triangles != 0) pack(all);
+      if (push.keepAll == 0) keepSeen();
       if (triangles != 0) vertices = chooseVertices(all);
     }
   }

@@ -96,10 +96,10 @@ void main() {
   writeJoint(i, seam, ring.section, turn);
 
   uint around = push.around.value[seam.vessel];
-  setDirections(stepAt(push.tables, around), around);
+  setDirections(0, stepAt(push.tables, around), around);
   for (uint k = 0; k < around; ++k)
-    push.vertices.vertex[seam.vertex + k] = packVertex(surfacePoint(ring.section, directions[k]));
-  uint first = seamAt(ring, turnedBy(turn, seam.start), around);
+    push.vertices.vertex[seam.vertex + k] = packVertex(surfacePoint(ring.section, directionAt(0, k)));
+  uint first = seamAt(0, ring, turnedBy(turn, seam.start), around);
   bool backwards = ring.turn < 0;
   corner = seam.index;
   uint before = 0;

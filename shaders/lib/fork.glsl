@@ -107,23 +107,26 @@ vec2 turned(vec2 a, vec2 b) {
   return c;
 }
 
-// Direction k of m, as ringDirections() finds it.
-vec2 directions[kMaxAround];
+// Direction k of m, as ringDirections() finds it, of each ring: the trunk's two ends, then branches.
+Word directions[(2 + kMostBranches) * kMaxAround];
 
-void setDirections(vec2 step, uint around) {
+vec2 directionAt(uint part, uint k) { return vec2Of(directions[part * kMaxAround + k]); }
+
+void setDirections(uint part, vec2 step, uint around) {
   precise vec2 direction = vec2(1, 0);
   for (uint k = 0; k < around; ++k) {
-    directions[k] = direction;
+    directions[part * kMaxAround + k] = wordOf(direction);
     direction = turned(direction, step);
   }
 }
 
 // The one of the directions nearest to another.
-uint nearestOf(vec2 wanted, uint around) {
+uint nearestOf(uint part, vec2 wanted, uint around) {
   uint first = 0;
   float best = -3e38;
   for (uint k = 0; k < around; ++k) {
-    precise float along = wanted.x * directions[k].x + wanted.y * directions[k].y;
+    vec2 direction = directionAt(part, k);
+    precise float along = wanted.x * direction.x + wanted.y * direction.y;
     if (along > best) {
       best = along;
       first = k;
@@ -133,13 +136,13 @@ uint nearestOf(vec2 wanted, uint around) {
 }
 
 // First vertex of the ring for a row that begins in this direction.
-uint seamAt(Ring ring, vec3 wanted, uint around) {
-  return nearestOf(vec2(dotOf(wanted, ring.section.u), dotOf(wanted, ring.section.v)), around);
+uint seamAt(uint part, Ring ring, vec3 wanted, uint around) {
+  return nearestOf(part, vec2(dotOf(wanted, ring.section.u), dotOf(wanted, ring.section.v)), around);
 }
 
-vec2 seamDirection(float turn, uint first, uint k, uint around) {
+vec2 seamDirection(uint part, float turn, uint first, uint k, uint around) {
   uint at = turn < 0 ? first + around - k : first + k;  // below 2 around; a CPU device divides whole numbers lane by lane
-  return directions[at < around ? at : at - around];
+  return directionAt(part, at < around ? at : at - around);
 }
 
 float collarParameter(uint row) {

@@ -1,5 +1,5 @@
 // A fork's vertices and triangles from its rings. Mirrors evaluateFork() of engine/surface/fork.cpp: the same operations in
-// the same order. The shader that includes it has what lib/fork_collar.glsl and lib/fork_stump.glsl ask for and
+// the same order. The shader that includes it has set the rings and their directions, and has
 //   ForkBranch branchAt(uint branch)
 //   vec3 piercingOf(ForkBranch branch)     where its axis pierces the wall at rest
 //   vec2 halfStepOf(uint around)        (cos, sin) of π/m
@@ -8,9 +8,8 @@
 #include "lib/fork_collar.glsl"
 #include "lib/fork_stump.glsl"
 
-// Puts the branch's hole between columns; `directions` have to be the trunk's.
-void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Trunk trunk, Section middle) {
-  Section at = wallAt(trunk, middle, branch.centre);
+// Puts the branch's hole between columns.
+void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Section at) {
   vec3 towards = levelled(at, piercingOf(branch));
   vec2 wanted = vec2(dotOf(towards, at.u), dotOf(towards, at.v)), halfStep = halfStepOf(shape.a);
   precise float share = branch.window * float(shape.a) + 1.0;
@@ -18,14 +17,14 @@ void placeWindow(uint i, ForkRecord fork, ForkBranch branch, ForkShape shape, Tr
   window.count = min(uint(ceil(share)), fork.branchCount > 1 ? shape.a / fork.branchCount : shape.a - 1);
   vec2 halfAngle = vec2(1, 0);
   for (uint c = 0; c < window.count; ++c) halfAngle = turned(halfAngle, halfStep);
-  window.first = nearestOf(turned(wanted, vec2(halfAngle.x, -halfAngle.y)), shape.a);
+  window.first = nearestOf(0, turned(wanted, vec2(halfAngle.x, -halfAngle.y)), shape.a);
   if (i > 0) {  // beside the first one's
     uint otherFirst = windows[0].first, least = windows[0].count, most = shape.a - window.count;
     uint behind = wrapped(window.first + shape.a - otherFirst, shape.a);
     if (behind < least) window.first = wrapped(otherFirst + (2 * behind < least ? most : least), shape.a);
     else if (behind > most) window.first = wrapped(otherFirst + most, shape.a);
   }
-  window.hole = holeDirection(branch, wanted, turned(directions[window.first], halfAngle), halfAngle);
+  window.hole = holeDirection(branch, wanted, turned(directionAt(0, window.first), halfAngle), halfAngle);
   window.wide = branch.holeAround;
   precise vec3 rows = (vec3(fork.row1, fork.row2, fork.row3) - branch.centre) / branch.holeAlong;
   window.rows = rows;
@@ -59,28 +58,27 @@ void build(ForkRecord fork, ForkShape shape) {
   Section middle = framed(bare, carried(a.section.u, a.section.centre, tangentA, bare.centre, bare.tangent));
 
   uint first = 0;
-  // The last row first, so that the directions of all others stay. One loop for all rows: a device compiles what is called
-  // once for each place that calls it, and as often again as it unrolls a loop.
-  [[dont_unroll]] for (uint row = kTrunkRows; row-- > 0;) {
+  // One loop for all rows: a device compiles what is called once for each place that calls it, and as often again as it
+  // unrolls a loop.
+  [[dont_unroll]] for (uint row = 0; row < kTrunkRows; ++row) {
     uint around = rowSize(shape, row), start = rowStart(shape, row);
     bool atB = row + 1 == kTrunkRows;
-    if (row + 2 >= kTrunkRows) setDirections(stepOf(around), around);
-    if (atB) first = seamAt(b, carried(middle.u, middle.centre, middle.tangent, b.section.centre, tangentB), around);
+    if (atB) first = seamAt(1, b, carried(middle.u, middle.centre, middle.tangent, b.section.centre, tangentB), around);
     Section section = wallAt(trunk, middle, row == 1 ? fork.row1 : row == 2 ? fork.row2 : fork.row3);
     if (atB) section = b.section;
     if (row == 0) section = a.section;
     float turn = atB ? b.turn : row == 0 ? a.turn : 1;
-    for (uint k = 0; k < around; ++k) {
-      columns[k] = directions[k];
-      put(start + k, surfacePoint(section, seamDirection(turn, atB ? first : 0, k, around)));
-    }
+    for (uint k = 0; k < around; ++k)
+      put(start + k, surfacePoint(section, seamDirection(atB ? 1 : 0, turn, atB ? first : 0, k, around)));
   }
-  for (uint i = 0; i < fork.branchCount; ++i)
-    placeWindow(i, fork, branchAt(fork.firstBranch + i), shape, trunk, middle);
   uint seams[kMostBranches];
+  vec3 middles[kMostBranches];  // of the holes, on the trunk's axis
   for (uint i = 0; i < fork.branchCount; ++i) {
     ForkBranch branch = branchAt(fork.firstBranch + i);
-    seams[i] = collar(branch, ringAt(2 + i), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, trunk, middle);
+    Section at = wallAt(trunk, middle, branch.centre);
+    middles[i] = at.centre;
+    placeWindow(i, fork, branch, shape, at);
+    seams[i] = collar(2 + i, branch, ringAt(2 + i), rowStart(shape, holeRow(i)), shape.branch[i], windows[i].hole, at, trunk, middle);
   }
   addForkTriangles(shape);
   for (uint part = 0; part < fork.branchCount + 2; ++part) {
@@ -89,10 +87,10 @@ void build(ForkRecord fork, ForkShape shape) {
     if (!cut && (ofTrunk || !stumps[i])) continue;
     Ring ring = ringAt(part);
     precise vec3 outward = ring.turn * ring.section.tangent, inward = -outward;
-    vec3 towards = atA ? b.section.centre : ofTrunk ? a.section.centre : pointAt(trunk.bezier, branchAt(fork.firstBranch + i).centre).xyz;
+    vec3 towards = atA ? b.section.centre : ofTrunk ? a.section.centre : middles[i];
     uint ringRow = atA ? 0 : ofTrunk ? kTrunkRows - 1 : branchRow(i);
     uint tipRow = atA ? 2 : ofTrunk ? ringRow - 1 : ringRow - 2;
-    addStump(shape, ring, atA ? 0 : ofTrunk ? first : seams[i], atA ? outward : inward, towards, ringRow,
+    addStump(shape, part, ring, atA ? 0 : ofTrunk ? first : seams[i], atA ? outward : inward, towards, ringRow,
              atA ? 1 : ringRow - 1, tipRow);
   }
 }

@@ -1,22 +1,19 @@
-// Mirrors the collars of engine/surface/fork.cpp: the same operations in the same order. The shader that includes it has
-//   void put(uint vertex, SurfacePoint point)   takes a vertex
-//   vec2 stepOf(uint around)                    (cos, sin) of 2π/m
+// Mirrors the collars of engine/surface/fork.cpp: the same operations in the same order.
 #ifndef VASA_FORK_COLLAR
 #define VASA_FORK_COLLAR
-#include "lib/fork.glsl"
+#include "lib/fork_rows.glsl"
 
-// @return the ring's first vertex
-uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 towards, Trunk trunk, Section middle) {
-  setDirections(stepOf(around), around);
-  Section at = wallAt(trunk, middle, record.centre);
+// `at`: the trunk's section at the hole's middle. @return the ring's first vertex
+uint collar(uint part, ForkBranch record, Ring branch, uint start, uint around, vec2 towards, Section at, Trunk trunk,
+            Section middle) {
   precise vec3 outward = branch.turn * branch.section.tangent;
   precise vec3 wanted = towards.x * at.u + towards.y * at.v, side = towards.x * at.v - towards.y * at.u;
   precise vec3 sum = wanted + outward;
   precise float fold = max(1.0 + dotOf(wanted, outward), 1e-3);
   precise vec3 across = side - (dotOf(side, sum) / fold) * sum;
-  uint first = seamAt(branch, across, around);
+  uint first = seamAt(part, branch, across, around);
   for (uint k = 0; k < around; ++k) {
-    vec2 polar = directions[k];
+    vec2 polar = directionAt(part, k);
     precise float x = record.holeAround * polar.x;
     precise float depth = sqrt(1.0 - x * x);
     // The corner's section, then the hole's.
@@ -36,7 +33,7 @@ uint collar(ForkBranch record, Ring branch, uint start, uint around, vec2 toward
     precise vec3 chord = corner.position - hole.position;
     precise vec3 inwards = chord - dotOf(chord, hole.normal) * hole.normal;
 
-    vec2 direction = seamDirection(branch.turn, first, k, around);
+    vec2 direction = seamDirection(part, branch.turn, first, k, around);
     SurfacePoint end = surfacePoint(branch.section, direction);
     vec3 d = ringDirection(branch.section, direction);
     precise float bend = max(1.0 - branch.section.radius * dotOf(branch.section.curvature, d), 0.1);

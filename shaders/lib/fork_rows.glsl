@@ -28,10 +28,29 @@ uint rowStart(ForkShape shape, uint row) {
 
 const float kFlat2 = 1e-10;  // square of the share of its edges that a triangle looks the right way
 
-SurfacePoint corners[kMostForkVertices];
-uint list[kMostForkTriangles];   // of triangles, 8 bits a corner
-uint triangles;                  // how many
-bool folded;                     // some triangle that was added folds
+// A vertex: x and y, z and the normal's x, its y and z. Arrays are as short as can be, of words as wide as can be: a CPU
+// device compiles each access lane by lane and word by word, and clears arrays word by word, in a time that grows as the
+// square of their number.
+struct CornerWords {
+  Word a, b, c;
+};
+
+CornerWords corners[kMostForkVertices];
+uint list[kMostForkPieces];  // of quads, 8 bits a corner: triangles abc and acd, or abc alone where d is a
+uint pieces, triangles;      // how many are in the list, and triangles in all of them
+bool folded;                 // some triangle that was added folds
+
+SurfacePoint cornerOf(uint vertex) {
+  CornerWords words = corners[vertex];
+  vec2 a = vec2Of(words.a), b = vec2Of(words.b);
+  return SurfacePoint(vec3(a, b.x), vec3(b.y, vec2Of(words.c)));
+}
+
+vec3 positionOf(uint vertex) { return vec3(vec2Of(corners[vertex].a), vec2Of(corners[vertex].b).x); }
+
+void put(uint vertex, SurfacePoint point) {
+  corners[vertex] = CornerWords(wordOf(point.position.xy), wordOf(vec2(point.position.z, point.normal.x)), wordOf(point.normal.yz));
+}
 
 // A vertex as the triangles around it need it: loads from an array cost a CPU device more than what is done with them.
 struct Corner {
@@ -39,7 +58,7 @@ struct Corner {
   SurfacePoint point;
 };
 
-Corner cornerAt(uint vertex) { return Corner(vertex, corners[vertex]); }
+Corner cornerAt(uint vertex) { return Corner(vertex, cornerOf(vertex)); }
 
 bool folds(SurfacePoint a, SurfacePoint b, SurfacePoint c) {
   precise vec3 first = b.position - a.position, second = c.position - a.position;
@@ -50,7 +69,12 @@ bool folds(SurfacePoint a, SurfacePoint b, SurfacePoint c) {
   return along <= 0 || square <= flat2;
 }
 
-void add(uint a, uint b, uint c) { list[triangles++] = a | b << 8 | c << 16; }
+void addPiece(uint a, uint b, uint c, uint d) {
+  list[pieces++] = a | b << 8 | c << 16 | d << 24;
+  triangles += d == a ? 1 : 2;
+}
+
+void add(uint a, uint b, uint c) { addPiece(a, b, c, a); }
 
 bool foldsAt(Corner a, Corner b, Corner c) { return folds(a.point, b.point, c.point); }
 
@@ -68,8 +92,7 @@ bool addEither(Corner a, Corner b, Corner c, Corner d, bool first, bool both) {
 void addQuad(Corner a, Corner b, Corner c, Corner d) {
   bool first = foldsAt(a, b, c) || foldsAt(a, c, d), other = first && !foldsAt(b, c, d) && !foldsAt(b, d, a);
   folded = folded || (first && !other);
-  add(other ? b.vertex : a.vertex, other ? c.vertex : b.vertex, other ? d.vertex : c.vertex);
-  add(other ? b.vertex : a.vertex, other ? d.vertex : c.vertex, other ? a.vertex : d.vertex);
+  addPiece(other ? b.vertex : a.vertex, other ? c.vertex : b.vertex, other ? d.vertex : c.vertex, other ? a.vertex : d.vertex);
 }
 
 #endif

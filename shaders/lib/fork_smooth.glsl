@@ -1,6 +1,4 @@
-// Mirrors engine/surface/fork_smooth.cpp: the same operations in the same order. The shader that includes it has what
-// lib/fork_triangles.glsl asks for and
-//   void put(uint vertex, SurfacePoint point)   takes a vertex
+// Mirrors engine/surface/fork_smooth.cpp: the same operations in the same order.
 #ifndef VASA_FORK_SMOOTH
 #define VASA_FORK_SMOOTH
 #include "lib/fork_wall.glsl"
@@ -15,9 +13,10 @@ uint besideIn(ForkShape shape, uint row, uint k, uint m) {
 }
 
 void moveTo(uint vertex, uint a, uint b, uint c, uint d) {
-  precise vec3 p = corners[vertex].position;
-  precise vec3 moved = p + kStep * (0.25 * (corners[a].position + corners[b].position + corners[c].position + corners[d].position) - p);
-  corners[vertex].position = moved;
+  SurfacePoint point = cornerOf(vertex);
+  precise vec3 p = point.position;
+  precise vec3 moved = p + kStep * (0.25 * (positionOf(a) + positionOf(b) + positionOf(c) + positionOf(d)) - p);
+  put(vertex, SurfacePoint(moved, point.normal));
 }
 
 void smoothRows(ForkShape shape, uint first, uint last) {
@@ -32,9 +31,9 @@ void smoothRows(ForkShape shape, uint first, uint last) {
     uint before = row == first ? row : row - 1, after = row == last ? row : row + 1;
     float share = before == row || after == row ? kSeamStep : kNormalStep;
     for (uint k = 0; k < m; ++k) {
-      precise vec3 around = corners[start + (k + 1 == m ? 0 : k + 1)].position - corners[start + (k == 0 ? m : k) - 1].position;
-      precise vec3 along = corners[besideIn(shape, after, k, m)].position - corners[besideIn(shape, before, k, m)].position;
-      SurfacePoint point = corners[start + k];
+      precise vec3 around = positionOf(start + (k + 1 == m ? 0 : k + 1)) - positionOf(start + (k == 0 ? m : k) - 1);
+      precise vec3 along = positionOf(besideIn(shape, after, k, m)) - positionOf(besideIn(shape, before, k, m));
+      SurfacePoint point = cornerOf(start + k);
       precise vec3 normal = point.normal + share * unitOr(crossOf(around, along), point.normal);
       put(start + k, SurfacePoint(point.position, unitOr(normal, point.normal)));
     }

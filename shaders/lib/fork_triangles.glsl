@@ -1,6 +1,4 @@
-// Mirrors engine/surface/fork_template.cpp, and smoothFolds() of fork_stump.cpp. The shader that includes it has what
-// lib/fork_rows.glsl and lib/fork_smooth.glsl ask for and
-//   vec2 stepOf(uint around)           (cos, sin) of 2π/m
+// Mirrors engine/surface/fork_template.cpp, and smoothFolds() of fork_stump.cpp.
 #ifndef VASA_FORK_TRIANGLES
 #define VASA_FORK_TRIANGLES
 #include "lib/fork_smooth.glsl"
@@ -61,8 +59,7 @@ void addStumpQuads(ForkShape shape, uint row) {
   uint m = rowSize(shape, row), low = rowStart(shape, row), high = rowStart(shape, row + 1);
   for (uint k = 0; k < m; ++k) {
     uint next = k + 1 == m ? 0 : k + 1;
-    add(low + k, low + next, high + next);
-    add(low + k, high + next, high + k);
+    addPiece(low + k, low + next, high + next, high + k);
   }
 }
 
@@ -78,7 +75,7 @@ void addStumpTriangles(ForkShape shape, bool trunk, uint branch) {
 // no stumps. One loop for all parts: a device compiles what it calls once for each place that calls it.
 uint addParts(ForkShape shape) {
   uint wrong = 0;
-  triangles = 0;
+  pieces = triangles = 0;
   for (uint part = 0; part <= shape.branchCount; ++part) {
     bool trunk = part == shape.branchCount;
     folded = false;
@@ -86,10 +83,7 @@ uint addParts(ForkShape shape) {
       addStumpTriangles(shape, trunk, part);
     } else {
       uint first = trunk ? 0 : holeRow(part), last = trunk ? kTrunkRows - 1 : branchRow(part);
-      if (!trunk) {
-        setDirections(stepOf(shape.branch[part]), shape.branch[part]);
-        addWall(shape, part);
-      }
+      if (!trunk) addWall(shape, part);
       bool uneven = trunk && shape.a != shape.b;  // the last strip
       for (uint row = first; row + uint(uneven) < last; ++row) addQuads(shape, row, trunk && (row == 1 || row == 2));
       if (uneven) addUneven(shape, last - 1);

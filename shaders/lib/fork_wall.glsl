@@ -12,7 +12,6 @@ struct ForkWindow {
 };
 
 ForkWindow windows[kMostBranches];
-vec2 columns[kMaxAround];  // the trunk's directions
 
 // Below 2 m; a CPU device divides whole numbers lane by lane.
 uint wrapped(uint k, uint m) { return k < m ? k : k - m; }
@@ -42,7 +41,7 @@ uint outlineVertex(ForkShape shape, ForkWindow window, uint i) {
 
 float outlineWay(ForkShape shape, ForkWindow window, uint i) {
   uvec2 place = outlinePlace(i, window.count);
-  vec2 column = columns[wrapped(window.first + place.y, shape.a)];
+  vec2 column = directionAt(0, wrapped(window.first + place.y, shape.a));
   precise float along = column.x * window.hole.x + column.y * window.hole.y;
   precise float aside = column.y * window.hole.x - column.x * window.hole.y;
   precise float x = 2.0 * aside / ((1.0 + max(along, -0.99)) * window.wide);
@@ -53,8 +52,7 @@ float outerWay(ForkShape shape, ForkWindow window, float start, uint i) {
   return i == 2 * window.count + 4 ? start + 4.0 : outlineWay(shape, window, i);
 }
 
-// `directions` have to be the branch's.
-float holeWay(uint hole, uint i) { return i == hole ? 4.0 : squareWay(directions[i]); }
+float holeWay(uint branch, uint hole, uint i) { return i == hole ? 4.0 : squareWay(directionAt(2 + branch, i)); }
 
 // Both fronts keep abreast: by the middles of their next steps.
 void addWall(ForkShape shape, uint branch) {
@@ -64,14 +62,14 @@ void addWall(ForkShape shape, uint branch) {
   if (start > 2) start -= 4.0;
   uint o = 0, h = 0;
   Corner outer = cornerAt(outlineVertex(shape, window, 0)), inner = cornerAt(first);
-  float outerFrom = start, outerTo = outlineWay(shape, window, 1), holeFrom = holeWay(hole, 0), holeTo = holeWay(hole, 1);
+  float outerFrom = start, outerTo = outlineWay(shape, window, 1), holeFrom = holeWay(branch, hole, 0), holeTo = holeWay(branch, hole, 1);
   do {
     precise float outerSum = outerFrom + outerTo, holeSum = holeFrom + holeTo;
     bool outwards = h == hole || (o < outline && outerSum <= holeSum);
     Corner alongOuter = cornerAt(outlineVertex(shape, window, o + 1 >= outline ? 0 : o + 1));
     Corner alongInner = cornerAt(first + (h + 1 >= hole ? 0 : h + 1));
     outwards = addEither(inner, outer, alongOuter, alongInner, outwards, o < outline && h < hole);
-    float way = outwards ? outerWay(shape, window, start, min(o + 2, outline)) : holeWay(hole, min(h + 2, hole));
+    float way = outwards ? outerWay(shape, window, start, min(o + 2, outline)) : holeWay(branch, hole, min(h + 2, hole));
     if (outwards) {
       ++o;
       outer = alongOuter;

@@ -20,6 +20,7 @@ Word2 wordsOf(uvec4 halves) { return halves; }
 #endif
 
 vec2 vec2Of(Word word) { return uintBitsToFloat(halvesOf(word)); }
+Word wordOf(vec2 a) { return wordOf(floatBitsToUint(a)); }
 vec4 vec4Of(Word2 words) { return uintBitsToFloat(halvesOf(words)); }
 
 // Of a TubeVertex.

@@ -55,9 +55,10 @@ struct ForkRecord {
 
 /// Most forks and threads of a workgroup; fewer where so many might not fit into a template.
 VASA_CONSTANT uint kGroupForks = 64;
-/// Most vertices (8 bits number them) and triangles of a fork.
+/// Most vertices of a fork, 8 bits number them, and quads that it is made of: as many as vertices, and what
+/// lies between a hole and its window's four corners.
 VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + kMostBranches * (1 + kCollarRows)) * kMaxAround;
-VASA_CONSTANT uint kMostForkTriangles = (2 * kTrunkRows + kMostBranches * (2 * kCollarRows + 2)) * kMaxAround;
+VASA_CONSTANT uint kMostForkPieces = kMostForkVertices + 4 * kMostBranches;
 
 #ifndef __cplusplus
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };

@@ -25,7 +25,7 @@ std::map<std::string, unsigned> mostLoops() {
   constexpr unsigned m = kMaxAround, rings = kMaxStrips + 1, chord = 5;
   constexpr unsigned forkRows = kTrunkRows + 1 + kCollarRows;
   constexpr unsigned forkTries = kMostSmoothings + 3;
-  // a quad of a tube, a triangle of a fork: up to four samples of either
+  // a quad of a tube or a fork, a triangle of a patch: up to four samples of each
   constexpr unsigned samples = 4 + 1, seenQuad = 2 * (1 + samples), seenTriangle = 1 + samples;
   return {
       {"measure.comp", chord + kMaxAlong},
@@ -33,11 +33,12 @@ std::map<std::string, unsigned> mostLoops() {
       // rings looked at and written, quads seen, vertices, triangles, blocks of vertices, sums over the group
       {"tubes.comp", 2 * rings + kMaxStrips * m * (1 + seenQuad) + rings * m + kMaxStrips * 2 * m +
                          rings * m / kBlockVertices + kGroupSweeps},
-      // a ring search, m vertices and their directions a row, quads found and vertices smoothed, places and
-      // triangles seen, corners of triangles looked at and written, sums over the group, vertices written
-      {"forks.comp", 4 * kMostForkVertices + forkTries * (kMostForkTriangles / 2 + 2 * kMostForkVertices) +
-                         kMostForkVertices + kMostForkTriangles * seenTriangle +
-                         2 * kMostForkTriangles * (1 + 3) + forkRows * 4 * m + 5 * m + kGroupForks +
+      // a ring search, m vertices and their directions a row, quads found and vertices smoothed, vertices
+      // packed, quads seen, corners of quads and of their triangles looked at and written, sums over the
+      // group, vertices written
+      {"forks.comp", 4 * kMostForkVertices + forkTries * (kMostForkPieces + 2 * kMostForkVertices) +
+                         kMostForkVertices + kMostForkPieces * (1 + seenQuad) +
+                         kMostForkPieces * (1 + 4 + 1 + 6) + forkRows * 4 * m + 5 * m + kGroupForks +
                          2 * kMostForkVertices / 32 + kMostForkVertices},
       {"capillary.comp", 32 + kMostGrowthLevels * (1 + kMostGrowthChildren) + 3 * (kMostCapillaryEdges + 1)},
       {"patch_triangles.comp", kThreadTriangles * (2 + seenTriangle) + kPatchThreads},
