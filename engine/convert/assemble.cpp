@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convert/span_limit.h"
 #include "core/ids.h"
 #include "core/parallel.h"
 #include "network/builder.h"
@@ -25,6 +26,15 @@ std::vector<std::uint32_t> strandOrder(const StrandGraph& graph) {
     return ea != eb ? ea < eb : lengths[a] > lengths[b];
   });
   return order;
+}
+
+std::uint32_t spanLimitOf(const StrandGraph& graph, std::span<const std::uint32_t> order,
+                          std::span<const SourceElement> elements, const StrandFitOptions& fit) {
+  std::size_t triangles = 0;
+  for (const SourceElement& source : elements) triangles += source.element.mesh.triangles.size();
+  std::vector<std::uint32_t> wanted;
+  for (const std::uint32_t s : order) wanted.push_back(spansWanted(graph.strands[s].sections, fit));
+  return spanLimit(std::move(wanted), spansToldBy(triangles));
 }
 
 std::string numbered(const std::string& label, std::size_t ordinal) {
@@ -60,8 +70,10 @@ Result<Assembly> assembleNetwork(StrandGraph graph, std::span<const SourceElemen
   graph.breakCircles();
   const std::vector<std::uint32_t> order = strandOrder(graph);
   std::vector<std::vector<vec4>> splines(order.size());
+  StrandFitOptions told = fit;
+  told.mostSpans = std::min(told.mostSpans, spanLimitOf(graph, order, elements, fit));
   parallelFor(order.size(), 1,
-              [&](std::size_t i) { splines[i] = fitStrand(graph.strands[order[i]].sections, fit); });
+              [&](std::size_t i) { splines[i] = fitStrand(graph.strands[order[i]].sections, told); });
 
   Assembly assembly;
   assembly.vesselsOf.resize(elements.size());

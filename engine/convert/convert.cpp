@@ -49,15 +49,38 @@ std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, floa
   return changed;
 }
 
-Error nothingFound(std::span<const SourceElement> elements, std::span<const ElementOutcome> outcomes) {
+constexpr const char* kMergeFirst = "merge the vertices of triangles that belong side by side first";
+
+// A tube's wall hangs together, even where it is holed: one or two triangles a piece are what is left where
+// it does not.
+bool isTorn(std::size_t triangles, std::size_t pieces) { return triangles < 3 * pieces; }
+
+void tellTorn(std::span<const SourceElement> elements, std::span<const ElementSkeleton> found) {
+  std::size_t torn = 0, triangles = 0, pieces = 0;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::size_t own = elements[e].element.mesh.triangles.size();
+    if (!isTorn(own, found[e].componentsTotal)) continue;
+    ++torn, triangles += own, pieces += found[e].componentsTotal;
+  }
+  if (torn > 0)
+    logWarning(std::to_string(torn) + " of " + std::to_string(elements.size()) +
+               " surfaces are torn: " + std::to_string(triangles) + " triangles in " +
+               std::to_string(pieces) + " pieces, most of which are left out; " + kMergeFirst);
+}
+
+Error nothingFound(std::span<const SourceElement> elements, std::span<const ElementSkeleton> found,
+                   std::span<const ElementOutcome> outcomes) {
   std::string why = "no element holds a tube";
+  bool torn = false;
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (!outcomes[e].reason.empty()) {
       why = "'" + elements[e].element.name + "': " + outcomes[e].reason;
+      torn = isTorn(elements[e].element.mesh.triangles.size(), found[e].componentsTotal);
       break;
     }
-  return badInput("no vessel could be made of the input (" + why +
-                  "); give surfaces of tubes as triangles, and their unit with vasa convert --unit");
+  return badInput("no vessel could be made of the input (" + why + "); " +
+                  (torn ? std::string("its surface is torn: ") + kMergeFirst
+                        : "give surfaces of tubes as triangles, and their unit with vasa convert --unit"));
 }
 
 }  // namespace
@@ -81,7 +104,8 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
     if (duplicateOf[e]) outcomes[e].standIn.push_back(*duplicateOf[e]);
     pruneSlivers(graph, addSkeleton(graph, found[e], e, elements[e].kind), options.slivers);
   }
-  if (graph.strands.empty()) return nothingFound(elements, outcomes);
+  if (graph.strands.empty()) return nothingFound(elements, found, outcomes);
+  tellTorn(elements, found);
   const float bodyHeight = options.bodyHeight > 0 ? options.bodyHeight : heightOf(elements);
   for (const Absorbed& absorbed : removeOverlaps(graph, options.overlaps))
     if (auto& standIn = outcomes[absorbed.element].standIn;
@@ -94,7 +118,9 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
         trimTaper(graph.strands[strand].sections, last);
 
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
-  if (!assembly) return assembly.error();
+  if (!assembly)
+    return badInput("the vessels that were found make no network (" + assembly.error().message +
+                    "): surfaces may be torn or run through themselves; mend them, or give centre lines");
   if (options.mend) {
     auto mended = options.mend(assembly->network);
     if (!mended) return mended.error();

@@ -26,6 +26,8 @@ namespace {
 // Of a piece, end to end: a splinter of few triangles says no more by thousands. A straight tube of two rings
 // of six, 1 m long and 3 mm wide, has 46 a triangle.
 constexpr std::size_t kMostSections = 5000, kSectionsATriangle = 100;
+// Sides that a tube has at the least: fewer triangles close around nothing.
+constexpr std::size_t kFewestTriangles = 3;
 constexpr std::size_t kCoverageSamples = 2000;
 constexpr SurfaceErrorOptions kMeasured;  // what counts as covered
 constexpr double kWellCovered = 0.97;
@@ -240,10 +242,14 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
   const std::vector<TriangleMesh> components = splitComponents(clean);
   skeleton.componentsTotal = std::uint32_t(components.size());
   const double area = clean.area();
-  std::uint32_t debris = 0, shapeless = 0, byRings = 0, byLevels = 0;
+  std::uint32_t debris = 0, splinters = 0, shapeless = 0, byRings = 0, byLevels = 0;
   for (const TriangleMesh& component : components) {
     if (component.area() < options.debrisShare * area) {
       ++debris;
+      continue;
+    }
+    if (component.triangles.size() < kFewestTriangles) {
+      ++splinters;
       continue;
     }
     const MeshEdges edges = buildEdges(component);
@@ -266,6 +272,7 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
   dropUnusedNodes(skeleton);
   if (bridged > 0) note(skeleton.reason, std::to_string(bridged) + " gaps bridged");
   if (debris > 0) note(skeleton.reason, std::to_string(debris) + " pieces too small");
+  if (splinters > 0) note(skeleton.reason, std::to_string(splinters) + " pieces of one or two triangles");
   if (shapeless > 0) note(skeleton.reason, std::to_string(shapeless) + " pieces without an axis");
   return skeleton;
 }

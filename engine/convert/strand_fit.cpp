@@ -62,17 +62,33 @@ Sections densified(const Sections& sections, float spacing) {
   return dense;
 }
 
+// The first, the last and every so many between, so that no more than `most` gaps are left.
+Sections thinnedOut(const Sections& sections, std::size_t most) {
+  const std::size_t stride = (sections.size() - 2) / most + 1;
+  Sections some;
+  for (std::size_t i = 0; i + 1 < sections.size(); i += stride) some.push_back(sections[i]);
+  some.push_back(sections.back());
+  return some;
+}
+
 }  // namespace
 
-std::vector<vec4> fitStrand(const Sections& sections, const StrandFitOptions& options) {
-  if (options.interpolate) return interpolateSamples(sections).points;
+std::uint32_t spansWanted(const Sections& sections, const StrandFitOptions& options) {
+  if (options.interpolate) return std::uint32_t(sections.size()) - 1;
   double radius = 0;
   for (const vec4& section : sections) radius += section.w;
   radius /= double(sections.size());
+  return 2 + std::uint32_t(std::ceil(lengthOf(sections) / (options.radiiPerSpan * float(radius))));
+}
+
+std::vector<vec4> fitStrand(const Sections& all, const StrandFitOptions& options) {
+  const bool tooMany = spansWanted(all, options) > options.mostSpans;
+  const std::size_t samplesASpan = options.interpolate ? 1 : std::size_t(kSamplesPerSpan);
+  const Sections sections = tooMany ? thinnedOut(all, samplesASpan * options.mostSpans) : all;
+  if (options.interpolate) return interpolateSamples(sections).points;
   FitOptions fit;
-  const float length = lengthOf(sections);
-  fit.maxSpans = 2 + std::uint32_t(std::ceil(length / (options.radiiPerSpan * float(radius))));
-  const Sections samples = densified(sections, length / (kSamplesPerSpan * float(fit.maxSpans)));
+  fit.maxSpans = std::min(spansWanted(sections, options), options.mostSpans);
+  const Sections samples = densified(sections, lengthOf(sections) / (kSamplesPerSpan * float(fit.maxSpans)));
   fit.position = options.position;
   fit.radius = options.radius;
   return fitSpline(samples, fit);
