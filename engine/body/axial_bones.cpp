@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "body/bone_field.h"
+#include "body/mesh_role.h"
 #include "body/rig.h"
 #include "core/disjoint_sets.h"
 #include "math/aabb.h"
@@ -82,6 +83,7 @@ struct Part {
   std::vector<std::uint32_t> vertices = {};
   Aabb box = {};
   std::uint32_t carrier = kNone;  // kNone where there are several
+  bool isOfSpine = false;         // something of it is carried by a joint between hips and head
 };
 
 /// Where a part is joined to another.
@@ -103,7 +105,7 @@ class Separator {
     for (const Link& link : line_.links)
       longestLink_ = std::max(longestLink_, glm::distance(link.from, link.to));
     for (std::size_t m = 0; m < body.meshes.size(); ++m)
-      if (movesByRigidParts(body.meshes[m])) collect(m);
+      if (movesByRigidParts(body.meshes[m]) && isSolid(body.meshes[m])) collect(m);
   }
 
   void run() {
@@ -113,7 +115,7 @@ class Separator {
     float low = std::numeric_limits<float>::infinity(), high = -low;
     for (const Part* other : others) {
       const std::vector<Joined> joined = joinedTo(*other, vertebrae);
-      if (!joined.empty() && joined.size() <= kMostOfARib && other->carrier != kNone) {
+      if (isRib(*other, joined)) {
         // Its own is the lowest: heads of ribs reach up to the one above.
         ribs.push_back(
             {other, std::ranges::min(joined, {}, [&](const Joined& own) { return along(*own.part); })});
@@ -154,6 +156,7 @@ class Separator {
       part.vertices.push_back(v);
       part.box.add(mesh.mesh.positions[v]);
       if (carrier != part.carrier) part.carrier = kNone;
+      part.isOfSpine |= linkOf(carrier) != nullptr;
     }
   }
 
@@ -166,8 +169,16 @@ class Separator {
     const Link* own = linkOf(part.carrier);
     if (!own) return false;
     const vec3 along = glm::abs(glm::normalize(own->to - own->from));
-    return glm::dot(part.box.extent(), along) < longestLink_ &&
-           std::ranges::any_of(line_.links, [&](const Link& link) { return passesThrough(link, part.box); });
+    return glm::dot(part.box.extent(), along) < longestLink_ && isAroundLine(part);
+  }
+
+  /// Beside the spine, and joined to a vertebra, the one above and what is between.
+  bool isRib(const Part& part, std::span<const Joined> joined) const {
+    return linkOf(part.carrier) && !joined.empty() && joined.size() <= kMostOfARib && !isAroundLine(part);
+  }
+
+  bool isAroundLine(const Part& part) const {
+    return std::ranges::any_of(line_.links, [&](const Link& link) { return passesThrough(link, part.box); });
   }
 
   vec3 place(const Part& part, std::uint32_t vertex) const {
@@ -187,10 +198,12 @@ class Separator {
       return places;
     };
     Joined nearest{&other, vec3(0), kJoined};
-    const std::vector<vec3> theirs = within(other, part);
+    std::vector<vec3> theirs = within(other, part);
+    std::ranges::sort(theirs, {}, &vec3::x);
     for (const vec3& p : within(part, other))
-      for (const vec3& q : theirs)
-        if (const float distance = glm::distance(p, q); distance < nearest.distance)
+      for (auto q = std::ranges::lower_bound(theirs, p.x - kJoined, {}, &vec3::x);
+           q != theirs.end() && q->x < p.x + kJoined; ++q)
+        if (const float distance = glm::distance(p, *q); distance < nearest.distance)
           nearest.place = p, nearest.distance = distance;
     if (nearest.distance < kJoined) return nearest;
     return {};
@@ -199,7 +212,7 @@ class Separator {
   std::vector<Joined> joinedTo(const Part& part, std::span<const Part* const> others) const {
     std::vector<Joined> joined;
     for (const Part* other : others)
-      if (linkOf(part.carrier) && linkOf(other->carrier))
+      if (part.isOfSpine && other->isOfSpine)
         if (const auto own = join(part, *other)) joined.push_back(*own);
     return joined;
   }
@@ -240,10 +253,14 @@ class Separator {
       if (const vec3 p = place(part, v); glm::distance(p, rib.at.place) > glm::distance(front, rib.at.place))
         front = p;
     AxialBone bone{{part.carrier}, line_.head, atRest(part, front), vertebra, atRest(part, rib.at.place)};
-    for (const Joined& held : joinedTo(part, blocks)) {
-      bone.place = atRest(*held.part, held.place);
-      bone.frontCarrier = {held.part->carrier};
-    }
+    float farthest = 0.5f * glm::distance(front, rib.at.place);  // what holds it nearer is not at its front
+    for (const Joined& held : joinedTo(part, blocks))
+      if (const float away = glm::distance(held.place, rib.at.place); away > farthest) {
+        if (held.part->carrier == kNone) continue;
+        farthest = away;
+        bone.place = atRest(part, held.place);
+        bone.frontCarrier = {held.part->carrier};
+      }
     add(part, bone);
   }
 

@@ -15,10 +15,9 @@ namespace vasa {
 ///
 /// A vertebra is a part of a rigid mesh that hangs together, carried wholly by one joint between hips and
 /// head, through whose box the line through these joints passes, and shorter than the longest way between two
-/// of them. A rib is another such part, joined to up to four vertebrae and discs. Where one is joined to
-/// more, as a cage in one piece, those and what lies between them keep to their blocks. Nothing is done where
-/// it is not known which joints hips and head are. O(vertices · log vertices), and the square of those that
-/// are near where two parts meet
+/// of them. A rib is another such part, beside that line and joined to up to four of them. Where one is
+/// joined to more, as a cage in one piece, those and what lies between them keep to their blocks. Nothing is
+/// done where it is not known which joints hips and head are. O(vertices · log vertices)
 ///
 ///   separateAxialBones(body);            // before vessels are bound to it
 ///   deformer.axialBones(body, matrices);  // where they are, in the pose of its last run

@@ -28,13 +28,24 @@ std::vector<std::uint32_t> strandOrder(const StrandGraph& graph) {
   return order;
 }
 
-std::uint32_t spanLimitOf(const StrandGraph& graph, std::span<const std::uint32_t> order,
-                          std::span<const SourceElement> elements, const StrandFitOptions& fit) {
-  std::size_t triangles = 0;
+// The most spans that a strand of each element may take. None is told to take fewer where all together ask
+// for no more than their triangles tell; else an element that does pays for it alone.
+std::vector<std::uint32_t> spanLimits(const StrandGraph& graph, std::span<const std::uint32_t> order,
+                                      std::span<const SourceElement> elements, const StrandFitOptions& fit) {
+  std::vector<std::vector<std::uint32_t>> wanted(elements.size());
+  std::size_t triangles = 0, asked = 0;
   for (const SourceElement& source : elements) triangles += source.element.mesh.triangles.size();
-  std::vector<std::uint32_t> wanted;
-  for (const std::uint32_t s : order) wanted.push_back(spansWanted(graph.strands[s].sections, fit));
-  return spanLimit(std::move(wanted), spansToldBy(triangles));
+  for (const std::uint32_t s : order) {
+    wanted[graph.strands[s].element].push_back(spansWanted(graph.strands[s].sections, fit));
+    asked += wanted[graph.strands[s].element].back();
+  }
+  std::vector<std::uint32_t> limits(elements.size(), fit.mostSpans);
+  if (asked <= spansToldBy(triangles)) return limits;
+  for (std::size_t e = 0; e < limits.size(); ++e)
+    limits[e] = std::min(fit.mostSpans,
+                         spanLimit(std::move(wanted[e]),
+                                   spansToldBy(elements[e].element.mesh.triangles.size(), elements.size())));
+  return limits;
 }
 
 std::string numbered(const std::string& label, std::size_t ordinal) {
@@ -70,10 +81,13 @@ Result<Assembly> assembleNetwork(StrandGraph graph, std::span<const SourceElemen
   graph.breakCircles();
   const std::vector<std::uint32_t> order = strandOrder(graph);
   std::vector<std::vector<vec4>> splines(order.size());
-  StrandFitOptions told = fit;
-  told.mostSpans = std::min(told.mostSpans, spanLimitOf(graph, order, elements, fit));
-  parallelFor(order.size(), 1,
-              [&](std::size_t i) { splines[i] = fitStrand(graph.strands[order[i]].sections, told); });
+  const std::vector<std::uint32_t> limits = spanLimits(graph, order, elements, fit);
+  parallelFor(order.size(), 1, [&](std::size_t i) {
+    const Strand& strand = graph.strands[order[i]];
+    StrandFitOptions own = fit;
+    own.mostSpans = limits[strand.element];
+    splines[i] = fitStrand(strand.sections, own);
+  });
 
   Assembly assembly;
   assembly.vesselsOf.resize(elements.size());

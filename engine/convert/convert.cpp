@@ -53,17 +53,14 @@ constexpr const char* kMergeFirst = "merge the vertices of triangles that belong
 
 // A tube's wall hangs together, even where it is holed: one or two triangles a piece are what is left where
 // it does not.
-bool isTorn(std::size_t triangles, std::size_t pieces) { return triangles < 3 * pieces; }
+bool isTorn(const ElementSkeleton& found) { return found.triangles < 3 * found.componentsTotal; }
 
-void tellTorn(std::span<const SourceElement> elements, std::span<const ElementSkeleton> found) {
+void tellTorn(std::span<const ElementSkeleton> found) {
   std::size_t torn = 0, triangles = 0, pieces = 0;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const std::size_t own = elements[e].element.mesh.triangles.size();
-    if (!isTorn(own, found[e].componentsTotal)) continue;
-    ++torn, triangles += own, pieces += found[e].componentsTotal;
-  }
+  for (const ElementSkeleton& own : found)
+    if (isTorn(own)) ++torn, triangles += own.triangles, pieces += own.componentsTotal;
   if (torn > 0)
-    logWarning(std::to_string(torn) + " of " + std::to_string(elements.size()) +
+    logWarning(std::to_string(torn) + " of " + std::to_string(found.size()) +
                " surfaces are torn: " + std::to_string(triangles) + " triangles in " +
                std::to_string(pieces) + " pieces, most of which are left out; " + kMergeFirst);
 }
@@ -75,7 +72,7 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (!outcomes[e].reason.empty()) {
       why = "'" + elements[e].element.name + "': " + outcomes[e].reason;
-      torn = isTorn(elements[e].element.mesh.triangles.size(), found[e].componentsTotal);
+      torn = isTorn(found[e]);
       break;
     }
   return badInput("no vessel could be made of the input (" + why + "); " +
@@ -105,7 +102,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
     pruneSlivers(graph, addSkeleton(graph, found[e], e, elements[e].kind), options.slivers);
   }
   if (graph.strands.empty()) return nothingFound(elements, found, outcomes);
-  tellTorn(elements, found);
+  tellTorn(found);
   const float bodyHeight = options.bodyHeight > 0 ? options.bodyHeight : heightOf(elements);
   for (const Absorbed& absorbed : removeOverlaps(graph, options.overlaps))
     if (auto& standIn = outcomes[absorbed.element].standIn;
@@ -120,7 +117,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
   if (!assembly)
     return badInput("the vessels that were found make no network (" + assembly.error().message +
-                    "): surfaces may be torn or run through themselves; mend them, or give centre lines");
+                    "); if surfaces are torn or run through themselves, mend them, or give centre lines");
   if (options.mend) {
     auto mended = options.mend(assembly->network);
     if (!mended) return mended.error();

@@ -241,6 +241,7 @@ ElementSkeleton skeletonise(const TriangleMesh& mesh, const ElementOptions& opti
   }
   const std::vector<TriangleMesh> components = splitComponents(clean);
   skeleton.componentsTotal = std::uint32_t(components.size());
+  skeleton.triangles = clean.triangles.size();
   const double area = clean.area();
   std::uint32_t debris = 0, splinters = 0, shapeless = 0, byRings = 0, byLevels = 0;
   for (const TriangleMesh& component : components) {

@@ -26,6 +26,7 @@ struct ElementSkeleton {
   std::string method;  ///< "rings", "level sets", "rings and level sets"; empty without branches
   std::string reason;  ///< why something is missing or was degraded; empty when all is well
   std::uint32_t componentsTotal = 0, componentsUsed = 0;
+  std::size_t triangles = 0;  ///< in all components: without doubles and what is flat
 };
 
 struct ElementOptions {

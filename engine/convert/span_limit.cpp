@@ -6,12 +6,15 @@
 namespace vasa {
 namespace {
 
-// For nothing: a coarse vessel of thirty triangles asks for four a triangle. They take half a second to fit.
+// For nothing, to all elements together: a coarse vessel of thirty triangles asks for four a triangle. They
+// take half a second to fit.
 constexpr std::size_t kFreeSpans = 500;
 
 }  // namespace
 
-std::size_t spansToldBy(std::size_t triangles) { return kFreeSpans + triangles; }
+std::size_t spansToldBy(std::size_t triangles, std::size_t elements) {
+  return kFreeSpans / elements + triangles;
+}
 
 std::uint32_t spanLimit(std::vector<std::uint32_t> wanted, std::size_t allowed) {
   std::ranges::sort(wanted);

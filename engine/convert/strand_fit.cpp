@@ -74,7 +74,6 @@ Sections thinnedOut(const Sections& sections, std::size_t most) {
 }  // namespace
 
 std::uint32_t spansWanted(const Sections& sections, const StrandFitOptions& options) {
-  if (options.interpolate) return std::uint32_t(sections.size()) - 1;
   double radius = 0;
   for (const vec4& section : sections) radius += section.w;
   radius /= double(sections.size());
@@ -82,10 +81,9 @@ std::uint32_t spansWanted(const Sections& sections, const StrandFitOptions& opti
 }
 
 std::vector<vec4> fitStrand(const Sections& all, const StrandFitOptions& options) {
+  if (options.interpolate) return interpolateSamples(all).points;
   const bool tooMany = spansWanted(all, options) > options.mostSpans;
-  const std::size_t samplesASpan = options.interpolate ? 1 : std::size_t(kSamplesPerSpan);
-  const Sections sections = tooMany ? thinnedOut(all, samplesASpan * options.mostSpans) : all;
-  if (options.interpolate) return interpolateSamples(sections).points;
+  const Sections sections = tooMany ? thinnedOut(all, std::size_t(kSamplesPerSpan) * options.mostSpans) : all;
   FitOptions fit;
   fit.maxSpans = std::min(spansWanted(sections, options), options.mostSpans);
   const Sections samples = densified(sections, lengthOf(sections) / (kSamplesPerSpan * float(fit.maxSpans)));

@@ -14,7 +14,7 @@ struct StrandFitOptions {
   /// The source paper's way (Park et al. 2013, section 1): a spline through the centre and radius of every
   /// section that was found, a span between two, and no tolerance asked for.
   bool interpolate = false;
-  /// However long a strand is. Where it wants more, sections between are left out.
+  /// However long a strand is, if it is fitted. Where it wants more, sections between are left out.
   std::uint32_t mostSpans = std::numeric_limits<std::uint32_t>::max();
 };
 

@@ -43,7 +43,8 @@ Body spinalDoll(Ribs ribs = Ribs::apart) {
     for (int k = 0; k < 5; ++k) {
       const auto first = std::uint32_t(bones.mesh.positions.size());
       const float x = ribs == Ribs::apart ? 0.07f : 0.061f;
-      addBox(body, bones, {x * side, 1.25f + kPitch * float(k), -0.01f}, {0.03f, 0.04f, 0.03f}, "Spine");
+      addBox(body, bones, {x * side, 1.25f + kPitch * float(k), -0.01f}, {0.03f, 0.04f, 0.03f},
+             ribs == Ribs::cage && k > 2 ? "LowerBack" : "Spine");
       if (ribs == Ribs::cage && k > 0) bones.mesh.triangles.push_back({first, first - 1, first - 2});
       if (ribs == Ribs::held)
         addBox(body, bones, {0.102f * side, 1.25f + kPitch * float(k), -0.01f}, {0.01f, 0.04f, 0.03f},
@@ -140,6 +141,13 @@ TEST_CASE("a rib hangs on its vertebra, and its front end goes where what is the
     }
     CHECK(widest > 0.03f);
   }
+}
+
+TEST_CASE("a skin of stiff shells is no bone") {
+  Body body = spinalDoll(Ribs::joined);
+  body.meshes.back().name = "skin: shells";
+  separateAxialBones(body);
+  CHECK(body.axialBones.empty());
 }
 
 TEST_CASE("a body of which head and hips are not known keeps its blocks") {

@@ -67,12 +67,10 @@ TEST_CASE("a strand takes no more spans than it may, and keeps its ends") {
   Random random;
   Sections sections;
   for (int i = 0; i < 1000; ++i) sections.push_back(vec4(random.within(0.5f), 0.001f));
-  for (const bool interpolate : {false, true}) {
-    const auto points = fitStrand(sections, {.interpolate = interpolate, .mostSpans = 20});
-    CHECK(spanCount(points) <= (interpolate ? 40 : 20));  // which adds one where it would swing out
-    CHECK(glm::distance(points.front(), sections.front()) < 1e-6f);
-    CHECK(glm::distance(points.back(), sections.back()) < 1e-6f);
-  }
+  const auto points = fitStrand(sections, {.mostSpans = 20});
+  CHECK(spanCount(points) <= 20);
+  CHECK(glm::distance(points.front(), sections.front()) < 1e-6f);
+  CHECK(glm::distance(points.back(), sections.back()) < 1e-6f);
 }
 
 TEST_CASE("a surface that fell to pieces of two triangles is refused as torn") {
@@ -105,4 +103,25 @@ TEST_CASE("long thin splinters take no more sweeps than their triangles tell") {
   REQUIRE(made.ok());
   CHECK(made->report.summary.sweeps > 100);
   CHECK(made->report.summary.sweeps <= spansToldBy(mesh.triangles.size()));
+}
+
+TEST_CASE("what asks for more than its triangles tell pays for it alone") {
+  Random random;
+  TriangleMesh splinters;
+  for (int i = 0; i < 250; ++i) addZigzag(splinters, random, 1, 0.001f, 0.6f);
+  const auto wave = [](float t) { return vec3(0.02f * std::sin(40 * t), 1 + 0.3f * t, 0); };
+  const SourceElement artery = source("artery", tube(
+                                                    wave, [](float) { return 0.001f; }, 60, 6));
+  const auto alone = convertElements(std::vector<SourceElement>{artery});
+  const auto beside = convertElements(std::vector<SourceElement>{artery, source("splinters", splinters)});
+  REQUIRE(alone.ok());
+  REQUIRE(beside.ok());
+  const auto sweepsOf = [](const Conversion& made) {
+    std::size_t sweeps = 0;
+    for (const Vessel& vessel : made.network.vessels())
+      if (vessel.name.starts_with("artery")) sweeps += vessel.spanCount();
+    return sweeps;
+  };
+  CHECK(sweepsOf(*alone) > 12);  // more than a share of all alike
+  CHECK(sweepsOf(*beside) == sweepsOf(*alone));
 }
