@@ -39,7 +39,8 @@ ForkRing ringOfPart(ForkRecord fork, uint part) {
   return push.branches.branch[fork.firstBranch + part - 2].ring;
 }
 
-// By the rings, which have to be loaded anyway: a CPU device compiles each load as a loop over lanes. A ball around the fork, with room to spare for the collars' control points, lies outside one side of the picture.
+// A ball around the fork, with room to spare for the collars' control points, lies outside one side of the picture. By the
+// rings, which have to be loaded anyway: a CPU device compiles each load as a loop over lanes.
 bool outOfView(ForkRecord fork) {
   Section a = rings[0].section, b = rings[1].section;
   vec3 centre = 0.5 * (a.centre + b.centre);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "body/axial_bones.h"
 #include "body/belonging.h"
 #include "body/retarget.h"
-#include "body/axial_bones.h"
 #include "core/cancellation.h"
 #include "core/letters.h"
 #include "core/log.h"
