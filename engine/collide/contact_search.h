@@ -4,9 +4,10 @@
 
 namespace vasa {
 
-/// A place where two tubes come nearest: a local minimum of f, found by Newton steps in double precision from
-/// the nearest of 4x4 chords. For tubes that bend less than half a turn that is the global one; a certain
-/// answer is closestOfTubes(). `i` and `j` of the result are 0 and 1. No allocation, under a microsecond.
+/// The place where two tubes come nearest: the least of the local minima of f that Newton steps in double
+/// precision find from the nearest of 4x4 chords, and from all others that may come nearer and do not lie
+/// beside it. A certain answer is closestOfTubes(). `i` and `j` of the result are 0 and 1. No allocation, a
+/// microsecond or two.
 Contact nearestPlace(const Bezier& a, const Bezier& b);
 
 /// The same, from given parameters: follows a contact from one shape to the next.

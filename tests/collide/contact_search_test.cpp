@@ -23,6 +23,22 @@ TEST_CASE("crossing tubes: the place, the depth, and a unit normal from j to i")
   CHECK(glm::length(nearestPlace(a, a).normal) == doctest::Approx(1));
 }
 
+TEST_CASE("of several places where tubes run near one another the deepest is found") {
+  // A straight tube, and one that waves beside it and comes a little nearer at one end than at the other.
+  for (const float nearer : {0.004f, 0.001f, -0.001f, -0.004f}) {
+    Bezier a, b;
+    for (int k = 0; k < 4; ++k) {
+      const float x = float(k) / 3;
+      a.b[std::size_t(k)] = vec4(x, 0, 0, 0.02f);
+      b.b[std::size_t(k)] =
+          vec4(x, 0.04f + (k == 1 || k == 2 ? 0.05f : 0) + nearer * x, 0.001f * float(k), 0.02f);
+    }
+    const Contact contact = nearestPlace(a, b), truth = closestOfTubes(a, b, 1e-9);
+    CHECK(contact.f == doctest::Approx(truth.f).scale(1e-3).epsilon(1e-3));
+    CHECK(contact.s == doctest::Approx(truth.s).epsilon(0.01));
+  }
+}
+
 TEST_CASE("contacts of a network are the certified nearest places") {
   const TubeList list = test::makeTubeNetwork(3000, 6);
   const Exclusions exclusions(3000, list.excluded);
@@ -43,6 +59,6 @@ TEST_CASE("contacts of a network are the certified nearest places") {
             doctest::Approx(contact.f).scale(1e-3).epsilon(1e-3));
       other += contact.f > closestOfTubes(a, b, 1e-8).f + 1e-6f;
     }
-    CHECK(other <= pairs.size() / 50);
+    CHECK(other == 0);
   }
 }
